@@ -14,7 +14,7 @@ linkage::words! {
     pub enum Grade: capitals {
         /// It agrees, or a printed number is wrong as expected.
         Agree = "AGREE",
-        /// Nothing is proven.
+        /// Inconclusive.
         Open = "INCONCLUSIVE",
         /// It disagrees.
         Disagree = "DISAGREE",

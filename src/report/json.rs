@@ -54,7 +54,7 @@ rows! {
         /// Whether the search for it ended at its limit of work.
         diagnosis_cut["std::ops::Not::not"]: bool = proof.diagnosis_is_cut,
         recording["Option::is_none"]: Option<String> = recording,
-        /// What nothing wanted depends on.
+        /// The parts on which no wanted channel depends.
         left_out: Left = Left::of(left),
         /// What was done, part by part.
         work: Vec<Part> = proof.work.iter().map(Part::of).collect(),

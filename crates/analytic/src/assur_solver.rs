@@ -1,4 +1,6 @@
-//! Side 1: group by group, forwards for the motion and backwards for the forces. Dyads in closed form.
+//! Side 1: the solver by Assur groups.
+//! Motion is solved from the first group to the last, forces from the last to the first; dyads are solved in closed
+//! form.
 
 use crate::assur::PoseSolver;
 use crate::assur::transfer::TransferSide;

@@ -61,7 +61,7 @@ pub struct GroupRange {
 /// The measures of all groups at one pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroupMeasures {
-    /// Crank angle (rad, as the scenario states it).
+    /// Crank angle (rad, in the scenario's convention).
     pub crank: f64,
     /// Determinant and condition number of each group, in the order of the structure.
     /// The determinant of a dyad is positive in the mode

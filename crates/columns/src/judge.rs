@@ -17,7 +17,7 @@ pub struct RowPair {
     pub values: [f64; 2],
     /// Second less first; for angles without whole turns.
     pub difference: f64,
-    /// How far they may be apart.
+    /// Largest difference allowed.
     pub bound: f64,
     /// The part of the bound that is known: digits of the numbers and instants, rounding, and what a side knows.
     pub known: f64,

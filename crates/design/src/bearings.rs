@@ -12,24 +12,24 @@ use linkage::math::statistics::ends;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Largest crank angle between two samples (rad): a reaction has a few maxima in a turn, not hundreds.
+/// Largest crank angle between two samples (rad); a reaction has only a few maxima per turn.
 const SAMPLE_STEP: f64 = PI / 360.0;
 
-/// Largest value of a quantity over a range of crank angles.
+/// Largest value of a quantity over a range of crank angles, with its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
-    /// The largest magnitude (N, or N m for a moment).
+    /// Largest magnitude (N; N m for a moment).
     pub value: f64,
-    /// Crank angle at which it occurs (rad, as the scenario defines it).
+    /// Crank angle of the largest value (rad, as the scenario defines it).
     pub crank: f64,
 }
 
-/// Peaks of one case.
+/// Peaks of the reactions and moments of one case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Peaks {
-    /// Magnitude of the reaction in each joint (N).
+    /// Magnitude of the reaction in each joint (N), one per joint in the mechanism's order.
     pub reactions: Vec<Peak>,
-    /// Magnitude of the moment in each joint that keeps an angle (N m); `None` for joints that transmit none.
+    /// Magnitude of the reaction moment in each joint (N m), one per joint; `None` for joints that transmit no moment.
     pub moments: Vec<Option<Peak>>,
     /// Magnitude of the shaking force (N).
     pub shaking_force: Peak,
@@ -37,17 +37,18 @@ pub struct Peaks {
     pub balancing_moment: Peak,
 }
 
-/// Smallest diameter of a journal (m) for the force `force` (N), lever arm `lever` (m) and bending stress `stress` (Pa).
+/// Smallest journal diameter (m) for the force `force` (N), the lever arm `lever` (m) and the bending stress `stress`
+/// (Pa).
 /// M = F l and sigma = 32 M / (pi d^3) give d = cbrt(32 F l / (pi sigma)).
 #[must_use]
 pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
     (32.0 * force * lever / (PI * stress)).cbrt()
 }
 
-/// Peaks over the range of crank angles that the case's grid spans.
+/// Computes the peaks over the range of crank angles that the case's grid spans.
 ///
 /// # Errors
-/// Those of [`PoseSolver::solve`], for crank angles within the range that cannot be reached.
+/// Those of [`PoseSolver::solve`], for crank angles of the range that the mechanism cannot reach.
 pub fn over_range(case: &Case) -> Result<Peaks> {
     if case.grid.inputs.iter().any(|&crank| case.crank().time_of(crank).is_nan()) {
         let message = sentences::PEAKS_ARE_LOOKED_FOR_OVER;
@@ -86,7 +87,7 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     })
 }
 
-/// A quantity whose peak is wanted.
+/// Quantity whose peak is sought, as a function of the state.
 type Quantity<'a> = Box<dyn Fn(&State) -> f64 + 'a>;
 
 fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p State> {
@@ -94,7 +95,7 @@ fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p Stat
     poses.solve(crank, drive.rate, drive.acceleration, Stage::BalancingMoment)
 }
 
-/// The largest sample, refined by golden section between its neighbours.
+/// Returns the largest sample, refined by golden section between its neighbours.
 fn refined(case: &Case, poses: &mut PoseSolver, quantity: &Quantity, cranks: &[f64], samples: &[f64]) -> Result<Peak> {
     let mut value = |crank: f64| -> Result<f64> { Ok(quantity(at(case, poses, crank)?)) };
     let (crank, value) = extremum::greatest(cranks, samples, &mut value)?;

@@ -1,4 +1,4 @@
-//! Catalogue files: motors to choose from.
+//! Catalogue files: lists of motors to choose from.
 
 use crate::sentences;
 use std::path::Path;
@@ -10,10 +10,10 @@ use scenario::reader::{Sign, TomlTable};
 use scenario::source::Source;
 use scenario::unit::{ANGULAR_SPEED, POWER};
 
-/// Reads the motors of a catalogue file, in its order.
+/// Reads the motors of a catalogue file, in the file's order.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the place.
+/// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for an invalid entry, with its place.
 pub fn load(path: &Path) -> Result<Vec<CatalogueMotor>> {
     let text = files::read_text(path).map_err(|error| {
         Error::new(ErrorKind::Io, sentences::the_catalogue_cannot_be_read(&path.display(), &error))

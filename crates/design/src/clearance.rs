@@ -1,5 +1,6 @@
-//! Clearance: smallest distances of links from each other and from a housing, first collision, and swept areas, over the
-//! whole range of the grid and not at its instants only.
+//! Clearance: smallest distances between links and from a housing, first collision and swept areas, proven over the
+//! whole
+//! range of the grid, between its instants too.
 
 mod gap;
 mod search;
@@ -29,65 +30,66 @@ use search::DistanceSearch;
 use swept::Sweep;
 use tube::Tubes;
 
-/// Share of the mechanism's size that distances are found to, unless the question says otherwise.
+/// Default tolerance of distances, as a share of the mechanism's size.
 const TOLERANCE: f64 = 1e-6;
-/// Share of the mechanism's size that counts as no distance where nothing more can be proven.
+/// Distance that counts as contact where nothing finer can be proven, as a share of the mechanism's size.
 const TOUCH: f64 = 1e-9;
-/// Pairs of convex parts that one run may look at, at all parts of the range together; and tests of one swept area.
+/// Largest number of pairs of convex parts examined in one run, over all parts of the range; also the largest number of
+/// tests for one swept area.
 const BUDGET: usize = 5_000_000;
 const AREA_BUDGET: usize = 8_000_000;
 
-/// What is known of a pair of bodies.
+/// Clearance of one pair of bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairClearance {
-    /// The bodies, by their numbers in the question.
+    /// Indices of the two bodies in the question.
     pub bodies: [usize; 2],
-    /// Their smallest distance.
+    /// Smallest distance over the range.
     pub smallest: Smallest,
-    /// Where they first meet.
+    /// First contact; `None` if the two never meet.
     pub collision: Option<Meeting>,
-    /// Where they first are no farther apart than wanted; `None` also where nothing is wanted.
+    /// First place where the required clearance is missed; `None` also if no clearance is required.
     pub too_near: Option<Meeting>,
 }
 
-/// Exact work of a run.
+/// Operation counts of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClearanceWork {
-    /// Poses of side 1 for distances.
+    /// Poses computed by side 1 for distances.
     pub poses: usize,
-    /// Further poses of side 1 for swept areas.
+    /// Additional poses computed by side 1 for swept areas.
     pub positions: usize,
-    /// Pairs of convex parts whose nearest points were asked for.
+    /// Pairs of convex parts whose nearest points were computed.
     pub distances: usize,
     /// Tests of a square of the plane against a part of the range.
     pub squares: usize,
 }
 
-/// The answer to a question of clearance.
+/// Result of a clearance question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClearanceResult {
-    /// Range of crank angles (rad), in the order of the motion.
+    /// Range of crank angles (rad), in the direction of motion.
     pub range: [f64; 2],
-    /// All pairs that were asked for.
+    /// Results of all pairs of the question.
     pub pairs: Vec<PairClearance>,
-    /// Swept area of every moving body of the question: its number and the area.
+    /// Swept areas of the question's moving bodies: index of the body and area.
     pub swept: Vec<(usize, Area)>,
-    /// Parts of the range over which nothing could be proven (rad): beside singular poses.
+    /// Parts of the range over which no bound could be proven (rad): neighbourhoods of singular poses.
     pub open: Vec<[f64; 2]>,
-    /// Error that the smallest distances may have (m).
+    /// Error bound of the smallest distances (m).
     pub tolerance: f64,
-    /// What it took.
+    /// Operation counts.
     pub work: ClearanceWork,
 }
 
 impl ClearanceResult {
-    /// The pair that meets first, and where. Among pairs that meet at the start the first of the question.
+    /// Returns the pair that collides first, and where; of pairs that touch at the start, the first of the question.
     #[must_use]
     pub fn first_collision(&self) -> Option<(&PairClearance, Meeting)> {
         self.first(|pair| pair.collision)
     }
 
-    /// The pair that first is no farther apart than wanted, and where.
+    /// Returns the pair that first misses the required clearance, and where.
     #[must_use]
     pub fn first_too_near(&self) -> Option<(&PairClearance, Meeting)> {
         self.first(|pair| pair.too_near)
@@ -99,21 +101,23 @@ impl ClearanceResult {
         found.min_by(|a, b| gone(&a.1).total_cmp(&gone(&b.1)))
     }
 
-    /// The pair with the smallest distance of all.
+    /// Returns the pair with the smallest distance.
     #[must_use]
     pub fn smallest(&self) -> Option<&PairClearance> {
         self.pairs.iter().min_by(|a, b| a.smallest.distance.total_cmp(&b.smallest.distance))
     }
 }
 
-/// Answers a question about a case, over the crank angles that its grid spans. `progress` receives the finished share.
+/// Answers a clearance question about a case over the crank angles that its grid spans. `progress` receives the
+/// finished
+/// share, from 0 to 1.
 ///
-/// A mechanism whose groups are all dyads repeats its poses after a turn: of a longer range one turn is looked at.
-/// In a free motion of one freedom the range is that of the crank angles at the instants of the grid.
+/// A mechanism whose groups are all dyads repeats its poses after a turn, so one turn of a longer range is examined.
+/// For a free motion with one degree of freedom the range is that of the crank angles at the instants of the grid.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a free motion of several freedoms.
-/// Those of [`analytic::PoseSolver::solve`] for crank angles that cannot be reached.
+/// [`ErrorKind::Unsupported`] for a free motion with several degrees of freedom.
+/// Those of [`analytic::PoseSolver::solve`] for crank angles that the mechanism cannot reach.
 pub fn find(case: &Case, question: &ClearanceQuestion, progress: &mut dyn FnMut(f64)) -> Result<ClearanceResult> {
     let range = range(case)?;
     let case = &case.nominal();
@@ -159,16 +163,16 @@ pub fn find(case: &Case, question: &ClearanceQuestion, progress: &mut dyn FnMut(
     Ok(ClearanceResult { range, pairs, swept, open, tolerance, work })
 }
 
-/// Distances of all pairs at the instants of a grid: samples, for graphs.
+/// Distances of all pairs at the instants of a grid, sampled for graphs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceCurve {
-    /// Crank angles (rad), one an instant.
+    /// Crank angles (rad), one per instant.
     pub cranks: Vec<f64>,
-    /// The distance of every pair of the question (m), a row an instant.
+    /// Distances (m): one row per instant, one entry per pair of the question.
     pub rows: Vec<Vec<f64>>,
 }
 
-/// Distances of all pairs at the instants of the case's grid.
+/// Computes the distances of all pairs at the instants of the case's grid.
 ///
 /// # Errors
 /// Those of [`find`].
@@ -192,7 +196,7 @@ pub fn course(case: &Case, question: &ClearanceQuestion) -> Result<DistanceCurve
     Ok(DistanceCurve { cranks, rows })
 }
 
-/// Poses of all links at crank angles (rad), for drawings.
+/// Computes the poses of all links at the crank angles `cranks` (rad), for drawings.
 ///
 /// # Errors
 /// Those of [`PoseSolver::solve`].
@@ -203,7 +207,7 @@ pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
     cranks.iter().map(&mut at).collect()
 }
 
-/// Crank angles at the instants of the grid (rad): of a motion under forces its solution's.
+/// Returns the crank angles at the instants of the grid (rad); for a motion under forces those of its solution.
 fn cranks(case: &Case) -> Result<Vec<f64>> {
     if !case.is_free() {
         return Ok(case.grid.inputs.clone());
@@ -216,7 +220,7 @@ fn cranks(case: &Case) -> Result<Vec<f64>> {
     Ok(AssurSolver.solve(&case.wanting(Wanted::of(&[Stage::Positions])))?.inputs().to_vec())
 }
 
-/// Crank angles from which and to which the grid goes, in the order of the motion (rad).
+/// Returns the first and the last crank angle of the grid, in the direction of motion (rad).
 fn range(case: &Case) -> Result<[f64; 2]> {
     let [low, mut high] = ends(cranks(case)?);
     let dyads = case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
@@ -230,7 +234,7 @@ fn range(case: &Case) -> Result<[f64; 2]> {
     Ok(if forwards { [low, high] } else { [high, low] })
 }
 
-/// Ranges in the order of the motion, those that touch put together.
+/// Sorts ranges in the direction of motion and joins those that touch.
 fn merged(mut open: Vec<[f64; 2]>, range: [f64; 2]) -> Vec<[f64; 2]> {
     let gone = |angle: f64| (angle - range[0]).abs();
     open.sort_by(|a, b| gone(a[0]).total_cmp(&gone(b[0])).then(gone(a[1]).total_cmp(&gone(b[1]))));

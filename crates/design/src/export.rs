@@ -1,4 +1,4 @@
-//! Export of a mechanism as a model file for another program, for simulation and display there.
+//! Export of a mechanism as a model file for simulation and display in another program.
 
 pub mod mjcf;
 
@@ -7,7 +7,7 @@ use linkage::error::Result;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-/// The state at t = 0 with velocities and accelerations, as `solver` finds it.
+/// Computes the state at t = 0 with velocities and accelerations by `solver`.
 ///
 /// # Errors
 /// Those of the solver.

@@ -20,7 +20,7 @@ pub struct Stretched {
     pub role: MarkRole,
     /// Number of the load in its case.
     pub load: usize,
-    /// The points.
+    /// End points.
     pub ends: [JointSide; 2],
     /// Width (m). Multiply the y of the marks with it, and the x with the distance of the ends.
     pub width: f64,

@@ -32,7 +32,7 @@ pub struct Bench {
     pub instants: usize,
     /// See `instants`.
     pub span: [f64; 2],
-    /// Whether forces decide the motion.
+    /// Whether the motion is free, that is, decided by forces.
     pub is_free: bool,
     /// Stages that were wanted.
     pub stages: Vec<Stage>,

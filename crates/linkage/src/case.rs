@@ -1,5 +1,4 @@
-//! The input of every solver: the mechanism, its drives and loads, its start pose, and the wanted instants and
-//! channels.
+//! The input of every solver: mechanism, drives, loads, start pose, grid of instants and wanted channels.
 
 mod builder;
 mod check;
@@ -27,17 +26,17 @@ pub use parts::{CaseParts, Wanted};
 pub use scene::{LeftOut, Scene};
 pub use seats::{Seat, Seats};
 
-/// Share of the fastest link's angular velocity below which a speed is rounding and tells no sense of motion.
+/// Share of the fastest link's angular velocity below which a speed is rounding error and has no sense of rotation.
 const STANDSTILL: f64 = 1e-12;
 
-/// A problem that any solver can take: parts that have been checked to fit together.
+/// A complete, checked problem that any solver accepts.
 ///
-/// Read the parts as fields, for example `case.mechanism`.
-/// Nothing changes them in place: [`Case::with`] and its like make another case and check it.
+/// The parts are readable as fields, for example `case.mechanism`.
+/// A case is immutable: [`Case::with`] and the methods like it return a changed case and check it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     parts: CaseParts,
-    /// Whether each link can turn, as far as the joints tell.
+    /// For every link: whether its joints let it turn.
     turning: Vec<bool>,
 }
 
@@ -51,15 +50,14 @@ impl Deref for Case {
 }
 
 impl Case {
-    /// The case of these parts.
+    /// Checks the parts and returns their case.
     ///
     /// # Errors
-    /// All errors name the part at fault as key.
+    /// Every error has the faulty part as its key.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) if drives, loads, start pose or modes do not belong to the
-    /// mechanism, or if one of their numbers is NaN or infinite.
-    /// The same if the structure is not that of mechanism and drives.
-    /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if the start pose leaves a joint open or a driving link off
-    /// its angle.
+    /// mechanism, if one of their numbers is NaN or infinite, or if the structure is not that of mechanism and drives.
+    /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose or a driving link is
+    /// not at its start angle.
     /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a combination of drives that this version does not
     /// solve.
     /// Also the errors of [`Structure::of`](crate::mechanism::Structure::of) and [`Grid::check`].
@@ -69,7 +67,7 @@ impl Case {
         Ok(Case { parts, turning })
     }
 
-    /// The case of these parts, without any check. For tests that plant a fault and ask which check finds it.
+    /// Returns the case of these parts without any check: for tests that plant a fault and assert which check finds it.
     #[cfg(any(test, feature = "fixtures"))]
     #[doc(hidden)]
     #[must_use]
@@ -78,18 +76,18 @@ impl Case {
         Case { parts, turning }
     }
 
-    /// The case of other parts, by which no link turns otherwise.
+    /// Returns the case of changed parts; the change must leave unaffected which links can turn.
     fn of_parts(&self, parts: CaseParts) -> Case {
         Case { parts, turning: self.turning.clone() }
     }
 
-    /// The parts. Change them and make a new case of them with [`Case::new`].
+    /// Returns the parts. Change them and pass them to [`Case::new`] for a new case.
     #[must_use]
     pub fn into_parts(self) -> CaseParts {
         self.parts
     }
 
-    /// The same problem with some parts changed by `change`.
+    /// Returns this case with its parts changed by `change`, checked again.
     ///
     /// # Errors
     /// Those of [`Case::new`].
@@ -99,7 +97,7 @@ impl Case {
         Case::new(parts)
     }
 
-    /// The same problem on another grid.
+    /// Returns this case with another grid.
     ///
     /// # Errors
     /// Those of [`Grid::check`].
@@ -108,13 +106,14 @@ impl Case {
         Ok(self.of_parts(CaseParts { grid, ..self.parts.clone() }))
     }
 
-    /// The same problem with all channels of other stages wanted.
+    /// Returns this case with all channels of the stages in `wanted`.
     #[must_use]
     pub fn wanting(&self, wanted: Wanted) -> Case {
         self.of_parts(CaseParts { wanted, only: None, ..self.parts.clone() })
     }
 
-    /// The same problem with only those of its channels wanted that `channels` has.
+    /// Returns this case with its wanted channels reduced to `channels`; channels that the case does not have are
+    /// ignored.
     #[must_use]
     pub fn wanting_only(&self, channels: &[Channel]) -> Case {
         let stages: Vec<Stage> = channels.iter().map(|channel| channel.kind.stage).collect();
@@ -127,7 +126,7 @@ impl Case {
         case
     }
 
-    /// The same problem with another motor of the crank, or without one.
+    /// Returns this case with another motor of the crank, or without a motor.
     ///
     /// # Errors
     /// Those of [`Case::new`], for a motor with a NaN or infinite number.
@@ -135,13 +134,13 @@ impl Case {
         self.with(|parts| *parts.drives.crank_mut() = self.crank().with_motor(motor))
     }
 
-    /// The same problem with every drive in its nominal motion. Questions about crank angles refer to this motion.
+    /// Returns this case with every drive in its nominal motion, to which crank angles refer.
     #[must_use]
     pub fn nominal(&self) -> Case {
         self.of_parts(CaseParts { drives: self.drives.map(Drive::nominal), ..self.parts.clone() })
     }
 
-    /// The same problem with the crank turning at its drive's top speed all the time.
+    /// Returns this case with the crank turning constantly at its drive's top speed.
     #[must_use]
     pub fn at_top_speed(&self) -> Case {
         let mut drives = self.drives.clone();
@@ -149,14 +148,14 @@ impl Case {
         self.of_parts(CaseParts { drives, ..self.parts.clone() })
     }
 
-    /// The wanted channels in the order of columns: links, points, joints, sliders, frame, drive, further drives.
-    /// Within each of these the order is that of [`CHANNELS`].
+    /// Wanted channels in the order of columns: links, points, joints, sliders, frame, drive, further drives.
+    /// Within each subject the order is that of [`CHANNELS`].
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
         self.only.clone().unwrap_or_else(|| self.channels_of(|stage| self.wanted.has(stage)))
     }
 
-    /// All channels that the case can have, in the same order.
+    /// All channels that the case can have, in the order of [`Case::channels`].
     #[must_use]
     pub fn all_channels(&self) -> Vec<Channel> {
         self.channels_of(|_| true)
@@ -183,20 +182,20 @@ impl Case {
         self.drives.crank()
     }
 
-    /// The input at `value`, as messages say it.
+    /// The input at `value`, formatted for messages.
     #[must_use]
     pub fn told(&self, value: f64) -> InputValue {
         self.crank().told(value)
     }
 
-    /// The input in a state of the mechanism, as the scenario states it. Arguments as in [`Case::each_load`].
+    /// Input value in a state of the mechanism, as the scenario states it. Arguments as in [`Case::each_load`].
     #[inline]
     #[must_use]
     pub fn input_in(&self, motions: &[Motion], angles: &[f64]) -> f64 {
         self.state_in(motions, angles).value
     }
 
-    /// The input with its rate and acceleration in a state of the mechanism. Arguments as in [`Case::each_load`].
+    /// Input with its rate and acceleration in a state of the mechanism. Arguments as in [`Case::each_load`].
     #[inline]
     #[must_use]
     pub fn state_in(&self, motions: &[Motion], angles: &[f64]) -> InputState {
@@ -211,7 +210,7 @@ impl Case {
         }
     }
 
-    /// A step of the input over which links move as far as while a driving link turns by `turn` (rad).
+    /// Step of the input over which links move as far as while a driving link turns by `turn` (rad).
     #[inline]
     #[must_use]
     pub fn step(&self, turn: f64) -> f64 {
@@ -220,21 +219,22 @@ impl Case {
         }
     }
 
-    /// Whether forces decide the motion of a driving link.
-    /// If so, crank angles are known only from a solved trajectory; those of the grid belong to the nominal motion.
+    /// Whether the motion of a driving link is free, that is, decided by forces.
+    /// Crank angles are then known only from a solved trajectory; those of the grid belong to the nominal motion.
     #[must_use]
     pub fn is_free(&self) -> bool {
         self.drives.iter().any(Drive::is_free)
     }
 
-    /// Whether all driving links turn with constant speeds.
+    /// Whether all driving links turn at constant speed.
     #[must_use]
     pub fn is_steady(&self) -> bool {
         !self.is_free() && self.drives.iter().all(|drive| drive.constant_speed().is_some())
     }
 
-    /// Lever arm of the balancing moments (m): the extent of the largest driving link. The force of a slider on a
-    /// driving link acts where the slider is: there it is the size of the mechanism.
+    /// Lever arm of the balancing moments (m): the extent of the largest driving link.
+    /// For a driving link with a slider it is at least the size of the mechanism, because the slider's force acts at
+    /// the slider's place.
     #[must_use]
     pub fn drive_arm(&self) -> f64 {
         let links = self.mechanism.links();
@@ -256,8 +256,7 @@ impl Case {
         }
     }
 
-    /// Calls `put` with the action of the load with this number on each of its links. Arguments as in
-    /// [`Case::each_load`].
+    /// Calls `put` with the action of load number `load` on each of its links. Arguments as in [`Case::each_load`].
     pub fn each_action(&self, load: usize, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
         self.act_in(&self.setting(motions, angles), &self.loads[load], &mut put);
     }
@@ -281,18 +280,19 @@ impl Case {
         self.turning[link]
     }
 
-    /// Angular velocity of a link (rad/s) as far as it tells a sense of rotation.
-    /// It is zero for a link that cannot turn, and where it is rounding beside the fastest link's.
+    /// Angular velocity of a link (rad/s) for loads that depend on its sense of rotation.
+    /// Zero for a link that cannot turn, and where it is within the rounding error of the fastest link's angular
+    /// velocity.
     #[inline]
     #[must_use]
     pub fn spin(&self, motions: &[Motion], link: LinkId) -> f64 {
         let omega = motions[link].omega;
-        // NaN of any link fails.
+        // False if the angular velocity of any link is NaN.
         let is_seen = || motions.iter().all(|motion| omega.abs() > STANDSTILL * motion.omega.abs());
         if self.can_turn(link) && is_seen() { omega } else { 0.0 }
     }
 
-    /// Whether a point of a link moves, by more than the rounding of the mechanism's speeds.
+    /// Whether a point of a link moves faster than the rounding error of the mechanism's speeds.
     #[must_use]
     pub fn moves(&self, motions: &[Motion], at: JointSide) -> bool {
         let speed = motions[at.link].point_velocity(at.local).norm();
@@ -305,17 +305,18 @@ impl Case {
         LoadState { motions, angles, start: &self.start.0, crank }
     }
 
-    /// Writes to `out` the resultant of all loads on every link, the ground included: force at the mass centre and
-    /// moment about it.
+    /// Writes to `out` the resultant of all loads on every link, the ground included: force (N) at the mass centre and
+    /// moment (N m) about it.
     /// Arguments as in [`Case::each_load`]; `out` has one entry per link.
     #[inline]
     pub fn loads_on(&self, motions: &[Motion], angles: &[f64], out: &mut [Wrench]) {
         self.loads_with(motions, angles, |_, load, link, crank| load.moment_in(self.spin(motions, link), crank), out);
     }
 
-    /// The same, but `sensed` gives the moment (N m) of every load that depends on the sense of a link's rotation.
-    /// It is not asked for links that cannot turn: no such load acts on them.
+    /// [`Case::loads_on`] with `sensed` giving the moment (N m) of every load that depends on the sense of a link's
+    /// rotation.
     /// `sensed` receives the number of the load, the load, the link and the crank angle (rad).
+    /// It is not called for links that cannot turn: these loads do not act on them.
     #[inline]
     pub fn loads_with(
         &self,
@@ -327,9 +328,9 @@ impl Case {
         self.loads_along(motions, angles, sensed, |_, velocity| sense_of(velocity), out);
     }
 
-    /// The same, and `way` gives the direction of motion (unit vector, or zero) of the point of every load that depends
-    /// on one.
-    /// `way` receives the number of the load and the point's velocity (m/s), which is zero where it is rounding.
+    /// [`Case::loads_with`] with `way` giving the direction of motion (unit vector, or zero) of the point of every load
+    /// that depends on that direction.
+    /// `way` receives the number of the load and the point's velocity (m/s), set to zero where it is rounding error.
     #[inline]
     pub fn loads_along(
         &self,
@@ -368,7 +369,7 @@ impl Case {
         }
     }
 
-    /// Power of all loads (W). Arguments as in [`Case::each_load`].
+    /// Power of all loads (W), positive where they drive the mechanism. Arguments as in [`Case::each_load`].
     #[must_use]
     pub fn load_power(&self, motions: &[Motion], angles: &[f64]) -> f64 {
         let mut power = 0.0;
@@ -377,7 +378,7 @@ impl Case {
     }
 }
 
-/// Largest angular velocity of a link, without sign (rad/s).
+/// Largest absolute angular velocity of the links (rad/s).
 fn fastest(motions: &[Motion]) -> f64 {
     motions.iter().fold(0.0, |most, motion| most.larger(motion.omega.abs()))
 }

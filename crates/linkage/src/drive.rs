@@ -1,4 +1,4 @@
-//! What moves a mechanism and what loads it.
+//! Drives and loads of a mechanism.
 
 mod branch;
 pub mod course;

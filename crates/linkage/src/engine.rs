@@ -1,4 +1,4 @@
-//! The simulating side: engines behind one trait, checked by the conformance tests.
+//! Engines: numerical simulations behind one trait, checked by the conformance tests.
 
 pub mod bodies;
 mod extrapolated;
@@ -22,47 +22,48 @@ use crate::error::Result;
 use crate::solver::{Progress, Solver, State};
 use crate::trajectory::ChannelKind;
 
-/// Writes the forces that belong to the motion of a state, at a row of the grid, into that state.
+/// Computes the forces of a state's motion, at a row of the grid, and writes them into the state.
 pub type Statics = Box<dyn FnMut(&Case, usize, &mut State) -> Result<()>>;
 
-/// An engine: a solver that integrates numerically, with settings that decide its accuracy.
+/// An engine: a solver that integrates numerically and whose settings determine its accuracy.
 ///
-/// Whoever stands for another engine is a [`StandIn`]. To change what an engine answers, take [`Wrapped`].
+/// Implement [`StandIn`] to replace another engine; use [`Wrapped`] to change an engine's results.
 pub trait Engine: Solver {
-    /// Name and version of the software behind it.
+    /// Name and version of the underlying software.
     fn version(&self) -> String;
 
-    /// Its settings.
+    /// Settings of the engine.
     fn settings(&self) -> Settings;
 
-    /// The same engine with other settings. It ignores settings that it does not have: see [`Engine::told`].
+    /// Returns this engine with other settings. Settings that it does not have are ignored: see [`Engine::told`].
     fn with(&self, settings: Settings) -> Box<dyn Engine>;
 
-    /// The same engine at another resolution, otherwise unchanged.
+    /// Returns this engine at another resolution, otherwise unchanged.
     fn at(&self, resolution: f64) -> Box<dyn Engine> {
         self.with(Settings { resolution, ..self.settings() })
     }
 
-    /// Whether [`Settings::resolution`] is an accuracy that the engine keeps by choosing its own steps, instead of a
-    /// time step.
+    /// Whether the engine controls its error: [`Settings::resolution`] is then an accuracy for which it chooses its
+    /// steps, otherwise a time step.
     fn controls_error(&self) -> bool;
 
-    /// Available routes to reactions and balancing moment, the cheapest first.
+    /// Methods for joint reactions and balancing moment, the cheapest first.
     fn routes(&self) -> &'static [Route];
 
-    /// Routes by which the engine itself says what it exerts on a case, the cheapest first. Empty for an engine whose
-    /// usual route is such a one.
+    /// Methods by which the engine reports the forces it applies in a case, the cheapest first.
+    /// Empty for an engine whose default method already does.
     fn own_routes(&self, case: &Case) -> &'static [Route];
 
-    /// The fewest and the most sweeps worth trying for a case; `None` for an engine that does not iterate.
+    /// Smallest and largest useful number of sweeps for a case; `None` for an engine that does not iterate.
     /// Both are 1 where the iteration has nothing to converge to.
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]>;
 
-    /// Reactions and balancing moments of a motion by the engine's route, if they follow from the motion alone; `None`
-    /// if they come from the engine itself. An extrapolated motion then has the forces that belong to it.
+    /// Function that computes reactions and balancing moments of a motion by the engine's method, if the motion alone
+    /// determines them; `None` if the engine itself reports them.
+    /// With it, an extrapolated motion gets the forces that belong to it.
     fn statics(&self, case: &Case) -> Option<Statics>;
 
-    /// The states of a whole run. An engine that keeps its runs hands out the one that it has.
+    /// Runs the whole case and returns its states. An engine that keeps its runs returns the kept run.
     ///
     /// # Errors
     /// Those of [`Solver::sweep`].
@@ -70,16 +71,16 @@ pub trait Engine: Solver {
         Rows::of_solver(self, case, progress)
     }
 
-    /// Steps that a run of a prescribed motion takes beyond either end of its grid.
+    /// Number of steps that a run of a prescribed motion takes beyond each end of its grid.
     fn overrun(&self) -> f64;
 
-    /// Order of convergence expected of a channel of a case, with the present route and extrapolation.
+    /// Expected order of convergence of a channel of a case, with the present method and extrapolation.
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64;
 
-    /// Bound on the rounding noise of a channel on the grid of a case, in the channel's unit.
+    /// Bound on the rounding error of a channel on the grid of a case, in the channel's unit.
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;
 
-    /// Whether the factors in [`Engine::noise`] were measured. If not, they were chosen.
+    /// Whether the factors in [`Engine::noise`] were measured; otherwise they are chosen.
     fn is_noise_measured(&self) -> bool;
 
     /// Settings that influence the result, by name, for display.

@@ -1,5 +1,5 @@
-//! What is kept of a proof to judge later ones by, and what has moved since. Judged within the bounds of both, never by
-//! bytes.
+//! Accepted values: what is kept of a proof to judge later runs by, and what has moved since.
+//! Values are compared within the bounds of both runs, never by bytes.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,20 +10,20 @@ use linkage::math::KeepNan;
 use linkage::math::statistics::{rms, share};
 use scenario::accepted::{Accepted, AcceptedChannel};
 
-/// Number of instants at which values are kept, evenly over the grid, its ends included.
+/// Number of instants at which values are kept, evenly spaced over the grid including its ends.
 const INSTANTS: usize = 5;
 
-/// Part of a bound that the rounding of a written number takes.
+/// Share of a bound that the rounding of a written number may take.
 const WRITTEN: f64 = 0.05;
 
-/// Ratio of the bounds, accepted and found, from which agreement proves nothing: what was known before is not known any
-/// more, or what is accepted is not what was known.
+/// Ratio of the bounds, accepted and found, from which agreement proves nothing: the channel is now known much worse
+/// than before, or was accepted within much too wide a bound.
 const WIDER: f64 = 100.0;
 
-/// Difference of two times that are the same instant, over the larger of both.
+/// Relative difference below which two times are the same instant, over the larger of both.
 const SAME_TIME: f64 = 1e-9;
 
-/// The figures of a proof. A channel whose bound is not finite has none.
+/// Returns the values of a proof that are accepted. A channel whose bound is not finite is left out.
 #[must_use]
 pub fn figures(proof: &Proof) -> Accepted {
     let trajectory = &proof.reference_trajectory;
@@ -54,30 +54,30 @@ fn rows(count: usize) -> Vec<usize> {
     rows
 }
 
-/// A bound with two digits, not less than it is.
+/// Rounds a bound up to two digits.
 fn rounded_up(bound: f64) -> f64 {
     let unit = 10f64.powf(bound.log10().floor() - 1.0);
     let rounded: f64 = format!("{:.1e}", (bound / unit).ceil() * unit).parse().unwrap_or(bound);
-    // Of zero, and of what is too small to have two digits, nothing is left to round.
+    // Zero and numbers too small to have two digits stay as they are.
     if rounded >= bound { rounded } else { bound }
 }
 
-/// One figure beside the one that was accepted.
+/// A value found now beside the accepted value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moved {
     /// Name of the channel.
     pub channel: String,
-    /// Which of its figures.
+    /// The value compared.
     pub figure: ChannelFigure,
-    /// The figure that was accepted, in the channel's unit.
+    /// Accepted value, in the channel's unit.
     pub accepted: f64,
-    /// The figure found now.
+    /// Value found now, in the channel's unit.
     pub found: f64,
     /// Largest difference that both bounds allow.
     pub bound: f64,
 }
 
-/// A figure of a channel.
+/// Which value of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ChannelFigure {
     /// Value at this time (s).
@@ -86,55 +86,55 @@ pub enum ChannelFigure {
     Least,
     /// Largest value.
     Greatest,
-    /// Root of the mean square.
+    /// Root mean square.
     Rms,
 }
 
 impl Moved {
-    /// The difference over what the bounds allow.
+    /// Difference of both values over the largest difference that both bounds allow.
     #[must_use]
     pub fn bounds(&self) -> f64 {
         share((self.found - self.accepted).abs(), self.bound)
     }
 }
 
-/// A channel with a bound so wide, accepted or found, that its agreement proves nothing.
+/// A channel whose bound, accepted or found, is so wide that agreement proves nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wider {
     /// Name of the channel.
     pub channel: String,
-    /// The bound that was accepted, in the channel's unit.
+    /// Accepted bound, in the channel's unit.
     pub accepted: f64,
-    /// The bound now.
+    /// Bound found now, in the channel's unit.
     pub found: f64,
 }
 
-/// Figures found, beside those that were accepted.
+/// Comparison of the values found with the accepted values.
 #[derive(Clone, Debug)]
 pub struct FigureComparison {
     /// Number of channels found.
     pub channels: usize,
-    /// Figures beyond both bounds, in the order of channels.
+    /// Values that differ by more than both bounds allow, in the order of channels.
     pub moved: Vec<Moved>,
     /// Channels that are known much worse than before.
     pub wider: Vec<Wider>,
-    /// Channels that were accepted within a bound much wider than that of now: anything near would be as accepted.
+    /// Channels whose accepted bound is much wider than the bound found now: any value near would have been accepted.
     pub looser: Vec<Wider>,
-    /// Channels that were not accepted yet.
+    /// Channels without accepted values.
     pub new: Vec<String>,
-    /// Channels that were accepted and are not found.
+    /// Accepted channels that were not found.
     pub gone: Vec<String>,
-    /// Whether the instants are others: values are then not compared.
+    /// Whether the grids have different instants: values at single instants are then not compared.
     pub is_other_grid: bool,
-    /// Words of the verdicts on the proof, accepted and found, unless both agree.
+    /// Verdicts on the proof in words, accepted and found; `None` if they agree.
     pub proof: Option<[String; 2]>,
-    /// The verdict: disagree if anything but a bound has moved or the proof disagrees, inconclusive if only bounds have
-    /// or one of the proofs proves nothing.
+    /// The verdict: disagree if anything but a bound has moved or the proof disagrees; inconclusive if only bounds have
+    /// moved or one of the proofs proves nothing.
     pub verdict: Verdict,
 }
 
 impl FigureComparison {
-    /// Whether nothing has changed that a file of accepted figures says.
+    /// Whether nothing has changed that a file of accepted values records.
     #[must_use]
     pub fn is_same(&self) -> bool {
         let is_other_proof = self.proof.as_ref().is_some_and(|[accepted, found]| accepted != found);
@@ -143,7 +143,7 @@ impl FigureComparison {
         figures && bounds && !self.is_other_grid && !is_other_proof
     }
 
-    /// Names of the channels of which a figure has moved, each once.
+    /// Names of the channels with a moved value, each once.
     #[must_use]
     pub fn moved_channels(&self) -> Vec<&str> {
         let mut names: Vec<&str> = self.moved.iter().map(|moved| moved.channel.as_str()).collect();
@@ -152,7 +152,7 @@ impl FigureComparison {
     }
 }
 
-/// Compares what a run has found with what was accepted.
+/// Compares the values found by a run with the accepted values.
 #[must_use]
 pub fn compared(accepted: &Accepted, found: &Accepted) -> FigureComparison {
     let is_other_grid = !is_same_grid(accepted, found);
@@ -187,7 +187,7 @@ pub fn compared(accepted: &Accepted, found: &Accepted) -> FigureComparison {
     let proof = verdicts.iter().any(|word| word != "agree").then_some(verdicts);
     let is_other =
         is_other_grid || !moved.is_empty() || !new.is_empty() || !gone.is_empty() || found.verdict == "disagree";
-    // Where there is no figure, none has moved, which proves nothing.
+    // Without any value nothing can have moved, which proves nothing.
     let is_open = !wider.is_empty() || !looser.is_empty() || proof.is_some() || found.channels.is_empty();
     let parts = [
         Verdict::Agree { margin: least_margin },
@@ -203,7 +203,7 @@ fn by_name(accepted: &Accepted) -> BTreeMap<&str, &AcceptedChannel> {
     accepted.channels.iter().map(|kept| (kept.name.as_str(), kept)).collect()
 }
 
-/// What was accepted of a channel, with the same figures.
+/// Returns the accepted values of a channel if they are the same set of values.
 fn counterpart<'a>(
     known: &BTreeMap<&str, &'a AcceptedChannel>,
     found: &AcceptedChannel,
@@ -220,9 +220,9 @@ fn is_same_grid(accepted: &Accepted, found: &Accepted) -> bool {
         && accepted.times.iter().zip(&found.times).all(is_same)
 }
 
-/// All figures of a channel, accepted and found, on the same grid.
+/// Pairs all values of a channel, accepted and found, on the same grid.
 fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<Moved> {
-    // Angles that always differ by the same whole turns are the same motion.
+    // Angles that differ by a constant number of whole turns are the same motion.
     let turns = match (found.rms, kept.at.first(), found.at.first()) {
         (None, Some(kept), Some(found)) => ((found - kept) / std::f64::consts::TAU).round() * std::f64::consts::TAU,
         _ => 0.0,
@@ -246,8 +246,8 @@ fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<
     at.chain(ends).chain(rms).collect()
 }
 
-/// What is to be kept after `found`: of channels that have not moved what was accepted, so that a file changes only
-/// where figures have.
+/// Returns what is to be kept after `found`: channels that have not moved keep their accepted values, so that the file
+/// changes only where values have moved.
 #[must_use]
 pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &FigureComparison) -> Accepted {
     if comparison.is_other_grid {

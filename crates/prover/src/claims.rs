@@ -1,7 +1,8 @@
-//! Claims: what formulas say of a mechanism, against what a side of the proof finds, by value and by derivative.
+//! Claims: compares the formulas of a scenario with what a side of the proof finds, by value and by derivative.
 //!
-//! A formula's own rounding is passed through its operations ([`formula::Rounded`]); what the side knows of its channels
-//! is passed through the claim. Both make the bound: it is not chosen.
+//! The rounding error of a formula is propagated through its operations ([`formula::Rounded`]), the error of the side's
+//! channels through the claim.
+//! The bound is the sum of both; it is not chosen.
 
 mod cause;
 mod course;
@@ -23,5 +24,5 @@ pub use slips::{FormulaSlip, SlipKind, planted};
 pub use terms::{Term, Wrong, missing_in_numbers};
 pub use undefined::{Undefined, undefined};
 
-/// Which derivative with respect to time.
+/// Order of the derivative with respect to time, in words.
 pub const WORDS: [&str; 3] = ["", "first derivative", "second derivative"];

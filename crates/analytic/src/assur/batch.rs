@@ -1,7 +1,8 @@
 //! Many poses of one case in one call.
 //!
 //! A case of driving links, RRR dyads and higher groups on pins, loaded by moments of resistance only, is solved for
-//! several crank angles at once, as many as fit into the machine's registers. Such poses do not depend on each other.
+//! several crank angles at once: as many as fit into the machine's registers.
+//! These poses are independent of each other.
 //! Any other case is solved pose by pose.
 
 mod anchors;
@@ -29,8 +30,8 @@ use linkage::error::Result;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Crank angle between two rows (rad) above which the poses between them are checked too.
-/// Not more than [`PoseSolver`]'s step for poses in closed form.
+/// Crank angle between two rows (rad) above which intermediate poses are checked too.
+/// It is at most [`PoseSolver`]'s step for poses in closed form.
 const STEP: f64 = PI / 12.0;
 
 /// Angle (rad) above which the vector sine is not used: ten times the largest angle of a grid.
@@ -45,11 +46,11 @@ pub struct Batch<'a> {
     anchors: Option<Anchors<'a>>,
     work: Vec<Eight>,
     arch: Arch,
-    /// Solves poses that are not solved many at once, and makes the error message.
+    /// Solves the poses that are not vectorised, and produces the error messages.
     poses: PoseSolver<'a>,
     /// Last crank angle reached (rad).
     crank: f64,
-    /// Number of poses that have been solved singly.
+    /// Number of poses solved singly so far.
     singly: usize,
 }
 
@@ -60,7 +61,7 @@ impl<'a> Batch<'a> {
     /// Those of [`PoseSolver::new`].
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
-        // Lanes keep the signs of the groups, which change at a change point.
+        // Lanes use constant signs of the groups, but a change point changes them.
         let groups = match case.crank().through {
             true => None,
             false => Groups::of(case, &poses.plan, Layout::of(case, false)),
@@ -79,28 +80,29 @@ impl<'a> Batch<'a> {
         })
     }
 
-    /// Whether many poses are solved at once.
-    /// If not, the case has groups other than RRR dyads and groups of four or six links on pins, or loads other than
-    /// moments of resistance, and is solved pose by pose.
+    /// Whether several poses are solved at once.
+    /// If `false`, the case has groups other than RRR dyads and groups of four or six links on pins, or loads other
+    /// than moments of resistance, and is solved pose by pose.
     #[must_use]
     pub fn is_vectorised(&self) -> bool {
         self.groups.is_some()
     }
 
-    /// How many poses have been solved one by one so far, because none could be solved many at once there.
+    /// Number of poses solved one by one so far because the vectorised solution failed there.
     #[must_use]
     pub fn solved_singly(&self) -> usize {
         self.singly
     }
 
-    /// The poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity `omega`
-    /// (rad/s) and acceleration `alpha` (rad/s^2) of the crank, computed up to the stage `deepest`.
-    /// To rounding, they are those of [`PoseSolver::solve`] at one crank angle after the other.
-    /// It starts from the last crank angle reached, at first from the start pose.
+    /// Solves the poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity
+    /// `omega` (rad/s) and angular acceleration `alpha` (rad/s^2) of the crank, up to the stage `deepest`.
+    /// To rounding, the poses equal those of [`PoseSolver::solve`] at one crank angle after the other.
+    /// The solution starts from the last crank angle reached, at first from the start pose.
     /// Where poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits at every place in the
-    /// list. Higher groups are followed from the start pose in steps of two degrees; beside a dead point, and more than
-    /// 50 000 steps away, their poses are solved one by one.
-    /// Rows more than 15 degrees apart take intermediate poses from one to the next.
+    /// list.
+    /// Higher groups are followed from the start pose in steps of two degrees; near a dead point, and more than 50 000
+    /// steps away, their poses are solved one by one.
+    /// Between rows more than 15 degrees apart, intermediate poses are solved too.
     ///
     /// # Errors
     /// Those of [`PoseSolver::solve`] at the first crank angle that cannot be reached; the poses before it are in
@@ -114,7 +116,7 @@ impl<'a> Batch<'a> {
         }
         for (row, &crank) in cranks.iter().enumerate() {
             let is_placed = self.is_vectorised() && out.is_placed(row);
-            // Anchors have taken the intermediate poses.
+            // Anchors already contain the intermediate poses.
             if !(is_placed && (self.anchors.is_some() || (crank - self.crank).abs() <= STEP)) {
                 let deepest = if is_placed { Stage::Positions } else { deepest };
                 match self.walk(crank, omega, alpha, deepest) {
@@ -134,7 +136,7 @@ impl<'a> Batch<'a> {
         Ok(())
     }
 
-    /// Goes to a crank angle pose by pose, from the last angle reached.
+    /// Solves a crank angle with the pose solver, from the last angle reached.
     fn walk(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         if self.is_vectorised() {
             self.poses.solve(self.crank, omega, alpha, Stage::Positions)?;
@@ -152,7 +154,7 @@ struct Asked<'a> {
     deepest: Stage,
 }
 
-/// All tiles of a batch. They are solved with the widest instructions of the machine.
+/// All tiles of a batch, solved with the widest instructions of the machine.
 struct Tiles<'a, 'c> {
     case: &'a Case,
     groups: &'a Groups,
@@ -162,7 +164,7 @@ struct Tiles<'a, 'c> {
     out: &'a mut Poses,
 }
 
-/// Input of the drives in one tile: directions, angular velocities and accelerations of the driving links.
+/// Writes the input of one tile: directions, angular velocities and angular accelerations of the driving links.
 #[inline(always)]
 fn drive(case: &Case, groups: &Groups, asked: Asked, own: [f64; TILE], tile: &mut [Eight]) {
     for (index, (drive, driver)) in case.drives.iter().zip(&groups.drivers).enumerate() {
@@ -227,7 +229,7 @@ mod tests {
     use linkage::math::{KeepNan, Vec2};
     use linkage::mechanism::{Mechanism, StartGroup};
 
-    /// All register widths of this machine.
+    /// Returns all register widths of this machine.
     fn widths() -> Vec<Arch> {
         let mut widths = vec![Arch::Scalar, Arch::new()];
         #[cfg(target_arch = "x86_64")]
@@ -235,8 +237,8 @@ mod tests {
         widths
     }
 
-    /// Each error is at most one unit in the last place of 1. The standard library's part of it is at most half a
-    /// unit; the rest is that of the vector functions.
+    /// Each error is at most one unit in the last place of 1: at most half a unit from the standard library, the rest
+    /// from the vector functions.
     #[test]
     fn units_are_those_of_the_standard_library() {
         for k in -400_000..400_000 {
@@ -262,7 +264,7 @@ mod tests {
         Mechanism::new(links, mechanism.joints().to_vec()).unwrap()
     }
 
-    /// The class IV group of reference 7.
+    /// The class IV group of reference 7, with masses.
     fn quadrilateral() -> Case {
         let first = StartGroup { rank: Some(1), ..StartGroup::default() };
         turning_from(with_masses(&class_four(1.0, -1.0)), 70f64.to_radians(), &first)

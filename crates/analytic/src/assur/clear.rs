@@ -1,4 +1,4 @@
-//! Steps of [`PoseSolver`] that would pass over a change point are refused.
+//! Refuses steps of [`PoseSolver`] that would pass over a change point.
 
 use super::PoseSolver;
 use super::watch::CLEAR;
@@ -6,11 +6,11 @@ use crate::assur::groups::{Misfit, OutOfReach, SINGULAR, SingularityDistance};
 use linkage::math::KeepNan;
 use linkage::mechanism::GroupId;
 
-/// Halvings of an interval that leave nothing of it but rounding.
+/// Number of bisections that reduce an interval to rounding.
 const BISECTIONS: usize = 64;
 
 impl PoseSolver<'_> {
-    /// The step to the pose that has just been found, where the kept bounds do not prove that it passes no change point.
+    /// Checks the step to the pose just found, where the stored bounds do not prove that it passes no change point.
     #[cold]
     pub(super) fn pass_closely(&mut self, target: f64) -> Result<(), OutOfReach> {
         self.gauges.pass_closely([self.crank, target], self.case, &self.plan, &self.state.motions)?;
@@ -18,8 +18,8 @@ impl PoseSolver<'_> {
         Ok(())
     }
 
-    /// Finds the clearances of a crank angle whose positions are known. Returns whether a group may have passed a change
-    /// point.
+    /// Computes the clearances at a crank angle whose positions are known.
+    /// Returns whether a group may have passed a change point.
     fn find_clearances(&mut self, crank: f64, sense: f64) -> bool {
         let from = std::mem::replace(&mut self.crank, crank);
         self.drive(1.0);
@@ -53,7 +53,7 @@ impl PoseSolver<'_> {
         Ok(())
     }
 
-    /// Finds the clearances before a step on which a group is watched anew.
+    /// Computes the clearances at the beginning of a step, for groups that have not been watched before.
     #[cold]
     fn begin(&mut self, target: f64) -> Result<(), OutOfReach> {
         let (from, step) = (self.crank, target - self.crank);
@@ -66,7 +66,7 @@ impl PoseSolver<'_> {
         self.plan.positions(&self.inputs, &mut self.state.motions)
     }
 
-    /// The same for groups that may have passed one.
+    /// Searches the step for change points, for every group that may have passed one.
     #[cold]
     fn keep_clear_closely(&mut self, target: f64) -> Result<(), OutOfReach> {
         let sense = target - self.crank;
@@ -75,7 +75,7 @@ impl PoseSolver<'_> {
             let seen = self.watch.groups[group];
             if seen.may_pass(sense) {
                 self.search(group, target, [seen.last, seen.now])?;
-                // The search has left another pose and its clearances.
+                // The search has left another pose and its clearances: restore those of `target`.
                 self.turn(target);
                 self.plan.positions(&self.inputs, &mut self.state.motions)?;
                 self.find_clearances(target, sense);
@@ -85,7 +85,8 @@ impl PoseSolver<'_> {
     }
 
     /// Searches the smallest clearance of a group between the present crank angle and `target`, by bisection of its
-    /// slope. It is refused where it is zero to rounding.
+    /// slope.
+    /// Refuses the step if that clearance is zero to rounding.
     #[cold]
     fn search(&mut self, group: GroupId, target: f64, ends: [SingularityDistance; 2]) -> Result<(), OutOfReach> {
         let ([mut low, mut high], [mut before, mut after]) = ([self.crank, target], ends);

@@ -1,7 +1,9 @@
-//! Joint reactions group by group, last group first, and the balancing moment from the driving link's equilibrium.
+//! Joint reactions group by group, last group first, and the balancing moments from the equilibrium of the driving
+//! links.
 //!
-//! D'Alembert: every link carries m (g - a) at its mass centre, the moment -J alpha, its loads, and the forces of
-//! the groups attached to it. There is one file per kind of group.
+//! By d'Alembert's principle, every link carries m (g - a) at its mass centre, the moment -J alpha, its loads, and the
+//! forces of the groups attached to it.
+//! Each kind of group has one file.
 
 mod body;
 mod higher;
@@ -28,21 +30,21 @@ enum Part {
     Higher(Higher),
 }
 
-/// The force analysis of a case, prepared to solve pose after pose without allocation.
+/// The force analysis of a case, prepared to solve many poses without allocation.
 #[derive(Clone, Debug)]
 pub(super) struct Kinetostatics {
     parts: Vec<Part>,
-    /// The driving links, their pivots and the numbers of their drives, the outermost first.
+    /// The driving links, their pivots and the indices of their drives, outermost link first.
     drivers: Vec<(Body, Action, usize)>,
-    /// Loads on every link; empty if there are none.
+    /// Loads on every link; empty if the case has no loads.
     loads: Vec<Wrench>,
-    /// One load for every loaded link, if all are moments of resistance. They need no place of a link.
+    /// One load per loaded link, if all loads are moments of resistance; these do not depend on the link's position.
     resistances: Option<Vec<(LinkId, Load)>>,
     tally: WorkTally,
 }
 
 impl Kinetostatics {
-    /// Prepares the groups in reverse order, then the driving link.
+    /// Prepares the groups in reverse order, then the driving links.
     pub(super) fn of(case: &Case, plan: &SolutionPlan) -> Self {
         let mut settled = vec![false; case.mechanism.joints().len()];
         let mut parts = Vec::with_capacity(case.structure.groups.len());
@@ -67,13 +69,13 @@ impl Kinetostatics {
         Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads], resistances, tally: WorkTally::default() }
     }
 
-    /// Writes to `state` the reaction in every joint (first link on second) and the balancing moments on the
+    /// Writes to `state` the reaction in every joint (first link on second; N, N m) and the balancing moments on the
     /// driving links (N m).
     /// The balancing moments follow from equilibrium about the pivots.
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     pub(super) fn solve(&mut self, case: &Case, plan: &SolutionPlan, state: &mut State) {
         if let Some(resistances) = &self.resistances {
-            // What acts on other links stays zero.
+            // Loads on all other links stay zero.
             for (link, load) in resistances {
                 let moment = load.moment_in(case.spin(&state.motions, *link), 0.0);
                 self.loads[*link] = Wrench { force: Vec2::zeros(), moment };
@@ -84,7 +86,7 @@ impl Kinetostatics {
         self.balance(case, plan, state);
     }
 
-    /// The same under the given loads on all links.
+    /// Does what [`Kinetostatics::solve`] does, with the given loads on all links.
     pub(super) fn solve_under(&mut self, loads: &[Wrench], case: &Case, plan: &SolutionPlan, state: &mut State) {
         let count = self.loads.len();
         self.loads.copy_from_slice(&loads[..count]);
@@ -114,7 +116,7 @@ impl Kinetostatics {
     }
 }
 
-/// Moments of resistance on the same link in one.
+/// Merges the moments of resistance on the same link.
 fn merged(resistances: Vec<(LinkId, f64)>) -> Vec<(LinkId, Load)> {
     let mut all: Vec<(LinkId, f64)> = Vec::new();
     for (link, moment) in resistances {

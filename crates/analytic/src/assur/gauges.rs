@@ -18,27 +18,27 @@ use linkage::case::Case;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
-/// Share of the way from the end of the range to the band of a step that the kept band leaves out.
+/// Share of the distance between an end of the range and the band of a step that the stored band leaves free.
 const SPARE: f64 = 0.25;
-/// Steps are kept that are a little longer too: those of a grid are equal to rounding only.
+/// Factor for slightly longer steps: steps of a grid are equal to rounding only.
 const LONGER: f64 = 1.0 + 1e-6;
-/// Gauges without an end may grow to this multiple.
+/// Factor by which a gauge without an upper limit may grow.
 const GROWN: f64 = 4.0;
-/// Number of steps after which a proof that has not been found is looked for again.
+/// Number of steps after which a missing proof is tried again.
 const AGAIN: f64 = 16.0;
 
 /// A group with a gauge.
 #[derive(Clone, Copy, Debug)]
 struct Watched {
     group: GroupId,
-    /// Whether it hangs on driving links and the ground only.
+    /// Whether the group is attached to driving links and the ground only.
     is_direct: bool,
-    /// Whether a proof is missing on this step.
+    /// Whether the proof for this step is missing.
     is_open: bool,
-    /// Between these a step of the kept length is proven.
+    /// Range of the gauge, from `low` to `high`, in which a step of the stored length is proven.
     low: f64,
     high: f64,
-    /// The gauge at the last two poses; NaN before the first.
+    /// Gauge at the pose before the last and at the last pose; NaN before the first.
     before: f64,
     last: f64,
 }
@@ -47,15 +47,15 @@ struct Watched {
 #[derive(Debug)]
 pub(super) struct Gauges {
     watched: Vec<Watched>,
-    /// Speeds of the driving links in that of the crank.
+    /// Speed ratios of the driving links to the crank.
     ratios: Vec<f64>,
     links: Vec<Option<Bound>>,
-    /// Longest step of the crank (rad) for which the kept bounds are good, and the way for which they still are.
+    /// Longest step (rad) that the stored bounds cover, and remaining crank travel (rad) over which they hold.
     reach: f64,
     left: f64,
 }
 
-/// One end of a step: crank angle, gauges of all watched groups, and the pose. The pose is only read at the far end.
+/// One end of a step: crank angle, gauges of all watched groups, and pose. The pose is read at the far end only.
 #[derive(Clone, Debug)]
 struct End {
     crank: f64,
@@ -91,19 +91,19 @@ impl Gauges {
         gauges
     }
 
-    /// No gauges: every step passes.
+    /// Returns an empty set of gauges, which accepts every step.
     pub(super) fn none() -> Self {
         Gauges { watched: Vec::new(), ratios: Vec::new(), links: Vec::new(), reach: f64::INFINITY, left: f64::INFINITY }
     }
 
-    /// The groups that need no estimate on this step: they are proven not to pass a change point.
+    /// The groups proven not to pass a change point in this step; they need no estimate.
     pub(super) fn proven(&self) -> impl Iterator<Item = GroupId> {
         self.watched.iter().filter(|watched| !watched.is_open).map(|watched| watched.group)
     }
 
-    /// Takes the pose that `plan` has just found, a step (rad, without sign) of the crank after the last one. Returns
-    /// whether the kept bounds say about this step what they have said about the last; otherwise
-    /// [`Gauges::pass_closely`] must.
+    /// Records the pose that `plan` has just found, at a distance `step` of the crank (rad, unsigned) from the last
+    /// one.
+    /// Returns whether the stored bounds cover this step; if not, call [`Gauges::pass_closely`].
     #[inline(always)]
     pub(super) fn pass(&mut self, step: f64, plan: &SolutionPlan) -> bool {
         self.left -= step;
@@ -116,17 +116,17 @@ impl Gauges {
         passes
     }
 
-    /// Takes the last pose back.
+    /// Undoes the record of the last pose.
     #[cold]
     pub(super) fn take_back(&mut self) {
         self.watched.iter_mut().for_each(|watched| watched.last = watched.before);
         self.reach = -1.0;
     }
 
-    /// The same with bounds of this very step between two crank angles (rad), divided where it must be.
+    /// Checks the step between two crank angles (rad) with bounds for this step, and divides it where necessary.
     ///
     /// # Errors
-    /// [`Misfit::Passed`] with a change point; the last pose is then that before the step again.
+    /// [`Misfit::Passed`] with a change point; the last pose is then again that before the step.
     #[cold]
     pub(super) fn pass_closely(
         &mut self,
@@ -146,7 +146,7 @@ impl Gauges {
         }
         if self.prove(&ends, plan, step * LONGER, SPARE) {
             if self.is_open() {
-                // Nothing to spare.
+                // Prove again without any reserve for later steps.
                 self.prove(&ends, plan, step * LONGER, 1.0);
             }
             if self.is_open() {
@@ -168,9 +168,10 @@ impl Gauges {
         self.watched.iter().any(|watched| watched.is_open)
     }
 
-    /// Whether the gauges of all direct groups stay within their ranges between two poses, over steps of this length.
-    /// Keeps the bounds that prove it, of bands that leave out this share of what the step leaves. Other groups for
-    /// which there is no proof are open.
+    /// Whether the gauges of all direct groups stay within their ranges between two poses, for steps of length `step`
+    /// (rad).
+    /// Stores the bounds that prove it, for bands that leave free the share `share` of the remaining distance.
+    /// A group that is not direct and has no proof is marked open.
     fn prove(&mut self, ends: &[End; 2], plan: &SolutionPlan, step: f64, share: f64) -> bool {
         let motions = &ends[1].motions;
         (self.reach, self.left) = (-1.0, f64::INFINITY);
@@ -197,7 +198,7 @@ impl Gauges {
         true
     }
 
-    /// The same for direct groups alone, over a step that may have to be divided.
+    /// Proves the step for direct groups alone, dividing it where necessary.
     fn divide(&self, case: &Case, plan: &mut SolutionPlan, ends: [End; 2]) -> Result<(), OutOfReach> {
         let (from, to) = (ends[0].crank, ends[1].crank);
         let step = (to - from).abs();
@@ -223,7 +224,7 @@ impl Gauges {
         let mut gauges = vec![f64::NAN; self.watched.len()];
         for (index, watched) in direct() {
             let group = &plan.steps()[watched.group];
-            // NaN of a group without a clearance is not near.
+            // A group without a clearance gives NaN, which does not count as near.
             if group.sine(&motions).is_some_and(|sine| sine < 10.0 * SINGULAR) {
                 return Err(passed(watched.group));
             }
@@ -236,14 +237,14 @@ impl Gauges {
     }
 }
 
-/// The band in which a gauge with these least and largest values at the ends of a step stays, and by how much it may
-/// leave the straight line between them; `None` if that is not within its range.
+/// Returns the band in which a gauge with these least and largest values at the ends of a step stays, and its largest
+/// deviation from linear interpolation; `None` if the gauge may leave its range.
 fn band(limit: Limit, [least, most]: [f64; 2], step: f64, share: f64) -> Option<(Limit, [f64; 2], f64)> {
     let bulge = limit.second * step * step / 8.0;
     let [start, end] = limit.range;
     let end = if end.is_finite() { end } else { GROWN * most };
     let (under, over) = (least - bulge - start, end - most - bulge);
-    // Written so that NaN proves nothing.
+    // The negated comparison makes NaN prove nothing.
     if !(under > 0.0 && over > 0.0) {
         return None;
     }

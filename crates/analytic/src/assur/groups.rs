@@ -28,19 +28,19 @@ use linkage::math::{KeepNan, Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{AssemblyMode, GROUND, GroupId, GroupKind, LinkId, Mechanism, PerGroup, Structure};
 use linkage::work::{Count, WorkTally};
 
-/// Share of one configuration's squared distance from an expected pose in that of the other, up to which the first is
-/// the one expected.
+/// Largest ratio of the squared distances of two configurations from an expected pose at which the nearer one is
+/// accepted as the expected configuration.
 const NEARER: f64 = 0.04;
 
-/// Driving link that turns about a joint with the ground, or with an earlier driving link.
+/// Driving link that turns about a joint with the ground or with an earlier driving link.
 #[derive(Clone, Copy, Debug)]
 struct Driver {
     link: LinkId,
     base: LinkId,
-    /// The joint in the link's own frame, and in that of its base.
+    /// The joint in the link's frame and in the frame of its base.
     pivot: Vec2,
     place: Vec2,
-    /// Whether the joint is the origin of the link's own frame, so that no vector turns with it.
+    /// Whether the joint is the origin of the link's frame, so that the arm is zero.
     at_origin: bool,
 }
 
@@ -129,7 +129,7 @@ impl Step {
         }
     }
 
-    /// The gauge at the last pose: see [`bounds`]. NaN for groups that have none.
+    /// Gauge at the last pose: see [`bounds`]. NaN for groups without a gauge.
     #[inline]
     pub(in crate::assur) fn gauge(&self) -> f64 {
         // Most groups are of this kind.
@@ -145,8 +145,9 @@ impl Step {
         }
     }
 
-    /// The limit of the gauge over a step of the crank that begins or ends at the pose `motions`, while the gauge is at
-    /// most `farthest`. `None` for groups without a gauge, and where the links that carry the group are not known.
+    /// Limit of the gauge over a step of the crank that begins or ends at the pose `motions`, while the gauge is at
+    /// most `farthest`.
+    /// `None` for groups without a gauge, and where the bounds of the links that carry the group are not known.
     pub(in crate::assur) fn limit(
         &self,
         links: &Bounds,
@@ -163,18 +164,18 @@ impl Step {
         }
     }
 
-    /// Writes the bounds of the group's own links while its gauge stays in a band, where there are any.
+    /// Writes the bounds of the group's links for a gauge that stays within `band`, where bounds exist.
     pub(in crate::assur) fn bound(&self, band: [f64; 2], step: f64, motions: &[Motion], links: &mut Bounds) {
         match self {
             Step::Rrr(dyad) => dyad.bound(band, links),
             Step::Rrp(dyad) => dyad.bound(band, step, motions, links),
             Step::Rpr(dyad) => dyad.bound(band, links),
-            // How far their sliders are is not limited.
+            // The travel of their sliders is unlimited.
             Step::Prp(_) | Step::Rpp(_) | Step::Chain(_) => {}
         }
     }
 
-    /// A dyad of two configurations in its other one, and its links. `None` for the other groups.
+    /// Returns a dyad of two configurations in its other configuration, with its links; `None` for all other groups.
     fn other(&self) -> Option<(Step, [LinkId; 2])> {
         match self {
             Step::Rrr(dyad) => Some((Step::Rrr(dyad.flipped()), dyad.links())),
@@ -185,7 +186,7 @@ impl Step {
     }
 }
 
-/// A mechanism prepared to be solved pose after pose without allocation.
+/// A mechanism prepared to solve many poses without allocation.
 #[derive(Clone, Debug)]
 pub struct SolutionPlan {
     drivers: Vec<Driver>,
@@ -203,7 +204,7 @@ pub struct OutOfReach {
 }
 
 impl SolutionPlan {
-    /// Takes the last pose for that of a driving angle farther on by `way` (rad), some whole turns.
+    /// Treats the last pose as that of a driving angle larger by `way` (rad), a whole number of turns.
     pub(in crate::assur) fn skip(&mut self, way: f64) {
         for step in &mut self.steps {
             if let Step::Chain(chain) = step {
@@ -232,20 +233,21 @@ impl SolutionPlan {
         SolutionPlan { drivers: drivers.collect(), steps: steps.collect(), tally: WorkTally::default() }
     }
 
-    /// The groups, in the order of [`Structure::groups`].
+    /// Returns the groups, in the order of [`Structure::groups`].
     #[must_use]
     pub fn steps(&self) -> &PerGroup<Step> {
         &self.steps
     }
 
-    /// Whether all groups are solved in closed form. If not, poses must be followed in small steps.
+    /// Whether all groups are solved in closed form. If `false`, poses must be followed in small steps.
     #[must_use]
     pub fn is_closed_form(&self) -> bool {
         !self.steps.iter().any(|step| matches!(step, Step::Chain(_)))
     }
 
-    /// Positions of all links for the world angles of the driving links (rad), in the order of
-    /// [`Structure::drivers`]. Higher groups start from the last pose in `motions`.
+    /// Computes the positions of all links (m) for the world angles of the driving links (rad), in the order of
+    /// [`Structure::drivers`].
+    /// Higher groups start from the last pose in `motions`.
     ///
     /// # Errors
     /// The first group that cannot be placed.
@@ -263,7 +265,7 @@ impl SolutionPlan {
     ///
     /// # Errors
     /// Those of [`SolutionPlan::positions`].
-    // A function of its own is faster: inlined into its caller, dyads cost a fifth more time with fewer instructions.
+    // A separate function is faster: inlined into its caller, dyads take a fifth more time with fewer instructions.
     #[inline(never)]
     pub(crate) fn motions(
         &mut self,
@@ -369,8 +371,8 @@ impl SolutionPlan {
         Ok(())
     }
 
-    /// Writes the bounds of the driving links, which turn at these constant multiples of the crank's speed, and of the
-    /// ground.
+    /// Writes the bounds of the ground and of the driving links, which turn at these constant multiples of the crank's
+    /// speed.
     pub(in crate::assur) fn bound_drivers(&self, ratios: &[f64], links: &mut Bounds) {
         links.fill(None);
         links[GROUND] = Some(Bound::REST);
@@ -405,13 +407,14 @@ impl SolutionPlan {
         }
     }
 
-    /// How far every group is from a singular pose at which two of its branches meet. Velocities must be known.
+    /// Distance of every group from a singular pose at which two of its branches meet. Velocities must be known.
     /// `None` for groups that watch the sign of a determinant themselves.
     pub fn clearances<'a>(&'a self, motions: &'a [Motion]) -> impl Iterator<Item = Option<SingularityDistance>> + 'a {
         self.steps.iter().map(|step| step.clearance(motions))
     }
 
-    /// Velocities of all links. Positions must be known. `omegas` are those of the driving links (rad/s).
+    /// Computes the velocities of all links (m/s, rad/s) for the angular velocities `omegas` of the driving links
+    /// (rad/s). Positions must be known.
     #[inline]
     pub fn velocities(&mut self, omegas: &[f64], motions: &mut [Motion]) {
         self.tally.one(Count::Velocities);
@@ -419,7 +422,7 @@ impl SolutionPlan {
         self.steps.iter_mut().for_each(|step| step.velocities(motions));
     }
 
-    /// Velocities of the driving links alone.
+    /// Computes the velocities of the driving links alone.
     #[inline]
     pub(crate) fn drive_velocities(&self, omegas: &[f64], motions: &mut [Motion]) {
         for (driver, &omega) in self.drivers.iter().zip(omegas) {
@@ -433,7 +436,8 @@ impl SolutionPlan {
         }
     }
 
-    /// Accelerations of all links. Velocities must be known. `alphas` are those of the driving links (rad/s^2).
+    /// Computes the accelerations of all links (m/s^2, rad/s^2) for the angular accelerations `alphas` of the driving
+    /// links (rad/s^2). Velocities must be known.
     #[inline]
     pub fn accelerations(&mut self, alphas: &[f64], motions: &mut [Motion]) {
         self.tally.one(Count::Accelerations);
@@ -441,7 +445,7 @@ impl SolutionPlan {
         self.steps.iter_mut().for_each(|step| step.accelerations(motions));
     }
 
-    /// Accelerations of the driving links alone, after their velocities.
+    /// Computes the accelerations of the driving links alone; their velocities must be known.
     #[inline]
     pub(crate) fn drive_accelerations(&self, alphas: &[f64], motions: &mut [Motion]) {
         for (driver, &alpha) in self.drivers.iter().zip(alphas) {

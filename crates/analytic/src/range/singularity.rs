@@ -33,7 +33,7 @@ impl SingularityKind {
 /// A singular or nearly singular pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singularity {
-    /// Its kind.
+    /// Kind.
     pub kind: SingularityKind,
     /// Crank angle (rad, as the scenario states it), to 1e-9 rad. For a contact, the angle of the smallest determinant.
     pub crank: f64,
@@ -47,7 +47,7 @@ pub struct Singularity {
 /// A crank angle (rad) and the value there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueAtCrank {
-    /// Crank angle (rad, as the scenario states it).
+    /// Crank angle (rad, in the scenario's convention).
     pub crank: f64,
     /// The value.
     pub value: f64,

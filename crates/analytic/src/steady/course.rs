@@ -13,7 +13,7 @@ const SAMPLE_STEP: f64 = PI / 360.0;
 /// The reduced quantities at one crank angle, without motor, reducer and flywheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReducedRow {
-    /// Crank angle (rad, as the scenario states it).
+    /// Crank angle (rad, in the scenario's convention).
     pub crank: f64,
     /// Reduced moment of inertia I* (kg m^2).
     pub inertia: f64,

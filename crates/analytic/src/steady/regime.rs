@@ -21,7 +21,7 @@ const CLOSED: f64 = 2e-14;
 /// Speed of the crank at a crank angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedAtCrank {
-    /// Crank angle (rad, as the scenario states it).
+    /// Crank angle (rad, in the scenario's convention).
     pub crank: f64,
     /// Angular velocity of the crank (rad/s).
     pub omega: f64,

@@ -1,8 +1,9 @@
-//! The distance of two bodies at the middle of a part of the range, and a bound below which it does not fall over it.
+//! Distance of two bodies at the middle of a part of the range, with a lower bound over the whole part.
 //!
-//! Nearest points come from parry2d. The bound takes from them a direction only: along any fixed direction two convex
-//! parts are as far apart as their extreme corners, and these move evenly but for a proven error. So a wrong pair of
-//! nearest points makes the bound weak, never wrong.
+//! parry2d computes the nearest points. The bound uses only their direction: along any fixed direction the distance of
+//! two convex parts is that of their extreme corners, and these move evenly up to a proven error. A wrong pair of
+//! nearest
+//! points therefore weakens the bound but never invalidates it.
 
 use linkage::math::{KeepNan, Vec2, turned};
 use linkage::mechanism::LinkId;
@@ -13,17 +14,19 @@ use parry2d_f64::shape::{ConvexPolygon, Segment, Shape};
 use super::tube::{Slice, Track};
 use scenario::clearance::Outline;
 
-/// Largest distance that is asked for, in sizes of the mechanism.
+/// Largest distance computed, in sizes of the mechanism.
 const FAR: f64 = 1e9;
 
-/// Distance of two parts, in sizes of the mechanism, below which the direction of their nearest points is not enough.
+/// Distance of two parts, in sizes of the mechanism, below which the direction of their nearest points is too
+/// inaccurate
+/// on its own.
 const CLOSE: f64 = 1e-5;
 
-/// A body's outline made ready for distances.
+/// Outline of a body, prepared for distance queries.
 pub struct Solid {
-    /// Its link; the ground's for the housing.
+    /// Link of the body; the ground for the housing.
     pub link: LinkId,
-    /// Radius of its rounding (m).
+    /// Rounding radius (m).
     pub radius: f64,
     pieces: Vec<Piece>,
     scale: f64,
@@ -36,7 +39,7 @@ struct Piece {
     shape: Box<dyn Shape>,
 }
 
-/// A solid over a part of the range.
+/// Solid placed over a part of the range.
 pub struct PlacedSolid {
     pose: Pose,
     pieces: Vec<PlacedPiece>,
@@ -45,37 +48,39 @@ pub struct PlacedSolid {
 struct PlacedPiece {
     corners: Vec<Track>,
     centre: Vec2,
-    /// Largest distance that a corner moves from the middle (m).
+    /// Largest displacement of a corner from the middle (m).
     moves: f64,
 }
 
-/// What is known of the distance of two bodies over a part of the range.
+/// Distance of two bodies over a part of the range.
 #[derive(Clone, Copy, Debug)]
 pub struct Gap {
-    /// The distance at the middle (m): 0 where they meet. The true one is not larger. Infinite if all pieces are
-    /// farther apart than what was asked for.
+    /// Upper bound of the distance at the middle (m); 0 where the two meet, infinite if all pieces are farther apart
+    /// than
+    /// the distance asked for.
     pub now: f64,
-    /// The nearest points at the middle, of the first and of the second body (m).
+    /// Nearest points at the middle, on the first and the second body (m).
     pub points: [Vec2; 2],
-    /// No distance over the part is smaller (m); not proven unless the slice is sound. May be negative.
+    /// Lower bound of the distance over the part (m), possibly negative; proven only if the slice is sound.
     pub least: f64,
 }
 
 impl Solid {
-    /// Lengths are given to the library in units of `scale` (m): its tolerances are absolute.
+    /// Prepares an outline of a link. parry2d receives lengths in units of `scale` (m), since its tolerances are
+    /// absolute.
     #[must_use]
     pub fn new(link: LinkId, outline: &Outline, scale: f64) -> Self {
         let pieces = outline.parts().iter().map(|part| Piece::new(part, scale)).collect();
         Solid { link, radius: outline.radius(), pieces, scale }
     }
 
-    /// Number of its convex parts.
+    /// Number of convex parts.
     #[must_use]
     pub fn pieces(&self) -> usize {
         self.pieces.len()
     }
 
-    /// Where it is over a part of the range.
+    /// Places the solid over a part of the range.
     #[must_use]
     pub fn placed(&self, slice: &Slice) -> PlacedSolid {
         let tube = &slice.tubes[self.link];
@@ -112,8 +117,8 @@ impl Piece {
     }
 }
 
-/// The distance of two solids over a part of the range. Pieces that cannot come nearer than `enough` (m) are not asked
-/// for their nearest points; `asked` counts the others.
+/// Computes the distance of two solids over a part of the range. Nearest points are computed only for pieces that can
+/// come nearer than `enough` (m); `asked` counts these pairs.
 #[must_use]
 pub fn gap(
     [a, b]: [&Solid; 2],
@@ -154,7 +159,8 @@ pub fn gap(
                 ask((p - q) / core);
             }
             if core < CLOSE * a.scale {
-                // Of points so close the direction is rounding. One of the sides is between the two, or nothing is.
+                // For points this close the direction is only rounding error. A side's normal separates the two, if
+                // anything does.
                 normals(&own.corners, -1.0, &mut ask);
                 normals(&other.corners, 1.0, &mut ask);
             }
@@ -164,7 +170,7 @@ pub fn gap(
     found
 }
 
-/// Nearest points of two pieces at the middle (m); one common place where they meet.
+/// Returns the nearest points of two pieces at the middle (m); one common point where they meet.
 fn closest(pieces: [&Piece; 2], placed: [&PlacedPiece; 2], places: [&PlacedSolid; 2], scale: f64) -> [Vec2; 2] {
     let shapes = pieces.map(|piece| &*piece.shape);
     match query::closest_points(&places[0].pose, shapes[0], &places[1].pose, shapes[1], FAR) {
@@ -173,13 +179,12 @@ fn closest(pieces: [&Piece; 2], placed: [&PlacedPiece; 2], places: [&PlacedSolid
             let middle = (placed[0].centre + placed[1].centre) / 2.0;
             [middle; 2]
         }
-        // Any two points of the pieces bound the distance from above.
+        // Any two points of the pieces give an upper bound of the distance.
         Ok(ClosestPoints::Disjoint) | Err(_) => placed.map(|piece| piece.centre),
     }
 }
 
-/// Passes the normals of a convex part's sides to `ask`, outwards for the sign 1, inwards for -1; those of a segment in
-/// both directions.
+/// Passes the normals of a convex part's sides to `ask`: outward for `sign` 1, inward for -1, and both for a segment.
 fn normals(corners: &[Track], sign: f64, ask: &mut impl FnMut(Vec2)) {
     let count = corners.len();
     for k in 0..count {
@@ -190,8 +195,8 @@ fn normals(corners: &[Track], sign: f64, ask: &mut impl FnMut(Vec2)) {
     }
 }
 
-/// How far two convex parts are apart along `normal` at least, within `half` of the middle (m): the smallest of the
-/// first's corners along it less the largest of the second's. That is a concave function of the crank angle.
+/// Lower bound of the distance of two convex parts along `normal`, within `half` of the middle (m): the smallest
+/// projection of the first's corners minus the largest of the second's. It is a concave function of the crank angle.
 fn apart(first: &[Track], second: &[Track], normal: Vec2, half: f64) -> f64 {
     let at = |by: f64| {
         let low = first.iter().map(|corner| normal.dot(&corner.at) + normal.dot(&corner.rate) * by - corner.error);

@@ -1,7 +1,7 @@
-//! Smallest distances and first meetings of pairs over the range, by halving what is not proven clear.
+//! Smallest distances and first meetings of pairs over the range, by bisection of the parts not yet proven clear.
 //!
-//! Every part of the range is proven clear of the smallest distance known so far, or halved. So nothing lies between
-//! instants: the search ends when every part is proven, and what is left at the smallest size is told.
+//! Each part of the range is either proven clear of the smallest distance found so far, or halved. The search ends when
+//! every part is proven, so that no instant is skipped; parts left at the smallest size are reported.
 
 use linkage::error::Result;
 use linkage::math::extremum::golden;
@@ -10,50 +10,53 @@ use linkage::math::{KeepNan, Vec2};
 use super::gap::{Gap, PlacedSolid, Solid, gap};
 use super::tube::{MOST_HALVINGS, RangePart, Slice, Tubes};
 
-/// Steps of golden section that refine the smallest distance found, and how often it may leave its bracket.
+/// Golden-section steps that refine the smallest distance found; also the largest number of times it may leave its
+/// bracket.
 const REFINEMENTS: usize = 30;
 const STRIDES: usize = 8;
-/// Halvings beyond [`MOST_HALVINGS`] by which a first meeting is enclosed.
+/// Halvings beyond [`MOST_HALVINGS`] that enclose a first meeting.
 const FURTHER: u32 = 6;
 
-/// A part of the range, whether its bounds are proven, and the bound of every pair that is not done yet (m).
+/// Part of the range, whether its bounds are proven, and the bound of every unfinished pair (m).
 type Bounds = (RangePart, bool, Vec<(usize, f64)>);
 
 /// Smallest distance of a pair over the range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Smallest {
-    /// The smallest distance found (m), 0 where the two meet: at the crank angle and the points below.
+    /// Smallest distance found (m), at `crank` and between `points`; 0 where the two meet.
     pub distance: f64,
-    /// No distance over the range is smaller than this (m), except over ranges that are not proven.
+    /// Lower bound of the distance over the range (m), except over parts without a proof.
     pub least: f64,
-    /// Crank angle of the distance (rad).
+    /// Crank angle of the smallest distance (rad).
     pub crank: f64,
-    /// The nearest points there, of the first and of the second body (m, world).
+    /// Nearest points at this crank angle, on the first and the second body (m, world).
     pub points: [Vec2; 2],
 }
 
-/// Where a pair first comes as near as a given distance.
+/// First place where a pair comes as near as a given distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// Two crank angles (rad) in the order of the motion: until the first the two are farther apart, at the second not.
+    /// Two crank angles (rad) in the direction of motion that enclose the meeting: the distance is proven larger up to
+    /// the
+    /// first, and reached at the second.
     pub cranks: [f64; 2],
-    /// Where they meet at the second (m, world).
+    /// Point of the meeting at the second crank angle (m, world).
     pub place: Vec2,
 }
 
-/// What a search needs and what it has cost.
+/// Inputs and operation counts of a search.
 pub struct DistanceSearch<'a, 'c> {
-    /// The range.
+    /// Range of crank angles, with the tubes of the links.
     pub tubes: &'a mut Tubes<'c>,
     /// All bodies.
     pub solids: &'a [Solid],
-    /// Distance (m) that two results may differ by.
+    /// Tolerance of a distance (m).
     pub tolerance: f64,
-    /// Distance (m) that counts as none.
+    /// Distance that counts as contact (m).
     pub touch: f64,
-    /// Pairs of pieces whose nearest points were asked for.
+    /// Number of pairs of pieces whose nearest points were computed.
     pub asked: usize,
-    /// Pairs of pieces that may still be looked at.
+    /// Number of pairs of pieces that may still be examined.
     pub budget: usize,
     /// Ranges of crank angles (rad) over which nothing is proven.
     pub open: Vec<[f64; 2]>,
@@ -70,10 +73,10 @@ impl DistanceSearch<'_, '_> {
         gap(bodies, places, slice, self.tubes.rounding(), enough, &mut self.asked)
     }
 
-    /// The smallest distances of pairs of bodies.
+    /// Computes the smallest distances of pairs of bodies.
     ///
     /// # Errors
-    /// Those of a pose.
+    /// Those of the pose solver.
     pub fn smallest(&mut self, pairs: &[[usize; 2]]) -> Result<Vec<Smallest>> {
         let unknown =
             Smallest { distance: f64::INFINITY, least: f64::INFINITY, crank: f64::NAN, points: [Vec2::zeros(); 2] };
@@ -81,7 +84,7 @@ impl DistanceSearch<'_, '_> {
         let mut parts: Vec<(RangePart, Vec<usize>)> =
             self.tubes.parts().map(|part| (part, (0..pairs.len()).collect())).collect();
         while !parts.is_empty() {
-            // Every pair's distances at this size first: the smallest of them spares halvings.
+            // First the distances of all pairs at this size: the smallest of them saves halvings.
             let mut bounds: Vec<Bounds> = Vec::with_capacity(parts.len());
             for (part, alive) in parts {
                 let slice = self.tubes.at(part)?;
@@ -135,12 +138,12 @@ impl DistanceSearch<'_, '_> {
         Ok(best)
     }
 
-    /// Notes a part over which nothing is proven.
+    /// Records a part over which nothing is proven.
     fn leave(&mut self, part: RangePart) {
         self.open.push(self.tubes.ends(part));
     }
 
-    /// Follows the distance down to its minimum beside the best instant.
+    /// Refines the distance to its minimum near the best instant.
     fn refine(&mut self, own: &mut Smallest, pair: [usize; 2]) -> Result<()> {
         let [from, to] = self.tubes.range();
         let (low, high) = (from.smaller(to), from.larger(to));
@@ -157,7 +160,7 @@ impl DistanceSearch<'_, '_> {
                 Ok::<f64, linkage::Error>(-found.now)
             };
             golden(ends, REFINEMENTS, &mut look)?;
-            // Golden section does not look at the ends.
+            // Golden section never evaluates the ends.
             look(ends[0])?;
             look(ends[1])?;
             if (own.crank - begun).abs() < 0.9 * wide {
@@ -167,14 +170,15 @@ impl DistanceSearch<'_, '_> {
         Ok(())
     }
 
-    /// Where a pair first comes as near as `threshold` (m); `None` if it is proven farther apart all the way.
+    /// Finds where a pair first comes as near as `threshold` (m); `None` if it is proven farther apart over the whole
+    /// range.
     ///
     /// # Errors
-    /// Those of a pose.
+    /// Those of the pose solver.
     pub fn first(&mut self, pair: [usize; 2], threshold: f64) -> Result<Option<Meeting>> {
         let enough = threshold + self.touch;
         let mut ahead: Vec<RangePart> = self.tubes.parts().rev().collect();
-        // End of what is proven.
+        // End of the proven range.
         let mut clear = None;
         while let Some(part) = ahead.pop() {
             let slice = self.tubes.at(part)?;
@@ -184,7 +188,7 @@ impl DistanceSearch<'_, '_> {
                 clear = Some(to);
                 continue;
             }
-            // A part that is proven to move is halved until it moves by less than what counts as contact.
+            // A sound part is halved until it moves by less than the contact distance.
             let narrow = part.halvings >= MOST_HALVINGS + if slice.sound { FURTHER } else { 0 };
             if narrow {
                 for crank in [slice.crank, to] {

@@ -1,9 +1,10 @@
 //! Area that a body sweeps: the union of all its positions over the range.
 //!
-//! The plane is divided into squares, and a square into four where it is neither proven covered nor proven free.
-//! Covered is a square that lies inside the outline at one instant, or that one of its sides passes over.
-//! Free is a square that the outline does not come near over any part of the range, by the bounds of [`super::gap`].
-//! What is left at the end lies on the border. It is the bound of the area, and a straight border gives its share.
+//! The plane is divided into squares; a square neither proven covered nor proven free is divided into four.
+//! A square is covered if it lies inside the outline at one instant or if a side of the outline passes over it.
+//! A square is free if the outline stays away from it over every part of the range, by the bounds of [`super::gap`].
+//! The remaining squares lie on the border. They give the error bound of the area, and a straight border gives their
+//! covered share.
 
 #[cfg(test)]
 mod tests;
@@ -15,36 +16,36 @@ use linkage::mechanism::LinkId;
 use super::tube::{MOST_HALVINGS, RangePart, Track, Tube, Tubes};
 use scenario::clearance::Outline;
 
-/// Share of a square's half diagonal within which the outline's border moves over a part of the range.
+/// Largest displacement of the outline's border over a part of the range, as a share of a square's half diagonal.
 const SPREAD: f64 = 0.5;
-/// A window is so many times as wide as its part of the range. Those of its ancestors, so many, are asked too.
+/// Width of a window in widths of its part of the range; also the number of ancestors whose windows are tried.
 const WINDOW: f64 = 4.0;
 const ANCESTORS: usize = 4;
-/// Share of a square's half diagonal below which a border is taken as not crossing it.
+/// Share of a square's half diagonal below which a border counts as not crossing the square.
 const CROSSING: f64 = 0.02;
-/// Halvings of the first square after which no more is tried.
+/// Largest number of halvings of the first square.
 const MOST_DIVISIONS: usize = 24;
 
 /// A swept area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
-    /// The area (m2), with the border taken as straight in every square that it crosses.
+    /// Area (m2), computed with a straight border in every square that the border crosses.
     pub value: f64,
-    /// Area that is proven covered (m2).
+    /// Proven lower bound: covered area (m2).
     pub least: f64,
-    /// The same and the squares on the border (m2): the area is proven not to be larger.
+    /// Proven upper bound: covered area with the squares on the border (m2).
     pub most: f64,
 }
 
 impl Area {
-    /// Largest error of the value (m2).
+    /// Error bound of the value (m2).
     #[must_use]
     pub fn error(&self) -> f64 {
         (self.most - self.value).larger(self.value - self.least)
     }
 }
 
-/// A part of the range with the body's place.
+/// Part of the range with the tube of the body.
 struct Node {
     part: RangePart,
     half: f64,
@@ -53,48 +54,48 @@ struct Node {
     sides: Vec<[Track; 2]>,
     parent: Option<u32>,
     halves: Option<u32>,
-    /// The sides over a wider part around the same middle, once they were asked for.
+    /// Sides over a wider part around the same middle, computed on demand.
     window: Option<Window>,
 }
 
-/// Sides of an outline over a part of the range; none if nothing is proven of them.
+/// Sides of an outline over a part of the range; empty if nothing is proven about them.
 struct Window {
     half: f64,
     sides: Vec<[Track; 2]>,
 }
 
-/// What a square is.
+/// Class of a square.
 enum Square {
     Covered,
     Free,
-    /// On the border: parts of the range that come near, and the covered share if the border is straight.
+    /// On the border: the parts of the range that come near, and the covered share for a straight border.
     Border(Vec<u32>, f64),
 }
 
-/// The search for one body's swept area.
+/// Search for the swept area of one body.
 pub struct Sweep<'a, 'c> {
     tubes: &'a mut Tubes<'c>,
     outline: &'a Outline,
     link: LinkId,
     nodes: Vec<Node>,
     rounding: f64,
-    /// Tests of a square against a part of the range.
+    /// Number of tests of a square against a part of the range.
     pub tests: usize,
-    /// Ranges of crank angles (rad) whose positions are left out, because nothing is proven of them.
+    /// Ranges of crank angles (rad) left out of the area because nothing is proven over them.
     pub open: Vec<[f64; 2]>,
 }
 
 impl<'a, 'c> Sweep<'a, 'c> {
-    /// For a link with an outline.
+    /// Creates the search for a link with an outline.
     pub fn new(tubes: &'a mut Tubes<'c>, link: LinkId, outline: &'a Outline) -> Self {
         let rounding = tubes.rounding();
         Sweep { tubes, outline, link, nodes: Vec::new(), rounding, tests: 0, open: Vec::new() }
     }
 
-    /// The area, to a share `wanted` of itself, or as near as `budget` tests allow.
+    /// Computes the area to the relative tolerance `wanted`, or as accurately as `budget` tests allow.
     ///
     /// # Errors
-    /// Those of a pose.
+    /// Those of the pose solver.
     pub fn area(&mut self, wanted: f64, budget: usize) -> Result<Area> {
         let first = self.sound_parts()?;
         if first.is_empty() {
@@ -128,7 +129,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(best)
     }
 
-    /// The range in parts over which the bounds are proven, as far as such parts can be had.
+    /// Divides the range into parts with proven bounds, as far as possible.
     fn sound_parts(&mut self) -> Result<Vec<u32>> {
         let mut ahead: Vec<RangePart> = self.tubes.parts().rev().collect();
         let mut found = Vec::with_capacity(ahead.len());
@@ -145,7 +146,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(found)
     }
 
-    /// Both corners of a box around all positions.
+    /// Returns both corners of a box around all positions.
     fn bounds(&self, nodes: &[u32]) -> [Vec2; 2] {
         let radius = self.outline.radius();
         let mut ends = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
@@ -179,8 +180,9 @@ impl<'a, 'c> Sweep<'a, 'c> {
         self.outline.sides().map(|side| side.map(|end| tube.point(end))).collect()
     }
 
-    /// Whether a side passes over a disc within a wider part around a node's middle or that of one of its ancestors.
-    /// A part of the range that is as short as the square is small moves a side only into it, and not over it.
+    /// Whether a side passes over a disc within a wider part around a node's middle or the middle of one of its
+    /// ancestors.
+    /// Over a part as short as the square is small, a side moves only into the square, not across it.
     fn is_passed(&mut self, node: u32, centre: Vec2, about: f64) -> Result<bool> {
         let mut next = Some(node);
         for _ in 0..ANCESTORS {
@@ -210,7 +212,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(Window { half: slice.half, sides })
     }
 
-    /// The halves of a part, made once. The second follows the first. `None` where nothing is proven of a half.
+    /// Returns the halves of a part, in order, computing them once; `None` if nothing is proven over a half.
     fn halves(&mut self, node: u32) -> Result<Option<[u32; 2]>> {
         if let Some(first) = self.nodes[node as usize].halves {
             return Ok(Some([first, first + 1]));
@@ -227,7 +229,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
 
     fn judge(&mut self, centre: Vec2, half: f64, near: &[u32]) -> Result<Square> {
         let about = half * std::f64::consts::SQRT_2 + self.rounding;
-        // Coarse parts first: one of them may cover the square, and spares the halves of all others.
+        // Coarse parts first: if one covers the square, the halves of all other parts are not needed.
         let (mut ahead, mut next) = (near.to_vec(), 0);
         let (mut kept, mut crossing, mut lowest) = (Vec::new(), Vec::new(), (f64::INFINITY, Vec2::new(1.0, 0.0)));
         while let Some(&index) = ahead.get(next) {
@@ -239,7 +241,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
                 return Ok(Square::Covered);
             }
             let away = rotated(node.tube.frame().1, away);
-            // The border's own point moves away from the square, or towards it.
+            // The nearest point of the border moves away from the square or towards it.
             let border = node.tube.point(node.tube.local(centre - away * (now + self.outline.radius())));
             let swing = away.dot(&border.rate).abs() * node.half;
             if self.least(node, centre) > about {
@@ -271,7 +273,8 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(if kept.is_empty() { Square::Free } else { Square::Border(kept, share(lowest.0, lowest.1, half)) })
     }
 
-    /// The body does not come nearer to a place than this over a part of the range (m); negative where it may cover it.
+    /// Lower bound of the body's distance from a place over a part of the range (m); negative where the body may cover
+    /// it.
     fn least(&self, node: &Node, place: Vec2) -> f64 {
         let mut least = f64::INFINITY;
         for part in &node.parts {
@@ -292,8 +295,9 @@ impl<'a, 'c> Sweep<'a, 'c> {
     }
 }
 
-/// The point of a convex part, a place, a segment or a counter-clockwise polygon, that is nearest to a place; the place
-/// itself inside.
+/// Returns the point of a convex part (point, segment or counter-clockwise polygon) nearest to a place; the place
+/// itself
+/// if it lies inside.
 fn nearest(part: &[Track], place: Vec2) -> Vec2 {
     let count = part.len();
     let side = |k: usize| [part[k].at, part[(k + 1) % count].at];
@@ -312,9 +316,9 @@ fn nearest(part: &[Track], place: Vec2) -> Vec2 {
     best.1
 }
 
-/// Whether a side passes over a whole disc within a part of the range: the disc is on one side of it at the beginning,
-/// on the other at the end, and between the side's ends all the time. Then every place of the disc is on the side at
-/// some instant.
+/// Whether a side passes over a whole disc within a part of the range: the disc lies on one side of it at the start, on
+/// the other at the end, and between the side's ends throughout. Every point of the disc is then on the side at some
+/// instant.
 fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool {
     let error = from.error + to.error;
     let signed = |by: f64| {
@@ -322,12 +326,12 @@ fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool 
         cross(b - a, centre - a) / (b - a).norm()
     };
     let [before, after] = [signed(-half), signed(half)];
-    // Nothing is sure of a line whose ends are not much farther apart than their errors.
+    // A line whose ends are hardly farther apart than their errors has no proven direction.
     let sure = about + 2.0 * error;
     if !(before.abs() > sure && after.abs() > sure && before * after < 0.0) {
         return false;
     }
-    // (centre - a) . (b - a) over the part is a quadratic function; the same from the other end.
+    // (centre - a) . (b - a) is a quadratic function over the part; likewise from the other end.
     let beyond = |a: &Track, b: &Track| {
         let (own, along) = (centre - a.at, b.at - a.at);
         let (moved, turned) = (-a.rate, b.rate - a.rate);
@@ -344,7 +348,7 @@ fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool 
     longest > 4.0 * error && beyond(from, to) && beyond(to, from)
 }
 
-/// Share of a square with half the side `half` that lies where `value` + `away` . (place - centre) <= 0.
+/// Returns the share of a square with half side `half` where `value` + `away` . (place - centre) <= 0.
 fn share(value: f64, away: Vec2, half: f64) -> f64 {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec2::new(x, y) * half);
     let mut kept: Vec<Vec2> = Vec::with_capacity(6);

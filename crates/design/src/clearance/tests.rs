@@ -1,4 +1,4 @@
-//! Closed forms: a lever over a wall, a plate on a slider, areas of sectors and strips.
+//! Closed-form checks: a lever over a wall, a plate on a slider, areas of sectors and strips.
 
 use std::f64::consts::{PI, TAU};
 
@@ -42,7 +42,7 @@ fn four_bar() -> Case {
     case.build().unwrap()
 }
 
-/// All links as capsules, and walls.
+/// Question with all links as capsules, and walls.
 fn question(case: &Case, radius: f64, walls: &[(&str, Outline)]) -> ClearanceQuestion {
     let links = case.mechanism.links().entries().skip(1);
     let mut bodies: Vec<ClearanceBody> = links
@@ -82,19 +82,19 @@ fn a_lever_over_a_wall() {
     assert!((crank.smallest.distance - expected).abs() < 1e-12, "{crank:?}");
     assert!((crank.smallest.crank - 1.5 * PI).abs() < 1e-6, "{crank:?}");
     assert!(crank.smallest.least > expected - 1e-6 && crank.collision.is_none());
-    // The slider's distance from the floor is the same all the way.
+    // The slider keeps its distance from the floor throughout.
     let piston = of(&asked, &found, ["piston", "floor"]);
     assert!((piston.smallest.distance - 0.135).abs() < 1e-12 && piston.smallest.least > 0.135 - 1e-6, "{piston:?}");
     assert!(found.open.is_empty());
     assert_eq!(found.smallest().unwrap().bodies, crank.bodies);
 }
 
-/// A nail that the crank's end passes within a ten-thousandth of a degree.
+/// The crank's end passes the nail within a ten-thousandth of a degree.
 #[test]
 fn a_thin_crossing_between_two_instants_is_found() {
     let (case, radius) = (slider_crank(), 1e-7);
     let at = 77.123_456_f64.to_radians();
-    // The nail's near side is 1e-13 m inside of the circle of the crank's end.
+    // The near side of the nail lies 1e-13 m inside the circle of the crank's end.
     let nail = Vec2::new(at.cos(), at.sin()) * (0.1 + 2.0 * radius - 1e-13);
     let mut asked = question(&case, radius, &[("nail", line(&[(nail.x, nail.y)], radius))]);
     asked.pairs.retain(|pair| *pair == [0, 3]);
@@ -110,7 +110,7 @@ trait MaxZero {
     fn max_zero(self) -> f64;
 }
 impl MaxZero for f64 {
-    /// A distance below a billionth of the size is none.
+    /// Sets a distance below a billionth of the size to zero.
     fn max_zero(self) -> f64 {
         if self < 3e-10 { 0.0 } else { self }
     }
@@ -123,10 +123,10 @@ fn the_first_meeting_is_where_the_distance_falls_to_nothing() {
     let found = find(&case, &asked, &mut |_| ()).unwrap();
     let crank = of(&asked, &found, ["crank", "post"]);
     let meeting = crank.collision.unwrap();
-    // The post is 0.014 m from the crank's line at sin(90 deg - a) = 0.014 / 0.09.
+    // The post lies 0.014 m from the crank's line at sin(90 deg - a) = 0.014 / 0.09.
     let expected = (0.014_f64 / 0.09).acos();
     assert!((meeting.cranks[1] - expected).abs() < 1e-7, "{} {expected}", meeting.cranks[1]);
-    // Up to a crank angle just before, no contact is proven.
+    // The pair is proven clear up to a crank angle just before.
     assert!(meeting.cranks[0] <= expected && expected - meeting.cranks[0] < 1e-5, "{meeting:?}");
     assert_eq!(crank.smallest.distance, 0.0);
     assert_eq!(found.first_collision().unwrap().0.bodies[1], crank.bodies[1]);
@@ -134,7 +134,7 @@ fn the_first_meeting_is_where_the_distance_falls_to_nothing() {
     assert!(((meeting.place - Vec2::new(0.0, 0.09)).norm() - 0.004).abs() < 1e-6, "{meeting:?}");
 }
 
-/// Of two posts the one that is met first, whichever stands first in the question, in either sense of the crank.
+/// Of two posts the one met first is reported, whatever their order in the question and the sense of the crank.
 #[test]
 fn the_first_of_all_collisions_is_the_first_on_the_way() {
     for sense in [1.0, -1.0] {
@@ -159,16 +159,16 @@ fn the_first_of_all_collisions_is_the_first_on_the_way() {
         assert!(found.pairs.iter().all(|pair| pair.collision.is_some()));
         assert_eq!(first.bodies, [0, 4]);
         assert!((meeting.cranks[1].abs() - 0.5 * PI).abs() < 0.1, "{meeting:?}");
-        // Areas ask for hardly any pose that distances have not.
+        // Areas need hardly any pose beyond those for distances.
         assert!(found.work.positions < found.work.poses, "{:?}", found.work);
     }
-    // Where branches cross, the next turn may take another one.
+    // Where branches cross, the next turn may take the other branch.
     let smooth = slider_crank().with(|parts| parts.drives.crank_mut().through = true).unwrap();
     let grid = linkage::case::Grid::of_inputs(smooth.crank(), vec![0.0, 3.0 * PI]);
     assert_eq!(range(&smooth.on(grid).unwrap()).unwrap(), [0.0, 3.0 * PI]);
 }
 
-/// A lever without width, ten times as long as the mechanism, passes a place in no time at all.
+/// A lever of zero width, ten times as long as the mechanism, passes a place almost instantly.
 #[test]
 fn a_long_lever_is_found_where_it_meets() {
     let case = slider_crank();
@@ -180,7 +180,7 @@ fn a_long_lever_is_found_where_it_meets() {
     assert!(found.open.is_empty() && (meeting.cranks[1] - 1.0).abs() < 1e-9, "{meeting:?}");
 }
 
-/// What rounding may hide is not proven: of nearest points, and of both tracks.
+/// The proven bound leaves out what rounding may hide: rounding of the nearest points and of both tracks.
 #[test]
 fn a_distance_is_proven_but_for_rounding() {
     let case = slider_crank();
@@ -191,12 +191,12 @@ fn a_distance_is_proven_but_for_rounding() {
     let [one, two] = [&solids[0], &solids[3]];
     let places = [&one.placed(&slice), &two.placed(&slice)];
     let found = gap::gap([one, two], places, &slice, rounding, f64::INFINITY, &mut 0);
-    // The post stands still, and the nearest points are on the crank's line and on the post.
+    // The post is at rest; the nearest points lie on the crank's line and on the post.
     let expected = 0.3 - 0.1 * 0.3f64.sin() - 0.02;
     assert!(found.now > expected - 0.01 && found.now - found.least >= 1.99 * rounding, "{found:?} {rounding}");
 }
 
-/// A polygon is the same in either sense: counter-clockwise corners, parts that cover it, and distances from it.
+/// A polygon given in either sense has counter-clockwise corners, the same cover by parts and the same distances.
 #[test]
 fn a_polygon_is_the_same_in_either_sense() {
     let angle = [(0.0, 0.0), (0.3, 0.0), (0.3, 0.1), (0.1, 0.1), (0.1, 0.4), (0.0, 0.4)].map(|(x, y)| Vec2::new(x, y));
@@ -215,7 +215,8 @@ fn a_polygon_is_the_same_in_either_sense() {
     }
 }
 
-/// A double knows a place at a thousand metres to a thousand times its epsilon, whichever body's or link's it is.
+/// The rounding error of a place grows with its distance from the origin, of a body and of a link: at a thousand metres
+/// a double resolves a thousand times its epsilon.
 #[test]
 fn rounding_goes_with_the_farthest_place() {
     let case = slider_crank();
@@ -239,8 +240,9 @@ fn parts_that_touch_are_put_together_in_the_order_of_the_motion() {
     assert_eq!(merged(back, [0.0, -5.0]), [[-1.0, -2.5], [-3.0, -4.0]]);
 }
 
-/// Parts of the housing cannot meet, joined links touch where they are joined, and a pair may be left out in either
-/// order.
+/// Excluded pairs: two parts of the housing, joined links, which touch at their joint, and pairs named in the question
+/// in
+/// either order.
 #[test]
 fn pairs_that_cannot_meet_are_not_asked_for() {
     let case = four_bar();
@@ -277,7 +279,9 @@ fn pairs_that_cannot_meet_are_not_asked_for() {
     assert!(!are_joined(&mechanism, [1, 5].map(LinkId)) && !are_joined(&mechanism, [3, 5].map(LinkId)));
 }
 
-/// Without rounding, the direction of nearest points is lost where two corners come close; their sides have it.
+/// Without rounding, the direction of the nearest points is lost where two corners come close; the normals of their
+/// sides
+/// remain.
 #[test]
 fn sharp_corners_meet() {
     let case = slider_crank();
@@ -290,7 +294,7 @@ fn sharp_corners_meet() {
     let found = find(&case, &asked, &mut |_| ()).unwrap();
     assert!(found.open.is_empty(), "{:?}", found.open);
     let meeting = found.pairs[0].collision.unwrap();
-    // The tip at 0.12 m comes to the side from (0, 0.1) to (0.3, 0.11).
+    // The tip at 0.12 m reaches the side from (0, 0.1) to (0.3, 0.11).
     let tip = Vec2::new(meeting.cranks[1].cos(), meeting.cranks[1].sin()) * 0.12;
     assert!((tip.y - 0.1 - tip.x * 0.01 / 0.3).abs() < 1e-8, "{meeting:?}");
 }
@@ -304,17 +308,17 @@ fn swept_areas_are_closed_forms() {
         assert!(area.error() < 3e-3 * expected, "{area:?} {expected}");
         assert!((area.value - expected).abs() < 5e-4 * expected, "{area:?} {expected}");
     };
-    // The crank a disc, the piston's disc a strip with round ends.
+    // The crank sweeps a disc, the piston's disc a strip with round ends.
     near(found.swept[0], PI * 0.12 * 0.12);
     near(found.swept[2], 0.2 * 0.04 + PI * 0.02 * 0.02);
-    // Over 70 deg the crank sweeps a sector: an area, its border's length times the radius, and the disc.
+    // Over 70 deg the crank sweeps a sector, a band of the border's length times the radius, and the disc.
     let part = case.on(linkage::case::Grid::of_inputs(case.crank(), vec![0.3, 0.3 + PI * 70.0 / 180.0])).unwrap();
     let found = find(&part, &question(&case, radius, &[]), &mut |_| ()).unwrap();
     let turn = PI * 70.0 / 180.0;
     near(found.swept[0], turn / 2.0 * 0.01 + (0.2 + 0.1 * turn) * radius + PI * radius * radius);
 }
 
-/// A link without width covers what its line passes over.
+/// A link of zero width covers what its line passes over.
 #[test]
 fn a_thin_link_sweeps_an_area() {
     let case = slider_crank();
@@ -322,12 +326,12 @@ fn a_thin_link_sweeps_an_area() {
     let (_, area) = found.swept[0];
     let expected = PI * 0.01;
     assert!((area.least..=area.most).contains(&expected) && area.error() < 6e-3 * expected, "{area:?} {expected}");
-    // Half of the rod's border is an envelope, which the work allowed leaves broad.
+    // Half of the rod's border is an envelope, which stays wide within the allowed work.
     let (_, thin) = found.swept[1];
     assert!(thin.error() < 0.05 * thin.value, "{thin:?}");
 }
 
-/// Tubes hold the true poses at any crank angle between, and neighbours overlap.
+/// Tubes contain the true poses at every crank angle between, and neighbouring tubes overlap.
 #[test]
 fn tubes_hold_the_motion() {
     for case in [slider_crank(), four_bar()] {
@@ -351,15 +355,15 @@ fn tubes_hold_the_motion() {
                 }
             }
         }
-        // Second order, not much more: h^2 / 2 times accelerations of up to 0.5 m/rad2.
+        // Second order and hardly more: h^2 / 2 times accelerations of up to 0.5 m/rad2.
         assert!(widest < 0.005, "{widest}");
     }
 }
 
-/// At a dead point nothing is proven, and that is told.
+/// At a dead point nothing is proven, and the result says so.
 #[test]
 fn a_singular_pose_is_left_open() {
-    // A parallelogram at its change point, passed smoothly.
+    // Parallelogram at its change point, passed smoothly.
     let case = Case::builder()
         .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.0])])
         .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])

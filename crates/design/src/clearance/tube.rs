@@ -1,16 +1,19 @@
-//! Where links are over an interval of crank angles: poses of side 1 at its middle, and a proven bound on the rest.
+//! Poses of all links over an interval of crank angles: side 1's pose at the middle and a proven bound over the rest.
 //!
-//! Over the interval a link is taken to move evenly: its reference point along a straight line, its angle in proportion
-//! to the crank angle. How far the true motion may be from that follows group by group, for all crank angles of the
-//! interval at once (Krawczyk 1969; Moore 1977). With x the poses of a group's links, F(x) = 0 its joints, x0 the even
-//! motion and A an inverse of the derivative of F at the middle, T(x) = x - A F(x) maps the box |x - x0| <= r into
+//! Over the interval the even motion approximates a link: its reference point moves along a straight line, its angle in
+//! proportion to the crank angle. The deviation of the true motion is bounded group by group, for all crank angles of
+//! the
+//! interval at once (Krawczyk 1969; Moore 1977). With x the poses of a group's links, F(x) = 0 its joint equations, x0
+//! the
+//! even motion and A an inverse of the derivative of F at the middle, T(x) = x - A F(x) maps the box |x - x0| <= r into
 //! itself and contracts if
 //!
 //!   |A| |F(x0)| + (|1 - A F'(middle)| + |A| |F' - F'(middle)|) r <= r.
 //!
-//! Then the box holds exactly one pose for every crank angle, and it is the one that begins at the middle: no other
-//! branch, no sampling. F is linear but for the sines and cosines of the links' angles, so that F(x0) and the change of
-//! F' have bounds in closed form: |exp(i a) - 1 - i a| <= a^2 / 2 and |exp(i a) - 1| <= |a|.
+//! Then the box contains exactly one pose for every crank angle, and this pose continues the pose at the middle: the
+//! branch is proven without sampling. F is linear except for the sines and cosines of the links' angles, so F(x0) and
+//! the
+//! change of F' have closed-form bounds: |exp(i a) - 1 - i a| <= a^2 / 2 and |exp(i a) - 1| <= |a|.
 
 #[cfg(test)]
 mod tests;
@@ -25,56 +28,56 @@ use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned};
 use linkage::mechanism::{GROUND, Group, Joint, LinkId};
 use linkage::trajectory::Stage;
 
-/// Largest first part of the range (rad).
+/// Largest width of a first part of the range (rad).
 const FIRST: f64 = std::f64::consts::PI / 24.0;
-/// Halvings of a first part after which no more is tried: a ten-millionth of it.
+/// Largest number of halvings of a first part, down to about 1.5e-8 of it.
 pub const MOST_HALVINGS: u32 = 26;
-/// Trials of a larger box, and by how much the last one is widened.
+/// Largest number of trials with a larger box, and the factor by which each trial widens it.
 const TRIALS: usize = 12;
 const WIDER: f64 = 1.1;
-/// Rounding of a place, as a share of the lengths it is made of.
+/// Rounding error of a place, as a share of the lengths that enter it.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
-/// Slices that are kept. More are computed again when they are asked for again.
+/// Number of cached slices; further slices are recomputed on demand.
 const KEPT: usize = 20_000;
 
-/// A part of the range: one of the first parts, halved so many times.
+/// Part of the range: a first part, halved `halvings` times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RangePart {
-    /// Halvings.
+    /// Number of halvings.
     pub halvings: u32,
-    /// Number among the parts of this size, in the order of the motion.
+    /// Index among the parts of this size, in the direction of motion.
     pub index: u64,
 }
 
 impl RangePart {
-    /// Its two halves, in the order of the motion.
+    /// Returns both halves, in the direction of motion.
     #[must_use]
     pub fn halves(self) -> [RangePart; 2] {
         [0, 1].map(|half| RangePart { halvings: self.halvings + 1, index: 2 * self.index + half })
     }
 }
 
-/// A point of a link over a part of the range: `at` + `rate` d at the distance d from the middle crank angle (m, m/rad),
-/// and at most `error` (m) from that.
+/// Point of a link over a part of the range: `at` + `rate` d at the crank angle d from the middle (m, m/rad), with an
+/// error of at most `error` (m).
 #[derive(Clone, Copy, Debug)]
 pub struct Track {
-    /// Place at the middle (m).
+    /// Position at the middle (m).
     pub at: Vec2,
-    /// Derivative by the crank angle (m/rad).
+    /// Derivative with respect to the crank angle (m/rad).
     pub rate: Vec2,
-    /// Largest distance of the true place from the even motion (m).
+    /// Largest deviation of the true position from the even motion (m).
     pub error: f64,
 }
 
 impl Track {
-    /// Largest distance from the place at the middle (m), within `half` (rad) of it.
+    /// Largest distance from the position at the middle (m), within `half` (rad) of it.
     #[must_use]
     pub fn reach(&self, half: f64) -> f64 {
         self.rate.norm() * half + self.error
     }
 }
 
-/// A link over a part of the range.
+/// Enclosure of a link's motion over a part of the range.
 #[derive(Clone, Copy, Debug)]
 pub struct Tube {
     /// Reference point in the link's frame (m).
@@ -83,7 +86,7 @@ pub struct Tube {
     rate: Vec2,
     direction: Vec2,
     spin: f64,
-    /// Bounds of the reference point (m) and of the angle (rad).
+    /// Error bounds of the reference point (m) and of the angle (rad).
     off: f64,
     twist: f64,
     half: f64,
@@ -101,7 +104,7 @@ impl Tube {
         half: 0.0,
     };
 
-    /// A point of the link (m, in its frame).
+    /// Track of a point of the link (m, in its frame).
     #[must_use]
     pub fn point(&self, local: Vec2) -> Track {
         let (arm, turn) = (rotated(self.direction, local - self.centre), self.turn());
@@ -112,38 +115,38 @@ impl Tube {
         }
     }
 
-    /// Largest turn from the middle (rad).
+    /// Largest rotation from the middle (rad).
     fn turn(&self) -> f64 {
         self.spin.abs() * self.half + self.twist
     }
 
-    /// Origin and direction of the link's frame at the middle.
+    /// Origin and direction of the link's frame at the middle (m, world).
     #[must_use]
     pub fn frame(&self) -> (Vec2, Vec2) {
         (self.at - rotated(self.direction, self.centre), self.direction)
     }
 
-    /// A world place in the link's frame at the middle (m).
+    /// Converts a world position into the link's frame at the middle (m).
     #[must_use]
     pub fn local(&self, place: Vec2) -> Vec2 {
         rotated(Vec2::new(self.direction.x, -self.direction.y), place - self.at) + self.centre
     }
 }
 
-/// All links over a part of the range.
+/// Enclosures of all links over a part of the range.
 #[derive(Debug)]
 pub struct Slice {
     /// Crank angle at the middle (rad).
     pub crank: f64,
-    /// Half of the part (rad), not negative.
+    /// Half width of the part (rad), not negative.
     pub half: f64,
     /// The links.
     pub tubes: Vec<Tube>,
-    /// Whether the bounds are proven. Without that only the poses at the middle are known.
+    /// Whether the bounds are proven; otherwise only the poses at the middle are known.
     pub sound: bool,
 }
 
-/// The range of crank angles, and where all links are over its parts.
+/// Range of crank angles, with the enclosures of all links over its parts.
 pub struct Tubes<'a> {
     case: &'a Case,
     solver: PoseSolver<'a>,
@@ -153,13 +156,14 @@ pub struct Tubes<'a> {
     first: u64,
     scale: f64,
     kept: BTreeMap<RangePart, Rc<Slice>>,
-    /// Poses of side 1 that were computed.
+    /// Number of poses computed by side 1.
     pub poses: usize,
 }
 
 impl<'a> Tubes<'a> {
-    /// The range from one crank angle to another (rad, in the order of the motion). `extent` is the largest distance of
-    /// a place that is asked for from the origin of its frame (m): rounding goes with it.
+    /// Creates the tubes for the range between two crank angles (rad, in the direction of motion). `extent` is the
+    /// largest
+    /// distance of a queried point from the origin of its frame (m); the rounding bound grows with it.
     ///
     /// # Errors
     /// Those of [`PoseSolver::new`].
@@ -184,37 +188,37 @@ impl<'a> Tubes<'a> {
         })
     }
 
-    /// The parts that the range begins with.
+    /// First parts of the range.
     pub fn parts(&self) -> impl DoubleEndedIterator<Item = RangePart> + use<> {
         (0..self.first).map(|index| RangePart { halvings: 0, index })
     }
 
-    /// Both ends of a part (rad), in the order of the motion.
+    /// Both ends of a part (rad), in the direction of motion.
     #[must_use]
     pub fn ends(&self, part: RangePart) -> [f64; 2] {
         let count = self.first as f64 * f64::from(part.halvings).exp2();
         [0, 1].map(|end| self.from + (self.to - self.from) * ((part.index + end) as f64 / count))
     }
 
-    /// Both ends of the range (rad), in the order of the motion.
+    /// Both ends of the range (rad), in the direction of motion.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
         [self.from, self.to]
     }
 
-    /// Size of the mechanism with its place in the world (m).
+    /// Size of the mechanism including its distance from the world origin (m).
     #[must_use]
     pub fn scale(&self) -> f64 {
         self.scale
     }
 
-    /// Rounding of places (m).
+    /// Rounding error of positions (m).
     #[must_use]
     pub fn rounding(&self) -> f64 {
         ROUNDING * self.scale
     }
 
-    /// All links over a part.
+    /// Returns the enclosures of all links over a part.
     ///
     /// # Errors
     /// Those of [`PoseSolver::solve`].
@@ -230,7 +234,7 @@ impl<'a> Tubes<'a> {
         Ok(slice)
     }
 
-    /// All links within `half` (rad) of a crank angle (rad).
+    /// Computes the enclosures of all links within `half` (rad) of a crank angle (rad).
     ///
     /// # Errors
     /// Those of [`PoseSolver::solve`].
@@ -247,8 +251,9 @@ impl<'a> Tubes<'a> {
             *tube = Tube { centre, at, rate, direction, spin, off: rounding, twist: ROUNDING, half };
         }
         for drive in case.drives.iter() {
-            // It turns evenly about its pivot on the ground: drives that hang on moving links are free, and of a motion
-            // with several freedoms no one angle tells the pose.
+            // The crank turns evenly about its pivot on the ground: drives on moving links are free, and with several
+            // degrees of
+            // freedom a single angle does not determine the pose.
             let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
             let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
             (tube.centre, tube.at, tube.rate) = (pivot, motion.point(pivot), Vec2::zeros());
@@ -258,7 +263,7 @@ impl<'a> Tubes<'a> {
     }
 }
 
-/// Widens the tubes of a group's links until they are proven to hold its motion. Returns whether they are.
+/// Widens the tubes of a group's links until they provably contain its motion. Returns whether that succeeds.
 fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: f64) -> bool {
     let size = 3 * group.links.len();
     let joints: Vec<&Joint> =
@@ -287,7 +292,7 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
             let [x, y, twist] = [0, 1, 2].map(|k| radii[3 * index + k]);
             (tubes[link].off, tubes[link].twist) = (x.hypot(y), twist);
         }
-        // The change of every equation over the box.
+        // Change of every equation over the box.
         let mut change = vec![0.0; size];
         let mut row = 0;
         for joint in &joints {
@@ -314,8 +319,9 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
     false
 }
 
-/// Puts the derivative of a joint's two equations at the middle into `derivative`, and into `open` how far the even
-/// motion may leave them open: links of the group move evenly, others are in their tubes.
+/// Writes the derivative of a joint's two equations at the middle into `derivative`, and their largest residual under
+/// the
+/// even motion into `open`: links of the group move evenly, other links stay anywhere in their tubes.
 fn equations(
     joint: &Joint,
     tubes: &[Tube],
@@ -370,7 +376,7 @@ fn equations(
     }
 }
 
-/// How much the derivative of a joint's two equations changes over the tubes, times the radii of the box.
+/// Bounds the change of the derivative of a joint's two equations over the tubes, times the radii of the box.
 fn changes(
     joint: &Joint,
     tubes: &[Tube],

@@ -9,7 +9,7 @@ use linkage::math::{KeepNan, Motion, Vec2, turned};
 use linkage::mechanism::{LinkId, Mechanism};
 use linkage::solver::State;
 
-/// A tangential part shorter than this on paper (mm) counts as zero: the link turns uniformly.
+/// Length on paper (mm) below which a tangential part counts as zero: the link turns uniformly.
 pub(super) const NOTHING: f64 = 1e-9;
 
 /// A point of a link.
@@ -87,7 +87,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The direction that is known in advance for the vector of a point of `link`.
+    /// Returns the direction known in advance for the vector of a point of `link`.
     fn direction(&self, link: LinkId, name: &str) -> String {
         match (self.quantity, pivot(self.mechanism, link), fixed_guide(self.mechanism, link)) {
             (Quantity::Velocity, Some((_, pivot)), _) => sentences::perpendicular_to(&pair(&pivot, name)),
@@ -135,8 +135,9 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Vectors of a prismatic pair on a moving guide: the relative velocity, or the Coriolis part and the relative acceleration.
-    /// A fixed guide adds only the direction of the absolute vectors, and a revolute pair adds nothing.
+    /// Vectors of a prismatic joint on a moving guide: the relative velocity, or the Coriolis part and the relative
+    /// acceleration.
+    /// A fixed guide adds only the direction of the absolute vectors, and a revolute joint adds nothing.
     fn sliding(&mut self) {
         let mut number = 0;
         for slide in self.slides {
@@ -166,14 +167,14 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds the end of a vector, with as many primes as make its letter different from all others. Returns its letter.
+    /// Adds the end of a vector, with as many primes as make its letter unique. Returns the letter.
     fn tip(&mut self, letter: String, kind: TipKind, at: Vec2) -> String {
         let letter = primed(letter, |letter| self.tips.iter().any(|tip| tip.letter == letter));
         self.tips.push(Tip { letter: letter.clone(), kind, at });
         letter
     }
 
-    /// Where the vector to this letter ends, relative to the pole (SI).
+    /// End of the vector with this letter, relative to the pole (SI).
     fn end(&self, letter: &str) -> Vec2 {
         self.tips.iter().find(|tip| tip.letter == letter).map_or_else(Vec2::zeros, |tip| tip.at)
     }
@@ -261,7 +262,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The direction along the guide of a joint, as part of a vector's meaning.
+/// Direction along the guide of a joint, for a vector's meaning.
 fn along(joint: &str) -> String {
     sentences::along_the_guide(&joint)
 }

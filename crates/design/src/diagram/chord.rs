@@ -5,19 +5,21 @@
 //! For a sine of angular frequency k it is exactly the factor sin(k h/2) / (k h/2).
 //! In the inverse, the value at the middle times the interval is the increment.
 
-/// Midpoints of the intervals between `places`.
+/// Returns the midpoints of the intervals between `places`.
 #[must_use]
 pub fn middles(places: &[f64]) -> Vec<f64> {
     places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect()
 }
 
-/// Slopes of the chords between the points (`places`, `values`): the derivative at the midpoints of the intervals.
+/// Returns the slopes of the chords between the points (`places`, `values`): the derivative at the midpoints of the
+/// intervals.
 #[must_use]
 pub fn slopes(places: &[f64], values: &[f64]) -> Vec<f64> {
     places.windows(2).zip(values.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect()
 }
 
-/// Values at `places` of the function that starts from `start` and has the derivatives `rates` at the midpoints.
+/// Returns the values at `places` of the function that starts from `start` and has the derivatives `rates` at the
+/// midpoints.
 #[must_use]
 pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
     let mut sum = start;
@@ -28,8 +30,8 @@ pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
     std::iter::once(start).chain(steps).collect()
 }
 
-/// Slopes at the inner and the last of `places` of a curve that is periodic over them.
-/// The curve has the values `rates` at their midpoints.
+/// Returns the slopes at the inner and the last of `places` of a curve that is periodic over them and has the values
+/// `rates` at the midpoints.
 #[must_use]
 pub fn closed_slopes(places: &[f64], rates: &[f64]) -> Vec<f64> {
     let mut middles = middles(places);

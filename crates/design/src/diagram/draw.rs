@@ -1,4 +1,4 @@
-//! Drawings as SVG, with one unit per millimetre. Printed at full size they have the scale factors written on them.
+//! Drawings as SVG, one unit per millimetre. Printed at full size they have the scale factors written on them.
 
 mod axes;
 mod clearance_sheet;

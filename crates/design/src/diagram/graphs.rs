@@ -2,34 +2,34 @@
 
 use linkage::math::statistics::ends;
 
-/// A marked point of a graph.
+/// Marked point of a graph.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GraphPoint {
-    /// Crank angle (rad; any of those a period apart) and value.
+    /// Crank angle (rad, modulo the period) and value.
     pub at: [f64; 2],
-    /// Its meaning, such as "greatest".
+    /// Meaning of the mark, for example "greatest".
     pub word: &'static str,
 }
 
 /// One quantity over the crank angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CrankGraph {
-    /// Its name.
+    /// Name.
     pub name: &'static str,
-    /// Its symbol, with `_` before a subscript.
+    /// Symbol, with `_` before a subscript.
     pub symbol: &'static str,
-    /// Its unit, with `^` before a power.
+    /// Unit, with `^` before a power.
     pub unit: &'static str,
-    /// Crank angles (rad) over the period, in the sense of motion, and values.
+    /// Crank angles (rad) over the period, in the direction of motion, and values.
     pub points: Vec<[f64; 2]>,
-    /// Its mean.
+    /// Mean.
     pub mean: f64,
     /// Name of the mean.
     pub mean_word: &'static str,
-    /// Its lowest and its highest point on paper.
+    /// Lowest and highest point on paper.
     pub marks: [GraphPoint; 2],
-    /// Reference size for the range of its values.
-    /// Below a billionth of this size the range is rounding, and the quantity is constant.
+    /// Reference size for the range of values: a range below a billionth of it is rounding error, and the quantity is
+    /// constant.
     pub size: f64,
 }
 
@@ -41,7 +41,7 @@ impl CrankGraph {
         ends(values)
     }
 
-    /// Whether the quantity is constant over the period, except for rounding.
+    /// Whether the quantity is constant over the period up to rounding error.
     #[must_use]
     pub fn is_constant(&self) -> bool {
         let [low, high] = self.range();
@@ -52,9 +52,9 @@ impl CrankGraph {
 /// Graphs over the same period, arranged vertically.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Graphs {
-    /// Crank angle at the start of the period and at its end (rad), in the sense of motion.
+    /// Crank angles at the start and the end of the period (rad), in the direction of motion.
     pub period: [f64; 2],
-    /// The graphs, from the top.
+    /// Graphs, from the top.
     pub graphs: Vec<CrankGraph>,
     /// Lines below the title.
     pub notes: Vec<String>,

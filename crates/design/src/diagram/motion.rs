@@ -1,11 +1,9 @@
-//! Motion diagrams over one turn of the crank: displacement, velocity and acceleration, exact and by the graphical
-//! methods.
+//! Motion diagrams over one turn of the crank: displacement, velocity and acceleration, exact and by graphical methods.
 //!
-//! Differentiation: chords of the displacement give the velocity at the midpoints of the divisions.
-//! Chords of that velocity give the acceleration at their ends.
-//! Integration: the exact velocity at the midpoints gives the displacement, and the exact acceleration there the
-//! velocity.
-//! Each starts from its exact first value.
+//! Differentiation: chords of the displacement give the velocity at the midpoints of the divisions, and chords of this
+//! velocity give the acceleration at the ends of the divisions.
+//! Integration: the exact velocity at the midpoints gives the displacement, and the exact acceleration there gives the
+//! velocity, each from its exact first value.
 
 use super::chord::{closed_slopes, integral, slopes};
 use crate::sentences;
@@ -17,16 +15,17 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, ChannelSubject, Stage};
 use std::f64::consts::TAU;
 
-/// Useful numbers of divisions of the turn: fewer do not show the motion, more only cost time.
+/// Allowed number of divisions of the turn: fewer do not show the motion, more only take time.
 pub const DIVISIONS: std::ops::RangeInclusive<usize> = 4..=1000;
-/// Least number of points of the exact curves.
+/// Smallest number of points of the exact curves.
 const CURVE: usize = 720;
-/// Least scale of a derivative, as a share of its natural scale.
-/// The errors of a derivative that hardly changes come from the displacement.
+/// Smallest scale of a derivative, as a share of its natural scale: the errors of a nearly constant derivative come
+/// from
+/// the displacement.
 const SMALLEST: f64 = 1e-3;
-/// Errors below this share of the half range are rounding, and give no order.
+/// Share of the half range below which errors are rounding errors and give no order.
 const ROUNDING: f64 = 1e-11;
-/// Suffixes of a channel and of its two derivatives.
+/// Suffixes of a channel and its two derivatives.
 const ENDINGS: [[&str; 3]; 3] =
     [["angle_rad", "omega_rad_s", "alpha_rad_s2"], ["x_m", "vx_m_s", "ax_m_s2"], ["y_m", "vy_m_s", "ay_m_s2"]];
 
@@ -35,7 +34,7 @@ const ENDINGS: [[&str; 3]; 3] =
 pub struct MotionCurve(pub [Channel; 3]);
 
 impl MotionCurve {
-    /// The course of the channel `name`, which must be a position or an angle of a moving link or point of `case`.
+    /// Course of the channel `name`, a position or angle of a moving link or point of `case`.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for any other name, with the possible names.
@@ -59,7 +58,7 @@ impl MotionCurve {
     }
 }
 
-/// The possible names: of the same link or point, of those of the same kind, or the kinds.
+/// Lists the possible names: those of the same link or point, else those of the same kind, else the kinds.
 fn help(all: &[Channel], name: &str) -> String {
     let positions = all.iter().filter(|channel| channel.kind.stage == Stage::Positions);
     let parts: Vec<&str> = name.splitn(2, '.').collect();
@@ -80,12 +79,12 @@ fn help(all: &[Channel], name: &str) -> String {
 }
 
 linkage::words! {
-    /// Derivation of one diagram from another.
+    /// Method that derives one diagram from another.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Method: words {
         /// Velocity from chords of the displacement.
         ChordVelocity = "velocity by chords",
-        /// Acceleration from chords of that velocity.
+        /// Acceleration from chords of the chord velocity.
         ChordAcceleration = "acceleration by chords of chords",
         /// Displacement by graphical integration of the velocity.
         IntegratedDisplacement = "displacement by integration",
@@ -95,7 +94,7 @@ linkage::words! {
 }
 
 impl Method {
-    /// Index of its result: 0 displacement, 1 velocity, 2 acceleration.
+    /// Index of the method's result: 0 displacement, 1 velocity, 2 acceleration.
     #[must_use]
     pub fn gives(self) -> usize {
         match self {
@@ -106,50 +105,52 @@ impl Method {
     }
 }
 
-/// Result of a method, and its error.
+/// Result of a method, with its error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MethodResult {
-    /// The method.
+    /// Method.
     pub method: Method,
-    /// Rows of [`MotionDiagram::cranks`] that its values belong to.
+    /// Rows of [`MotionDiagram::cranks`] at which the values are given.
     pub rows: Vec<usize>,
-    /// Its values (SI).
+    /// Values (SI).
     pub values: Vec<f64>,
     /// Largest error (SI).
     pub largest: f64,
     /// Root mean square of the errors (SI).
     pub rms: f64,
     /// Largest error divided by half the range of the exact curve.
-    /// The divisor is at least a thousandth of the natural scale.
-    /// That scale is the displacement's half range times the crank's angular velocity, once or twice.
+    /// The divisor is at least a thousandth of the natural scale: the displacement's half range times the crank's
+    /// angular
+    /// velocity, once for the velocity and twice for the acceleration.
     pub share: f64,
-    /// Observed orders of the error (of its root mean square).
-    /// The first is from these divisions to twice as many, the second from those to four times as many.
-    /// `None` where the error is rounding.
+    /// Observed orders of the error's root mean square: from `divisions` to twice as many, and from these to four times
+    /// as
+    /// many.
+    /// `None` where the error is rounding error.
     pub orders: [Option<f64>; 2],
 }
 
-/// The motion diagrams of one course.
+/// Motion diagrams of one course.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionDiagram {
-    /// The channels.
+    /// Channels of the displacement and its two derivatives.
     pub course: MotionCurve,
-    /// Divisions of the turn.
+    /// Number of divisions of the turn.
     pub divisions: usize,
-    /// Rows between the two ends of a division, an even number.
+    /// Number of rows per division, even.
     pub stride: usize,
     /// Crank angle of every row (rad, as the scenario defines it).
     pub cranks: Vec<f64>,
     /// Time of every row (s).
     pub times: Vec<f64>,
-    /// Exact displacement, velocity, acceleration in every row (SI).
+    /// Exact displacement, velocity and acceleration in every row (SI).
     pub exact: [Vec<f64>; 3],
     /// Results of the methods, in the order of [`Method::ALL`].
     pub found: Vec<MethodResult>,
 }
 
 impl MotionDiagram {
-    /// The diagrams of `course` over one turn of the crank, with `divisions` equal divisions.
+    /// Computes the diagrams of `course` over one turn of the crank, with `divisions` equal divisions.
     /// The turn begins at the crank's start and follows its sense of rotation.
     ///
     /// # Errors
@@ -165,7 +166,7 @@ impl MotionDiagram {
             let message = sentences::THE_CHORD_METHOD_DIVIDES_A_TURN;
             return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::GIVE_THE_DRIVE_A_CONSTANT));
         }
-        // Divisions, their halves and their quarters all have their midpoints among the rows.
+        // The midpoints of divisions, half divisions and quarter divisions are all rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
         let sense = case.crank().sense();
@@ -194,7 +195,7 @@ impl MotionDiagram {
             let largest = errors[0].iter().fold(0.0f64, |most, error| most.larger(error.abs()));
             let orders = [order(size[0], size[1]), order(size[1], size[2])];
             let [(rows, values), ..] = runs;
-            // A curve without any motion has no scale, and no error either.
+            // A curve without motion has neither scale nor error.
             let share = share(largest, scale);
             MethodResult { method, rows, values, largest, rms: size[0], share, orders }
         });
@@ -215,7 +216,7 @@ fn scales(exact: &[Vec<f64>; 3], period: f64) -> [f64; 3] {
     [0, 1, 2].map(|order| half_range(&exact[order as usize]).larger(natural(order)))
 }
 
-/// Rows and values that a method gives with divisions of `stride` rows.
+/// Returns the rows and values that a method yields with divisions of `stride` rows.
 fn apply(method: Method, stride: usize, times: &[f64], exact: &[Vec<f64>; 3]) -> (Vec<usize>, Vec<f64>) {
     let ends: Vec<usize> = (0..times.len()).step_by(stride).collect();
     let middles: Vec<usize> = (stride / 2..times.len()).step_by(stride).collect();

@@ -1,10 +1,10 @@
-//! Letters of the plans: points A, B are a, b there, mass centres s2, ends of normal parts n1.
-//! The pole has its own letter.
+//! Letters of the plans: points A, B become a, b, mass centres s2, ends of normal parts n1. The pole has a reserved
+//! letter.
 
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, JointSide, LinkId, Mechanism};
 
-/// A name in the mechanism and its letter in the plans.
+/// Name in the mechanism with its letter in the plans.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
     /// Name.
@@ -13,18 +13,19 @@ pub struct Named {
     pub letter: String,
 }
 
-/// A named point of the mechanism, listed once for all links that contain it.
+/// Named point of the mechanism, listed once for all links that contain it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedPoint {
-    /// Its name and letter.
+    /// Name and letter.
     pub named: Named,
-    /// A link that contains it, and its position there. A link on a ground pivot or in a fixed guide is preferred.
+    /// A link that contains the point, and its position on it (m); preferably a link on a ground pivot or in a fixed
+    /// guide.
     pub side: JointSide,
-    /// Whether it is a ground point.
+    /// Whether the point belongs to the ground.
     pub fixed: bool,
 }
 
-/// Position on `link` of its revolute joint with the ground, and the name of that pivot.
+/// Position on `link` of its revolute joint with the ground (m), and the name of this pivot.
 pub fn pivot(mechanism: &Mechanism, link: LinkId) -> Option<(Vec2, String)> {
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin());
     let joint = pins.find(|joint| joint.on(link).is_some() && joint.other(link).link == GROUND)?;
@@ -33,13 +34,13 @@ pub fn pivot(mechanism: &Mechanism, link: LinkId) -> Option<(Vec2, String)> {
     Some((own, named.map_or_else(|| joint.name.clone(), |point| point.name.clone())))
 }
 
-/// The prismatic joint that guides `link` on the ground.
+/// Prismatic joint that guides `link` on the ground.
 pub fn fixed_guide(mechanism: &Mechanism, link: LinkId) -> Option<&Joint> {
     let mut sliding = mechanism.joints().iter().filter(|joint| joint.slides());
     sliding.find(|joint| joint.on(link).is_some() && joint.other(link).link == GROUND)
 }
 
-/// All named points, those of the ground first, each with a unique letter.
+/// Returns all named points, those of the ground first, each with a unique letter.
 pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<NamedPoint> {
     let mut taken: Vec<String> = poles.iter().map(ToString::to_string).collect();
     let mut named = |name: &str| {
@@ -64,7 +65,7 @@ pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<NamedPoint> {
     all
 }
 
-/// `name` with as many primes as are needed so that it is not `taken`.
+/// Appends primes to `name` until it is not `taken`.
 pub fn primed(mut name: String, taken: impl Fn(&str) -> bool) -> String {
     while taken(&name) {
         name.push('\'');
@@ -72,7 +73,7 @@ pub fn primed(mut name: String, taken: impl Fn(&str) -> bool) -> String {
     name
 }
 
-/// Two names as they are written side by side: BA, but P3,P2 where the letters alone would be ambiguous.
+/// Joins two names side by side: BA, but P3,P2 where the letters alone would be ambiguous.
 pub fn pair(a: &str, b: &str) -> String {
     let single = |name: &str| name.chars().count() == 1;
     if single(a) && single(b) { format!("{a}{b}") } else { format!("{a},{b}") }

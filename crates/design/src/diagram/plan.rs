@@ -2,18 +2,18 @@
 //!
 //! All absolute vectors start in the pole.
 //! For the plane motion of a rigid link, v_B = v_A + omega x AB and a_B = a_A + alpha x AB - omega^2 AB.
-//! So the vector between the ends of two absolute vectors is the relative one.
-//! The image of a link in the velocity plan is therefore the link itself, turned by 90 deg and enlarged omega times.
+//! The vector between the ends of two absolute vectors is therefore the relative one.
+//! The image of a link in the velocity plan is the link turned by 90 deg and enlarged omega times.
 //! In the acceleration plan it is turned by 180 deg - atan2(alpha, omega^2) and enlarged sqrt(alpha^2 + omega^4) times.
 //! These are Mehmke's and Burmester's theorems.
 //!
 //! A point A that slides on a moving guide of link 3 coincides with a point A3 of that link.
-//! In the axes of the guide it moves along it by s(t).
-//! Differentiation in fixed axes gives v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e.
-//! Here e is the guide's unit vector and omega its angular velocity (Coriolis 1835).
+//! In the guide's axes A moves along the guide by s(t).
+//! Differentiation in fixed axes gives v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e,
+//! with e the guide's unit vector and omega its angular velocity (Coriolis 1835).
 //!
-//! Each vector comes from the motion of its own link, and those along a guide from the slide.
-//! No vector is the difference of two others, so the closure of the polygons is a result.
+//! Each vector comes from the motion of its link, and those along a guide from the slide.
+//! No vector is computed as the difference of two others, so the closure of the polygons is a result.
 
 use super::builder::Builder;
 use super::names::{Named, NamedPoint, places};
@@ -32,19 +32,21 @@ use linkage::trajectory::Stage;
 pub struct Plans {
     /// Crank angle (rad, as the scenario defines it).
     pub crank: f64,
-    /// The mechanism.
+    /// Kinematic diagram.
     pub scheme: Scheme,
-    /// The velocity plan.
+    /// Velocity plan.
     pub velocity: VectorPlan,
-    /// The acceleration plan.
+    /// Acceleration plan.
     pub acceleration: VectorPlan,
-    /// Points, each with the links that have it.
+    /// Points, each with the links that contain it.
     points: Vec<(Named, Vec<LinkId>)>,
 }
 
 impl Plans {
-    /// The plans of a state that contains motions up to accelerations.
-    /// `solver` finds the travel of the sliders on the case's grid, which gives the length of the guides in the kinematic diagram.
+    /// Draws the plans of a state with motions up to accelerations.
+    /// `solver` finds the travel of the sliders on the case's grid, which sets the length of the guides in the
+    /// kinematic
+    /// diagram.
     #[must_use]
     pub fn of(case: &Case, solver: &dyn Solver, state: &State, crank: f64) -> Self {
         let planner = Planner::of(&case.mechanism);
@@ -61,11 +63,12 @@ impl Plans {
         Plans { crank, scheme, velocity, acceleration, points }
     }
 
-    /// The plans of some points and links only: a point with its own vectors, a link with all its points and its mass
+    /// Keeps the plans of the points and links in `names`: a point with its vectors, a link with all its points and its
+    /// mass
     /// centre.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a name that is neither a point's nor a link's.
+    /// [`ErrorKind::Input`] for a name of neither a point nor a link.
     pub fn only(mut self, names: &[String]) -> Result<Plans> {
         let mut letters: Vec<String> = Vec::new();
         for name in names {
@@ -89,7 +92,7 @@ impl Plans {
     }
 }
 
-/// The plans of a mechanism at any of its states: letters and slides are found once.
+/// Plans of a mechanism at any state; letters and slides are determined once.
 #[derive(Debug)]
 pub struct Planner<'a> {
     mechanism: &'a Mechanism,
@@ -98,7 +101,7 @@ pub struct Planner<'a> {
 }
 
 impl<'a> Planner<'a> {
-    /// The plans of this mechanism.
+    /// Creates the planner of a mechanism.
     #[must_use]
     pub fn of(mechanism: &'a Mechanism) -> Self {
         let mut places = places(mechanism, &Quantity::ALL.map(Quantity::pole));
@@ -111,14 +114,14 @@ impl<'a> Planner<'a> {
         self.places.iter().map(|place| (place.named.name.as_str(), place.named.letter.as_str()))
     }
 
-    /// The plan of a state that contains motions up to its quantity.
+    /// Returns the plan of a state with motions up to `quantity`.
     #[must_use]
     pub fn plan(&self, quantity: Quantity, state: &State) -> VectorPlan {
         Builder::new(quantity, self.mechanism, state, &self.places, &self.slides).plan()
     }
 }
 
-/// The state of `case` at the crank angle `crank` (rad, as the scenario defines it), up to accelerations.
+/// Computes the state of `case` at the crank angle `crank` (rad, as the scenario defines it), up to accelerations.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for a crank angle too far away to be reached step by step; those of the solver.

@@ -1,4 +1,4 @@
-//! The kinematic diagram: the mechanism drawn to scale.
+//! Kinematic diagram: the mechanism drawn to scale.
 
 use super::names::{NamedPoint, pivot};
 use super::singular::SingularPoint;
@@ -14,14 +14,14 @@ use linkage::solver::State;
 /// Largest width and height (mm) of the kinematic diagram on paper.
 const ROOM: [f64; 2] = [150.0, 215.0];
 
-/// One moving link of the diagram.
+/// Moving link of the diagram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SchemeLink {
-    /// Its number: its index in the mechanism, where the ground is 0.
+    /// Link number: its index in the mechanism, with ground 0.
     pub number: LinkId,
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// World position of its pivot on the ground (m), if it has one.
+    /// World position of the link's pivot on the ground (m), if any.
     pub pivot: Option<Vec2>,
     /// Angular velocity (rad/s), counter-clockwise positive.
     pub omega: f64,
@@ -29,18 +29,18 @@ pub struct SchemeLink {
     pub alpha: f64,
 }
 
-/// A guide of the diagram and its block.
+/// Guide of the diagram with its block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SchemeGuide {
-    /// Unit vector along the guide, in the world.
+    /// Unit vector along the guide (world).
     pub axis: Vec2,
     /// World position of the joint's point on the guide (m).
     pub origin: Vec2,
     /// World position of the sliding point (m).
     pub at: Vec2,
-    /// Ends of the sliding point's travel, with the guide in its present position, in the world (m).
+    /// Ends of the sliding point's travel for the present position of the guide (m, world).
     pub ends: [Vec2; 2],
-    /// Names of the sliding point and of the coincident point of a moving guide's link.
+    /// Names of the sliding point and of the coincident point on a moving guide's link; `None` for a fixed guide.
     pub under: Option<[String; 2]>,
 }
 
@@ -57,18 +57,18 @@ pub struct Scheme {
     pub guides: Vec<SchemeGuide>,
     /// Number of the driving link.
     pub driver: LinkId,
-    /// Singular points of class IV groups that have one.
+    /// Singular points of the class IV groups that have one.
     pub singular: Vec<SingularPoint>,
-    /// What the mechanism looks like; its unit is a millimetre on paper.
+    /// Sketch of the mechanism, in millimetres on paper.
     pub sketch: Sketch,
-    /// Where its links are.
+    /// Places of the links.
     pub places: Vec<drawing::picture::LinkPlacement>,
-    /// What its loads do.
+    /// Loads that act on the mechanism.
     pub acting: Vec<Acting>,
 }
 
 impl Scheme {
-    /// The diagram of a state.
+    /// Builds the diagram of a state.
     pub(super) fn of(
         case: &Case,
         state: &State,
@@ -114,7 +114,7 @@ impl Scheme {
         let all = all.chain(guides.iter().flat_map(|guide| guide.ends)).chain(points.iter().map(|(_, at)| *at));
         let [low, high] = corners(all);
         let scale = factor(high.x - low.x, ROOM[0]).larger(factor(high.y - low.y, ROOM[1]));
-        // Parallel leads have no point that could be drawn.
+        // Parallel leads have no intersection to draw.
         let groups = case.structure.groups.iter();
         let singular =
             groups.filter_map(|group| SingularPoint::of(case, group, &state.motions).ok().flatten()).collect();

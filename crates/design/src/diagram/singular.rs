@@ -1,15 +1,15 @@
-//! The singular Assur point of a class IV group of order 2: its velocities and accelerations without a system of equations.
+//! Singular Assur point of a class IV group of order 2: its velocities and accelerations without a system of equations.
 //!
 //! Two base links have the outer joints A and K; two leads BD and CE connect them.
 //! S = BD x CE is taken as a point of either base link.
-//! Its velocity component along each lead equals that of the lead's end.
-//! The reason: on a line through S, rotation adds no component along that line.
-//! Two components determine a vector, so S has the same velocity on both base links:
+//! Its velocity component along each lead equals that of the lead's end, since rotation adds no component along a line
+//! through S.
+//! Two components determine a vector, so S has equal velocities on both base links:
 //! v_S = v_A + omega2 x AS = v_K + omega5 x KS.
 //! Both sides have a known direction, so v_S is the intersection of two lines.
 //! The accelerations of S on the two base links differ by d.
 //! Along the lead BD (unit vector u), d u = omega5^2 (D - S) u - omega2^2 (B - S) u - omega3^2 |BD|; likewise along CE.
-//! Then a_A + ... + d = a_K + ... is the same construction again.
+//! Then a_A + ... + d = a_K + ... has the same construction.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -17,10 +17,10 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, JointId, LinkId, Mechanism};
 
-/// Sine of an angle below which two lines count as parallel: the point then has too few correct digits to be useful.
+/// Sine of the angle below which two lines count as parallel: their intersection then has too few correct digits.
 const PARALLEL: f64 = 1e-9;
 
-/// The singular point of a group, and the motion found through it.
+/// Singular point of a group, with the motion computed through it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SingularPoint {
     /// Names of the leads' ends, on the first and on the second base link: S = BD x CE.
@@ -29,7 +29,7 @@ pub struct SingularPoint {
     pub at: Vec2,
     /// Velocity of the point, on both base links (m/s).
     pub velocity: Vec2,
-    /// Acceleration of the point on the first and on the second base link (m/s^2).
+    /// Accelerations of the point on the first and on the second base link (m/s^2).
     pub accelerations: [Vec2; 2],
     /// Link, angular velocity (rad/s) and angular acceleration (rad/s^2): the two base links, then the two leads.
     pub links: [(LinkId, f64, f64); 4],
@@ -45,12 +45,12 @@ struct Lead {
 }
 
 impl SingularPoint {
-    /// The singular point of `group`.
-    /// `motions` gives the poses of the group's links and the motions of the links before it, nothing else.
-    /// `None` if the group is not of class IV and order 2.
+    /// Computes the singular point of `group`; `None` if the group is not of class IV and order 2.
+    /// From `motions` it uses only the poses of the group's links and the motions of the links before the group.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the leads are parallel, or if the point is in line with the outer joints: a dead point.
+    /// [`ErrorKind::Geometry`] if the leads are parallel, or if the point is in line with the outer joints: a dead
+    /// point.
     pub fn of(case: &Case, group: &Group, motions: &[Motion]) -> Result<Option<Self>> {
         let Some((bases, leads)) = parts(&case.mechanism, group, motions) else { return Ok(None) };
         let [first, second] = &leads;
@@ -82,7 +82,7 @@ impl SingularPoint {
             omegas[1].powi(2) * d - omegas[0].powi(2) * b - omega.powi(2) * lead.length
         };
         let components = [along(first, lead_omegas[0]), along(second, lead_omegas[1])];
-        // The vector with these components along two oblique directions.
+        // Vector with these components along two oblique directions.
         let step = (turned(first.along) * components[1] - turned(second.along) * components[0]) / slant;
         let centripetal = |side: usize| outer[side][2] - arms[side] * omegas[side].powi(2);
         let alphas = spins(centripetal(1) - centripetal(0) - step);
@@ -104,7 +104,7 @@ impl SingularPoint {
         Ok(Some(SingularPoint { leads: names, at, velocity: field(0, at), accelerations, links }))
     }
 
-    /// The point in the usual notation: `BD x CE`.
+    /// Formats the point in the usual notation: `BD x CE`.
     #[must_use]
     pub fn lines(&self) -> String {
         self.leads.each_ref().map(|[a, b]| super::names::pair(a, b)).join(" x ")
@@ -113,7 +113,7 @@ impl SingularPoint {
 
 type Base = (LinkId, [Vec2; 3]);
 
-/// Base links with position, velocity and acceleration of their outer joints, and the leads between them.
+/// Returns the base links with position, velocity and acceleration of their outer joints, and the leads between them.
 fn parts(mechanism: &Mechanism, group: &Group, motions: &[Motion]) -> Option<([Base; 2], [Lead; 2])> {
     let base = |&joint: &JointId| {
         let joint = &mechanism.joints()[joint];
@@ -144,7 +144,7 @@ fn parts(mechanism: &Mechanism, group: &Group, motions: &[Motion]) -> Option<([B
     Some((bases, [leads.next()??, leads.next()??]))
 }
 
-/// What is wrong with the leads, named side by side with `between`.
+/// Error for the leads, which are named side by side with `between` between them.
 fn wrong(leads: &[Lead; 2], between: &str, message: impl FnOnce(String) -> String) -> Error {
     let names = leads.each_ref().map(|lead| super::names::pair(&lead.names[0], &lead.names[1]));
     Error::new(ErrorKind::Geometry, message(names.join(between))).help(sentences::TAKE_A_CRANK_ANGLE_A_LITTLE)

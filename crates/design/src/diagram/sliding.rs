@@ -1,4 +1,4 @@
-//! Prismatic pairs in plans and drawings: the guide's link, the sliding point, and the point of the guide that coincides with it.
+//! Prismatic joints in plans and drawings: the guide's link, the sliding point and the coincident point of the guide.
 
 use super::names::{Named, NamedPoint, primed};
 use linkage::case::{Case, Wanted};
@@ -7,7 +7,7 @@ use linkage::mechanism::{GROUND, JointId, JointSide, Mechanism};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-/// A prismatic pair: a point of the block slides on a line of the guide.
+/// Prismatic joint: a point of the block slides on a line of the guide.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slide {
     /// Index of the joint.
@@ -16,9 +16,9 @@ pub struct Slide {
     pub guide: JointSide,
     /// The block's link and the sliding point on it.
     pub block: JointSide,
-    /// The sliding point. It may be a ground point too: a rod in a block that only swings.
+    /// Sliding point; a ground point for a rod in a block that only swings.
     pub place: NamedPoint,
-    /// The coincident point of a moving guide's link; a fixed guide has none.
+    /// Coincident point of a moving guide's link; `None` for a fixed guide.
     pub under: Option<Named>,
 }
 
@@ -48,7 +48,7 @@ impl Slide {
     }
 }
 
-/// All prismatic pairs. A sliding point without a name gets that of its joint and is added to `places`.
+/// Returns all prismatic joints. A sliding point without a name takes that of its joint and is added to `places`.
 pub fn slides(mechanism: &Mechanism, places: &mut Vec<NamedPoint>) -> Vec<Slide> {
     let mut all = Vec::new();
     // Mass centres keep their letters.
@@ -79,7 +79,7 @@ pub fn slides(mechanism: &Mechanism, places: &mut Vec<NamedPoint>) -> Vec<Slide>
     all
 }
 
-/// `name` and its letter, with as many primes as make both unique.
+/// Returns `name` and its letter, with as many primes as make both unique.
 fn unused(name: String, places: &[NamedPoint], others: &[Named]) -> Named {
     let name = primed(name, |name| {
         let letter = name.to_lowercase();
@@ -90,8 +90,8 @@ fn unused(name: String, places: &[NamedPoint], others: &[Named]) -> Named {
     Named { letter: name.to_lowercase(), name }
 }
 
-/// Least and largest distance of every slide from the joint's point on its guide (m).
-/// They cover the case's grid, as far as the solver gets, and `state`.
+/// Smallest and largest distance of every slide from the joint's point on its guide (m), over the case's grid as far as
+/// the solver gets, and at `state`.
 pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]) -> Vec<[f64; 2]> {
     let mut travels: Vec<[f64; 2]> = slides.iter().map(|slide| [slide.way(&case.mechanism, state); 2]).collect();
     if slides.is_empty() {
@@ -105,7 +105,7 @@ pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]
         Ok(())
     };
     let case = case.wanting(Wanted::of(&[Stage::Positions]));
-    // If the crank cannot follow the grid to its end, the travel found so far still counts.
+    // If the crank cannot reach the grid's end, the travel found so far counts.
     let _ = solver.each(&case, &mut visit);
     travels
 }

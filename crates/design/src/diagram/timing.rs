@@ -1,31 +1,31 @@
-//! The timing diagram of an output: its course over one turn, together with the wanted phases.
+//! Timing diagram of an output: its course over one turn, with the required phases.
 
-/// A phase in the drawing.
+/// Phase in the drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
-    /// Crank angle at which it begins (rad).
+    /// Crank angle at its start (rad).
     pub from: f64,
-    /// Crank angle at which it ends (rad).
+    /// Crank angle at its end (rad).
     pub to: f64,
-    /// The wanted motion of the output in it.
+    /// Required motion of the output.
     pub word: &'static str,
-    /// Whether a dwell is wanted.
+    /// Whether a dwell is required.
     pub rests: bool,
-    /// The achieved motion, in a few characters.
+    /// Achieved motion, in a few characters.
     pub figure: String,
-    /// The least that is wanted of it: share of the stroke where it begins, as achieved, and where it ends.
+    /// Smallest required travel: share of the stroke at the start, as achieved, and at the end.
     pub least: [f64; 2],
 }
 
-/// A timing diagram: shares of the stroke over the crank angle.
+/// Timing diagram: shares of the stroke over the crank angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimingDiagram {
     /// Achieved curve: crank angle (rad) and share of the stroke.
     pub curve: Vec<[f64; 2]>,
-    /// The wanted curve, likewise; empty if only senses of motion are wanted.
+    /// Required curve, likewise; empty if only senses of motion are required.
     pub wanted: Vec<[f64; 2]>,
-    /// The phases.
+    /// Phases.
     pub stretches: Vec<Stretch>,
-    /// A line of numbers.
+    /// Line of numbers.
     pub note: String,
 }

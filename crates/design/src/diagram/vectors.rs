@@ -1,4 +1,4 @@
-//! A velocity or acceleration plan: its vectors and their end points.
+//! Velocity or acceleration plan: its vectors and their end points.
 
 use drawing::paper::scale::factor;
 use linkage::math::{KeepNan, Vec2};
@@ -6,7 +6,7 @@ use linkage::mechanism::LinkId;
 
 /// Largest length (mm) of the longest vector of a plan.
 pub(super) const ROOM: f64 = 100.0;
-/// Smallest share of a plan's scale factor that one of some of its vectors has.
+/// Smallest scale factor of a plan of selected vectors, as a share of the full plan's.
 const FINEST: f64 = 1e-3;
 
 linkage::words! {
@@ -21,7 +21,7 @@ linkage::words! {
 }
 
 impl Quantity {
-    /// What belongs to this quantity of two things.
+    /// Selects the value for this quantity.
     pub(super) fn of<T>(self, velocity: T, acceleration: T) -> T {
         match self {
             Quantity::Velocity => velocity,
@@ -35,13 +35,13 @@ impl Quantity {
         self.of("m/s", "m/s^2")
     }
 
-    /// Symbol of its vectors: v or a.
+    /// Symbol of the vectors: v or a.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         self.of("v", "a")
     }
 
-    /// Letter of its pole: p or π.
+    /// Letter of the pole: p or π.
     #[must_use]
     pub fn pole(self) -> &'static str {
         self.of("p", "π")
@@ -52,27 +52,28 @@ linkage::words! {
     /// Kind of the end point of a vector.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum TipKind: word {
-        /// The pole itself, or a ground point, which coincides with it.
+        /// Pole, or a ground point, which coincides with it.
         Fixed = "fixed",
         /// A named point of the mechanism.
         Point = "point",
         /// A mass centre: s and the number of its link.
         MassCentre = "centre",
-        /// The end of a normal part: n and a running number.
+        /// End of a normal part: n and a running number.
         Normal = "between",
-        /// A point of a moving guide's link that coincides with a sliding point: letter of that point and number of the link, a3.
+        /// Point of a moving guide's link that coincides with a sliding point: letter of that point and number of the
+        /// link, a3.
         Coincident = "coincident",
-        /// The end of a Coriolis part: k and a running number.
+        /// End of a Coriolis part: k and a running number.
         Coriolis = "between",
     }
 }
 
-/// A point of a plan.
+/// Point of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tip {
-    /// Its letter.
+    /// Letter.
     pub letter: String,
-    /// Its kind.
+    /// Kind.
     pub kind: TipKind,
     /// Vector from the pole (SI).
     pub at: Vec2,
@@ -92,14 +93,14 @@ linkage::words! {
         Normal = "normal",
         /// Tangential part of an acceleration: alpha l, perpendicular to the line through both points.
         Tangential = "tangential",
-        /// Along a moving guide: velocity or acceleration of a sliding point relative to the guide's link.
+        /// Velocity or acceleration of a sliding point relative to the moving guide's link, along the guide.
         Sliding = "sliding",
         /// Coriolis part of the acceleration of a point that slides on a turning guide: 2 omega x v, across the guide.
         Coriolis = "coriolis",
     }
 }
 
-/// One vector of a plan.
+/// Vector of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vector {
     /// Name in the usual notation: `v_B`, `v_BA`, `a_BA^n`, `a_BA^t`, `v_S2`.
@@ -117,7 +118,7 @@ pub struct Vector {
     pub value: Vec2,
     /// Number of the link whose motion it comes from.
     pub link: LinkId,
-    /// Its meaning in words.
+    /// Meaning in words.
     pub meaning: String,
 }
 
@@ -135,8 +136,9 @@ pub struct VectorPlan {
 }
 
 impl VectorPlan {
-    /// Leaves only the vectors, at a scale of their own, between the pole and these letters. Ends of normal and Coriolis parts and coincident
-    /// points stay where all their vectors do.
+    /// Keeps only the vectors between the pole and these letters, at a separate scale. Ends of normal and Coriolis
+    /// parts and
+    /// coincident points stay if all their vectors stay.
     pub(super) fn keep(&mut self, letters: &[String]) {
         let pole = self.quantity.pole();
         let kind = |letter: &str| self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.kind);
@@ -152,7 +154,7 @@ impl VectorPlan {
         let is_touched = |tip: &Tip| kept.iter().any(|own| own.from == tip.letter || own.to == tip.letter);
         let tips = self.tips.iter().filter(|tip| is_chosen(&tip.letter) || is_touched(tip)).cloned().collect();
         let longest = kept.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger);
-        // Vectors that are only rounding stay as short as they are.
+        // Vectors that are only rounding error stay short.
         self.scale = factor(longest, ROOM).larger(self.scale * FINEST);
         (self.vectors, self.tips) = (kept, tips);
     }

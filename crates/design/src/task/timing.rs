@@ -39,7 +39,7 @@ impl Sense {
 pub struct Phase {
     /// Crank angle at which it begins (rad, from crank angle zero in the sense of rotation).
     pub from: f64,
-    /// Crank angle at which it ends (rad).
+    /// Crank angle at its end (rad).
     pub to: f64,
     /// Motion of the output.
     pub sense: Sense,
@@ -123,7 +123,7 @@ impl Timing {
         Ok(Timing { follow: true, ..self })
     }
 
-    /// The phases.
+    /// Phases.
     #[must_use]
     pub fn phases(&self) -> &[Phase] {
         &self.phases

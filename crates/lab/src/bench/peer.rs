@@ -28,7 +28,7 @@ pub struct Answer {
 
 /// Another program. Reasons are in words: they are shown on the diagram.
 pub trait Peer {
-    /// Its name.
+    /// Name.
     fn name(&self) -> &str;
 
     /// The ways in which it wants to be run.

@@ -19,7 +19,7 @@ const PROTOCOL: u32 = 1;
 /// A scenario as other programs get it.
 #[derive(Clone, Debug)]
 pub struct Exports {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// The case as JSON.
     pub case: String,

@@ -9,7 +9,7 @@ use scenario::Scenario;
 /// A link with its own points.
 #[derive(Clone, Debug)]
 pub struct SpecimenLink {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Names and places of its points, in its frame (m).
     pub points: Vec<(String, Vec2)>,
@@ -29,7 +29,7 @@ pub struct Pin {
 /// A prismatic joint: its name, its links, a point of each, and its axis in the frame of each (rad).
 #[derive(Clone, Debug)]
 pub struct Guide {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Its links.
     pub links: [String; 2],

@@ -59,7 +59,7 @@ fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 /// One solver or engine at a point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PartyAtPoint {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// How it ends.
     pub verdict: PointEnd,

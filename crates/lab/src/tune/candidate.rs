@@ -8,7 +8,7 @@ use linkage::error::Result;
 pub struct Candidate {
     /// Name of the engine.
     pub engine: &'static str,
-    /// Its settings.
+    /// Settings of the engine.
     pub settings: Settings,
     /// Whether the resolution in the settings is an accuracy, not a step.
     pub controls_error: bool,

@@ -1,4 +1,4 @@
-//! Builds a case in code. Links have names, not numbers. The build checks them.
+//! Builds a case in code. Links are referred to by name; the build checks the names.
 
 use crate::sentences;
 use std::f64::consts::TAU;
@@ -12,13 +12,13 @@ use crate::mechanism::{
     first_pose,
 };
 
-/// A joint by names.
+/// A joint given by names of links and points.
 #[derive(Clone, Debug)]
 struct Wish {
     name: String,
-    /// Link and point of both sides.
+    /// Link name and point name of both sides.
     sides: [[String; 2]; 2],
-    /// Only for a prismatic joint: angles of its axis in the frames of both links (rad).
+    /// Angles of the axis in the frames of both links (rad); prismatic joints only.
     axes: Option<[f64; 2]>,
 }
 
@@ -63,7 +63,7 @@ pub struct CaseBuilder {
 }
 
 impl Case {
-    /// A case written down in code, link by link.
+    /// Returns an empty builder for a case written in code, link by link.
     #[must_use]
     pub fn builder() -> CaseBuilder {
         CaseBuilder::new()
@@ -88,36 +88,37 @@ impl CaseBuilder {
         }
     }
 
-    /// The ground and its points: names and places (m) in the world.
+    /// Sets the ground and its points: names and world coordinates (m).
     #[must_use]
     pub fn ground(mut self, points: &[(&str, [f64; 2])]) -> Self {
         self.links.insert(GROUND.index(), bare("ground", points));
         self
     }
 
-    /// A moving link and its points: names and places (m) in its own frame. It has no mass until [`CaseBuilder::mass`]
-    /// gives it one.
+    /// Adds a moving link and its points: names and coordinates (m) in the link's frame. It is massless until
+    /// [`CaseBuilder::mass`] sets its mass.
     #[must_use]
     pub fn link(mut self, name: &str, points: &[(&str, [f64; 2])]) -> Self {
         self.links.push(bare(name, points));
         self
     }
 
-    /// Mass (kg), mass centre in the link's frame (m) and moment of inertia about it (kg m^2) of a link.
+    /// Sets a link's mass (kg), mass centre in the link's frame (m) and moment of inertia about the mass centre (kg
+    /// m^2).
     #[must_use]
     pub fn mass(mut self, link: &str, mass: f64, centre: [f64; 2], inertia: f64) -> Self {
         self.masses.push((link.into(), mass, centre.into(), inertia));
         self
     }
 
-    /// A revolute joint between two links. Both have a point called `name`.
+    /// Adds a revolute joint between two links. Both must have a point called `name`.
     #[must_use]
     pub fn pin(self, name: &str, first: &str, second: &str) -> Self {
         self.joint(name, [(first, name), (second, name)], None)
     }
 
-    /// A prismatic joint: link and point of its place on both sides, and the angles (rad) of its axis in the frames of
-    /// both links. The points must have different names.
+    /// Adds a prismatic joint: link and point on both sides, and the angles (rad) of its axis in the frames of both
+    /// links. The two points must have different names.
     #[must_use]
     pub fn slider(self, name: &str, first: (&str, &str), second: (&str, &str), axes: [f64; 2]) -> Self {
         self.joint(name, [first, second], Some(axes))
@@ -129,7 +130,7 @@ impl CaseBuilder {
         self
     }
 
-    /// A driving link at constant speed (rad/s, counter-clockwise positive): the link that `joint` connects to the
+    /// Adds a driving link at constant speed (rad/s, counter-clockwise positive): the link that `joint` connects to the
     /// ground.
     /// The first driving link is the crank.
     #[must_use]
@@ -137,80 +138,80 @@ impl CaseBuilder {
         self.driven(joint, MotionLaw::ConstantSpeed(speed))
     }
 
-    /// A driving link that follows a motion law.
+    /// Adds a driving link that follows a motion law.
     #[must_use]
     pub fn driven(mut self, joint: &str, law: MotionLaw) -> Self {
         self.cranks.push((joint.into(), DriveMotion::Prescribed { law, motor: None }));
         self
     }
 
-    /// A driving link whose motion forces decide, with its speed at t = 0 and its nominal speed (rad/s,
-    /// counter-clockwise positive, the nominal one not zero), as in [`DriveMotion::Free`].
-    /// It is hinged to the ground or to a driving link named before.
+    /// Adds a driving link in free motion, with its speed at t = 0 and its nominal speed, as in [`DriveMotion::Free`].
+    /// Both speeds are in rad/s, counter-clockwise positive; the nominal speed is not zero.
+    /// The link is hinged to the ground or to a driving link added before.
     #[must_use]
     pub fn free(mut self, joint: &str, initial_speed: f64, nominal_speed: f64) -> Self {
         self.cranks.push((joint.into(), DriveMotion::Free { initial_speed, nominal_speed, motor: None }));
         self
     }
 
-    /// The motor of the crank. Default: none.
+    /// Sets the motor of the crank. Default: no motor.
     #[must_use]
     pub fn motor(mut self, motor: Motor) -> Self {
         self.motor = Some(motor);
         self
     }
 
-    /// World angle of the crank's x axis at t = 0 (rad). Default: 0.
+    /// Sets the world angle of the crank's x axis at t = 0 (rad). Default: 0.
     #[must_use]
     pub fn start(mut self, crank: f64) -> Self {
         self.start = crank;
         self
     }
 
-    /// Assembly mode of the Assur group with these links.
+    /// Sets the assembly mode of the Assur group with these links.
     #[must_use]
     pub fn mode(mut self, links: &[&str], mode: AssemblyMode) -> Self {
         self.modes.push((links.iter().map(ToString::to_string).collect(), mode));
         self
     }
 
-    /// Acceleration of gravity (m/s^2). Default: no gravity.
+    /// Sets the acceleration of gravity (m/s^2). Default: no gravity.
     #[must_use]
     pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
         self.gravity = gravity.into();
         self
     }
 
-    /// A load. Its links are numbered from 1 in the order of [`CaseBuilder::link`]; the ground is 0.
+    /// Adds a load. Its links are numbered from 1 in the order of [`CaseBuilder::link`]; the ground is 0.
     #[must_use]
     pub fn load(mut self, load: Load) -> Self {
         self.loads.push(load);
         self
     }
 
-    /// Number of equal parts into which the wanted instants divide one turn of the crank, or the time of one turn at
-    /// the nominal speed if the crank is free. Default: 360.
+    /// Sets the number of equal intervals into which the wanted instants divide one turn of the crank.
+    /// For a free crank they divide the time of one turn at the nominal speed. Default: 360.
     #[must_use]
     pub fn instants(mut self, parts: usize) -> Self {
         self.instants = parts;
         self
     }
 
-    /// The wanted instants (s), in place of those of [`CaseBuilder::instants`].
+    /// Sets the wanted instants (s), in place of those of [`CaseBuilder::instants`].
     #[must_use]
     pub fn times(mut self, times: &[f64]) -> Self {
         self.times = Some(times.to_vec());
         self
     }
 
-    /// Wanted channels. Default: all.
+    /// Sets the wanted channels. Default: all.
     #[must_use]
     pub fn wanted(mut self, wanted: Wanted) -> Self {
         self.wanted = wanted;
         self
     }
 
-    /// The case.
+    /// Checks the input and returns the case.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an unknown link, point or joint, with a list of the known names, and for a mechanism
@@ -268,7 +269,7 @@ impl CaseBuilder {
         })
     }
 
-    /// The instants: the times given, or equal parts of a turn.
+    /// Grid of the given times, or of equal intervals of a turn.
     fn grid(&self, crank: &Drive) -> Grid {
         let share = |part: usize| part as f64 / self.instants.max(1) as f64;
         let parts = 0..=self.instants;
@@ -295,7 +296,7 @@ impl CaseBuilder {
             let carries = |link: LinkId| link == GROUND || all.iter().any(|before| before.link == link);
             let link = if carries(first.link) { second.link } else { first.link };
             all.push(Drive {
-                // A joint that no drive moves is refused where the structure is analysed.
+                // A driven joint that no drive can move is rejected in the analysis of the structure.
                 input: kind.input().unwrap_or_default(),
                 joint,
                 link,
@@ -314,7 +315,7 @@ impl CaseBuilder {
         Ok(Drives::new(crank, all))
     }
 
-    /// The required mode of each group, in the order of the structure. A group with only one configuration needs none.
+    /// Required mode of each group, in the order of the structure. A group with only one configuration needs no mode.
     fn starts(&self, mechanism: &Mechanism, structure: &Structure) -> Result<Vec<StartGroup>> {
         let mut starts = vec![StartGroup::default(); structure.groups.len()];
         for (start, group) in starts.iter_mut().zip(&structure.groups) {
@@ -340,7 +341,7 @@ impl CaseBuilder {
     }
 }
 
-/// A link without mass.
+/// A massless link.
 fn bare(name: &str, points: &[(&str, [f64; 2])]) -> Link {
     let point = |&(name, local): &(&str, [f64; 2])| Point { name: name.into(), local: local.into() };
     let points = points.iter().map(point).collect();
@@ -405,7 +406,8 @@ mod tests {
         assert!((case.start.0[LinkId(3)].origin.x - 0.5).abs() < 1e-15, "{:?}", case.start);
     }
 
-    /// Cause: the instants of a free motion were laid by crank angles, to which it comes at times of its own.
+    /// Regression: the instants of a free motion were placed by crank angle, but a free crank reaches an angle at a
+    /// time that depends on the forces.
     #[test]
     fn a_free_motion_has_instants_by_time() {
         let left = |builder: CaseBuilder| builder.mode(&["coupler", "rocker"], AssemblyMode::Left);
@@ -414,11 +416,11 @@ mod tests {
         assert_eq!(case.grid, Grid::of_times(case.crank(), (0..=8).map(|k| TAU / 4.0 * f64::from(k) / 8.0).collect()));
         let case = left(four_bar().free("O", 0.0, 4.0)).times(&[0.0, 0.3, 0.1]).build().unwrap();
         assert_eq!(case.grid.times, [0.0, 0.3, 0.1]);
-        // Asked for by crank angle, it is refused wherever the grid comes from.
+        // A grid by crank angle is rejected, wherever it comes from.
         let angles = Grid::of_inputs(case.crank(), vec![0.0, 1.0]);
         assert!(case.on(angles.clone()).unwrap_err().to_string().contains("the motion is free"));
         assert!(case.with(|parts| parts.grid = angles).unwrap_err().to_string().contains("the motion is free"));
-        // A prescribed crank takes times too, and a free link may hang on a free one.
+        // A prescribed crank accepts times too, and a free link may be hinged to another free link.
         let prescribed = left(four_bar().crank("O", 2.0)).times(&[0.5]).build().unwrap();
         assert_eq!((prescribed.grid.times[0], prescribed.grid.inputs[0]), (0.5, 1.0));
         let pendulum = Case::builder()

@@ -1,4 +1,4 @@
-//! Conditions between the parts of a case.
+//! Consistency checks between the parts of a case.
 
 use crate::sentences;
 use std::f64::consts::TAU;
@@ -10,9 +10,9 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::math::{KeepNan, unit};
 use crate::mechanism::{AssemblyMode, GROUND, GroupKind, LinkPose, Mechanism, Structure};
 
-/// Largest opening of a joint in a start pose, as a share of the farthest place in it.
+/// Largest opening of a joint in a start pose, relative to the joint's farthest coordinate.
 /// First poses of all shipped scenarios leave less than 1e-15 (`tests/suite/start.rs`).
-/// The pose of a different mechanism is far above.
+/// The pose of a different mechanism leaves far more.
 const LARGEST_OPENING: f64 = 1e-9;
 
 /// Checks all parts.
@@ -106,15 +106,16 @@ fn drives(parts: &CaseParts) -> Result<()> {
     Ok(())
 }
 
-/// Length, as a share of the mechanism's size, below which a crank is a point.
+/// Crank length, relative to the mechanism's size, below which the crank is a point.
 const POINT: f64 = 1e-12;
 
-/// Whether a driving link carries others, but all of them by pins on its own axis.
+/// Whether a driving link carries other links, but only by revolute joints on its axis of rotation, and so moves none
+/// of them.
 fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
     let own = mechanism.joints()[drive.joint].on(drive.link);
     let others = || mechanism.joints().entries().filter(|&(index, _)| index != drive.joint);
     let mut carried = others().filter_map(|(_, joint)| Some((joint.is_pin(), joint.on(drive.link)?))).peekable();
-    // A slide moves its link wherever the joints lie.
+    // A prismatic joint moves its link wherever the other joints are.
     mechanism.joints()[drive.joint].is_pin()
         && carried.peek().is_some()
         && carried
@@ -165,7 +166,7 @@ fn motor_is_sound(motor: &Motor) -> bool {
         && own.intermediate_ratio.is_finite()
 }
 
-/// Checks that the structure is that of mechanism and drives.
+/// Checks that the structure belongs to mechanism and drives.
 fn structure(parts: &CaseParts) -> Result<()> {
     let own = Structure::of(&parts.mechanism, &parts.drives.joints())?;
     if own != parts.structure {
@@ -198,7 +199,7 @@ fn loads(parts: &CaseParts) -> Result<()> {
     Ok(())
 }
 
-/// Checks that every link has a place, that all joints are closed there and that the driving links have their start
+/// Checks that every link has a pose, that all joints are closed in it and that the driving links are at their start
 /// angles.
 fn start(parts: &CaseParts) -> Result<()> {
     let (mechanism, poses) = (&parts.mechanism, &parts.start.0);
@@ -220,7 +221,7 @@ fn start(parts: &CaseParts) -> Result<()> {
         let sides = [joint.first, joint.second];
         let places = sides.map(|side| poses[side.link].point(side.local));
         let (gap, turn) = joint.opening(places, sides.map(|side| unit(poses[side.link].angle)));
-        // Written this way round so that NaN is refused.
+        // Negated so that NaN is rejected.
         if !(gap <= LARGEST_OPENING * reach && turn <= LARGEST_OPENING) {
             let message = sentences::joint_is_open_in_the_start(
                 &joint.name,
@@ -244,7 +245,7 @@ fn start(parts: &CaseParts) -> Result<()> {
 
 const CLOSED: &str = sentences::TAKE_FIRST_POSE_AT_THE_WORLD;
 
-/// Checks that every group has a mode, and that the mode is of the group's kind.
+/// Checks that every group has a mode of the group's kind.
 fn modes(parts: &CaseParts) -> Result<()> {
     let (groups, modes) = (&parts.structure.groups, &parts.modes);
     if groups.len() != modes.len() {

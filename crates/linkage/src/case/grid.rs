@@ -12,21 +12,21 @@ use crate::math::statistics::ascending;
 pub struct Grid {
     /// Times (s), in any order.
     pub times: Vec<f64>,
-    /// The input at those times (in its SI unit, as the scenario states it).
+    /// Input values at those times (SI unit, as the scenario states them).
     pub inputs: Vec<f64>,
 }
 
 impl Grid {
-    /// Grid of the given times.
+    /// Returns the grid of the given times (s).
     #[must_use]
     pub fn of_times(drive: &Drive, times: Vec<f64>) -> Self {
         let inputs = times.iter().map(|&t| drive.at(t).value).collect();
         Grid { times, inputs }
     }
 
-    /// Grid of the given values of the input (in its SI unit, as the scenario states it).
-    /// When a free driving link comes to a value is a result of the forces: its grid has no times (NaN), and
-    /// [`Grid::check`] refuses it.
+    /// Returns the grid of the given input values (SI unit, as the scenario states them).
+    /// For a free driving link the times are unknown (NaN), because they follow from the forces; [`Grid::check`]
+    /// rejects this grid.
     #[must_use]
     pub fn of_inputs(drive: &Drive, inputs: Vec<f64>) -> Self {
         let time = |&angle: &f64| if drive.is_free() { f64::NAN } else { drive.time_of(angle) };
@@ -40,22 +40,22 @@ impl Grid {
         self.times.len()
     }
 
-    /// Whether there is no instant.
+    /// Whether the grid has no instants.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.times.is_empty()
     }
 
     /// Largest distance of a grid from the crank's zero, in turns.
-    /// Solvers follow the branch all the way, and a larger angle has lost its last digits.
+    /// Solvers follow the branch over the whole distance, and a larger angle loses its last digits to rounding.
     pub const MOST_TURNS: f64 = 1e5;
 
-    /// Checks that all times and angles are finite and within [`Grid::MOST_TURNS`], and that the law of the drive is
-    /// defined at all of them.
+    /// Checks that all times and angles are finite and within [`Grid::MOST_TURNS`], and that the drive's law is defined
+    /// at all of them.
     ///
     /// # Errors
-    /// A message that says how far the grid reaches, where the law ends, or that the crank is free and the grid is one
-    /// of crank angles.
+    /// A message that says how far the grid reaches, where the law ends, or that a grid by crank angle does not suit a
+    /// free crank.
     pub fn check(&self, drive: &Drive) -> std::result::Result<(), String> {
         let has_angles_alone =
             self.times.iter().all(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite());
@@ -67,7 +67,7 @@ impl Grid {
             if self.times.iter().any(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite()) {
                 return Err(sentences::the_drive_law_does_not_come(&name, &drive.input.noun()));
             }
-            // A rounding error beyond the last instant is allowed.
+            // A rounding error beyond the law's end is allowed.
             let end = drive.end().unwrap_or(f64::INFINITY);
             if let Some(t) = self.times.iter().find(|&&t| t < 0.0 || t > end * (1.0 + 1e-12)) {
                 return Err(sentences::the_grid_leads_to_but_the_drive(&t, &name, &end));

@@ -1,12 +1,12 @@
-//! The channels of a case by the words that people ask for them with.
+//! Selection of a case's channels by the words of a user.
 
 use super::Case;
 use crate::trajectory::{Channel, Stage};
 
 impl Case {
-    /// The channels that `word` asks for, of all that the case can have, in the order of columns.
-    /// A word is the name of a stage (`positions`), a subject (`point.P`, `link.rocker`, `joint.B`, `frame`, `drive`), a
-    /// subject's stage (`point.P.positions`) or a channel (`joint.B.fx_N`). Empty if it is none of them.
+    /// Channels selected by `word`, out of all that the case can have, in the order of columns.
+    /// A word is the name of a stage (`positions`), a subject (`point.P`, `link.rocker`, `joint.B`, `frame`, `drive`),
+    /// a subject's stage (`point.P.positions`) or a channel (`joint.B.fx_N`). Empty for any other word.
     #[must_use]
     pub fn channels_called(&self, word: &str) -> Vec<Channel> {
         let is_meant = |channel: &Channel| {
@@ -21,7 +21,7 @@ impl Case {
         all
     }
 
-    /// All words that [`Case::channels_called`] knows, the short ones first: to suggest one.
+    /// All words that [`Case::channels_called`] knows, short ones first, for suggestions.
     #[must_use]
     pub fn channel_words(&self) -> Vec<String> {
         let all = self.all_channels();

@@ -14,7 +14,7 @@ impl Wanted {
     /// All channels.
     pub const ALL: Wanted = Wanted([true; Stage::ALL.len()]);
 
-    /// The channels of the given stages.
+    /// Returns the selection of all channels of the given stages.
     #[must_use]
     pub fn of(stages: &[Stage]) -> Self {
         let mut wanted = Wanted([false; Stage::ALL.len()]);
@@ -31,21 +31,21 @@ impl Wanted {
         self.0[stage as usize]
     }
 
-    /// The last stage that must be computed; at least positions.
+    /// Last stage that must be computed; at least positions.
     #[must_use]
     pub fn deepest(&self) -> Stage {
         Stage::ALL.into_iter().rev().find(|&stage| self.has(stage)).unwrap_or(Stage::Positions)
     }
 }
 
-/// The parts of a [`Case`](super::Case), not checked yet. SI units, world axes.
+/// The unchecked parts of a [`Case`](super::Case). SI units, world axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseParts {
-    /// The mechanism.
+    /// Kinematic diagram.
     pub mechanism: Mechanism,
-    /// Its driving links and Assur groups.
+    /// Driving links and Assur groups of the mechanism.
     pub structure: Structure,
-    /// What moves the mechanism, in the order of [`Structure::drivers`].
+    /// Drives of the driving links, in the order of [`Structure::drivers`].
     pub drives: Drives,
     /// Loads besides gravity and inertia.
     pub loads: Vec<Load>,
@@ -55,10 +55,10 @@ pub struct CaseParts {
     pub start: Pose,
     /// Assembly mode of each group, in the order of the structure.
     pub modes: Vec<AssemblyMode>,
-    /// Instants wanted.
+    /// Wanted instants.
     pub grid: Grid,
-    /// Stages of the channels wanted.
+    /// Stages of the wanted channels.
     pub wanted: Wanted,
-    /// The channels wanted, where these are not all of the wanted stages: in the order of columns.
+    /// The wanted channels in the order of columns, if fewer than all channels of the wanted stages; `None` means all.
     pub only: Option<Vec<Channel>>,
 }

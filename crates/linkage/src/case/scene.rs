@@ -9,26 +9,26 @@ use crate::mechanism::{
 };
 use crate::trajectory::{Channel, Stage};
 
-/// Letters that a point keeps of its name if it needs a number besides.
+/// Letters kept of a point's name to which a number is appended.
 const SHORT: usize = 80;
 
 /// The part of a case that its wanted channels depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// That part, as a case of its own. The whole case, if everything is needed.
+    /// The needed part as a separate case; the whole case if everything is needed.
     pub case: Case,
-    /// What nothing wanted depends on.
+    /// The parts on which no wanted channel depends.
     pub left_out: LeftOut,
 }
 
-/// What a scene does without, by name.
+/// Names of the parts that a scene leaves out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LeftOut {
     /// Links.
     pub links: Vec<String>,
     /// Joints.
     pub joints: Vec<String>,
-    /// Assur groups, each by its links.
+    /// Assur groups, each named by its links.
     pub groups: Vec<String>,
     /// Driven joints.
     pub drives: Vec<String>,
@@ -37,7 +37,7 @@ pub struct LeftOut {
 }
 
 impl LeftOut {
-    /// Whether it is nothing at all.
+    /// Whether nothing is left out.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         *self == LeftOut::default()
@@ -45,10 +45,11 @@ impl LeftOut {
 }
 
 impl Case {
-    /// The part of the case that the wanted channels depend on. Their values are the same but for rounding.
+    /// Returns the part of the case on which the wanted channels depend. Their values agree with those of the whole
+    /// case up to rounding error.
     ///
     /// # Errors
-    /// Those of [`Case::new`], should the part not be a mechanism by itself.
+    /// Those of [`Case::new`], if the part is not a complete mechanism.
     pub fn scene(&self) -> Result<Scene> {
         let whole = || Scene { case: self.clone(), left_out: LeftOut::default() };
         let channels = match &self.only {
@@ -65,14 +66,14 @@ impl Case {
     }
 }
 
-/// What of a case is needed.
+/// The needed parts of a case.
 struct Needs<'a> {
     case: &'a Case,
-    /// For every link, the groups that its motion depends on, its own the last.
+    /// For every link, the groups on which its motion depends; the link's group is the last.
     upstream: PerLink<Vec<GroupId>>,
     /// For every link: whether its motion is needed.
     moves: PerLink<bool>,
-    /// The same for the forces on it.
+    /// For every link: whether the forces on it are needed.
     carries: PerLink<bool>,
 }
 
@@ -81,12 +82,12 @@ impl<'a> Needs<'a> {
         let none = || case.mechanism.links().iter().map(|_| false).collect();
         let upstream = case.structure.upstream(&case.mechanism);
         let mut needs = Needs { case, upstream, moves: none(), carries: none() };
-        // The crank's angle identifies the instant.
+        // The crank's angle identifies the instant, so its motion is always needed.
         (needs.moves[GROUND], needs.moves[case.crank().link]) = (true, true);
         needs
     }
 
-    /// Adds what the channel itself reads.
+    /// Adds what the channel reads directly.
     fn add(&mut self, channel: &Channel, seat: Seat) {
         match seat {
             Seat::Link(link) => self.moves[link] = true,
@@ -104,14 +105,15 @@ impl<'a> Needs<'a> {
         }
     }
 
-    /// The link with a point that depends on the fewest groups.
+    /// Of the links with this point, the link that depends on the fewest groups.
     fn carrier(&self, point: &str) -> LinkId {
         let links = self.case.mechanism.links().entries().skip(1);
         let own = links.filter(|(_, link)| link.points.iter().any(|own| own.name == point)).map(|(index, _)| index);
         own.min_by_key(|&link| self.upstream[link].len()).expect("a channel of the case")
     }
 
-    /// A link of the group, or the driving link, that a joint belongs to: of its two links the one solved later.
+    /// Of the joint's two links the one solved later: a link of the group, or the driving link, to which the joint
+    /// belongs.
     fn owner(&self, joint: JointId) -> LinkId {
         let joint = &self.case.mechanism.joints()[joint];
         let place = |link: LinkId| match self.case.structure.drivers.iter().position(|&(own, _)| own == link) {
@@ -129,7 +131,7 @@ impl<'a> Needs<'a> {
             let joint = &case.mechanism.joints()[joint];
             [joint.first.link, joint.second.link]
         };
-        // Forces go to everything that hangs on a link, directly or through others.
+        // Forces come from every link that depends on this link, directly or through further links.
         let carries = &mut self.carries;
         for &(link, joint) in &structure.drivers {
             carries[link] |= ends(joint).into_iter().any(|base| base != GROUND && carries[base]);
@@ -145,14 +147,14 @@ impl<'a> Needs<'a> {
         for link in self.moves.ids().skip(1) {
             self.moves[link] |= self.carries[link];
         }
-        // Their loads depend on the motion of further links.
+        // The loads on these links depend on the motion of further links.
         for load in &case.loads {
             let links = load.links();
             if links.iter().any(|&link| link != GROUND && self.carries[link]) {
                 links.iter().for_each(|&link| self.moves[link] = true);
             }
         }
-        // Motion comes from all groups and drives before.
+        // A group's motion depends on all groups and drives before it.
         for group in structure.groups.iter().rev() {
             if group.links.iter().any(|&link| self.moves[link]) {
                 group.links.iter().for_each(|&link| self.moves[link] = true);
@@ -170,7 +172,7 @@ impl<'a> Needs<'a> {
         self.moves[joint.first.link] && self.moves[joint.second.link]
     }
 
-    /// Loads count where forces are asked for.
+    /// Whether a load is needed: it acts on a link whose forces are needed.
     fn has_load(&self, load: &Load) -> bool {
         self.carries.contains(&true) && load.links().iter().all(|&link| self.moves[link])
     }
@@ -190,7 +192,7 @@ impl<'a> Needs<'a> {
         }
     }
 
-    /// The needed part as a case.
+    /// Returns the needed part as a case.
     fn case(&self) -> Result<Case> {
         let (case, whole) = (self.case, &self.case.mechanism);
         let link_number = numbers(self.moves.iter().copied());
@@ -224,8 +226,9 @@ impl<'a> Needs<'a> {
         Ok(scene.wanting_only(case.only.as_deref().unwrap_or_default()))
     }
 
-    /// The links that stay. A point that only a link left out has held together with its like on another link keeps its
-    /// name on the one that depends on fewer groups. The other gets a number.
+    /// Links that stay.
+    /// If two links share a point's name but the joint that kept the points together is left out, the link that depends
+    /// on fewer groups keeps the name; on the other link the point gets a number.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
         let stays = |index: &LinkId| self.moves[*index];
@@ -250,7 +253,7 @@ impl<'a> Needs<'a> {
                     continue;
                 }
                 let first = *all.iter().min_by_key(|&&own| (self.upstream[own].len(), own)).expect("there are two");
-                // Everything that pins of this name connect with the first link.
+                // All links connected with the first by revolute joints of this name.
                 let mut reached = vec![first];
                 let mut next = 0;
                 while let Some(&own) = reached.get(next) {
@@ -269,7 +272,7 @@ impl<'a> Needs<'a> {
         links.into_iter().map(|(_, link)| link).collect()
     }
 
-    /// The assembly mode of a group of the part, whose links have the numbers `link_number` gives them.
+    /// Assembly mode of a group of the part; `link_number` gives the new numbers of its links.
     fn mode(&self, group: &Group, link_number: &[LinkId]) -> AssemblyMode {
         let links = |of: &Group| -> Vec<LinkId> { of.links.iter().map(|&link| link_number[link]).collect() };
         let is_same = |own: &Group| self.moves[own.links[0]] && links(own) == group.links;
@@ -278,7 +281,7 @@ impl<'a> Needs<'a> {
     }
 }
 
-/// New numbers of what stays, in order. Those of what does not stay are never asked for.
+/// New numbers of the items that stay, in order. The entries of the remaining items are never read.
 fn numbers<I: Ordinal>(stays: impl Iterator<Item = bool>) -> Vec<I> {
     let mut next = 0;
     stays

@@ -1,4 +1,4 @@
-//! Everything of a case that has channels, and where in the mechanism it sits.
+//! The subjects of a case's channels and their places in the mechanism.
 
 use std::collections::BTreeMap;
 
@@ -6,8 +6,9 @@ use super::Case;
 use crate::mechanism::{JointId, JointSide, LinkId};
 use crate::trajectory::{Channel, ChannelSubject, Stage};
 
-/// Where in a mechanism the subject of a channel sits. It says what its numbers depend on and what they tell about.
-/// A new subject sits on one of these: see [`Case::seats`].
+/// Place of a channel's subject in the mechanism. It determines what the channel's values depend on and what they
+/// describe.
+/// A new subject takes one of these seats: see [`Case::seats`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Seat {
     /// On the link with this number.
@@ -22,12 +23,12 @@ pub enum Seat {
     Frame,
 }
 
-/// The seats of all subjects of a case, by their names.
+/// Seats of all subjects of a case, by name.
 #[derive(Debug)]
 pub struct Seats<'a>(BTreeMap<(ChannelSubject, &'a str), Seat>);
 
 impl Seats<'_> {
-    /// The seat of a channel's subject; `None` for a channel that the case does not have.
+    /// Seat of a channel's subject; `None` for a channel that the case does not have.
     #[must_use]
     pub fn of(&self, channel: &Channel) -> Option<Seat> {
         self.0.get(&(channel.kind.subject, channel.of.as_str())).copied()
@@ -35,7 +36,7 @@ impl Seats<'_> {
 }
 
 impl Case {
-    /// Everything that has channels, in the order of columns: sort, name, and seat.
+    /// All subjects of channels, in the order of columns: sort, name and seat.
     pub(crate) fn subjects(&self) -> impl Iterator<Item = (ChannelSubject, &str, Seat)> {
         let (links, joints) = (self.mechanism.links(), self.mechanism.joints());
         let links =
@@ -53,7 +54,7 @@ impl Case {
         links.chain(points).chain(joints).chain(sliders).chain(frame).chain(moved)
     }
 
-    /// The joints whose reactions are wanted, by themselves or as part of the force on the frame.
+    /// Joints whose reactions are wanted, directly or as part of the force on the frame.
     #[must_use]
     pub fn wanted_reactions(&self) -> Vec<JointId> {
         let (joints, seats) = (self.mechanism.joints(), self.seats());
@@ -68,7 +69,7 @@ impl Case {
         joints.ids().filter(is_wanted).collect()
     }
 
-    /// Where everything that has channels sits.
+    /// Seats of all subjects of channels.
     #[must_use]
     pub fn seats(&self) -> Seats<'_> {
         Seats(self.subjects().map(|(subject, name, seat)| ((subject, name), seat)).collect())

@@ -1,18 +1,20 @@
-//! Which links can turn at all, from the joints and the start pose.
+//! Which links can turn, derived from the joints and the start pose.
 //!
-//! Links that slide on each other keep their angle. In a parallelogram opposite links do too, and a chain of them
-//! passes it on. Whatever keeps the ground's angle only translates: its angular velocity is zero, and what a solver
-//! finds there is rounding. No load may take a sense of rotation from it.
+//! Links connected by a prismatic joint have the same angle up to a constant. So do opposite links of a parallelogram
+//! and any chain of these.
+//! A link connected with the ground in this way only translates: its angular velocity is zero, and a value that a
+//! solver finds there is rounding error. No load may take a sense of rotation from it.
 
 use super::CaseParts;
 use crate::math::Vec2;
 use crate::mechanism::{GROUND, Joint, LinkId};
 
-/// Difference of two opposite sides of a parallelogram, as a share of the mechanism's size, that is rounding.
+/// Difference of two opposite sides of a parallelogram, relative to the mechanism's size, that counts as rounding
+/// error.
 const EQUAL: f64 = 1e-12;
 
-/// A link that connects two others by revolute joints: these two in ascending order, the world places of the joints,
-/// and the link itself.
+/// A link that connects two other links by revolute joints: these two links in ascending order, the world coordinates
+/// of the joints, and the link itself.
 struct Bridge {
     ends: [LinkId; 2],
     places: [Vec2; 2],
@@ -36,7 +38,7 @@ pub(super) fn turning(parts: &CaseParts) -> Vec<bool> {
     for same in bridges.chunk_by(|one, other| one.ends == other.ends) {
         for (index, one) in same.iter().enumerate() {
             for other in same[index + 1..].iter().filter(|other| other.link != one.link) {
-                // The sides between the two bridges on both of the links that they connect.
+                // Sides of the quadrilateral on the two connected links, from one bridge to the other.
                 let sides = [0, 1].map(|end| other.places[end] - one.places[end]);
                 if (sides[0] - sides[1]).norm() <= equal && sides[0].norm() > equal {
                     unite(one.ends[0], one.ends[1]);

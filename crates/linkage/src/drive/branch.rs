@@ -1,4 +1,4 @@
-//! One smooth piece of a motor's moment on the crank. The equations of motion are integrated piece by piece.
+//! One smooth piece of the motor's moment on the crank. The equations of motion are integrated piece by piece.
 
 use crate::math::KeepNan;
 
@@ -14,7 +14,7 @@ impl Curve {
     pub(super) fn torque(&self, omega: f64) -> f64 {
         match *self {
             Curve::Line { at_rest, slope } => at_rest + slope * omega,
-            // Multiplied out, so that zero slip is not a special case.
+            // Multiplied out, so that zero slip needs no special case.
             Curve::Kloss { breakdown_torque, breakdown_slip: b, synchronous_speed } => {
                 let slip = 1.0 - omega / synchronous_speed;
                 2.0 * breakdown_torque * slip * b / (slip * slip + b * b)
@@ -34,7 +34,7 @@ impl Curve {
         }
     }
 
-    /// Speed at which the torque is zero, if there is one.
+    /// Speed at which the torque is zero; `None` if it never is.
     pub(super) fn root(&self) -> Option<f64> {
         match *self {
             Curve::Line { slope: 0.0, .. } => None,
@@ -43,12 +43,12 @@ impl Curve {
         }
     }
 
-    /// Speed at which the torque equals `torque` and falls with the speed.
+    /// Speed at which the torque equals `torque` and falls with increasing speed.
     fn stable_speed(&self, torque: f64) -> Option<f64> {
         match *self {
             Curve::Line { at_rest, slope } if slope < 0.0 => Some((torque - at_rest) / slope),
             Curve::Line { .. } => None,
-            // With x = s / b: torque (x + 1 / x) = 2 M. Take the root of smaller size, in a form without cancellation.
+            // With x = s / b: torque (x + 1 / x) = 2 M. The root of smaller size, in a form without cancellation.
             Curve::Kloss { breakdown_torque, breakdown_slip, synchronous_speed } => {
                 let share = torque / breakdown_torque;
                 let root = (1.0 - share * share).larger(0.0).sqrt();
@@ -58,7 +58,7 @@ impl Curve {
     }
 }
 
-/// One smooth piece of a motor's moment on the crank.
+/// One smooth piece of the motor's moment on the crank.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorBranch {
     curve: Curve,
@@ -70,7 +70,7 @@ pub struct MotorBranch {
 }
 
 impl MotorBranch {
-    /// The piece of a curve between two speeds of the motor, behind a reducer of this ratio and efficiency.
+    /// Piece of a curve between two speeds of the motor (rad/s), behind a reducer of this ratio and efficiency.
     /// Torque and speed keep their signs on the piece.
     pub(super) fn of(ratio: f64, efficiency: f64, curve: Curve, ends: [f64; 2]) -> Self {
         let inside = match ends {
@@ -98,7 +98,8 @@ impl MotorBranch {
         self.ratio * self.ratio * self.factor * self.curve.slope(self.ratio * omega)
     }
 
-    /// Speed of the crank (rad/s) on this piece at which the moment equals `resistance` (N m) and falls with the speed.
+    /// Speed of the crank (rad/s) on this piece at which the moment equals `resistance` (N m) and falls with increasing
+    /// speed.
     pub(super) fn steady_speed(&self, resistance: f64) -> Option<f64> {
         let speed = self.curve.stable_speed(resistance / (self.ratio * self.factor))? / self.ratio;
         // A rounding error beyond an end is allowed.

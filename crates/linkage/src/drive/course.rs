@@ -8,9 +8,9 @@ use crate::math::Piecewise;
 /// A constant, or a table over the crank angle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Course {
-    /// The same at every crank angle.
+    /// The value, equal at every crank angle.
     Constant(f64),
-    /// A function of the crank angle (rad, as the scenario states it).
+    /// A periodic function of the crank angle (rad, as the scenario states it).
     Table {
         /// The function. Its period is `turns` turns of the crank.
         function: Arc<Piecewise>,
@@ -20,9 +20,10 @@ pub enum Course {
 }
 
 impl Course {
-    /// A table through points of crank angle (rad) and value.
+    /// Returns a table through points of crank angle (rad) and value.
     /// The points are ascending, at least one, and within `turns` turns, after which the table repeats.
-    /// If `smooth` is false, straight lines; otherwise a periodic cubic spline with continuous second derivatives.
+    /// `smooth` selects a periodic cubic spline with continuous second derivatives; otherwise the points are joined by
+    /// straight lines.
     #[must_use]
     pub fn table(points: &[(f64, f64)], turns: u32, smooth: bool) -> Self {
         let of = if smooth { Piecewise::periodic_spline } else { Piecewise::periodic_lines };
@@ -39,7 +40,7 @@ impl Course {
         }
     }
 
-    /// Whether its numbers are finite, and a table has a period.
+    /// Whether all numbers are finite and a table has a period above zero.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         match self {
@@ -48,7 +49,7 @@ impl Course {
         }
     }
 
-    /// The same course times `factor`.
+    /// Returns this course times `factor`.
     #[must_use]
     pub fn times(&self, factor: f64) -> Self {
         match self {
@@ -59,7 +60,7 @@ impl Course {
         }
     }
 
-    /// The crank angles (rad) between which the function is one polynomial, over one period, and the period in turns.
+    /// Crank angles (rad) between which the function is one polynomial, over one period, and the period in turns.
     /// `None` for a constant.
     #[must_use]
     pub fn knots(&self) -> Option<(&[f64], u32)> {

@@ -4,58 +4,58 @@ use super::{InputState, MotionLaw, Motor};
 use crate::input::{Input, InputValue};
 use crate::mechanism::{JointId, LinkId};
 
-/// What moves a driving link.
+/// Kind of motion of a driving link.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DriveMotion {
-    /// A law prescribes the motion. The drive supplies whatever moment this takes.
+    /// Motion prescribed by a law. The drive supplies the moment that this takes.
     Prescribed {
-        /// The law.
+        /// The motion law.
         law: MotionLaw,
-        /// Motor whose speed under load is wanted. The law is followed whether or not the motor is able to.
+        /// Motor whose speed under load is wanted. The link follows the law even if the motor cannot.
         motor: Option<Motor>,
     },
-    /// From t = 0 on, forces decide the motion: loads, weights, inertia, and the motor if there is one.
+    /// Free motion: from t = 0 on, it follows from the loads, weights, inertia and the motor, if any.
     Free {
         /// Speed at t = 0 (rad/s), counter-clockwise positive.
         initial_speed: f64,
         /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive.
-        /// The motor drives in its sense, and speeds are compared with its size.
-        /// Questions about crank angles refer to the nominal motion.
+        /// Its sign is the motor's sense of rotation, and its size is the scale for speeds.
+        /// Crank angles refer to the nominal motion.
         nominal_speed: f64,
-        /// The motor that moves the link.
+        /// Motor that drives the link.
         motor: Option<Motor>,
     },
 }
 
-/// A driving link: the coordinate of its joint, the input, goes as `motion` says.
+/// A driving link and the motion of the input, the coordinate of its joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
-    /// What its input measures.
+    /// Kind of the input.
     pub input: Input,
     /// Driven joint.
     pub joint: JointId,
-    /// The link that the drive turns.
+    /// Link moved by the drive.
     pub link: LinkId,
-    /// Where the input is zero. Of an angle: the world angle of the link's x axis there (rad).
+    /// Zero of the input. For an angle: the world angle of the link's x axis there (rad).
     pub zero: f64,
-    /// The input at t = 0 (in its SI unit).
+    /// Input at t = 0 (SI unit).
     pub start: f64,
-    /// What moves the link.
+    /// Motion of the link: prescribed or free.
     pub motion: DriveMotion,
-    /// Whether the mechanism passes change points, on the branch on which velocities go on.
-    /// If not, a change point is an error. A free motion passes them in any case: see [`Drive::passes`].
+    /// Whether the mechanism passes change points, on the branch with continuous velocities.
+    /// If `false`, a change point is an error. A free motion always passes them: see [`Drive::passes`].
     pub through: bool,
 }
 
 impl Drive {
-    /// A drive that follows `law` and has no motor. The other arguments are the fields of the same names.
+    /// Returns a drive that follows `law` and has no motor. The other arguments are the fields of the same names.
     #[must_use]
     pub fn prescribed(joint: JointId, link: LinkId, zero: f64, start: f64, law: MotionLaw) -> Self {
         let motion = DriveMotion::Prescribed { law, motor: None };
         Drive { input: Input::Angle, joint, link, zero, start, motion, through: false }
     }
 
-    /// Applies `read` to the law that prescribes the motion, or to that of the nominal motion.
+    /// Applies `read` to the law that prescribes the motion, or to the law of the nominal motion.
     #[inline]
     fn by_law<T>(&self, read: impl FnOnce(&MotionLaw) -> T) -> T {
         match &self.motion {
@@ -64,14 +64,14 @@ impl Drive {
         }
     }
 
-    /// State of the driving link at time `t` (s), as [`MotionLaw::at`]. For a free link: in the nominal motion.
+    /// State of the driving link at time `t` (s), as in [`MotionLaw::at`]. For a free link: in the nominal motion.
     #[inline]
     #[must_use]
     pub fn at(&self, t: f64) -> InputState {
         self.by_law(|law| law.at(self.start, t))
     }
 
-    /// Time (s) at which the crank angle is `angle` (rad, as the scenario states it), as [`MotionLaw::time_of`].
+    /// Time (s) at which the crank angle is `angle` (rad, as the scenario states it), as in [`MotionLaw::time_of`].
     /// For a free link: in the nominal motion.
     #[inline]
     #[must_use]
@@ -79,8 +79,8 @@ impl Drive {
         self.by_law(|law| law.time_of(angle - self.start))
     }
 
-    /// Constant speed (rad/s) for one integration step that ends where the law is at the time `to`.
-    /// The step starts where the law is at the time `from` (s) and takes the time between the two.
+    /// Constant speed (rad/s) for an integration step from the law's angle at time `from` (s) to its angle at time `to`
+    /// (s), over the duration between the two.
     /// The speed is opposite to the law's sense if `to` is before `from`.
     #[inline]
     #[must_use]
@@ -91,14 +91,14 @@ impl Drive {
         })
     }
 
-    /// The largest speed of the law, as [`MotionLaw::top_speed`]. For a free link: the nominal speed.
+    /// Largest speed of the law (rad/s), as in [`MotionLaw::top_speed`]. For a free link: the nominal speed.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
         self.by_law(MotionLaw::top_speed)
     }
 
     /// Sense of rotation of the law: +1 counter-clockwise, -1 clockwise.
-    /// A law that goes to and fro has the sense of its top speed.
+    /// An oscillating law has the sense of its top speed.
     #[must_use]
     pub fn sense(&self) -> f64 {
         self.top_speed().signum()
@@ -114,32 +114,32 @@ impl Drive {
         }
     }
 
-    /// The speed of the law, or the nominal speed, if it is constant (rad/s).
+    /// Constant speed of the law, or the nominal speed of a free link (rad/s); `None` if the speed varies.
     #[inline]
     #[must_use]
     pub fn constant_speed(&self) -> Option<f64> {
         self.by_law(MotionLaw::constant)
     }
 
-    /// Time (s) at which the law ends, if it does.
+    /// Time (s) at which the law ends; `None` if it never ends.
     #[must_use]
     pub fn end(&self) -> Option<f64> {
         self.by_law(MotionLaw::end)
     }
 
-    /// Time (s) at which the angular acceleration jumps, if it does.
+    /// Time (s) at which the angular acceleration jumps; `None` if it never does.
     #[must_use]
     pub fn jump(&self) -> Option<f64> {
         self.by_law(MotionLaw::jump)
     }
 
-    /// Name of the law, or of the law of the nominal motion, in scenario files.
+    /// Name of the law in scenario files; for a free link, of the law of the nominal motion.
     #[must_use]
     pub fn law_name(&self) -> &'static str {
         self.by_law(MotionLaw::name)
     }
 
-    /// Whether forces decide the motion.
+    /// Whether the motion is free, that is, decided by forces.
     #[inline]
     #[must_use]
     pub fn is_free(&self) -> bool {
@@ -149,15 +149,15 @@ impl Drive {
         }
     }
 
-    /// Whether the mechanism passes change points, on the branch on which velocities go on: in free motion by momentum,
-    /// under a law if [`Drive::through`] says so.
+    /// Whether the mechanism passes change points, on the branch with continuous velocities: always in free motion (by
+    /// momentum), under a law if [`Drive::through`] is set.
     #[inline]
     #[must_use]
     pub fn passes(&self) -> bool {
         self.through || self.is_free()
     }
 
-    /// Whether the drive exerts a moment on the link. A free link without a motor has none.
+    /// Whether the drive exerts a moment on the link: all drives except a free link without a motor.
     #[must_use]
     pub fn has_moment(&self) -> bool {
         match &self.motion {
@@ -166,7 +166,7 @@ impl Drive {
         }
     }
 
-    /// The motor, whether it moves the link or only its speed is wanted.
+    /// The motor, whether it drives the link or only its speed is wanted.
     #[must_use]
     pub fn motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -174,7 +174,7 @@ impl Drive {
         }
     }
 
-    /// The motor that moves the link. Only a free link has one.
+    /// Motor that drives the link; only a free link can have one.
     #[must_use]
     pub fn moving_motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -183,13 +183,13 @@ impl Drive {
         }
     }
 
-    /// Moment of inertia of rotor and reducer that turn with a free link (kg m^2). 0 where a law prescribes the motion.
+    /// Moment of inertia of rotor and reducer that turn with a free link (kg m^2), referred to the link. 0 under a law.
     #[must_use]
     pub fn moving_inertia(&self) -> f64 {
         self.moving_motor().map_or(0.0, Motor::inertia_on_crank)
     }
 
-    /// The same drive with another motor, or without one.
+    /// Returns this drive with another motor, or without a motor.
     #[must_use]
     pub fn with_motor(&self, motor: Option<Motor>) -> Drive {
         let motion = match &self.motion {
@@ -201,7 +201,7 @@ impl Drive {
         Drive { motion, ..*self }
     }
 
-    /// The same drive in its nominal motion: a free link gets the nominal speed as its law.
+    /// Returns this drive in its nominal motion: a free link gets its nominal speed as a law.
     #[must_use]
     pub fn nominal(&self) -> Drive {
         let motion = match &self.motion {
@@ -213,8 +213,8 @@ impl Drive {
         Drive { motion, through: self.passes(), ..*self }
     }
 
-    /// The same drive with the law's top speed at all times.
-    /// A free link stays free, because its nominal motion already has that speed.
+    /// Returns this drive with the law's top speed at all times.
+    /// A free link stays free: its nominal motion already has that speed.
     #[must_use]
     pub fn at_top_speed(&self) -> Drive {
         let motion = match &self.motion {
@@ -226,21 +226,21 @@ impl Drive {
         Drive { motion, ..*self }
     }
 
-    /// World angle of the driving link's x axis (rad) for a crank angle as the scenario states it.
+    /// World angle of the driving link's x axis (rad) at the crank angle `angle` (rad, as the scenario states it).
     #[inline]
     #[must_use]
     pub fn world_angle(&self, angle: f64) -> f64 {
         self.zero + angle
     }
 
-    /// The input as the scenario states it, for the coordinate of [`Drive::world_angle`] (rad).
+    /// Input as the scenario states it, for the coordinate of [`Drive::world_angle`] (rad).
     #[inline]
     #[must_use]
     pub fn from_world(&self, coordinate: f64) -> f64 {
         coordinate - self.zero
     }
 
-    /// Angle of the driving link's frame (rad, turns kept) at the coordinate of [`Drive::world_angle`]; `None` where the
+    /// Angle of the driving link's frame (rad, turns kept) at the coordinate of [`Drive::world_angle`]; `None` if the
     /// drive does not turn the link.
     #[inline]
     #[must_use]
@@ -250,7 +250,7 @@ impl Drive {
         }
     }
 
-    /// The input at `value`, as messages say it.
+    /// The input at `value`, formatted for messages.
     #[must_use]
     pub fn told(&self, value: f64) -> InputValue {
         self.input.at(value)
@@ -322,7 +322,7 @@ mod tests {
         }
     }
 
-    /// Laws that start from rest have a sense at t = 0 too.
+    /// A law that starts from rest has a sense at t = 0 too.
     #[test]
     fn sense_and_initial_speed() {
         let laws = [
@@ -338,7 +338,7 @@ mod tests {
             let motion = DriveMotion::Free { initial_speed: 0.5, nominal_speed: 4.0 * sense, motor: None };
             let free = Drive { motion, ..drive };
             assert_eq!((free.sense(), free.initial_speed()), (sense, 0.5), "{:?}", free.motion);
-            // Questions about crank angles refer to the nominal motion.
+            // Crank angles refer to the nominal motion.
             assert_eq!(free.at(2.0), free.nominal().at(2.0));
             assert_eq!((free.time_of(3.0), free.nominal().initial_speed()), (2.5 * sense / 4.0, 4.0 * sense));
         }

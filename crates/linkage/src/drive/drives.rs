@@ -12,7 +12,7 @@ use super::Drive;
 pub struct Drives(Vec<Drive>);
 
 impl Drives {
-    /// The crank and what else is driven.
+    /// Returns the list of the crank and the further drives.
     #[must_use]
     pub fn new(crank: Drive, further: Vec<Drive>) -> Self {
         let mut all = further;
@@ -32,7 +32,7 @@ impl Drives {
         &mut self.0[0]
     }
 
-    /// All but the crank.
+    /// All drives except the crank.
     #[inline]
     #[must_use]
     pub fn further(&self) -> &[Drive] {
@@ -44,7 +44,7 @@ impl Drives {
         self.0.iter().enumerate().filter(|(_, drive)| drive.is_free())
     }
 
-    /// The drives that exert a moment, with their numbers: all except those of free links without a motor.
+    /// Drives that exert a moment, with their numbers: all except free links without a motor.
     pub fn with_moment(&self) -> impl Iterator<Item = (usize, &Drive)> {
         self.0.iter().enumerate().filter(|(_, drive)| drive.has_moment())
     }
@@ -55,7 +55,7 @@ impl Drives {
         self.0.iter().map(|drive| drive.joint).collect()
     }
 
-    /// The same drives, each changed by `change`.
+    /// Returns the list with each drive changed by `change`.
     #[must_use]
     pub fn map(&self, change: impl FnMut(&Drive) -> Drive) -> Drives {
         Drives(self.0.iter().map(change).collect())
@@ -69,8 +69,7 @@ impl Drives {
         std::iter::once(self.crank().world_angle(crank)).chain(further).collect()
     }
 
-    /// Ratios of the driving links' angular velocities to that of the crank at the time `t` (s). The crank's own ratio
-    /// is 1.
+    /// Ratios of the driving links' angular velocities to that of the crank at time `t` (s). The crank's ratio is 1.
     pub fn ratios(&self, t: f64) -> impl Iterator<Item = f64> {
         let omega = self.crank().at(t).rate;
         self.0.iter().enumerate().map(move |(index, drive)| if index == 0 { 1.0 } else { drive.at(t).rate / omega })

@@ -1,8 +1,8 @@
 //! Loads on links other than gravity and inertia.
 //!
-//! A sort of load is in this file only: its variant, what it does to the links ([`Load::act`]), what it depends on
-//! ([`Load::nature`]) and what it is made of ([`Load::parts`]). The rest asks for these.
-//! How a file says it is in the reader of scenarios.
+//! A sort of load is defined in this file only: its variant, its action on the links ([`Load::act`]), its dependencies
+//! ([`Load::nature`]) and its numbers ([`Load::parts`]).
+//! All other code queries these methods. The syntax in files belongs to the scenario reader.
 
 mod change;
 mod parts;
@@ -15,37 +15,37 @@ use super::course::Course;
 use crate::math::{Motion, Vec2};
 use crate::mechanism::{JointSide, LinkId};
 
-/// A load on one link, or between two.
+/// A load on one link, or between two links.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Load {
-    /// Moment of constant size against the link's rotation. Zero while the link stands still.
+    /// Moment of constant size against the link's rotation. Zero at standstill.
     Resistance {
         /// The loaded link.
         link: LinkId,
         /// Size of the moment (N m), not negative.
         moment: f64,
     },
-    /// Moment that does not depend on the speed. It may act for one sense of the link's rotation only.
+    /// Moment independent of the speed. It may act for one sense of the link's rotation only.
     Moment {
         /// The loaded link.
         link: LinkId,
         /// The moment (N m), counter-clockwise positive.
         moment: Course,
-        /// When it acts.
+        /// Sense of rotation for which it acts.
         acts: Acts,
     },
     /// Force on a point of a link.
     Force {
-        /// The point.
+        /// Point of application.
         at: JointSide,
-        /// Components (N), in world axes or in the axes of the link's frame.
+        /// Components (N), in world axes or in the link's axes.
         force: [Course; 2],
-        /// Whether the components are in the link's frame, so that the force turns with it.
+        /// Whether the components are in the link's axes, so that the force turns with the link.
         follows: bool,
     },
-    /// Force of constant size against the motion of a point of a link, -F v / |v|. Zero while the point stands still.
+    /// Force of constant size against the motion of a point of a link, -F v / |v|. Zero at standstill.
     ResistingForce {
-        /// The point.
+        /// Point of application.
         at: JointSide,
         /// Size of the force (N), not negative.
         force: f64,
@@ -53,34 +53,34 @@ pub enum Load {
     /// Spring between two points. It pulls them together with stiffness times (length - free length).
     /// Where the points coincide the direction is undefined and the force is zero.
     Spring {
-        /// The points.
+        /// End points.
         ends: [JointSide; 2],
         /// Stiffness (N/m).
         stiffness: f64,
-        /// Length without force (m).
+        /// Unloaded length (m).
         free_length: f64,
     },
-    /// Damper between two points: it pulls them together with damping times the rate of their distance.
-    /// The force is zero where they coincide.
+    /// Damper between two points. It pulls them together with damping times the rate of their distance.
+    /// Where the points coincide the force is zero.
     Damper {
-        /// The points.
+        /// End points.
         ends: [JointSide; 2],
         /// Damping (N s/m).
         damping: f64,
     },
-    /// Torsional spring between two links: stiffness times (twist - free twist) on the first link, the opposite on the
+    /// Torsion spring between two links: stiffness times (twist - free twist) on the first link, the opposite on the
     /// second.
     /// The twist is the angle of the second link's frame minus that of the first.
-    /// At t = 0 it is in (-pi, pi]; from there on it keeps its turns.
+    /// At t = 0 it is in (-pi, pi]; from there on it counts whole turns.
     TorsionSpring {
         /// The links.
         links: [LinkId; 2],
         /// Stiffness (N m/rad).
         stiffness: f64,
-        /// Twist without moment (rad).
+        /// Unloaded twist (rad).
         free_angle: f64,
     },
-    /// Torsional damper between two links: damping times the rate of the twist on the first link, the opposite on the
+    /// Torsion damper between two links: damping times the rate of the twist on the first link, the opposite on the
     /// second.
     TorsionDamper {
         /// The links.
@@ -139,8 +139,8 @@ impl Load {
         }
     }
 
-    /// What the load is called, where it acts, and the quantities it depends on.
-    /// Code that must know a load's variant asks this where it can.
+    /// Name of the load, its place, and the quantities on which it depends.
+    /// Code that needs to distinguish loads uses this rather than the variant where it can.
     #[inline]
     #[must_use]
     pub fn nature(&self) -> LoadNature<'_> {
@@ -172,7 +172,7 @@ impl Load {
         }
     }
 
-    /// Everything that the load is made of, to be read or changed; what it acts on first.
+    /// All parts of the load, to be read or changed; links and points first.
     pub fn parts(&mut self) -> Vec<LoadPart<'_>> {
         fn amount<'a>(name: &'static str, value: &'a mut f64) -> LoadPart<'a> {
             LoadPart::Number { role: LoadRole::Amount, name, value }
@@ -215,7 +215,7 @@ impl Load {
         }
     }
 
-    /// The link on whose sense of rotation the load depends.
+    /// Link on whose sense of rotation the load depends; `None` if there is no such link.
     #[inline]
     #[must_use]
     pub fn sensed_link(&self) -> Option<LinkId> {
@@ -225,7 +225,7 @@ impl Load {
         }
     }
 
-    /// The point on whose sense of motion the load depends.
+    /// Point on whose direction of motion the load depends; `None` if there is no such point.
     #[must_use]
     pub fn sensed_point(&self) -> Option<JointSide> {
         match self.nature().senses {
@@ -234,8 +234,8 @@ impl Load {
         }
     }
 
-    /// Moment (N m) of a load with a [sensed link](Load::sensed_link) while that link turns in the sense of `omega`,
-    /// at the crank angle `crank` (rad). Zero for other loads, and at standstill.
+    /// Moment (N m) of a load with a [sensed link](Load::sensed_link) while that link turns in the sense of `omega`, at
+    /// the crank angle `crank` (rad). Zero for all other loads, and at standstill.
     #[inline]
     #[must_use]
     pub fn moment_in(&self, omega: f64, crank: f64) -> f64 {
@@ -253,17 +253,17 @@ impl Load {
         if is_on { moment.at(crank) } else { 0.0 }
     }
 
-    /// Force (N) of a load with a [sensed point](Load::sensed_point) while that point moves in the direction `way`: a unit
-    /// vector in world axes, or zero for standstill. Zero for other loads.
+    /// Force (N) of a load with a [sensed point](Load::sensed_point) while that point moves in the direction `way`: a
+    /// unit vector in world axes, or zero for standstill. Zero for all other loads.
     #[inline]
     #[must_use]
     pub fn force_in(&self, way: Vec2) -> Vec2 {
         if let Load::ResistingForce { force, .. } = self { way * -force } else { Vec2::zeros() }
     }
 
-    /// By how much the load jumps where the motion that it senses reverses, at the crank angle `crank` (rad): N m, or N
-    /// for a force; not negative. Zero where it senses none, and where it vanishes with the speed or at that crank angle:
-    /// there it has a kink at most.
+    /// Jump of the load where the motion it senses reverses, at the crank angle `crank` (rad); in N m, or N for a
+    /// force; not negative.
+    /// Zero for a load that senses no motion, or vanishes with the speed or at that crank angle: it has a kink at most.
     #[must_use]
     pub fn jump(&self, crank: f64) -> f64 {
         match self.nature().senses {
@@ -287,7 +287,8 @@ impl Load {
         if let &Load::Resistance { link, moment } = self { Some((link, moment)) } else { None }
     }
 
-    /// Whether the load depends on the size of speeds, not only on their senses.
+    /// For a [resistance](Load::Resistance): the loaded link and the size of the moment (N m).
+    /// Some engines and formats have only this load built in.
     #[must_use]
     pub fn is_viscous(&self) -> bool {
         self.nature().is_viscous
@@ -299,7 +300,7 @@ impl Load {
         self.nature().twist.is_some() || self.courses().any(|course| course.knots().is_some())
     }
 
-    /// The quantities that may depend on the crank angle.
+    /// Quantities that may depend on the crank angle.
     pub fn courses(&self) -> impl Iterator<Item = &Course> {
         self.nature().courses.iter()
     }
@@ -311,7 +312,8 @@ impl Load {
     }
 }
 
-/// Direction of a velocity: a unit vector, or zero at standstill. The squares of the smallest speeds do not vanish.
+/// Direction of a velocity: a unit vector, or zero at standstill. Computed so that squares of very small speeds do not
+/// underflow.
 #[inline]
 #[must_use]
 pub fn sense_of(velocity: Vec2) -> Vec2 {
@@ -319,14 +321,14 @@ pub fn sense_of(velocity: Vec2) -> Vec2 {
     if most > 0.0 { (velocity / most).normalize() } else { Vec2::zeros() }
 }
 
-/// World places of two ends and the vector from the first to the second.
+/// World coordinates of two ends and the vector from the first to the second.
 #[inline]
 fn span(motions: &[Motion], ends: [JointSide; 2]) -> ([Vec2; 2], Vec2) {
     let places = ends.map(|end| motions[end.link].point(end.local));
     (places, places[1] - places[0])
 }
 
-/// Applies the force `pull` to the first end and its reaction to the second.
+/// Applies the force `pull` (N) to the first end and its reaction to the second.
 /// `pull` points towards the second end if the two attract each other.
 #[inline]
 fn pull_together(ends: [JointSide; 2], places: [Vec2; 2], pull: Vec2, put: &mut impl FnMut(Action)) {

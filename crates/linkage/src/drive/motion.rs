@@ -1,4 +1,4 @@
-//! Laws of motion: an input as a function of time.
+//! Motion laws: an input as a function of time.
 
 use std::convert::Infallible;
 use std::f64::consts::TAU;
@@ -6,32 +6,35 @@ use std::sync::Arc;
 
 use crate::math::{Piecewise, root};
 
-/// An input with its rate and acceleration: rad, rad/s, rad/s^2 of an angle. What it measures: [`Input`](crate::input::Input).
+/// An input with its rate and acceleration: rad, rad/s, rad/s^2 for an angle; m, m/s, m/s^2 for a length. Its kind:
+/// [`Input`](crate::input::Input).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InputState {
-    /// Its value as the scenario states it. Of an angle: from the drive's zero direction, counter-clockwise, turns counted.
+    /// Value as the scenario states it. An angle is measured from the drive's zero direction, counter-clockwise, turns
+    /// counted.
     pub value: f64,
-    /// Its rate, counter-clockwise positive.
+    /// Rate, counter-clockwise positive.
     pub rate: f64,
-    /// Its acceleration.
+    /// Acceleration, counter-clockwise positive.
     pub acceleration: f64,
 }
 
-/// An input as a function of time, from t = 0. Units are those of an angle; of a length they are m and m/s.
+/// An input as a function of time, from t = 0. Units are given for an angle; for a length read m and m/s.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s, not zero), counter-clockwise positive.
     ConstantSpeed(f64),
-    /// From rest with constant acceleration up to a speed, which then stays constant.
+    /// Constant acceleration from rest up to a speed, which then stays constant.
     Ramp {
-        /// The speed (rad/s, not zero), counter-clockwise positive.
+        /// Final speed (rad/s, not zero), counter-clockwise positive.
         speed: f64,
-        /// Time in which it is reached (s), positive.
+        /// Duration of the acceleration (s), positive.
         time: f64,
     },
     /// Cycloidal motion from rest to rest: rise (s - sin(2 pi s) / 2 pi) with s = t / time.
     /// Its acceleration, 2 pi rise / time^2 sin(2 pi s), begins and ends with zero.
-    /// Artobolevsky, "Theory of mechanisms and machines", laws of motion of followers.
+    /// Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988, on laws of motion of
+    /// followers.
     Cycloidal {
         /// Total angle (rad, not zero), counter-clockwise positive.
         rise: f64,
@@ -44,7 +47,7 @@ pub enum MotionLaw {
 }
 
 impl MotionLaw {
-    /// Time (s) at which the law ends, if it does.
+    /// Time (s) at which the law ends; `None` if it never ends.
     #[must_use]
     pub fn end(&self) -> Option<f64> {
         match self {
@@ -54,7 +57,7 @@ impl MotionLaw {
         }
     }
 
-    /// The speed if it is constant (rad/s).
+    /// The speed (rad/s) if it is constant; otherwise `None`.
     #[inline]
     #[must_use]
     pub fn constant(&self) -> Option<f64> {
@@ -64,7 +67,7 @@ impl MotionLaw {
         }
     }
 
-    /// Time (s) at which the angular acceleration jumps, if it does.
+    /// Time (s) at which the angular acceleration jumps; `None` if it never does.
     #[must_use]
     pub fn jump(&self) -> Option<f64> {
         match *self {
@@ -84,9 +87,8 @@ impl MotionLaw {
         }
     }
 
-    /// Angle, speed and acceleration at time `t` (s) of a motion that begins with the input `start` (rad) at t =
-    /// 0.
-    /// Times beyond the law's end are allowed for callers that approach the end: the formula continues smoothly.
+    /// Angle, speed and acceleration at time `t` (s) of a motion with the input `start` (rad) at t = 0.
+    /// Times beyond the law's end are allowed, for callers that approach the end: the formula continues smoothly.
     #[inline]
     #[must_use]
     pub fn at(&self, start: f64, t: f64) -> InputState {
@@ -115,9 +117,7 @@ impl MotionLaw {
         }
     }
 
-    /// The speed that the law reaches (rad/s), counter-clockwise positive: the constant speed, or the speed of largest
-    /// size.
-    /// Not zero.
+    /// Speed of largest size that the law reaches (rad/s), counter-clockwise positive. Not zero.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
         match self {
@@ -131,12 +131,12 @@ impl MotionLaw {
     }
 
     /// First time (s) at which the driving link has turned by the angle `gone` (rad).
-    /// NaN if the law never gets there. Also NaN for tables, which may get there more than once.
+    /// NaN if the law never reaches the angle, and for tables, which may reach it more than once.
     #[inline]
     #[must_use]
     pub fn time_of(&self, gone: f64) -> f64 {
         match *self {
-            // Adding zero turns the -0 of a clockwise crank into 0.
+            // The addition of zero turns the -0 of a clockwise crank into 0.
             MotionLaw::ConstantSpeed(omega) => gone / omega + 0.0,
             MotionLaw::Ramp { speed, time } => match gone / speed {
                 early if early < time / 2.0 => (2.0 * time * early).sqrt(),
@@ -148,10 +148,11 @@ impl MotionLaw {
     }
 }
 
-/// Halvings of the whole time, down to rounding.
+/// Number of bisections of the whole time, enough to reach rounding error.
 const HALVINGS: usize = 60;
 
-/// The share s of time at which s - sin(2 pi s) / 2 pi is `gone`. By halving, since the function is flat at both ends.
+/// Share s of the time at which s - sin(2 pi s) / 2 pi is `gone`. Found by bisection, because the function is flat at
+/// both ends.
 fn cycloid(gone: f64) -> f64 {
     // A rounding error beyond the last angle is allowed.
     if !(-1e-15..=1.0 + 1e-15).contains(&gone) {

@@ -2,10 +2,10 @@
 
 use super::branch::{Curve, MotorBranch};
 
-/// Torque of a motor as a function of its own speed. Positive in the sense in which it drives.
+/// Torque of a motor as a function of its speed. Positive in its driving sense.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotorLaw {
-    /// The same torque at every speed.
+    /// Constant torque at all speeds.
     Constant {
         /// Torque (N m).
         torque: f64,
@@ -13,25 +13,25 @@ pub enum MotorLaw {
     /// M = `at_rest` + `slope` omega: the stable branch of an induction motor's characteristic, or a direct-current
     /// motor.
     Linear {
-        /// Torque of the line at standstill (N m).
+        /// Torque at standstill by the straight line (N m).
         at_rest: f64,
-        /// Change of the torque with the speed (N m s). Negative; otherwise the motor would run away.
+        /// Slope of torque over speed (N m s). Negative for a stable motor.
         slope: f64,
     },
-    /// Induction motor after Kloss, without the stator's resistance:
+    /// Induction motor after Kloss, with the stator's resistance neglected:
     /// M = 2 `breakdown_torque` / (s / `breakdown_slip` + `breakdown_slip` / s) with the slip s = 1 - omega /
     /// `synchronous_speed`.
     /// Kloss, Archiv fuer Elektrotechnik 5 (1916).
     Kloss {
-        /// Largest torque (N m).
+        /// Breakdown torque, the largest torque (N m).
         breakdown_torque: f64,
-        /// Slip at which that torque is reached, above 0.
+        /// Slip at the breakdown torque, above 0.
         breakdown_slip: f64,
-        /// Speed without load (rad/s), above 0.
+        /// Synchronous speed, the speed without load (rad/s), above 0.
         synchronous_speed: f64,
     },
     /// Straight lines between measured points; the outer lines continue beyond the table.
-    /// Straight lines cannot overshoot: a table that falls gives a law that falls.
+    /// Straight lines cannot overshoot: a falling table gives a falling law.
     Table {
         /// Speeds (rad/s), ascending, at least two.
         speeds: Vec<f64>,
@@ -41,7 +41,7 @@ pub enum MotorLaw {
 }
 
 impl MotorLaw {
-    /// The law with `share` times the torque at every speed.
+    /// Returns the law with its torque multiplied by `share` at every speed.
     #[must_use]
     pub fn scaled(&self, share: f64) -> MotorLaw {
         match self {
@@ -65,7 +65,7 @@ impl MotorLaw {
         curves.iter().find(holds).or(curves.last()).map_or(0.0, |(_, curve)| curve.torque(omega))
     }
 
-    /// The smooth pieces of the law, each with the speeds (rad/s) between which it is valid. Together they cover all
+    /// Smooth pieces of the law, each with the speeds (rad/s) between which it is valid. Together they cover all
     /// speeds.
     pub(super) fn curves(&self) -> Vec<([f64; 2], Curve)> {
         let all = [f64::NEG_INFINITY, f64::INFINITY];
@@ -91,61 +91,62 @@ impl MotorLaw {
     }
 }
 
-/// Moments of inertia of the rotor and of the reducer's shafts (kg m^2), each about its own shaft.
+/// Moments of inertia of the rotor and of the reducer's shafts (kg m^2), each about its axis of rotation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShaftInertia {
-    /// The motor's rotor.
+    /// Rotor of the motor.
     pub rotor: f64,
-    /// The reducer's input shaft, which turns with the motor.
+    /// Input shaft of the reducer, which turns with the motor.
     pub input: f64,
-    /// Ratio of the intermediate shaft's speed to that of the crank. Has no meaning where `intermediate` is 0.
+    /// Intermediate shaft of the reducer, which turns `intermediate_ratio` times as fast as the crank. 0 if there is no
+    /// such shaft.
     pub intermediate: f64,
-    /// Speed of the intermediate shaft over that of the crank; without a meaning where `intermediate` is 0.
+    /// Ratio of the intermediate shaft's speed to that of the crank; ignored if `intermediate` is 0.
     pub intermediate_ratio: f64,
-    /// Its output shaft, which turns with the crank.
+    /// Output shaft of the reducer, which turns with the crank.
     pub output: f64,
 }
 
-/// A motor that turns the crank through a reducer.
+/// A motor that drives the crank through a reducer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motor {
-    /// The motor's torque-speed law.
+    /// Torque-speed law of the motor.
     pub law: MotorLaw,
     /// Ratio of the motor's speed to that of the crank, above 0.
     pub ratio: f64,
-    /// Share of the power that passes the reducer, above 0 and at most 1, the same in both directions.
+    /// Efficiency of the reducer, above 0 and at most 1, equal in both directions of power flow.
     /// It reduces the motor's static torque. Losses of the moments that accelerate the shafts are neglected.
     pub efficiency: f64,
-    /// Inertia of rotor and reducer.
+    /// Moments of inertia of rotor and reducer.
     pub inertia: ShaftInertia,
 }
 
 impl Motor {
-    /// A motor behind a reducer without losses and without inertia.
+    /// Returns a motor behind a reducer without losses and inertia.
     #[must_use]
     pub fn ideal(law: MotorLaw, ratio: f64) -> Self {
         Motor { law, ratio, efficiency: 1.0, inertia: ShaftInertia::default() }
     }
 
-    /// Moment of the motor on the crank (N m) while the crank turns with `omega` (rad/s, positive where the motor
-    /// drives).
-    /// By equal powers it is ratio times torque.
-    /// It is multiplied by the efficiency where power flows to the crank, and divided by it where power flows back.
+    /// Moment of the motor on the crank (N m) while the crank turns at `omega` (rad/s, positive in the motor's driving
+    /// sense).
+    /// It is ratio times torque, times the efficiency where power flows to the crank, divided by it where power flows
+    /// back.
     #[must_use]
     pub fn moment_on_crank(&self, omega: f64) -> f64 {
         self.branch(omega, 1.0).moment(omega)
     }
 
     /// Moment of inertia of rotor and reducer reduced to the crank (kg m^2).
-    /// Each part counts with the square of the ratio of its speed to the crank's.
+    /// Each part counts with the square of its speed ratio to the crank.
     #[must_use]
     pub fn inertia_on_crank(&self) -> f64 {
         let own = &self.inertia;
         (own.rotor + own.input) * self.ratio.powi(2) + own.intermediate * own.intermediate_ratio.powi(2) + own.output
     }
 
-    /// The smooth piece of the moment on the crank that is valid at the crank's speed `omega` (rad/s).
-    /// Where two pieces meet: the one towards higher speeds for a positive `towards`, otherwise the one towards lower
+    /// Smooth piece of the moment on the crank that is valid at the crank's speed `omega` (rad/s).
+    /// Where two pieces meet: the piece towards higher speeds if `towards` is positive, otherwise that towards lower
     /// speeds.
     #[must_use]
     pub fn branch(&self, omega: f64, towards: f64) -> MotorBranch {
@@ -161,7 +162,7 @@ impl Motor {
     fn branches(&self) -> Vec<MotorBranch> {
         let mut found = Vec::new();
         for ([from, to], curve) in self.law.curves() {
-            // The losses change sense with the power, that is where speed or torque changes sign.
+            // The losses change sign with the power, that is, where speed or torque changes sign.
             let mut ends = vec![from, to];
             if self.efficiency < 1.0 {
                 let turns = [Some(0.0), curve.root()].into_iter().flatten();
@@ -176,9 +177,9 @@ impl Motor {
         found
     }
 
-    /// Speed of the crank (rad/s) at the stable balance: the motor's moment is `resistance` (N m) and falls with the
-    /// speed.
-    /// The fastest if there are several, `None` if there is none.
+    /// Speed of the crank (rad/s) at stable equilibrium: the motor's moment equals `resistance` (N m) and falls with
+    /// increasing speed.
+    /// The largest of several speeds; `None` if there is no such speed.
     #[must_use]
     pub fn steady_speed(&self, resistance: f64) -> Option<f64> {
         self.branches().iter().rev().find_map(|branch| branch.steady_speed(resistance))
@@ -197,14 +198,14 @@ mod tests {
         let motor = Motor::ideal(LINEAR, 2745.0 / 130.0);
         let steady = motor.steady_speed(17.0).unwrap();
         assert!((motor.moment_on_crank(steady) - 17.0).abs() < 1e-12);
-        // Without resistance the motor runs at its synchronous speed, 22.51 / 0.0716 = 314.385 1/s.
+        // Unloaded, the motor runs at its synchronous speed, 22.51 / 0.0716 = 314.385 rad/s.
         assert!((motor.steady_speed(0.0).unwrap() * motor.ratio - 314.385_474_860_335_2).abs() < 1e-10);
         let kloss = Motor { efficiency: 0.9, ..Motor::ideal(KLOSS, 10.0) };
         for resistance in [-20.0, 0.0, 20.0, 44.9] {
             let steady = kloss.steady_speed(resistance).unwrap();
             assert!((kloss.moment_on_crank(steady) - resistance).abs() < 1e-10, "{resistance}");
         }
-        // Its breakdown torque on the crank is 10 * 0.9 * 5 N m.
+        // The breakdown torque on the crank is 10 * 0.9 * 5 N m.
         assert_eq!(kloss.steady_speed(45.1), None);
         assert_eq!(Motor::ideal(MotorLaw::Constant { torque: 3.0 }, 1.0).steady_speed(2.0), None);
     }
@@ -225,7 +226,7 @@ mod tests {
         for (found, expected) in torques.iter().zip([3.0, 4.0, 5.0, 6.0, 3.0, 0.0, -3.0]) {
             assert!((found - expected).abs() < 1e-14, "{torques:?}");
         }
-        // The stable balance is on the falling side.
+        // The stable equilibrium is on the falling side.
         let steady = Motor::ideal(table, 2.0).steady_speed(10.0).unwrap();
         assert!((steady - 20.0 / 3.0).abs() < 1e-14, "{steady}");
     }
@@ -252,7 +253,7 @@ mod tests {
             let at = pair[0].speeds[1];
             assert_eq!(at, pair[1].speeds[0]);
             let jump = (pair[0].moment(at) - pair[1].moment(at)).abs();
-            // At standstill the losses change sense: only there the moment jumps.
+            // At standstill the losses change sign: only there the moment jumps.
             assert!(jump < 1e-12 || at == 0.0, "{at} {jump}");
             assert_eq!(motor.branch(at, 1.0), pair[1]);
             assert_eq!(motor.branch(at, -1.0), pair[0]);

@@ -1,13 +1,14 @@
-//! Masses that engines need because they integrate bodies.
+//! Substitute masses for engines, which integrate bodies.
 
 use crate::case::Case;
 use crate::error::{Advice, Error, ErrorKind, Result};
 use crate::mechanism::LinkId;
 use crate::sentences;
 
-/// Mass (kg) and moment of inertia (kg m^2) that engines add to a link without them; 0 for what the link already has.
-/// The mass is the mean mass of all links.
-/// The moment of inertia is that of a rod with this mass and the mechanism's size. `link` is the link's number.
+/// Mass (kg) and moment of inertia (kg m^2) that engines add to a link that lacks them; 0 for a quantity that the link
+/// already has.
+/// The mass is the mean mass of all links; the moment of inertia is that of a rod with this mass and the mechanism's
+/// size.
 pub fn stand_in(case: &Case, link: LinkId) -> [f64; 2] {
     let moving = &case.mechanism.links()[1..];
     let total: f64 = moving.iter().map(|link| link.mass).sum();
@@ -17,9 +18,8 @@ pub fn stand_in(case: &Case, link: LinkId) -> [f64; 2] {
     [mass, if own.inertia > 0.0 { 0.0 } else { (own.mass + mass) * size * size / 12.0 }]
 }
 
-/// Checks that every link has a mass and a moment of inertia.
-/// Where forces decide the motion no stand-in is allowed, because it would change the motion.
-/// `software` is the name under which users know the engine.
+/// Checks that every link has a mass and a moment of inertia, as a free motion requires: substitutes would change it.
+/// `software` is the engine's name as users know it.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] with the first link that lacks one of them.

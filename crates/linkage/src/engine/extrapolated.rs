@@ -10,14 +10,14 @@ use crate::sentences;
 use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::trajectory::{CHANNELS, Channel, ChannelKind, Stage};
 
-/// An engine and its extrapolation.
+/// An engine with Richardson extrapolation.
 pub struct Extrapolated {
     /// The engine at h, h / 2, h / 4, ...
     runs: Vec<Box<dyn Engine>>,
 }
 
 impl Extrapolated {
-    /// Extrapolates an engine with the step h, `times` times: the runs are those at h, h / 2, ..., h / 2^times.
+    /// Extrapolates an engine of step h `times` times, from runs at h, h / 2, ..., h / 2^times.
     pub fn new(inner: Box<dyn Engine>, times: usize) -> Self {
         debug_assert!(!inner.controls_error(), "there is no step to be halved");
         let step = inner.settings().resolution;
@@ -29,15 +29,15 @@ impl Extrapolated {
         self.runs[0].as_ref()
     }
 
-    /// How many errors cancel.
+    /// Number of error terms that cancel.
     fn times(&self) -> usize {
         self.runs.len() - 1
     }
 }
 
-/// Weights of the runs at h, h / 2, ..., for an error of a sum of the powers `order`, `order` + 1, ... of the step: as
-/// many of them cancel as there are further runs.
-/// By Neville's scheme: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) / (2^p - 1), p the power that
+/// Weights of the runs at h, h / 2, ..., for an error with the powers `order`, `order` + 1, ... of the step: each run
+/// after the first cancels one power.
+/// Neville's scheme: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) / (2^p - 1), where p is the power that
 /// cancels.
 fn weights(order: f64, runs: usize) -> Vec<f64> {
     let mut rows: Vec<Vec<f64>> =
@@ -54,7 +54,7 @@ fn weights(order: f64, runs: usize) -> Vec<f64> {
     rows.swap_remove(0)
 }
 
-/// Weights of the runs for the quantities of a state that depend on the step.
+/// Weights of the runs for those quantities of a state that depend on the step.
 struct Weights {
     position: Vec<f64>,
     velocity: Vec<f64>,
@@ -76,7 +76,7 @@ impl Weights {
         }
     }
 
-    /// Combines the states of all runs at one instant, the coarsest first. The result goes to `into`.
+    /// Combines the states of all runs at one instant, the coarsest first, into `into`.
     fn combine(&self, case: &Case, states: &[&State], into: &mut State) {
         let mix = |weights: &[f64], of: &dyn Fn(&State) -> f64| -> f64 {
             weights.iter().zip(states).map(|(weight, state)| weight * of(state)).sum()
@@ -85,7 +85,7 @@ impl Weights {
             weights.iter().zip(states).fold(Vec2::zeros(), |sum, (weight, state)| sum + of(state) * *weight)
         };
         for (index, link) in case.mechanism.links().entries().skip(1) {
-            // Combines mass centres, as the engine's bodies have them. The frame's origin follows.
+            // Combines mass centres, as in the engine's bodies; the origin of the link's frame follows.
             let centre = link.mass_centre;
             let angle = mix(&self.position, &|state| state.angles[index]);
             into.angles[index] = angle;
@@ -125,7 +125,7 @@ impl Solver for Extrapolated {
 
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         let (finest, coarser) = self.runs.split_last().expect("there is the run at the step itself");
-        // Every run costs twice the one before.
+        // Every run costs twice as much as the previous run.
         let whole = 2f64.powi(self.runs.len() as i32) - 1.0;
         let mut kept = Vec::with_capacity(coarser.len());
         for (index, run) in coarser.iter().enumerate() {
@@ -166,7 +166,7 @@ impl StandIn for Extrapolated {
     }
 
     fn own_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        // The errors are proportional to h^p, h^(p+1), ...; the first ones cancel.
+        // The errors are proportional to h^p, h^(p+1), ...; the leading errors cancel.
         self.coarsest().formal_order(case, channel) + self.times() as f64
     }
 
@@ -194,7 +194,7 @@ mod tests {
     use crate::fixtures;
     use crate::mechanism::LinkId;
 
-    /// An engine whose links turn by t + h^2. It records its runs by steps and sweeps.
+    /// A test engine whose links turn by t + h^2. It records its runs by steps and sweeps.
     /// Runs listed in `fails` stop at the second instant.
     #[derive(Clone, Debug)]
     struct Counted {
@@ -204,7 +204,7 @@ mod tests {
     }
 
     impl Counted {
-        /// The runs recorded so far; the record is cleared.
+        /// Returns the runs recorded so far and clears the record.
         fn taken(&self) -> Vec<(f64, usize)> {
             std::mem::take(&mut self.runs.lock().unwrap())
         }
@@ -285,7 +285,7 @@ mod tests {
         Counted { settings: Settings { extrapolated: 0, ..ASKED }, runs: Arc::default(), fails }
     }
 
-    /// The rungs of a proof, in its order.
+    /// Settings of the rungs of a proof, in order.
     fn rungs() -> [Settings; 4] {
         let at = |factor: f64| Settings { resolution: ASKED.resolution * factor, ..ASKED };
         [ASKED, at(0.5), at(2.0), Settings { sweeps: ASKED.sweeps / 2, ..ASKED }]
@@ -296,7 +296,8 @@ mod tests {
         case.on(Grid::of_times(case.crank(), vec![0.2, 0.0, 0.1])).unwrap()
     }
 
-    /// Rows and angles that an engine delivers, in its order, and how the run ended. Progress must rise from 0 to 1.
+    /// Rows and angles that an engine delivers, in its order, and the result of the run. Progress must rise from 0 to
+    /// 1.
     fn run(engine: &dyn Engine, case: &Case) -> (Vec<(usize, f64)>, Result<()>) {
         let (mut seen, mut far) = (Vec::new(), 0.0);
         let mut visit = |row: usize, state: &State| {
@@ -322,7 +323,7 @@ mod tests {
         assert_eq!(alone[0].len(), 3);
         let once = [(0.1, 8), (0.05, 8), (0.025, 8), (0.2, 8), (0.1, 4), (0.05, 4)];
         assert_eq!(engine.taken(), once);
-        // Nothing is made again, until it is forgotten.
+        // A kept run is not repeated until it is dropped.
         assert_eq!(run(kept.with(ASKED).as_ref(), &case).0, alone[0]);
         assert_eq!(engine.taken(), []);
         kept.retain(|settings| settings.resolution != 0.1);
@@ -370,7 +371,7 @@ mod tests {
         }
     }
 
-    /// An error of h^2, h^3 and h^4 is gone after three extrapolations, to rounding.
+    /// Errors of h^2, h^3 and h^4 cancel to rounding error after three extrapolations.
     #[test]
     fn every_extrapolation_cancels_one_power() {
         let errors = |h: f64| 3.0 * h.powi(2) - 2.0 * h.powi(3) + 5.0 * h.powi(4);

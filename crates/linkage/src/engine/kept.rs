@@ -11,9 +11,9 @@ use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::threads::{cores, side_by_side};
 use crate::trajectory::Channel;
 
-/// An engine that makes every run once, and hands out the states it has kept when the run is asked for again.
-/// Engines made from it by [`Engine::with`] share its runs, extrapolated ones too.
-/// Runs are those of one case; a run of another case empties the store.
+/// An engine that performs every run once and returns the kept states when the run is requested again.
+/// Engines made from it by [`Engine::with`] share its runs, including extrapolated engines.
+/// Kept runs belong to one case; a run of another case empties the store.
 pub struct CachedEngine {
     inner: Box<dyn Engine>,
     store: Arc<Store>,
@@ -31,13 +31,13 @@ struct Runs {
 #[derive(Clone)]
 struct Run {
     settings: Settings,
-    /// Its states; a failed run has those that it reached.
+    /// States of the run; after a failure, the states reached before it.
     rows: Arc<Rows>,
     failed: Option<Error>,
 }
 
 impl Store {
-    /// A thread that panicked while it held the lock left whole runs.
+    /// A poisoned lock is usable: the store holds complete runs only.
     fn lock(&self) -> MutexGuard<'_, Runs> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -52,14 +52,14 @@ impl Store {
 }
 
 impl CachedEngine {
-    /// Remembers the runs of an engine, whatever its settings.
+    /// Wraps an engine and keeps its runs at all settings.
     #[must_use]
     pub fn new(engine: &dyn Engine) -> Self {
         let plain = Settings { extrapolated: 0, ..engine.settings() };
         CachedEngine { inner: engine.with(plain), store: Arc::default() }
     }
 
-    /// Settings of the plain runs that engines at `settings` are made of and that have not been made yet, each once.
+    /// Settings of the plain runs that engines at `settings` need and that are not kept yet, without duplicates.
     #[must_use]
     pub fn missing(&self, case: &Case, settings: &[Settings]) -> Vec<Settings> {
         let mut missing: Vec<Settings> = Vec::new();
@@ -75,7 +75,7 @@ impl CachedEngine {
     /// Their results do not depend on the number of threads. A run that fails is kept with its failure.
     /// `progress` receives the finished share of all of them.
     pub fn prepare(&self, case: &Case, mut missing: Vec<Settings>, progress: Progress) {
-        // The longest run first, so that no core waits for it at the end.
+        // The longest run starts first, so that the other cores do not wait for it at the end.
         missing.sort_by(|a, b| b.work().total_cmp(&a.work()));
         let whole: f64 = missing.iter().map(Settings::work).sum();
         let mut parts = vec![0.0f64; missing.len()];
@@ -87,12 +87,12 @@ impl CachedEngine {
         });
     }
 
-    /// Forgets the runs whose settings are not wanted any more.
+    /// Drops the runs whose settings `wanted` rejects.
     pub fn retain(&self, wanted: impl Fn(&Settings) -> bool) {
         self.store.lock().runs.retain(|run| wanted(&run.settings));
     }
 
-    /// Makes a plain run and keeps it.
+    /// Performs a plain run and keeps it.
     fn run(&self, case: &Case, settings: Settings, progress: Progress) -> Run {
         let engine = self.inner.with(settings);
         let (rows, outcome) = Rows::of_run(case, |visit| engine.sweep(case, visit, progress));
@@ -101,14 +101,14 @@ impl CachedEngine {
         run
     }
 
-    /// The plain run at these settings, made if it is missing.
+    /// Returns the kept plain run at these settings, or performs it if it is missing.
     fn found(&self, case: &Case, progress: Progress) -> Run {
         let settings = self.inner.settings();
         self.store.find(settings, case).unwrap_or_else(|| self.run(case, settings, progress))
     }
 }
 
-/// Settings of the plain runs that an engine with `settings` is made of.
+/// Settings of the plain runs from which an engine with `settings` is combined.
 #[must_use]
 pub fn plain_runs(settings: Settings) -> Vec<Settings> {
     let at = |time| settings.resolution * 0.5f64.powi(time);

@@ -1,7 +1,7 @@
-//! The states of a whole run, flat in one block of memory: only the numbers that somebody may ask for.
+//! The states of a whole run in one flat block of memory, reduced to the numbers that the wanted channels need.
 //!
-//! A [`State`] has five lists of its own, with room for every stage. A run of many instants would spend more memory on
-//! them than on its numbers.
+//! A [`State`] has five separate lists, with room for every stage. For a run of many instants these would take more
+//! memory than the numbers.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,13 +18,13 @@ use crate::trajectory::Stage;
 pub struct Rows {
     layout: Layout,
     values: Vec<f64>,
-    /// Whether the run has come to a row.
+    /// For every row: whether the run has reached it.
     reached: Vec<bool>,
-    /// [`State::passing`] where it is not `None`; few rows.
+    /// [`State::passing`] of the few rows where it is not `None`.
     passing: BTreeMap<usize, f64>,
 }
 
-/// Which numbers of a state are kept.
+/// The numbers of a state that are kept.
 #[derive(Clone, Debug)]
 struct Layout {
     links: usize,
@@ -38,8 +38,8 @@ struct Layout {
 }
 
 impl Layout {
-    /// What the wanted channels of a case are made of. Forces follow from the whole motion, and a load may sense a
-    /// velocity that nobody has asked for.
+    /// Layout of the numbers that the wanted channels of a case need. Forces depend on the whole motion, so then all
+    /// velocities are kept: a load may depend on a velocity that is not wanted itself.
     fn of(case: &Case) -> Self {
         let deepest = case.wanted.deepest();
         let with_forces = deepest >= Stage::Reactions;
@@ -56,7 +56,7 @@ impl Layout {
         }
     }
 
-    /// Numbers of one state.
+    /// Number of values per state.
     fn width(&self) -> usize {
         let rates = usize::from(self.velocities) + usize::from(self.accelerations);
         self.links * (5 + 3 * rates) + 2 * self.joints + self.sliding.len() + self.drives
@@ -64,7 +64,7 @@ impl Layout {
 }
 
 impl Rows {
-    /// Room for all rows of a case, none of which is reached.
+    /// Allocates all rows of a case, each marked as not reached.
     #[must_use]
     pub fn new(case: &Case) -> Self {
         let layout = Layout::of(case);
@@ -79,13 +79,13 @@ impl Rows {
         Layout::of(case).width() * size_of::<f64>() + size_of::<bool>()
     }
 
-    /// Whether the run has come to a row.
+    /// For every row: whether the run has reached it.
     #[must_use]
     pub fn has(&self, row: usize) -> bool {
         self.reached[row]
     }
 
-    /// Keeps the state of a row.
+    /// Stores the state of a row.
     pub fn put(&mut self, row: usize, state: &State) {
         let Layout { velocities, accelerations, joints, sliding, drives, .. } = &self.layout;
         let width = self.layout.width();
@@ -118,8 +118,8 @@ impl Rows {
         self.passing.extend(state.passing.map(|condition| (row, condition)));
     }
 
-    /// Writes what was kept of a row into `state`, a state of the same case. Returns whether the run has come to that
-    /// row; else the state stays as it is.
+    /// Copies the stored row into `state`, a state of the same case, and returns `true`; returns `false` and leaves
+    /// `state` unchanged if the run has not reached the row.
     pub fn get(&self, row: usize, state: &mut State) -> bool {
         if !self.reached[row] {
             return false;
@@ -155,7 +155,7 @@ impl Rows {
         true
     }
 
-    /// Those of a whole run of a solver.
+    /// Collects the states of a whole run of a solver.
     ///
     /// # Errors
     /// Those of [`Solver::sweep`].
@@ -164,7 +164,7 @@ impl Rows {
         outcome.map(|()| Arc::new(rows))
     }
 
-    /// Collects the states that `sweep` visits. What was visited before a failure is kept beside it.
+    /// Collects the states that `sweep` visits. On failure the states visited before it are returned with the error.
     pub(super) fn of_run(
         case: &Case,
         sweep: impl FnOnce(&mut dyn FnMut(usize, &State) -> Result<()>) -> Result<()>,

@@ -60,12 +60,12 @@ pub enum Advice {
     },
     /// Another analytic side as the reference of a proof.
     OtherReference {
-        /// Its name.
+        /// Name.
         solver: &'static str,
     },
     /// An analytic solver alone, without an engine.
     OtherSolver {
-        /// Its name.
+        /// Name.
         solver: &'static str,
     },
     /// A grid within the crank angles that the branch reaches.

@@ -1,4 +1,4 @@
-//! Why a formula is wrong.
+//! The cause of a wrong formula.
 
 use crate::sentences;
 use std::collections::BTreeSet;
@@ -15,49 +15,50 @@ use linkage::error::Result;
 use linkage::math::KeepNan;
 use scenario::{Claim, Formulas};
 
-/// The simplest explanation of a wrong formula: with it granted, nothing is left over, unless it says so.
+/// The simplest explanation of a wrong formula. Unless the variant says otherwise, no difference remains once it is
+/// corrected.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FormulaCause {
-    /// One slip of the pen.
+    /// One slip in writing.
     Slip(FormulaSlip),
-    /// The same amount too much everywhere, in the unit of the claim.
+    /// Constant error, in the unit of the claim; positive if the formula gives too much.
     Offset(f64),
-    /// Too large by the same factor everywhere.
+    /// Constant factor by which the formula is too large.
     Factor(f64),
     /// A term or factor of the derivation is missing.
     Missing(Missing),
-    /// Terms are missing that the mechanism has.
+    /// Terms are missing that the mechanism contains.
     Terms(Vec<Term>),
-    /// It is right up to a crank angle (rad) and then another branch.
+    /// The formula is right up to a crank angle (rad) and follows another branch beyond it.
     Leaves {
-        /// The last crank angle at which it is right.
+        /// Last crank angle (rad) at which it is right.
         after: f64,
-        /// The first at which it is not.
+        /// First crank angle (rad) at which it is wrong.
         before: f64,
     },
-    /// Several slips explain it equally well, and more that are not told.
+    /// Several causes explain it equally well; more of them may be left out.
     Several {
-        /// The simplest.
+        /// The simplest causes.
         causes: Vec<FormulaCause>,
-        /// Number of those that are not told.
+        /// Number of further causes that are left out.
         more: usize,
     },
-    /// It is another channel of the mechanism, by name.
+    /// The formula gives another channel of the mechanism, by name.
     Other(String),
-    /// It is a constant, and what it claims is not.
+    /// The formula is constant; the claimed quantity is not.
     Constant,
-    /// Nothing simple explains it, and it is nearly right.
+    /// Nothing simple explains the error, but the formula is nearly right.
     Near {
-        /// Its largest error, in the unit of the claim.
+        /// Largest error, in the unit of the claim.
         error: f64,
-        /// The same over the mechanism's largest number.
+        /// Largest error over the mechanism's largest value.
         share: f64,
     },
-    /// Nothing simple explains all of it; this explains most.
+    /// Nothing simple explains the whole error; this cause explains most of it.
     Mostly {
-        /// What explains most of it.
+        /// Cause of most of the error.
         cause: Box<FormulaCause>,
-        /// Share of the difference that stays over when it is granted.
+        /// Share of the difference that remains once the cause is corrected.
         left: f64,
     },
 }
@@ -125,36 +126,36 @@ impl fmt::Display for Term {
 }
 
 impl FormulaCause {
-    /// Whether nothing is left over when it is granted.
+    /// Whether the cause explains everything.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         !matches!(self, FormulaCause::Mostly { .. } | FormulaCause::Near { .. } | FormulaCause::Constant)
     }
 }
 
-/// What a search for a cause came to.
+/// Result of a search for a cause.
 #[derive(Clone, Debug, Default)]
 pub struct CauseSearch {
     /// The cause, if there is a simple one.
     pub cause: Option<FormulaCause>,
-    /// Whether the search ended because its work was used up, before all was tried.
+    /// Whether the search reached its limit of work before everything was tried.
     pub is_cut: bool,
-    /// Operations that it took: evaluations of a part of a formula at an instant, and what costs as much.
+    /// Operations used: evaluations of a part of a formula at an instant, and steps of equal cost.
     pub work: u64,
 }
 
-/// Why a search has found no cause, where it is cut.
+/// The reason given when a search ended at its limit without a cause.
 pub const CUT: &str = sentences::THE_SEARCH_ENDED_AT_ITS_LIMIT;
 
 /// Most operations of the search for the cause of one formula.
 pub const MOST_WORK: u64 = 60_000_000;
-/// Most explanations that are told where several fit equally.
+/// Largest number of equally good explanations that are reported.
 const TOLD: usize = 3;
-/// Share of the largest number of the mechanism that an approximation is off by at most.
+/// Largest error of an approximation, as a share of the mechanism's largest value.
 const NEAR: f64 = 0.02;
 
-/// Why the formula called `name` is wrong on a course, sought with no more operations than `limit`. There is no cause
-/// if it claims nothing, or nothing simple explains it.
+/// Finds why the formula called `name` is wrong on a course, with no more operations than `limit`.
+/// There is no cause if the formula claims nothing or nothing simple explains the error.
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.
@@ -183,10 +184,11 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     let is_sound = |own: &&Mended| !own.rank.0;
     let is_simple = |own: &&Mended| own.slip.kind != SlipKind::Value || !own.rank.1;
     let mut sound: Vec<&Mended> = tried.right.iter().filter(is_sound).filter(is_simple).collect();
-    // Where nothing changes, or the formula is wrong by a factor, a number is all that a slip has to meet.
+    // Where nothing changes, or the formula is wrong by a factor, a slip has only one number to meet.
     let is_weak = trial.is_constant() || trial.is_number;
     if let Some(first) = sound.first().copied() {
-        // A sign, a unit, and units that fit together only with it, say more than the number does.
+        // A sign, a unit, or units that become consistent only with the correction are stronger evidence than the
+        // number.
         let own = formulas.list[trial.index].tree.clone();
         let is_natural = match first.slip.kind {
             SlipKind::Sign | SlipKind::Branch | SlipKind::PerRadian | SlipKind::PerSecond => true,
@@ -210,7 +212,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
                 let is_near = own.rank.2 == rank.2 || trial.is_constant();
                 return own.rank.1 == rank.1 && is_near && !is_same && kinds.insert((own.slip.kind, own.rank.2));
             }
-            // By the numbers of a mechanism, one length may be twice another, or a ratio twice its inverse.
+            // In the numbers of a mechanism one length may happen to be twice another, or a ratio twice its inverse.
             let is_number = |kind: SlipKind| kind == SlipKind::Factor;
             let is_other = own.rank.1 == rank.1
                 && (matches!(rank.3, SlipKind::Name | SlipKind::Exchanged) && is_number(own.slip.kind)
@@ -219,7 +221,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
         });
         return one_of(sound.into_iter().map(|own| FormulaCause::Slip(own.slip.clone())).collect());
     }
-    // What is missing comes before slips whose units do not fit together.
+    // A missing term or factor is preferred to slips with inconsistent units.
     let lacks = if trial.is_spent() { Vec::new() } else { missing(trial, &dimensions) };
     let found: Vec<FormulaCause> = lacks.into_iter().map(FormulaCause::Missing).collect();
     if !found.is_empty() {
@@ -242,22 +244,22 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     if trial.gives_one_number() && !trial.is_constant() {
         return Some(FormulaCause::Constant);
     }
-    // An approximation is right by chance where it crosses.
+    // An approximation is right by chance where it crosses the exact curve.
     let is_exact = trial.formula.error.is_none();
     if let Some(found) = leaves(&rows).filter(|_| is_exact) {
         return Some(found);
     }
-    // Of as many that are as simple, one leaves as little at two independent instants by chance.
+    // Among this many equally simple slips, one leaves as small a remainder at two independent instants by chance.
     let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
     let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
     let mostly = |own: Mended| FormulaCause::Mostly { cause: Box::new(FormulaCause::Slip(own.slip)), left: own.left };
     nearest.map(mostly).or_else(|| near(&rows).filter(|_| is_exact))
 }
 
-/// Chance that a slip leaves little of the difference though it is not the cause.
+/// Probability that a slip leaves a small remainder without being the cause.
 const CHANCE: f64 = 0.05;
 
-/// One cause, or several that fit equally well.
+/// Returns one cause, or several that fit equally well.
 fn one_of(mut causes: Vec<FormulaCause>) -> Option<FormulaCause> {
     causes.dedup();
     let more = causes.len().saturating_sub(TOLD);
@@ -265,7 +267,8 @@ fn one_of(mut causes: Vec<FormulaCause>) -> Option<FormulaCause> {
     if causes.len() > 1 { Some(FormulaCause::Several { causes, more }) } else { causes.pop() }
 }
 
-/// Whether it is right to within a small share of its largest number, as a series or a formula for small angles is.
+/// Recognises a formula that is right to within a small share of the largest value, like a series or a small-angle
+/// formula.
 fn near(rows: &[Row]) -> Option<FormulaCause> {
     let largest = |of: &dyn Fn(&Row) -> f64| rows.iter().map(|row| of(row).abs()).fold(0.0, f64::larger);
     let (error, scale) = (largest(&|row| row[2] - row[3]), largest(&|row| row[3]));
@@ -273,10 +276,10 @@ fn near(rows: &[Row]) -> Option<FormulaCause> {
     is_near.then_some(FormulaCause::Near { error, share: error / scale })
 }
 
-/// Fewest instants that an approximation is recognised by.
+/// Fewest instants from which an approximation is recognised.
 const FEWEST: usize = 8;
 
-/// Formula and mechanism at an instant: time, crank, formula without whole turns, mechanism, bound.
+/// Values at an instant: time, crank angle, formula without whole turns, mechanism, bound.
 pub(super) type Row = [f64; 5];
 
 impl Trial<'_> {
@@ -290,14 +293,14 @@ impl Trial<'_> {
     }
 }
 
-/// An offset or a factor, if either is all that is wrong.
+/// Returns an offset or a factor, if either explains the whole error.
 fn of_numbers(rows: &[Row]) -> Option<FormulaCause> {
     if rows.len() < 3 || rows.iter().any(|row| !row[2].is_finite()) {
         return None;
     }
     let left = |row: &Row| row[2] - row[3];
     let largest = |column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::larger);
-    // A coefficient that is taken from the numbers themselves is as well known as they are.
+    // A coefficient fitted to the numbers is known only as well as they are.
     let slack = 8.0 * f64::EPSILON * (largest(2) + largest(3));
     let by = |basis: &dyn Fn(&Row) -> f64| {
         let [above, below] = rows.iter().fold([0.0, 0.0], |[above, below], row| {
@@ -312,7 +315,7 @@ fn of_numbers(rows: &[Row]) -> Option<FormulaCause> {
     offset.or_else(|| by(&|row| row[3]).map(|more| FormulaCause::Factor(1.0 + more)))
 }
 
-/// Right up to somewhere, and wrong from there on.
+/// Recognises a formula that is right up to a crank angle and wrong beyond it.
 fn leaves(rows: &[Row]) -> Option<FormulaCause> {
     let mut order: Vec<&Row> = rows.iter().collect();
     order.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -326,7 +329,7 @@ fn leaves(rows: &[Row]) -> Option<FormulaCause> {
 mod tests {
     use super::*;
 
-    /// Ten numbers known to 1e-12: what is left by an offset or a factor must be as small as that, in every one.
+    /// Ten numbers known to 1e-12: an offset or a factor must leave a remainder as small as that in each of them.
     #[test]
     fn an_offset_or_a_factor_leaves_nothing_over() {
         let found = |of: &dyn Fn(f64) -> f64, off: f64| {

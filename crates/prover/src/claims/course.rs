@@ -1,4 +1,4 @@
-//! What a side found, with how well it knows it.
+//! The values that a side found, with their errors.
 
 use crate::sentences;
 use formula::{Function, Operator, Rounded};
@@ -8,18 +8,19 @@ use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
 use scenario::{Claim, Formula, MechanismFigure, PrintedChannel};
 
-/// A side's trajectory, and how far every number of it is known (by column and row, in its SI unit).
+/// A side's trajectory with the error of every value (by column and row, in SI units).
 pub struct KnownTrajectory<'a> {
     trajectory: &'a Trajectory,
     error: &'a dyn Fn(usize, usize) -> f64,
     crank_name: &'a str,
-    /// Angular velocity and acceleration of the crank, where the side has them.
+    /// Columns of the angular velocity and acceleration of the crank, where the side has them.
     crank: [Option<usize>; 2],
-    /// Angle of a crank that moves under forces, where the side has it: it is known as well as it was integrated.
+    /// Column of the angle of a crank that moves under forces, where the side has it; its error is that of the
+    /// integration.
     angle: Option<usize>,
-    /// Figures of the whole mechanism, in SI.
+    /// Values of the whole mechanism, in SI units.
     figures: &'a [(MechanismFigure, Rounded)],
-    /// How well every channel is known at best, in its SI unit; empty for no such limit.
+    /// Smallest error assumed for every channel, in its SI unit; empty for no lower limit.
     least: &'a [f64],
 }
 
@@ -27,9 +28,9 @@ pub struct KnownTrajectory<'a> {
 pub(super) struct Column<'a> {
     values: &'a [f64],
     error: Box<dyn Fn(usize) -> f64 + 'a>,
-    /// Of a vector's magnitude: the other component.
+    /// The other component, if the claim is a vector's magnitude.
     across: Option<Box<Column<'a>>>,
-    /// The SI unit over the claim's.
+    /// SI unit over the claim's unit.
     factor: f64,
 }
 
@@ -51,7 +52,7 @@ impl Column<'_> {
     }
 }
 
-/// The channels that judging a claim needs of a case, derivatives included.
+/// Returns the channels that are needed to judge a claim on a case, derivatives included.
 #[must_use]
 pub fn needed(claim: &Claim, case: &Case) -> Vec<Channel> {
     let crank = &case.mechanism.links()[case.crank().link].name;
@@ -70,8 +71,8 @@ pub fn needed(claim: &Claim, case: &Case) -> Vec<Channel> {
     all
 }
 
-/// The channels that a diagnosis may find a missing term among: angles, velocities and accelerations of all links and
-/// points; and what has the unit of a claim, which may be meant.
+/// Returns the channels among which a diagnosis may find a missing term: angles, velocities and accelerations of all
+/// links and points, and every channel with the unit of a claim, which may have been meant.
 #[must_use]
 pub fn telling<'a>(case: &Case, claims: impl Iterator<Item = &'a Claim>) -> Vec<Channel> {
     let claimed: Vec<_> =
@@ -81,7 +82,7 @@ pub fn telling<'a>(case: &Case, claims: impl Iterator<Item = &'a Claim>) -> Vec<
     case.all_channels().into_iter().filter(of).collect()
 }
 
-/// The other component of a vector whose magnitude is claimed.
+/// Returns the other component of a vector whose magnitude is claimed.
 fn across(channel: &PrintedChannel) -> Option<Channel> {
     let is_other = |kind: &&'static linkage::trajectory::ChannelKind| kind.reading == Reading::Joint(OfJoint::ForceY);
     let kind = channel.magnitude.then(|| linkage::trajectory::CHANNELS.iter().find(is_other)).flatten()?;
@@ -89,7 +90,7 @@ fn across(channel: &PrintedChannel) -> Option<Channel> {
 }
 
 impl<'a> KnownTrajectory<'a> {
-    /// What a side found on a case; `error` says how far a number is known, by column and row.
+    /// Creates the course of a case; `error` returns the error of a value by column and row, in SI units.
     #[must_use]
     pub fn new(case: &'a Case, trajectory: &'a Trajectory, error: &'a dyn Fn(usize, usize) -> f64) -> Self {
         let crank = &case.mechanism.links()[case.crank().link].name;
@@ -109,13 +110,13 @@ impl<'a> KnownTrajectory<'a> {
         }
     }
 
-    /// The same with figures of the whole mechanism, in SI.
+    /// Adds values of the whole mechanism, in SI units.
     #[must_use]
     pub fn with_figures(self, figures: &'a [(MechanismFigure, Rounded)]) -> Self {
         KnownTrajectory { figures, ..self }
     }
 
-    /// The same with limits to how well channels are known, in their SI units.
+    /// Sets the smallest error assumed for every channel, in its SI unit.
     #[must_use]
     pub fn known_at_least(&'a self, least: &'a [f64]) -> Self {
         KnownTrajectory { least, ..*self }
@@ -133,13 +134,13 @@ impl<'a> KnownTrajectory<'a> {
         self.trajectory.inputs()
     }
 
-    /// The instants at which a formula is claimed to hold.
+    /// Rows at which a formula is claimed to hold.
     pub(super) fn rows(&self, formula: &Formula) -> Vec<usize> {
         (0..self.len()).filter(|&row| formula.holds_at(self.cranks()[row])).collect()
     }
 
-    /// Names of the links, except the crank, of which all is known here, with angle (rad), angular velocity and
-    /// angular acceleration.
+    /// Links other than the crank whose angle (rad), angular velocity and angular acceleration are all known here, by
+    /// name.
     pub(super) fn links(&self) -> impl Iterator<Item = (&str, [&[f64]; 3])> {
         let channels = self.trajectory.channels();
         let column = |channel: &Channel| {
@@ -168,7 +169,7 @@ impl<'a> KnownTrajectory<'a> {
         })
     }
 
-    /// The inputs of formulas at an instant.
+    /// Values of the formulas' inputs at an instant.
     pub(super) fn inputs(&self, row: usize) -> [Rounded; 4] {
         let of = |column: Option<usize>| {
             let column = column?;
@@ -179,7 +180,7 @@ impl<'a> KnownTrajectory<'a> {
         [self.crank(row), Rounded::nearly(self.times()[row]), omega, alpha]
     }
 
-    /// The crank angle at an instant (rad, as the scenario states it).
+    /// Crank angle at an instant (rad, in the scenario's convention).
     #[must_use]
     pub fn crank(&self, row: usize) -> Rounded {
         let mut phi = Rounded::nearly(self.cranks()[row]);
@@ -187,10 +188,11 @@ impl<'a> KnownTrajectory<'a> {
         phi
     }
 
-    /// Number of derivatives of a claim that the side has channels for. Figures are numbers and have none.
+    /// Number of derivatives of a claim for which the side has channels. Values of the whole mechanism have no
+    /// derivatives.
     ///
     /// # Errors
-    /// If a channel or figure of the claim itself is missing.
+    /// If a channel or value of the claim itself is missing.
     pub(super) fn orders(&self, claim: &Claim) -> Result<usize> {
         self.channels(claim, 0)?;
         self.figures(claim)?;
@@ -201,7 +203,7 @@ impl<'a> KnownTrajectory<'a> {
         Ok(own.min(self.crank.iter().take_while(|column| column.is_some()).count()))
     }
 
-    /// The figures of a claim.
+    /// Values of the whole mechanism that a claim uses.
     pub(super) fn figures(&self, claim: &Claim) -> Result<Vec<Rounded>> {
         let of = |(name, figure): &(String, MechanismFigure)| {
             let found = self.figures.iter().find(|(own, _)| own == figure);
@@ -210,7 +212,7 @@ impl<'a> KnownTrajectory<'a> {
         claim.figures.iter().map(of).collect()
     }
 
-    /// The columns of a claim's channels, then of their rates, and of the rates of those, up to an order.
+    /// Columns of a claim's channels, then of their first and second derivatives, up to an order.
     pub(super) fn channels(&self, claim: &Claim, orders: usize) -> Result<Vec<Column<'_>>> {
         let mut all = Vec::with_capacity(claim.channels.len() * (orders + 1));
         let mut present: Vec<(Channel, &PrintedChannel)> =
@@ -254,7 +256,7 @@ mod tests {
     use linkage::solver::Solver;
     use scenario::of_repository;
 
-    /// The larger of what is known at an instant and at all, in the unit of the claim.
+    /// The error is the larger of the error at the instant and the channel's limit, in the unit of the claim.
     #[test]
     fn no_channel_is_known_better_than_its_limit() {
         let case = of_repository("scenarios/crank_rocker.toml").case;
@@ -273,7 +275,7 @@ mod tests {
         }
     }
 
-    /// The root of the squares of both components, with the errors of both.
+    /// Root of the sum of squares of both components, with both errors propagated.
     #[test]
     fn a_magnitude_is_known_as_well_as_its_components() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

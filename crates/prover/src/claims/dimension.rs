@@ -1,5 +1,5 @@
-//! Dimensions of formulas, as far as the units of their parameters tell: a mended formula that adds metres to kilograms
-//! is no explanation while another one is.
+//! Dimensions of formulas, as far as the units of their parameters determine them: a corrected formula that adds metres
+//! to kilograms is rejected while another explanation exists.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -10,14 +10,14 @@ use scenario::{Claim, Formulas, Parameter};
 /// Powers of kilogram, metre and second.
 pub(super) type Dimension = [f64; 3];
 
-/// A dimension; `None` where it is not known.
+/// A dimension; `None` if unknown.
 pub(super) type Known = Option<Dimension>;
 
-/// Parts that cannot be added, or are no argument of a function.
+/// Dimensions are inconsistent: the parts cannot be added, or cannot be arguments of a function.
 struct Unsound;
 
 const NONE: Dimension = [0.0; 3];
-/// What a look at a formula or a name costs, in evaluations of a part.
+/// Cost of inspecting a formula or looking up a name, in evaluations of a part.
 const LOOK: u64 = 4;
 
 /// Dimensions of the formulas of a derivation.
@@ -25,17 +25,17 @@ pub(super) struct Dimensions<'a> {
     formulas: &'a Formulas,
     of: usize,
     claimed: Known,
-    /// Dimensions of the formulas as they are written, up to the first that is unsound.
+    /// Dimensions of the formulas as written, up to the first inconsistent one.
     written: Vec<Known>,
-    /// Formulas by their names.
+    /// Indices of the formulas by name.
     steps: BTreeMap<&'a str, usize>,
     parameters: BTreeMap<&'a str, &'a Parameter>,
-    /// Names that were looked up since that was asked last.
+    /// Number of names looked up since the last call of `work`.
     looked: Cell<u64>,
 }
 
 impl<'a> Dimensions<'a> {
-    /// Of the formula `of`, which makes a claim, and of all before it.
+    /// Determines the dimensions of the formula `of`, which makes a claim, and of all formulas before it.
     pub(super) fn of(formulas: &'a Formulas, of: usize, claim: &Claim) -> Self {
         let steps = formulas.list.iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect();
         let named = |own: &'a Parameter| own.names().map(move |(name, _)| (name, own));
@@ -51,12 +51,12 @@ impl<'a> Dimensions<'a> {
         own
     }
 
-    /// Operations since this was asked last.
+    /// Returns the operations since the last call.
     pub(super) fn work(&self) -> u64 {
         LOOK * self.looked.take()
     }
 
-    /// Whether nothing contradicts the units with other trees in some of the formulas.
+    /// Whether the units are consistent with other trees in some of the formulas.
     pub(super) fn are_sound(&self, changed: &[(usize, FormulaTree)]) -> bool {
         let first = changed.iter().map(|(index, _)| *index).min().unwrap_or(self.of);
         let Some(known) = self.written.get(..first) else { return false };
@@ -71,9 +71,9 @@ impl<'a> Dimensions<'a> {
         same(known[self.of], self.claimed).is_ok()
     }
 
-    /// Whether a formula with other trees may be what was meant: `Some(true)` if nothing contradicts the units,
-    /// `Some(false)` if they do not fit together, and no worse than before, because in the formula `index` a part with
-    /// the same dimension was `replaced` by another; `None` if not.
+    /// Judges by units whether a formula with other trees may have been meant.
+    /// `Some(true)` if the units are consistent; `Some(false)` if they are inconsistent but no worse than before,
+    /// because in the formula `index` a part was `replaced` by another with the same dimension; `None` otherwise.
     pub(super) fn standing(
         &self,
         changed: &[(usize, FormulaTree)],
@@ -88,12 +88,12 @@ impl<'a> Dimensions<'a> {
         (written.is_some() && written == right).then_some(false)
     }
 
-    /// Dimension of a tree of parameters and numbers; `None` if it is not known, or its parts do not fit together.
+    /// Dimension of a tree of parameters and numbers; `None` if unknown or inconsistent.
     pub(super) fn of_constant(&self, tree: &FormulaTree) -> Known {
         self.dimension(tree, &self.written).ok().flatten()
     }
 
-    /// Whether a factor of a quantity with this unit makes what the formula claims.
+    /// Whether a factor times a quantity with this unit has the dimension of the claim.
     pub(super) fn is_sound_term(&self, factor: &FormulaTree, unit: &str) -> bool {
         let Ok(Some(factor)) = self.dimension(factor, &[]) else { return false };
         let Some(basis) = of_unit(unit) else { return false };
@@ -121,12 +121,12 @@ impl<'a> Dimensions<'a> {
     }
 }
 
-/// Dimension of the numbers of a claim.
+/// Dimension of a claim.
 fn claimed(claim: &Claim) -> Known {
     if !claim.unit().is_empty() {
         return of_unit(claim.unit());
     }
-    // What is reduced to the crank has masses as plain numbers in it.
+    // Claims reduced to the crank contain masses as plain numbers.
     if claim.channels.iter().any(|(name, _)| !claim.text.contains(name.as_str())) {
         return None;
     }
@@ -135,8 +135,8 @@ fn claimed(claim: &Claim) -> Known {
     of_tree(&claim.tree, &|name| of_unit(channel(name).or_else(|| figure(name))?)).ok().flatten()
 }
 
-/// Dimension of a unit, as channels and keys have it. `N_m` is taken for newton metres: formulas of linkages have more
-/// moments than springs.
+/// Dimension of a unit as written in channels and keys. `N_m` is read as newton metre: formulas of linkages have more
+/// moments than spring rates.
 fn of_unit(unit: &str) -> Known {
     Some(match unit {
         "rad" | "deg" => NONE,
@@ -159,7 +159,7 @@ fn of_unit(unit: &str) -> Known {
     })
 }
 
-/// What two parts have in common that are added, compared or divided into a ratio.
+/// Common dimension of two parts that are added, compared or divided into a ratio.
 fn same(one: Known, other: Known) -> Result<Known, Unsound> {
     match (one, other) {
         (Some(one), Some(other)) if one != other => Err(Unsound),
@@ -168,7 +168,7 @@ fn same(one: Known, other: Known) -> Result<Known, Unsound> {
     }
 }
 
-/// The number that an exponent is, as `2`, `-2` or `1/2`; `None` for anything else.
+/// Value of an exponent like `2`, `-2` or `1/2`; `None` for anything else.
 fn number(tree: &FormulaTree) -> Option<f64> {
     match &tree.shape {
         NodeShape::Number(value) => Some(*value),
@@ -184,7 +184,7 @@ fn of_tree(tree: &FormulaTree, named: &dyn Fn(&str) -> Known) -> Result<Known, U
         Some([0, 1, 2].map(|axis: usize| one[axis] + sign * other[axis]))
     };
     Ok(match &tree.shape {
-        // Zero fits everywhere; what is not whole may have a unit of its own, as 9.81.
+        // Zero fits every dimension; a number that is not whole may carry a unit, like 9.81.
         NodeShape::Number(value) => (*value != 0.0 && (24.0 * value).fract() == 0.0).then_some(NONE),
         NodeShape::Name(name) => named(name),
         NodeShape::Negative(part) => of_tree(part, named)?,
@@ -222,7 +222,7 @@ fn of_tree(tree: &FormulaTree, named: &dyn Fn(&str) -> Known) -> Result<Known, U
 mod tests {
     use super::*;
 
-    /// Mass m, length l, time t, angle a, and something unknown.
+    /// Mass m, length l, time t, angle a, and an unknown x.
     fn of(text: &str) -> Result<Known, ()> {
         let named = |name: &str| match name {
             "m" => Some([1.0, 0.0, 0.0]),
@@ -250,7 +250,7 @@ mod tests {
             ("atan2(l, 2*l) + sin(a) + l/l", Some(NONE)),
             ("sign(l)*exp(a)", Some(NONE)),
             ("l + 0", Some([0.0, 1.0, 0.0])),
-            // What is not known fits everywhere, and 9.81 may have a unit.
+            // An unknown fits every dimension, and 9.81 may carry a unit.
             ("l + x", Some([0.0, 1.0, 0.0])),
             ("l*x", None),
             ("m*9.81", None),

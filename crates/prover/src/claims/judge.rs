@@ -1,4 +1,4 @@
-//! Formulas and what they claim, side by side over a course.
+//! Compares formulas with their claims over a course.
 
 use std::collections::BTreeMap;
 
@@ -8,16 +8,17 @@ use formula::{FormulaGraph, NodeId, Program, Rounded};
 use linkage::error::Result;
 use scenario::{Claim, Formula, Formulas};
 
-/// A claim and its derivatives over a course: over its figures, its channels, their rates and the rates of those.
+/// A claim and its derivatives over a course, as functions of its values, its channels and their first and second
+/// derivatives.
 pub(super) struct Claimed<'a> {
     program: Program,
     columns: Vec<Column<'a>>,
-    /// Figures, then what the columns hold at the last row.
+    /// Values of the whole mechanism, then the values of the columns at the row evaluated last.
     inputs: Vec<Rounded>,
 }
 
 impl<'a> Claimed<'a> {
-    /// A claim by value and by some derivatives.
+    /// Prepares a claim and its derivatives up to `orders`.
     ///
     /// # Errors
     /// If the course lacks a channel of the claim.
@@ -38,7 +39,7 @@ impl<'a> Claimed<'a> {
         Ok(Claimed { program: Program::of(&graph, &nodes), columns, inputs })
     }
 
-    /// What the side finds at a row, by value and then by every derivative.
+    /// Evaluates the claim and its derivatives at a row.
     pub(super) fn at(&mut self, row: usize) -> &[Rounded] {
         let numbers = self.inputs.len() - self.columns.len();
         for (input, column) in self.inputs[numbers..].iter_mut().zip(&self.columns) {
@@ -48,7 +49,7 @@ impl<'a> Claimed<'a> {
     }
 }
 
-/// Formula and mechanism by value at some rows of a course.
+/// Returns formula and mechanism by value at some rows of a course.
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.
@@ -68,7 +69,7 @@ pub(super) fn pairs(
     Ok(rows.iter().map(|&row| at(row)).collect())
 }
 
-/// A claim over its figures, its channels, their rates, and the rates of those.
+/// Graph of a claim over its values, its channels, and their first and second derivatives.
 pub(super) fn graph_of(claim: &Claim) -> (FormulaGraph, NodeId) {
     let (figures, channels) = (claim.figures.iter().map(|(name, _)| name), claim.channels.iter().map(|(name, _)| name));
     let names: Vec<&str> = figures.chain(channels).map(String::as_str).collect();
@@ -77,29 +78,30 @@ pub(super) fn graph_of(claim: &Claim) -> (FormulaGraph, NodeId) {
     (graph, node)
 }
 
-/// A formula with its claim while it is judged.
+/// A formula with its claim while it is being judged.
 struct One<'a> {
     formula: &'a Formula,
     turn: Option<f64>,
-    /// Number of its claim among all.
+    /// Index of its claim among all claims.
     claimed: usize,
-    /// By value, then by every derivative.
+    /// Judgement by value, then by every derivative.
     judged: Vec<JudgedFormula>,
 }
 
-/// Number of derivatives that a formula is judged by.
+/// Number of derivatives by which a formula is judged.
 fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<usize> {
-    // Neither an approximation nor a number for one instant says anything about derivatives.
+    // An approximation, or a number for one instant, says nothing about derivatives.
     let is_instant = formula.valid[0].is_some() && formula.valid[0] == formula.valid[1];
     let known = course.orders(claim)?;
     Ok(if formula.error.is_some() || is_instant { 0 } else { known })
 }
 
-/// All claims of a scenario's formulas that a course has the channels for, each by value, then by every derivative.
-/// What formulas share, and a claim that several make, is evaluated once at every instant.
+/// Judges all claims of a scenario's formulas for which a course has the channels, each by value, then by every
+/// derivative.
+/// Shared parts of formulas, and a claim made by several, are evaluated once at every instant.
 ///
 /// # Errors
-/// None but those of a course that changes between two calls.
+/// Only if the course changes between two calls.
 pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<JudgedFormula>>> {
     let mut derived = formulas.clone();
     let (mut nodes, mut all) = (Vec::new(), Vec::new());
@@ -122,7 +124,7 @@ pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<Ju
         let judged = (0..=orders).map(|order| JudgedFormula::new((formula, claim), order)).collect();
         all.push(One { formula, turn: claim.turn(), claimed, judged });
     }
-    // How large its numbers are says how well a formula has to be known.
+    // The largest value of the claim decides how accurately a formula must be known.
     for row in 0..course.len() {
         let crank = course.cranks()[row];
         claims.iter_mut().for_each(|claim| {
@@ -157,7 +159,7 @@ pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<Ju
 }
 
 impl KnownTrajectory<'_> {
-    /// What the formulas that claim something give, each at the instants at which it holds.
+    /// Returns the values of the formulas that claim something, each at the instants at which it holds.
     #[must_use]
     pub fn given(&self, formulas: &Formulas) -> Vec<Vec<Rounded>> {
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
@@ -174,7 +176,7 @@ impl KnownTrajectory<'_> {
         all
     }
 
-    /// What the side finds for a claim, instant by instant, in the claim's unit, with how well it is known.
+    /// Returns what the side finds for a claim, instant by instant, in the claim's unit, with its error.
     ///
     /// # Errors
     /// If the course lacks a channel of the claim.

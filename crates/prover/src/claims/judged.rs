@@ -1,4 +1,4 @@
-//! A formula's course against that of the mechanism.
+//! Judgement of a formula's course against that of the mechanism.
 
 use crate::sentences;
 use formula::Rounded;
@@ -6,25 +6,25 @@ use linkage::error::Advice;
 use linkage::math::KeepNan;
 use scenario::{Claim, Formula};
 
-/// An instant, and what stands there.
+/// Formula and mechanism at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FormulaAtInstant {
     /// Time (s).
     pub time: f64,
-    /// Crank angle (rad, as the scenario states it).
+    /// Crank angle (rad, in the scenario's convention).
     pub crank: f64,
-    /// What the formula gives.
+    /// Value of the formula.
     pub formula: f64,
-    /// What the mechanism does.
+    /// Value of the mechanism.
     pub mechanism: f64,
     /// Formula less mechanism; for angles without whole turns.
     pub difference: f64,
-    /// How far they may be apart.
+    /// Largest difference allowed.
     pub bound: f64,
 }
 
 impl FormulaAtInstant {
-    /// Difference over bound; infinite for no number.
+    /// Difference over bound; infinite if the difference is not a number.
     #[must_use]
     pub fn used(&self) -> f64 {
         let used = if self.difference == 0.0 { 0.0 } else { self.difference.abs() / self.bound };
@@ -32,7 +32,7 @@ impl FormulaAtInstant {
     }
 }
 
-/// What a formula and its claim come to at an instant: time (s) and crank angle (rad).
+/// Values of a formula and its claim at an instant: time (s) and crank angle (rad).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     pub(super) place: [f64; 2],
@@ -40,16 +40,16 @@ pub(super) struct Pair {
     pub(super) mechanism: Rounded,
 }
 
-/// What a judgement comes to.
+/// Outcome of a judgement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FormulaOutcome {
-    /// The formula is right, at every instant that was judged.
+    /// The formula is right at every instant judged.
     Right,
-    /// It is not.
+    /// The formula is wrong.
     Wrong,
-    /// Nothing is proven.
+    /// Inconclusive.
     Open {
-        /// Why not.
+        /// Why it is inconclusive.
         reason: String,
         /// What would decide it.
         advice: Vec<Advice>,
@@ -61,44 +61,45 @@ pub enum FormulaOutcome {
 pub struct JudgedFormula {
     /// Name of the formula.
     pub name: String,
-    /// What it claims to be.
+    /// The quantity that it claims to be.
     pub claim: String,
-    /// Unit of the numbers of the claim itself; empty for an arithmetic of several channels.
+    /// Unit of the claimed values; empty for an expression of several channels.
     pub unit: &'static str,
     /// Number of derivatives with respect to time (s): 0, 1 or 2.
     pub order: usize,
-    /// Whether the bound is the error that the formula claims to have.
+    /// Whether the bound is the error stated with the formula.
     pub claimed: bool,
     /// Number of instants judged.
     pub judged: usize,
-    /// Number of instants at which the formula has lost so many digits that nothing can be said.
+    /// Number of instants at which the formula has lost too many digits to be judged.
     pub lost: usize,
-    /// Number of instants at which the claim itself has no number, as what is reduced to a crank that rests.
+    /// Number of instants at which the claimed quantity is undefined, like a value reduced to a crank at rest.
     pub undefined: usize,
-    /// Number of instants at which the formula has no value, though the claim has.
+    /// Number of instants at which the formula is undefined though the claimed quantity is not.
     pub without: usize,
-    /// First instant beyond its bound.
+    /// First instant beyond the bound.
     pub since: Option<FormulaAtInstant>,
-    /// The instant that uses most of its bound.
+    /// Instant with the largest difference over bound.
     pub worst: Option<FormulaAtInstant>,
-    /// Largest number of the mechanism.
+    /// Largest value of the mechanism.
     pub scale: f64,
 }
 
-/// Share of the scale beyond which a bound says nothing.
+/// Largest bound, as a share of the scale, that still decides anything.
 const TELLING: f64 = 1e-6;
-/// Error of a formula over that of the mechanism that is no loss: a few products of numbers that the side knows as well.
+/// Ratio of a formula's error to that of the mechanism up to which no digits count as lost: the effect of a few
+/// products of numbers known as well as the mechanism's.
 const NO_WORSE: f64 = 1e3;
-/// Share of instants without a telling bound beyond which nothing is proven.
+/// Share of instants without a decisive bound beyond which the judgement is inconclusive.
 const MOST_LOST: f64 = 0.03;
 
-/// Whether a number of the claim is one.
+/// Whether the mechanism's value is defined.
 fn has_number(mechanism: Rounded) -> bool {
     mechanism.value.is_finite() && mechanism.error.is_finite()
 }
 
 impl JudgedFormula {
-    /// A formula with its claim, or a derivative of both, before it is judged.
+    /// Starts the judgement of a formula with its claim, or of a derivative of both.
     pub(super) fn new((formula, claim): (&Formula, &Claim), order: usize) -> Self {
         JudgedFormula {
             name: formula.name.clone(),
@@ -110,7 +111,7 @@ impl JudgedFormula {
         }
     }
 
-    /// Judges the courses of a formula and of its claim by value. For angles, values a `turn` apart mean the same.
+    /// Judges the courses of a formula and its claim by value. Angles a `turn` apart are equal.
     pub(super) fn of(
         (formula, claim): (&Formula, &Claim),
         turn: Option<f64>,
@@ -122,7 +123,7 @@ impl JudgedFormula {
         own
     }
 
-    /// Takes in how large a number of the claim is. All of them come before the first that is judged.
+    /// Takes a value of the claim into the scale. All values must be seen before the first instant is judged.
     pub(super) fn seen(&mut self, mechanism: Rounded) {
         match has_number(mechanism) {
             true => self.scale = self.scale.larger(mechanism.value.abs()),
@@ -139,13 +140,13 @@ impl JudgedFormula {
         self.without += usize::from(found.is_undefined());
         let difference = found.value - mechanism.value;
         let difference = turn.map_or(difference, |turn| difference - turn * (difference / turn).round());
-        // What has no value has no rounding either.
+        // An undefined value has no rounding error.
         let rounding = if found.is_undefined() { 0.0 } else { found.error };
         let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
         let at = FormulaAtInstant { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
-        // What the mechanism itself is hardly known better is not the formula's loss.
+        // If the mechanism is hardly known better, the loss is not the formula's.
         let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
-        // Where a function ends, as acos at 1, its derivative has no number though the value is right.
+        // At the end of a function's domain, like acos at 1, the derivative is not finite though the value is right.
         let is_end = self.order > 0 && !found.value.is_finite();
         if is_end || has_lost && at.used() <= 1.0 {
             self.lost += 1;
@@ -160,7 +161,7 @@ impl JudgedFormula {
         }
     }
 
-    /// What it comes to.
+    /// Returns the outcome.
     #[must_use]
     pub fn outcome(&self) -> FormulaOutcome {
         if self.since.is_some() {
@@ -189,8 +190,8 @@ mod tests {
     use super::*;
     use scenario::{Formulas, of_repository};
 
-    /// Errors of a formula and of the mechanism, as shares of the scale: a formula that is known much worse than the
-    /// mechanism, and to less than six digits, says nothing.
+    /// Errors of a formula and of the mechanism as shares of the scale: a formula known much worse than the mechanism,
+    /// and to less than six digits, decides nothing.
     #[test]
     fn digits_are_lost_only_where_the_mechanism_has_them() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

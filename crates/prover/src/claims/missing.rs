@@ -1,7 +1,7 @@
-//! What a formula lacks: the term or factor that makes it right at one of its places, found from its numbers.
+//! Missing terms and factors: finds from the numbers what makes a formula right at one of its places.
 //!
-//! At every place the amount that would have to be added, or multiplied by, is calculated instant by instant. If it
-//! goes with something that the derivation knows, that is what is missing.
+//! At every place the missing summand or factor is calculated instant by instant.
+//! If it is proportional to an expression that the derivation contains, that expression is missing.
 
 mod dictionary;
 mod monomials;
@@ -18,37 +18,37 @@ pub(in crate::claims) use monomials::Monomials;
 /// A term or a factor that is missing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missing {
-    /// The formula that it is missing in.
+    /// The formula that lacks it.
     pub formula: String,
-    /// The part that it is missing beside; `None` for the whole formula.
+    /// The part beside which it is missing; `None` for the whole formula.
     pub beside: Option<String>,
-    /// What is missing with its sign: `+ m*g*s*cos(phi)`, `/ cos(beta)^3`.
+    /// The missing expression with its sign: `+ m*g*s*cos(phi)`, `/ cos(beta)^3`.
     pub what: String,
-    /// Whether it is a factor.
+    /// Whether it is a factor rather than a term.
     pub is_factor: bool,
 }
 
-/// Fewest instants that a function of the crank angle is recognised by.
+/// Fewest instants from which a function of the crank angle is recognised.
 const FEWEST: usize = 4;
 /// Relative accuracy to which a constant amount is recognised as a product of known quantities.
 const ACCURACY: f64 = 1e-9;
 
-/// What is missing at a place by instants, and how well it is known; `None` where that cannot be told.
+/// Missing amount at a place by instant, with its error; `None` where it cannot be determined.
 type Needed = Vec<Option<[f64; 2]>>;
 
-/// Number of products that chance finds up to which one is believed: where only a number tells what is missing, it must
-/// be one that the parameters do not make anyway.
+/// Largest expected number of products that match by chance: where a single number is the only evidence, it must be one
+/// that the parameters do not produce anyway.
 const CHANCE: f64 = 0.5;
-/// Number of ways in which a product of several quantities may be missing where a formula is wrong by a number only.
+/// Number of ways in which a product of several quantities may be missing where a formula is wrong only by a number.
 const LONG: f64 = 100.0;
 
-/// What is missing, if one term or factor at one place makes the formula right and its units fit together; several if
-/// parameters make the same number.
+/// Returns what is missing, if one term or factor at one place makes the formula right with consistent units; several
+/// if the parameters produce the same number in several ways.
 pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing> {
     let dictionary = Dictionary::of(trial);
     let monomials = Monomials::of(&trial.formulas, trial.index, &dictionary.constants, dimensions);
     trial.sheet.count((30 * dictionary.entries.len() * trial.few.len() + monomials.len()) as u64);
-    // Units that do not fit together as it is written, and do with what is missing, are evidence too.
+    // Units that are inconsistent as written and become consistent with the missing expression are evidence too.
     let own = trial.formulas.list[trial.index].tree.clone();
     let units = if dimensions.are_sound(&[(trial.index, own)]) { 1.0 } else { 0.05 };
     let is_weak = trial.is_number || trial.is_constant();
@@ -67,7 +67,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                         if trial.is_spent() {
                             break;
                         }
-                        // What is right everywhere but for a number lacks nothing that changes.
+                        // A formula that is wrong only by a number lacks nothing that changes.
                         if entry.after > index || trial.is_number && !entry.is_one() {
                             continue;
                         }
@@ -92,7 +92,8 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                             {
                                 continue;
                             }
-                            // What is missing in the formula itself, and made of what stands there, is simpler.
+                            // An expression missing in the formula itself, made of names that it already has, is
+                            // simpler.
                             let outside = usize::from(index != trial.index) + depth + own.strangers;
                             found.push((weight + 2 * outside, own));
                         }
@@ -105,7 +106,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
     found.dedup_by(|one, other| one.1.changed == other.1.changed);
     let mut right: Vec<(usize, Candidate)> = Vec::new();
     for (weight, own) in found {
-        // As simple, and at the same place.
+        // Equally simple, and at the same place.
         let is_equal = right.first().is_none_or(|(least, first)| weight <= least + 1 && own.is_beside(first));
         if is_equal && right.len() < MOST && trial.fits(&own.changed, 0.0) {
             right.push((weight, own));
@@ -114,22 +115,22 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
     right.into_iter().map(|(_, own)| own.missing).collect()
 }
 
-/// Most products that are told where several fit equally.
+/// Largest number of equally good products that are reported.
 const MOST: usize = 3;
 
-/// Entries of a dictionary by the ratio of their values at two instants: those that an amount goes with are found
-/// without looking at all of them.
+/// Entries of a dictionary by the ratio of their values at two instants: entries proportional to an amount are found
+/// without testing all of them.
 #[derive(Default)]
 struct Ratios {
     sorted: BTreeMap<[usize; 2], Vec<(f64, usize)>>,
 }
 
 impl Ratios {
-    /// Indices of the entries that may go with what is needed, in their order, and of the one for constants.
+    /// Indices of the entries that may be proportional to the missing amount, in order, and of the entry for constants.
     fn alike(&mut self, entries: &[Entry], needed: &Needed) -> Vec<usize> {
         let mut known: Vec<(usize, [f64; 2])> =
             needed.iter().enumerate().filter_map(|(instant, own)| Some((instant, (*own)?))).collect();
-        // Those instants that say most.
+        // The instants with the smallest relative error.
         let sharpness = |(_, [amount, known]): &(usize, [f64; 2])| (amount / known).abs();
         known.sort_by(|one, other| sharpness(other).total_cmp(&sharpness(one)));
         let [(one, [first, first_known]), (other, [second, second_known])] = match known.as_slice() {
@@ -153,10 +154,10 @@ impl Ratios {
     }
 }
 
-/// Something that may be missing, and the formula with it.
+/// A possibly missing expression, and the formula with it.
 struct Candidate {
     changed: Vec<(usize, FormulaTree)>,
-    /// Number of names in it that the formula does not have.
+    /// Number of names in it that the formula lacks.
     strangers: usize,
     missing: Missing,
 }
@@ -167,7 +168,7 @@ impl Candidate {
         of(self) == of(other)
     }
 
-    /// `None` if it would have to know a formula that comes later.
+    /// Returns `None` if the formula would need one that comes later.
     fn of(trial: &Trial, [index, number]: [usize; 2], operator: Operator, what: &FormulaTree) -> Option<Self> {
         let later = &trial.formulas.list[index..];
         if what.names().iter().any(|(name, _)| later.iter().any(|own| own.name == *name)) {
@@ -187,9 +188,10 @@ impl Candidate {
     }
 }
 
-/// Whether a number alone tells that a product is missing. The number must have more digits than chance explains, as
-/// many products as there are with its unit. `places` is the number of places at which it may be missing, where the
-/// formula is wrong by a number only: then they all fit.
+/// Whether a number alone proves that a product is missing.
+/// The number must have more digits than chance explains among as many products with its unit.
+/// `places` is the number of places at which it may be missing if the formula is wrong only by a number: then all of
+/// them fit.
 fn is_believed(
     monomials: &Monomials,
     dimensions: &Dimensions,
@@ -201,7 +203,7 @@ fn is_believed(
 ) -> bool {
     let dimension = dimensions.of_constant(what);
     let (products, one) = monomials.by_chance(coefficient, ACCURACY, weight, dimension);
-    // The only quantity with the unit that is missing.
+    // The only quantity with the missing unit.
     if weight <= 2 && products <= 1 && dimension.is_some() {
         return true;
     }
@@ -212,12 +214,12 @@ fn is_believed(
     }
 }
 
-/// Number of places that are no deeper.
+/// Number of places no deeper than `depth`.
 fn before(places: &[(usize, usize)], depth: usize) -> usize {
     places.partition_point(|(own, _)| *own <= depth)
 }
 
-/// Depths and numbers of all places of a tree at which something may be missing, the whole before its parts.
+/// Depths and numbers of all places of a tree at which an expression may be missing, the whole before its parts.
 fn places(tree: &FormulaTree) -> Vec<(usize, usize)> {
     let (mut places, mut number) = (Vec::new(), 0);
     at_every_place(tree, &mut |place, part| {
@@ -230,7 +232,7 @@ fn places(tree: &FormulaTree) -> Vec<(usize, usize)> {
     places
 }
 
-/// A part with a term or factor.
+/// A part with a term or factor added.
 fn with(operator: Operator, part: FormulaTree, what: FormulaTree) -> FormulaTree {
     match (operator, what.shape) {
         (Operator::Plus, NodeShape::Negative(inner)) => FormulaTree::pair(Operator::Minus, part, *inner),
@@ -245,15 +247,15 @@ fn signed(operator: Operator, what: &FormulaTree) -> String {
         (Operator::Times, NodeShape::Pair(Operator::Over, parts)) if parts[0].shape == one.shape => what.clone(),
         _ => with(operator, one, what.clone()),
     };
-    // As it is written after another part, with the parentheses that it needs there.
+    // Written after another part, with the parentheses needed there.
     let text = whole.to_string();
     let after = text.trim_start_matches('1').trim_start();
     let (sign, rest) = after.split_at(1);
     format!("{sign} {}", rest.trim_start())
 }
 
-/// A number of times an entry as it may be written, each with its complexity: by a product of known quantities, and for
-/// a constant factor by one less, or more, such a product.
+/// Ways to write a number times an entry, each with its complexity: by a product of known quantities; for a constant
+/// factor also by such a product plus or minus one.
 fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(FormulaTree, usize)> {
     let one = || FormulaTree::number(1.0);
     let mut factors = match (coefficient.abs() - 1.0).abs() <= ACCURACY {
@@ -267,7 +269,7 @@ fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Ope
     factors.into_iter().map(|(factor, weight)| (product(&factor, &entry.tree), weight + 2 * entry.weight)).collect()
 }
 
-/// A factor times an entry, without ones.
+/// A factor times an entry, without factors of one.
 fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
     let is_one = |tree: &FormulaTree| tree.shape == NodeShape::Number(1.0);
     match (&factor.shape, &entry.shape) {
@@ -284,8 +286,8 @@ fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
     }
 }
 
-/// What is missing at a place at each of the few instants: begun with nothing at each of them, or with what is missing
-/// at its neighbour on either side, because squares have two answers.
+/// Missing amount at a place at each of the few instants. The iteration starts from nothing at each instant, or from
+/// the neighbour's amount on either side, because squares have two solutions.
 fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let depending = trial.sheet.depending(&[place]);
     let neutral = if operator == Operator::Plus { 0.0 } else { 1.0 };
@@ -305,7 +307,7 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let forwards = followed(&mut (0..count));
     let mut backwards = followed(&mut (0..count).rev());
     backwards.reverse();
-    // What does not depend on where it is begun has one answer.
+    // A result that does not depend on the start is unique.
     let is_same = |other: &Needed| {
         afresh.iter().zip(other).all(|pair| match pair {
             (Some([one, known]), Some([other, well])) => (one - other).abs() <= known + well,
@@ -316,13 +318,13 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     [vec![afresh], others].concat()
 }
 
-/// The number of times that an entry is missing, if the amount goes with it.
+/// Coefficient of an entry, if the missing amount is proportional to it.
 fn coefficient(entry: &Entry, needed: &Needed) -> Option<f64> {
     let known = || entry.values.iter().zip(needed).filter_map(|(value, own)| Some((*value, (*own)?)));
-    // The instant that says most.
+    // The instant with the smallest relative error.
     let sharpness = |(value, [_, known]): &(f64, [f64; 2])| (value / known).abs();
     let (sharpest, [amount, sharp]) = known().max_by(|one, other| sharpness(one).total_cmp(&sharpness(other)))?;
-    // A number for a single instant is known by that one.
+    // A number for a single instant is determined by that instant.
     let fewest = if entry.is_one() { FEWEST.min(needed.len()) } else { FEWEST };
     if known().count() < fewest {
         return None;

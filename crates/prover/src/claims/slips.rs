@@ -1,7 +1,8 @@
-//! Why a formula is wrong: the one slip that makes it right.
+//! Slips: finds the one slip in writing whose correction makes a formula right.
 //!
-//! Every slip is tried at every place of the formula, and of the steps that it uses; what then holds at every instant
-//! explains it. Nothing is guessed from the shape of the error.
+//! Every slip is tried at every place of the formula and of the steps that it uses; a correction that holds at every
+//! instant explains the error.
+//! Nothing is guessed from the shape of the error.
 
 mod edits;
 mod everywhere;
@@ -69,7 +70,7 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
     tried
 }
 
-/// A part down to some levels, with placeholders for what stands deeper: it need not be copied.
+/// Copies a part down to some levels, with placeholders instead of deeper parts.
 fn hollow(part: &FormulaTree, place: usize, sheet: &DerivationSheet, levels: usize) -> FormulaTree {
     if part.parts().is_empty() {
         return part.clone();
@@ -96,7 +97,7 @@ fn hollow(part: &FormulaTree, place: usize, sheet: &DerivationSheet, levels: usi
     FormulaTree { shape, at: part.at.clone() }
 }
 
-/// A tree with the parts of a formula in place of their placeholders.
+/// Replaces the placeholders of a tree by the parts of a formula.
 fn filled(tree: &FormulaTree, formula: &FormulaTree, places: &[usize]) -> FormulaTree {
     let number = match &tree.shape {
         NodeShape::Name(name) => {
@@ -114,8 +115,8 @@ fn filled(tree: &FormulaTree, formula: &FormulaTree, places: &[usize]) -> Formul
     own
 }
 
-/// A formula with one slip of a kind. What may have been meant by a part is as well what may be written for it: of all
-/// places and ways in which the slip can be made, the one with a `number`, counted round. `None` if it cannot be made.
+/// Returns a formula with one slip of a kind. The corrections of a part also serve as slips for it: of all places and
+/// ways to make the slip, `number` selects one, counted modulo their count. `None` if the slip cannot be made.
 #[must_use]
 pub fn planted(formulas: &Formulas, formula: usize, kind: SlipKind, number: usize) -> Option<FormulaTree> {
     let tree = &formulas.list[formula].tree;

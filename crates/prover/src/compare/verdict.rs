@@ -33,7 +33,7 @@ pub enum Verdict {
     },
     /// Nothing is proven either way.
     Inconclusive {
-        /// Why not.
+        /// Why it is inconclusive.
         reason: String,
         /// What would decide it, as alternatives; empty where nothing is known to.
         advice: Vec<Advice>,

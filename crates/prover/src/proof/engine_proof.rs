@@ -17,7 +17,7 @@ pub struct EngineInfo {
     pub name: &'static str,
     /// Software and version behind it.
     pub version: String,
-    /// Its settings.
+    /// Settings of the engine.
     pub settings: Settings,
     /// Whether its resolution is an accuracy, not a step.
     pub controls_error: bool,

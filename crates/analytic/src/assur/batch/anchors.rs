@@ -1,10 +1,12 @@
-//! Poses along the turn from which those of a batch start.
+//! Anchors: poses along the revolution from which the poses of a batch start.
 //!
-//! Newton's method needs a start near the pose, on the branch of the start pose. Anchors stand every two degrees of the
-//! crank from the start pose on, in both directions. They are found one after the other, away from the start pose, so
-//! that they do not depend on what a batch is asked for.
-//! Between two of them, every link's angle is the polynomial of degree five with their angles and their first and
-//! second transfer functions. It is off by the sixth power of the distance.
+//! Newton's method needs a start near the pose, on the branch of the start pose.
+//! Anchors lie every two degrees of the crank from the start pose on, in both directions.
+//! They are solved one after the other away from the start pose, so that they do not depend on the crank angles
+//! requested.
+//! Between two anchors, the angle of each link is the polynomial of degree five that fits its values and its first and
+//! second transfer functions at both.
+//! The interpolation error grows with the sixth power of the distance of the anchors.
 
 use super::chains::OF_START;
 use super::groups::Groups;
@@ -17,11 +19,11 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 
-/// Numbers that an interval keeps of a link: those of a start, but for the share of the way.
+/// Numbers stored per link and interval: those of a start without the share of the way.
 const KEPT: usize = OF_START - 1;
-/// Distance of two anchors (rad): a step of [`PoseSolver`], less what rounding may add.
+/// Distance between two anchors (rad): a step of [`PoseSolver`], reduced by more than rounding may add.
 const STEP: f64 = FOLLOWED_STEP * (1.0 - 1e-9);
-/// Most intervals in one direction, about three hundred turns. Poses beyond are solved one by one.
+/// Largest number of intervals in one direction, about three hundred turns. Poses beyond them are solved one by one.
 const MOST: usize = 50_000;
 
 /// The anchors of a case in both directions of its crank.
@@ -35,10 +37,10 @@ pub(super) struct Anchors<'a> {
 #[derive(Debug)]
 struct Way<'a> {
     poses: PoseSolver<'a>,
-    /// Distance of two anchors (rad), with its sign.
+    /// Distance between two anchors (rad), with its sign.
     step: f64,
     links: Vec<LinkId>,
-    /// Direction of every link at the outermost anchor, its transfer functions, and those of the one before.
+    /// Direction of every link at the outermost anchor, with its first and second transfer functions.
     last: Vec<(Vec2, [f64; 2])>,
     intervals: Vec<f64>,
     count: usize,
@@ -46,7 +48,7 @@ struct Way<'a> {
 }
 
 impl<'a> Anchors<'a> {
-    /// The anchors for the higher groups of a case; `None` if it has none.
+    /// Returns the anchors for the higher groups of a case; `None` if it has no higher group.
     ///
     /// # Errors
     /// Those of [`PoseSolver::new`].
@@ -65,12 +67,12 @@ impl<'a> Anchors<'a> {
         Ok(Some(Anchors { start: case.crank().start, ways: [way(STEP)?, way(-STEP)?] }))
     }
 
-    /// Writes the starts for the rows of a tile to the working memory; NaN where there is none.
+    /// Writes the starts for the rows of a tile to the working memory; NaN where no interval is known.
     pub(super) fn fill(&mut self, cranks: &[f64; TILE], groups: &Groups, work: &mut [Eight]) {
         for (row, crank) in cranks.iter().enumerate() {
             let way = &mut self.ways[usize::from(*crank < self.start)];
             let place = (crank - self.start) / way.step;
-            // Beyond every interval where it is infinite, in the first one where it is NaN; then the share is NaN too.
+            // An infinite `place` lies beyond every interval. NaN selects the first interval, and the share is NaN too.
             let interval = place as usize;
             let is_known = way.reach(self.start, interval);
             let kept = way.intervals.chunks_exact(KEPT * way.links.len()).nth(interval).filter(|_| is_known);
@@ -94,14 +96,14 @@ impl<'a> Anchors<'a> {
 }
 
 impl Way<'_> {
-    /// Goes on until an interval is known. Returns whether it is.
+    /// Adds anchors until this interval is known. Returns whether it is.
     fn reach(&mut self, start: f64, interval: usize) -> bool {
         if interval >= MOST {
             return false;
         }
         while self.is_open && self.count <= interval {
             let next = start + self.step * (self.count + 1) as f64;
-            // An error is told by the pose that meets it.
+            // The error is reported by the pose that needs this interval.
             self.is_open = self.poses.solve(next, 1.0, 0.0, Stage::Accelerations).is_ok();
             if self.is_open {
                 self.add();
@@ -110,20 +112,20 @@ impl Way<'_> {
         interval < self.count
     }
 
-    /// Direction and transfer functions of every link.
+    /// Reads the direction and the transfer functions of every link.
     fn read(&self) -> Vec<(Vec2, [f64; 2])> {
         let motions = &self.poses.state.motions;
         self.links.iter().map(|&link| (motions[link].direction, [motions[link].omega, motions[link].alpha])).collect()
     }
 
-    /// Keeps the interval from the last anchor to this one.
+    /// Stores the interval from the last anchor to the present one.
     fn add(&mut self) {
         let next = self.read();
         for ((from, [omega, alpha]), (to, [omega_to, alpha_to])) in self.last.iter().zip(&next) {
             let turn = cross(*from, *to).atan2(from.dot(to));
             let (h, h2) = (self.step, self.step * self.step);
             let (first, second) = (h * omega, 0.5 * h2 * alpha);
-            // What the first two terms leave of angle, rate and its rate at the end.
+            // Remainders of the angle, its rate and its second derivative at the end, after the first two terms.
             let angle = turn - first - second;
             let rate = h * omega_to - first - 2.0 * second;
             let bend = h2 * alpha_to - 2.0 * second;

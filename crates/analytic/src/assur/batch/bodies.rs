@@ -1,4 +1,4 @@
-//! The constants of single links and joints, read from a case.
+//! Constants of single links and joints, read from a case.
 
 use super::poses::Layout;
 use linkage::case::Case;
@@ -6,7 +6,7 @@ use linkage::drive::Load;
 use linkage::math::Vec2;
 use linkage::mechanism::{JointId, JointSide, LinkId};
 
-/// A joint as it acts on one of its links: `sign` times its reaction, at `arm` from the link's pole, in the link's
+/// Action of a joint on one of its links: `sign` times its reaction, at `arm` from the link's pole, in the link's
 /// frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Action {
@@ -23,12 +23,12 @@ pub(super) struct Body {
     pub(super) link: usize,
     pub(super) mass: f64,
     pub(super) mass_centre: Vec2,
-    /// From the pole to the mass centre, in the link's frame.
+    /// Vector from the pole to the mass centre, in the link's frame.
     pub(super) centre: Vec2,
     pub(super) inertia: f64,
-    /// Joints at which later groups are attached to it.
+    /// Joints at which later groups are attached to the link.
     pub(super) hanging: Vec<Action>,
-    /// Loads that act against its rotation.
+    /// Moments of resistance on the link.
     pub(super) loads: Vec<Load>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Body {
 pub(super) struct Reader<'a> {
     pub(super) case: &'a Case,
     pub(super) layout: Layout,
-    /// Joints whose reactions are known when the group is solved.
+    /// For every joint: whether its reaction is known before the group is solved.
     pub(super) settled: &'a [bool],
 }
 

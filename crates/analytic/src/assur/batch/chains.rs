@@ -1,7 +1,7 @@
 //! Higher groups on pins for several poses at once: their constants.
 //!
-//! The equations (`motion`, `forces`) are those of [`crate::assur::groups::Chain`] for motions and of the module
-//! `assur::forces` for forces.
+//! The equations (`motion`, `forces`) are those of [`crate::assur::groups::Chain`] for the motion and of the module
+//! `assur::forces` for the forces.
 
 mod forces;
 mod motion;
@@ -12,10 +12,10 @@ use crate::assur::groups::{self, Hangs};
 use linkage::math::Vec2;
 use linkage::mechanism::LinkId;
 
-/// Numbers of a start: direction of the link at the anchor, share of the way to the next one, and five coefficients of
-/// the turn from there (rad).
+/// Numbers per start: direction of the link at the anchor (2), share of the way to the next anchor (1), and
+/// coefficients of the turn from the anchor (5, rad).
 pub(super) const OF_START: usize = 8;
-/// A link with the joint to its parent, which is its pole.
+/// A link with the joint to its parent, which is the link's pole.
 #[derive(Clone, Debug)]
 struct Node {
     body: Body,
@@ -24,7 +24,7 @@ struct Node {
     reaction: Action,
 }
 
-/// A vector from joint to joint on a node's link.
+/// A vector from joint to joint on the link of a node.
 #[derive(Clone, Copy, Debug)]
 struct Arrow {
     node: usize,
@@ -43,7 +43,7 @@ struct Closing {
     nodes: [Option<usize>; 2],
 }
 
-/// Higher group on pins.
+/// A higher group on pins.
 #[derive(Clone, Debug)]
 pub(super) struct Chain {
     nodes: Vec<Node>,
@@ -53,12 +53,12 @@ pub(super) struct Chain {
     roots: Vec<(Option<usize>, Vec2)>,
     /// Sign of the determinant.
     branch: f64,
-    /// The links by their numbers in the mechanism.
+    /// The links, as numbered in the mechanism.
     links: Vec<LinkId>,
 }
 
 impl Chain {
-    /// The constants of a group. `None` if a link slides, or if there are neither four nor six links.
+    /// Returns the constants of a group; `None` if a link slides, or if the group has neither four nor six links.
     pub(super) fn of(reader: &Reader, chain: &groups::Chain) -> Option<Self> {
         let contours = chain.contours();
         if chain.is_sliding() || !matches!(contours.nodes.len(), 4 | 6) {
@@ -91,13 +91,14 @@ impl Chain {
         })
     }
 
-    /// Columns in the working memory: the starts of the links, the joints of the tree (each as the vector from its
-    /// link's origin and what is to be known of it just then), the arrows, and the factors of the Jacobian.
+    /// Number of columns in the working memory: the starts of the links, the joints of the tree (each as the vector
+    /// from its link's origin and the quantity needed at the present stage), the arrows, and the factors of the
+    /// Jacobian.
     pub(super) fn columns(&self) -> usize {
         self.first_factor(0) + elimination::columns(self.nodes.len())
     }
 
-    /// The links by their numbers in the mechanism, in the order of their starts.
+    /// Returns the links as numbered in the mechanism, in the order of their starts.
     pub(super) fn links(&self) -> &[LinkId] {
         &self.links
     }

@@ -1,6 +1,6 @@
-//! Linear systems of one order for several poses at once, by LU decomposition with partial pivoting.
+//! Linear systems of fixed order for several poses at once, by LU decomposition with partial pivoting.
 //!
-//! Every pose has its own order of rows: where a lower row has the larger pivot, both are exchanged in its lane.
+//! Every pose has its own row order: where a lower row has the larger pivot, the two rows are exchanged in that lane.
 
 use pulp::Simd;
 
@@ -12,7 +12,7 @@ pub(super) struct Factors<S: Simd, const N: usize> {
     rows: [[Lanes<S>; N]; N],
     /// Inverses of the diagonal.
     inverse: [Lanes<S>; N],
-    /// Where row k was exchanged with a lower row, in this order.
+    /// For each step k, in order: where row k was exchanged with a lower row.
     exchanges: [[Choice<S>; N]; N],
     pub(super) determinant: Lanes<S>,
 }
@@ -95,7 +95,7 @@ impl<S: Simd, const N: usize> Factors<S, N> {
         x
     }
 
-    /// Writes the factors to the working memory, from this column on.
+    /// Writes the factors to the working memory, from `column` on.
     #[inline(always)]
     pub(super) fn keep(&self, work: &mut Window<S>, mut column: usize) {
         let mut put = |lanes: Lanes<S>| {
@@ -112,7 +112,7 @@ impl<S: Simd, const N: usize> Factors<S, N> {
         }
     }
 
-    /// Reads the factors from the working memory. Their determinant has no meaning.
+    /// Reads the factors from the working memory. Their determinant is meaningless.
     #[inline(always)]
     pub(super) fn kept(work: &Window<S>, mut column: usize) -> Self {
         let (one, zero) = (Lanes::splat(work.simd, 1.0), Lanes::splat(work.simd, 0.0));

@@ -1,8 +1,8 @@
 //! The equations of driving links and RRR dyads for several poses at once.
 //!
-//! They are those of [`crate::assur::groups::Rrr`] for motions and of the module `assur::forces` for forces,
-//! where their sources are named. Arms of forces start at the pole in the link's frame, so that places in the
-//! world are not needed.
+//! They are those of [`crate::assur::groups::Rrr`] for the motion and of the module `assur::forces` for the forces;
+//! both name their sources.
+//! Arms of forces start at the pole, in the link's frame, so that no world positions are needed.
 
 use pulp::Simd;
 
@@ -13,15 +13,16 @@ use super::poses::{ACCELERATION, ALPHA, DIRECTION, OMEGA, ORIGIN, VELOCITY};
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
-/// A plane vector v, turned by 90 degrees and scaled, plus its centripetal part: alpha x v - omega^2 v.
+/// Acceleration of the tip of the vector v on a rotating link relative to its foot: v turned by 90 degrees times alpha,
+/// minus omega^2 v.
 #[inline(always)]
 pub(super) fn swung<S: Simd>(v: Plane<S>, omega: Lanes<S>, alpha: Lanes<S>) -> Plane<S> {
     v.turned() * alpha - v * (omega * omega)
 }
 
 impl Groups {
-    /// Motion of all links, up to the stage `deepest`. Directions and rates of the driving links are already in
-    /// their columns.
+    /// Computes the motion of all links up to the stage `deepest`.
+    /// Directions and rates of the driving links must already be in their columns.
     #[inline(always)]
     pub(super) fn move_links<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>) {
         for driver in &self.drivers {
@@ -39,7 +40,8 @@ impl Groups {
         tile.put(self.layout.reach(), reach);
     }
 
-    /// Reactions from the last dyad to the first, then those and the balancing moments of the driving links.
+    /// Computes the reactions from the last dyad to the first, then the reactions and balancing moments of the driving
+    /// links.
     #[inline(always)]
     pub(super) fn load_joints<S: Simd>(&self, tile: &mut Window<S>, work: &mut Window<S>) {
         for (part, first) in self.parts.iter().rev() {
@@ -83,7 +85,7 @@ impl Arm {
         }
     }
 
-    /// Place of the outer joint.
+    /// World position of the outer joint.
     #[inline(always)]
     fn place<S: Simd>(&self, tile: &Window<S>) -> Plane<S> {
         let (arm, base) = self.base(tile);
@@ -112,7 +114,7 @@ impl Arm {
 }
 
 impl Dyad {
-    /// Motion of both links. Returns NaN where they cannot be assembled.
+    /// Computes the motion of both links. Returns NaN where they cannot be assembled.
     #[inline(always)]
     fn turn<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>, column: usize) -> Lanes<S> {
         let [first, second] = &self.arms;
@@ -123,7 +125,7 @@ impl Dyad {
         let across = (Lanes::splat(tile.simd, first.squared) / d_squared - along * along).sqrt();
         let r1 = d * along + d.turned() * (across * self.side);
         let r2 = r1 - d;
-        // From the outer joints to the origins of the links' frames.
+        // Vectors from the outer joints to the origins of the links' frames.
         let mut arms = [r1, r2];
         for ((arm, pivot), back) in self.arms.iter().zip([p1, p2]).zip(&mut arms) {
             let (r, link, span) = (*back, arm.body.link, arm.span);
@@ -158,7 +160,7 @@ impl Dyad {
         across
     }
 
-    /// Reactions in the three joints.
+    /// Computes the reactions in the three joints.
     #[inline(always)]
     fn hold<S: Simd>(&self, gravity: Vec2, tile: &mut Window<S>, work: &Window<S>, column: usize) {
         let [first, second] = &self.arms;
@@ -174,7 +176,7 @@ impl Dyad {
 }
 
 impl Body {
-    /// Resultant of all known forces on the link, and their moment about the pole.
+    /// Returns the resultant of all known forces on the link and their moment about the pole.
     #[inline(always)]
     pub(super) fn resultant<S: Simd>(&self, gravity: Vec2, tile: &Window<S>) -> (Plane<S>, Lanes<S>) {
         let direction = tile.vector(self.link + DIRECTION);

@@ -1,4 +1,4 @@
-//! The constants of a case of driving links, RRR dyads and higher groups on pins, derived once.
+//! Constants of a case of driving links, RRR dyads and higher groups on pins, derived once.
 
 use super::bodies::{Action, Body, Reader};
 use super::chains::Chain;
@@ -12,7 +12,7 @@ use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, JointId, LinkId
 /// Columns of a dyad in the working memory: two each for its spans r1 and r2, and 1 / (r1 x r2).
 const OF_DYAD: usize = 5;
 
-/// A driving link, which turns about a joint with the ground: its pole.
+/// A driving link. The joint about which it turns on the ground is its pole.
 #[derive(Clone, Debug)]
 pub(super) struct Driver {
     pub(super) ground: Vec2,
@@ -24,14 +24,14 @@ pub(super) struct Driver {
 /// One link of a dyad.
 #[derive(Clone, Debug)]
 pub(super) struct Arm {
-    /// First column of the known link and the joint's place on it; the column is `None` for the ground.
+    /// First column of the base link, `None` for the ground, and the position of the joint on that link.
     pub(super) base: (Option<usize>, Vec2),
     /// The outer joint, and the vector from there to the inner one, in the link's frame.
     pub(super) outer: Vec2,
     pub(super) span: Vec2,
     pub(super) squared: f64,
     pub(super) inverse_squared: f64,
-    /// The pole is the inner joint.
+    /// The link; its pole is the inner joint.
     pub(super) body: Body,
     pub(super) reaction: Action,
 }
@@ -41,7 +41,7 @@ pub(super) struct Arm {
 pub(super) struct Dyad {
     pub(super) arms: [Arm; 2],
     pub(super) side: f64,
-    /// The inner joint as it acts on the first link.
+    /// Action of the inner joint on the first link.
     pub(super) inner: Action,
 }
 
@@ -61,14 +61,15 @@ pub(super) struct Groups {
     pub(super) drivers: Vec<Driver>,
     /// Every group and its first column in the working memory.
     pub(super) parts: Vec<(Part, usize)>,
-    /// Columns of the working memory.
+    /// Number of columns of the working memory.
     pub(super) columns: usize,
 }
 
 impl Groups {
-    /// The constants of a case, whose start pose the plan has placed. `None` if a group is of another kind, a driving
-    /// link is attached to another driving link, or a load is not a moment of resistance.
-    /// Such cases need places and other links, and are solved pose by pose.
+    /// Returns the constants of a case whose start pose the plan has placed.
+    /// `None` if a group is of another kind, a driving link is attached to another driving link, or a load is not a
+    /// moment of resistance.
+    /// These cases are solved pose by pose.
     pub(super) fn of(case: &Case, plan: &SolutionPlan, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
         let simple = |load: &Load| load.resistance().is_some();

@@ -1,7 +1,7 @@
 //! One number or plane vector for several poses at once, on the widest registers of the machine.
 //!
-//! Every operation is an IEEE 754 operation on each lane separately, and none is fused.
-//! So a lane's value depends neither on its neighbours nor on the number of lanes.
+//! Every operation is an IEEE 754 operation on each lane separately, without fused multiply-add.
+//! A lane's value therefore depends neither on its neighbours nor on the number of lanes.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -80,7 +80,7 @@ impl<S: Simd> Lanes<S> {
         Lanes { value: self.simd.abs_f64s(self.value), ..self }
     }
 
-    /// Where this is greater than the other. Nowhere where one of them is NaN.
+    /// Where this number is greater than `other`; `false` where either is NaN.
     #[inline(always)]
     pub(super) fn exceeds(self, other: Self) -> Choice<S> {
         Choice { simd: self.simd, mask: self.simd.greater_than_f64s(self.value, other.value) }
@@ -101,13 +101,13 @@ pub(super) struct Choice<S: Simd> {
 }
 
 impl<S: Simd> Choice<S> {
-    /// The first number where the choice is made, elsewhere the second.
+    /// Returns the first number where the choice is true, elsewhere the second.
     #[inline(always)]
     pub(super) fn of(self, chosen: Lanes<S>, other: Lanes<S>) -> Lanes<S> {
         Lanes { simd: self.simd, value: self.simd.select_f64s(self.mask, chosen.value, other.value) }
     }
 
-    /// Both numbers, exchanged where the choice is made.
+    /// Returns both numbers, exchanged where the choice is true.
     #[inline(always)]
     pub(super) fn exchanged(self, a: Lanes<S>, b: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
         (self.of(b, a), self.of(a, b))
@@ -185,20 +185,20 @@ impl<S: Simd> Plane<S> {
         Plane { x: -self.y, y: self.x }
     }
 
-    /// This direction rotated by another: their product as complex numbers.
+    /// Returns this direction rotated by another: their product as complex numbers.
     #[inline(always)]
     pub(super) fn onwards(self, by: Self) -> Self {
         Plane { x: self.x * by.x - self.y * by.y, y: self.x * by.y + self.y * by.x }
     }
 
-    /// `v` rotated by this direction.
+    /// Returns `v` rotated by this direction.
     #[inline(always)]
     pub(super) fn rotate(self, v: Vec2) -> Self {
         Plane { x: self.x * v.x - self.y * v.y, y: self.x * v.y + self.y * v.x }
     }
 }
 
-/// View of the columns of one tile: as many poses as fit into a register.
+/// View of as many poses of one tile as fit into a register.
 #[derive(Debug)]
 pub(super) struct Window<'a, S: Simd> {
     pub(super) simd: S,
@@ -221,7 +221,7 @@ impl<S: Simd> Window<'_, S> {
         S::as_mut_simd_f64s(&mut self.columns[column].0).0[self.part] = lanes.value;
     }
 
-    /// The vector with its components at `column` and the next column.
+    /// Returns the vector with its components at `column` and the next column.
     #[inline(always)]
     pub(super) fn vector(&self, column: usize) -> Plane<S> {
         Plane { x: self.get(column), y: self.get(column + 1) }

@@ -6,10 +6,10 @@ use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::State;
 
-/// Columns of one link's motion, in this order: two each for origin, direction, velocity and acceleration, one
-/// each for angular velocity and angular acceleration.
+/// Columns of one link's motion, in this order: two each for origin, direction, velocity and acceleration, one each for
+/// angular velocity and angular acceleration.
 const OF_LINK: usize = 10;
-/// Places of these in a link's columns.
+/// Offsets of these quantities from the link's first column.
 pub(super) const ORIGIN: usize = 0;
 pub(super) const DIRECTION: usize = 2;
 pub(super) const VELOCITY: usize = 4;
@@ -17,13 +17,13 @@ pub(super) const ACCELERATION: usize = 6;
 pub(super) const OMEGA: usize = 8;
 pub(super) const ALPHA: usize = 9;
 
-/// The assignment of columns.
+/// The layout of the columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Layout {
     links: usize,
     joints: usize,
     drives: usize,
-    /// Whether joints have a column for their moment; if not, all moments are 0.
+    /// Whether joints have a column for their moment; if `false`, all moments are 0.
     has_moments: bool,
 }
 
@@ -45,13 +45,13 @@ impl Layout {
         (self.links - 1) * OF_LINK + 2 * joint.index()
     }
 
-    /// The balancing moment of a drive.
+    /// Column of the balancing moment of a drive.
     #[inline(always)]
     pub(super) fn torque(&self, drive: usize) -> usize {
         self.force(JointId(self.joints)) + drive
     }
 
-    /// The column that is NaN where the pose cannot be assembled.
+    /// Column that is NaN where the pose cannot be assembled.
     #[inline(always)]
     pub(super) fn reach(&self) -> usize {
         self.torque(self.drives)
@@ -67,8 +67,8 @@ impl Layout {
 }
 
 /// The poses that [`Batch::solve`](super::Batch::solve) has found, one row per crank angle.
-/// Keep it between calls: its memory is used again.
-/// Values beyond the requested stage have no meaning. Methods panic if the row does not exist.
+/// Keep it between calls: its memory is reused.
+/// Values beyond the requested stage are meaningless. Methods panic if the row does not exist.
 #[derive(Clone, Debug, Default)]
 pub struct Poses {
     layout: Layout,
@@ -77,7 +77,7 @@ pub struct Poses {
 }
 
 impl Poses {
-    /// No poses yet.
+    /// Returns an empty storage.
     #[must_use]
     pub fn new() -> Self {
         Poses::default()
@@ -89,13 +89,13 @@ impl Poses {
         self.rows
     }
 
-    /// Whether there is no pose.
+    /// Whether the storage holds no pose.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows == 0
     }
 
-    /// Motion of a link's frame in the pose `row`; the ground's is [`Motion::REST`].
+    /// Motion of a link's frame in the pose `row` (m, m/s, m/s^2, rad/s, rad/s^2); [`Motion::REST`] for the ground.
     #[must_use]
     pub fn motion(&self, row: usize, link: LinkId) -> Motion {
         let Some(first) = self.layout.link(link) else { return Motion::REST };
@@ -109,14 +109,14 @@ impl Poses {
         }
     }
 
-    /// Force of the first link on the second in a joint (N), in the pose `row`.
+    /// Force that the first link of a joint exerts on the second (N), in the pose `row`.
     #[must_use]
     pub fn force(&self, row: usize, joint: JointId) -> Vec2 {
         self.vector(row, self.layout.force(joint))
     }
 
-    /// Moment of the first link on the second in a joint, about the joint's place on the second (N m), in the pose
-    /// `row`; 0 in revolute joints.
+    /// Moment that the first link of a joint exerts on the second, about the joint's position on the second link (N m),
+    /// in the pose `row`; 0 in revolute joints.
     #[must_use]
     pub fn moment(&self, row: usize, joint: JointId) -> f64 {
         if self.layout.has_moments { self.get(row, self.layout.moment(joint)) } else { 0.0 }
@@ -129,8 +129,8 @@ impl Poses {
         self.get(row, self.layout.torque(drive))
     }
 
-    /// Copies the pose `row` to a state of the same case. The state's angles, which count turns, stay unchanged,
-    /// as with [`PoseSolver::solve`](crate::PoseSolver::solve).
+    /// Copies the pose `row` to a state of the same case.
+    /// The state's angles, which count turns, stay unchanged, as with [`PoseSolver::solve`](crate::PoseSolver::solve).
     pub fn copy_to(&self, row: usize, state: &mut State) {
         for (link, motion) in state.motions.iter_mut().enumerate() {
             *motion = self.motion(row, LinkId(link));
@@ -143,24 +143,24 @@ impl Poses {
         }
     }
 
-    /// Reserves space for this number of rows.
+    /// Reserves space for `rows` rows.
     pub(super) fn prepare(&mut self, layout: Layout, rows: usize) {
         let tiles = rows.div_ceil(TILE) * layout.columns();
         (self.layout, self.rows) = (layout, rows);
         self.tiles.resize(tiles, Eight([0.0; TILE]));
     }
 
-    /// Keeps the first rows only.
+    /// Keeps only the first `rows` rows.
     pub(super) fn truncate(&mut self, rows: usize) {
         self.rows = rows;
     }
 
-    /// The columns of every tile.
+    /// Returns the columns of every tile.
     pub(super) fn tiles(&mut self) -> impl Iterator<Item = &mut [Eight]> {
         self.tiles.chunks_exact_mut(self.layout.columns())
     }
 
-    /// Whether the pose in a row could be assembled.
+    /// Whether the pose in a row can be assembled.
     #[inline]
     pub(super) fn is_placed(&self, row: usize) -> bool {
         !self.get(row, self.layout.reach()).is_nan()

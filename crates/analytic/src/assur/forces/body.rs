@@ -5,26 +5,26 @@ use linkage::drive::{Load, Wrench};
 use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::{JointId, JointSide, LinkId};
 
-/// Reactions: what the first link of every joint exerts on the second. Filled in from the last group to the first.
+/// Reactions that the first link of every joint exerts on the second, filled in from the last group to the first.
 #[derive(Debug)]
 pub(super) struct Reactions<'a> {
     /// Forces (N).
     pub(super) forces: &'a mut [Vec2],
-    /// Moments about the joint's place on the second link (N m); 0 in revolute joints.
+    /// Moments about the joint's position on the second link (N m); 0 in revolute joints.
     pub(super) moments: &'a mut [f64],
-    /// Loads on every link; empty if there are none.
+    /// Loads on every link; empty if the case has no loads.
     pub(super) loads: &'a [Wrench],
 }
 
-/// A joint as it acts on one of its links: `sign` times its reaction, at the place to which the reaction refers.
+/// Action of a joint on one of its links: `sign` times its reaction, at the reaction's reference point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Action {
     pub(super) joint: JointId,
     side: JointSide,
     sign: f64,
-    /// Whether the joint carries a moment too.
+    /// Whether the joint is prismatic and so transmits a moment too.
     slides: bool,
-    /// Whether its place is the origin of the frame.
+    /// Whether the joint is the origin of the link's frame.
     at_origin: bool,
 }
 
@@ -36,22 +36,21 @@ impl Action {
         Action { joint, side, sign, slides: found.slides(), at_origin: side.local == Vec2::zeros() }
     }
 
-    /// World place at which the joint acts.
+    /// World position at which the joint acts.
     #[inline]
     pub(super) fn place(&self, motions: &[Motion]) -> Vec2 {
         let motion = &motions[self.side.link];
         if self.at_origin { motion.origin } else { motion.point(self.side.local) }
     }
 
-    /// Stores the joint's reaction from the force on the link.
+    /// Stores the joint's reaction, given the force on the link.
     #[inline]
     pub(super) fn put(&self, force: Vec2, reactions: &mut Reactions) {
         reactions.forces[self.joint] = force * self.sign;
     }
 
-    /// Stores a prismatic joint's reaction.
-    /// It follows from the force on the link and from the moment of all other actions on it about `pole`, which
-    /// the joint must balance.
+    /// Stores a prismatic joint's reaction, given the force on the link and the moment of all other actions on the link
+    /// about `pole`, which the joint must balance.
     #[inline]
     pub(super) fn put_guided(
         &self,
@@ -67,7 +66,7 @@ impl Action {
 }
 
 /// A link with the joints at which later groups are attached to it.
-/// It has its own copy of the masses. A look-up in the mechanism's list of links would cost a tenth of the force
+/// It holds a copy of the masses: a look-up in the mechanism's list of links would add a tenth to the time of the force
 /// analysis.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
@@ -75,7 +74,7 @@ pub(super) struct Body {
     mass: f64,
     inertia: f64,
     centre: Vec2,
-    /// Whether loads may act on it.
+    /// Whether loads may act on the link.
     is_loaded: bool,
     hanging: Vec<Action>,
 }
@@ -96,7 +95,7 @@ impl Body {
         }
     }
 
-    /// Resultant of all known forces on the link and their moment about the world point `pole`.
+    /// Returns the resultant of all known forces on the link (N) and their moment about the world point `pole` (N m).
     #[inline(always)]
     pub(super) fn resultant(&self, case: &Case, motions: &[Motion], reactions: &Reactions, pole: Vec2) -> (Vec2, f64) {
         let motion = &motions[self.link];

@@ -1,8 +1,8 @@
-//! Reactions of any higher group.
+//! Joint reactions of any higher group.
 //!
-//! The closing joints are cut. Virtual work on the unknowns of the contours gives the forces there (J^T lambda =
-//! -Q).
-//! The forces of the other joints follow from the outermost link inwards.
+//! The closing joints are cut; the principle of virtual work for the unknowns of the contours gives the forces in them
+//! (J^T lambda = -Q).
+//! The forces in the remaining joints follow from the outermost link inwards.
 
 use super::body::{Action, Body, Reactions};
 use crate::assur::groups::{Chain, SolutionPlan, Step};
@@ -16,19 +16,19 @@ pub(super) struct Higher {
     /// Index of the group's [`Chain`] in the plan.
     step: GroupId,
     bodies: Vec<Body>,
-    /// For each node: the joint to its parent, as it acts on the node's link.
+    /// For each node: action of the joint to its parent on the node's link.
     hung: Vec<Action>,
-    /// Known force on each node's link and on all links attached to it (N), and its moment about the node's own
-    /// joint (N m).
+    /// For each node: known force on its link and on all links attached to it (N), and its moment about the node's
+    /// joint to its parent (N m).
     carried: Vec<(Vec2, f64)>,
-    /// The same for the forces in the closing joints.
+    /// The same quantities for the forces in the closing joints.
     cut: Vec<(Vec2, f64)>,
     multipliers: Vec<f64>,
-    /// From the outermost node inwards: what a node passes on to its parent.
+    /// From the outermost node inwards: how each node loads its parent.
     inwards: Vec<Inwards>,
 }
 
-/// A node and its parent. A link on a pin passes on a force only. A link on a guide turns with its parent and passes on
+/// A node and its parent. A link on a pin transmits a force only; a link on a guide turns with its parent and transmits
 /// its moment too.
 #[derive(Clone, Copy, Debug)]
 struct Inwards {
@@ -63,7 +63,7 @@ impl Higher {
         }
     }
 
-    /// The same for a group with guides, or for one without.
+    /// Solves a group with guides (`SLIDING`) or without.
     fn solve_as<const SLIDING: bool>(
         &mut self,
         case: &Case,
@@ -97,7 +97,7 @@ impl Higher {
                 let Some(node) = node else { continue };
                 let (total, moment) = &mut self.cut[node];
                 *total += force * sign;
-                // Only guides ask for moments.
+                // Only guides need moments.
                 if SLIDING {
                     *moment += cross(closing.place(motions) - chain.pole(node), force) * sign;
                 }

@@ -1,29 +1,32 @@
-//! Reactions of the four dyads with prismatic pairs.
+//! Joint reactions of the four dyads with prismatic joints.
 //!
-//! A revolute pair transmits a force, a prismatic one a force across its axis and a moment.
+//! A revolute joint transmits a force, a prismatic joint a force across its axis and a moment.
 //! F and M are the known force and moment on a link, u and w the vectors from the pole to the outer joints.
 //! R is the force on link a at its outer joint.
-//! RRP: u x R = -M_a about the inner joint, e . (R + F) = 0 for the whole.
-//! RPR, with R on the pair's second link: e . (R + F_b) = 0 there, d x R = -M for the whole about the first pin.
-//! RPP: b . (R + F_a) = 0 on the pinned link, e . (R + F) = 0 for the whole.
+//! RRP: u x R = -M_a about the inner joint, e . (R + F) = 0 for the whole dyad.
+//! RPR, with R on the second link of the prismatic joint: e . (R + F_b) = 0 on that link, d x R = -M for the whole dyad
+//! about the first pin.
+//! RPP: b . (R + F_a) = 0 on the pinned link, e . (R + F) = 0 for the whole dyad.
 //! PRP: the inner force I on link a has e . (I + F_a) = 0 and b . (I - F_b) = 0.
 //! The moments of the guides follow from the moments of their links.
-//! Artobolevsky, "Theory of mechanisms and machines", kinetostatics of class II groups.
+//! Derived here from the equilibrium of the links and of the whole dyad.
+//! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::body::{Action, Body, Reactions};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, GroupKind, JointId, LinkId};
 
-/// Force analysis of a dyad with prismatic pairs. The links have the order in which the formulas name them.
+/// Force analysis of a dyad with prismatic joints. The links are in the order in which the formulas name them.
 #[derive(Clone, Debug)]
 pub(super) struct Sliding {
     kind: GroupKind,
     bodies: [Body; 2],
     outer: [Action; 2],
     inner: [Action; 2],
-    /// Axis of the prismatic pair of RRP, of RPR (the inner pair) and of PRP (the first), or of RPP's guide. The
-    /// index is the link on which the axis is given.
+    /// Axis of the prismatic joint: for RRP its guide, for RPR the inner joint, for PRP the first guide, for RPP its
+    /// guide.
+    /// The index is the link on which the axis is given.
     axis: (LinkId, Vec2),
     /// Axis of PRP's second guide, or of RPP's inner pair.
     other: (LinkId, Vec2),
@@ -44,7 +47,7 @@ impl Sliding {
         }
         let links = order.map(|k| group.links[k]);
         let outer = order.map(|k| group.outer[k]);
-        // The axis in world axes. It is fixed to the first link of its joint.
+        // World direction of the axis, which is fixed to the first link of its joint.
         let axis = |joint: JointId| {
             let link = joints[joint].first.link;
             (link, joints[joint].axis_on(link).unwrap_or_else(Vec2::zeros))
@@ -75,7 +78,7 @@ impl Sliding {
         }
     }
 
-    /// Known forces and moments about `pole` on both links.
+    /// Returns the known forces and moments about `pole` on both links.
     #[inline]
     fn known(&self, case: &Case, motions: &[Motion], reactions: &Reactions, pole: Vec2) -> ([Vec2; 2], [f64; 2]) {
         let (force_a, moment_a) = self.bodies[0].resultant(case, motions, reactions, pole);
@@ -137,7 +140,7 @@ impl Sliding {
     }
 }
 
-/// The vector R with e . R and b . R given.
+/// Returns the vector R with the given products e . R and b . R.
 fn with_components([e, b]: [Vec2; 2], [along_e, along_b]: [f64; 2]) -> Vec2 {
     (turned(e) * along_b - turned(b) * along_e) / cross(e, b)
 }

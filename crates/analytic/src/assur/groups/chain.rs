@@ -1,14 +1,14 @@
-//! Any higher group, by Newton's method on its own vector contours.
+//! Any higher group, by Newton's method on its vector contours.
 //!
-//! A tree of joints connects the group's links to the known ones. It contains all prismatic joints, which cannot
-//! form a loop.
+//! A tree of joints connects the group's links to the known ones. It contains all prismatic joints, which cannot form a
+//! loop.
 //! Every remaining revolute joint closes a contour.
-//! The unknowns are one angle for every link with a revolute joint to its parent and one slide for every link with
-//! a prismatic one.
+//! The unknowns are one angle for every link with a revolute joint to its parent and one slide for every link with a
+//! prismatic joint.
 //! There are as many unknowns as contour equations.
-//! The gap of a closing joint is the sum of the link and slide vectors along both ways to it.
-//! Its derivative by an angle is the sum of the vectors that turn with it, turned by 90 degrees; by a slide it is
-//! the axis.
+//! The gap of a closing joint is the sum of the link and slide vectors along both paths to it.
+//! Its derivative by an angle is the sum of the vectors that turn with that angle, turned by 90 degrees; its derivative
+//! by a slide is the axis.
 //! Velocities and accelerations follow from the same Jacobian: J q' = -(velocity of the ends),
 //! J q'' = -(acceleration of the ends) + centripetal and Coriolis parts.
 
@@ -27,41 +27,42 @@ use linkage::math::{KeepNan, Motion, Vec2, rotated, turned};
 use linkage::mechanism::{GROUND, Group, JointSide, Mechanism};
 use linkage::work::{Count, WorkTally};
 
-/// Newton's method from the last pose needs a few iterations. If it needs more, it has lost the branch.
+/// Largest number of iterations. Newton's method from the last pose needs a few; if it needs more, it has lost the
+/// branch.
 const MAX_ITERATIONS: usize = 10;
-/// Largest turn of a link from the last pose (rad) that is accepted as a continuation.
+/// Largest turn of a link from the last pose (rad) that is accepted as a continuation of the branch.
 /// For a slide the limit is the same share of the mechanism's size.
 const MAX_TURN: f64 = 0.3;
 
-/// Largest turn of the last iteration (rad). The remaining error is its square, times the condition number of the
-/// pose.
+/// Largest turn of the last iteration (rad). The remaining error is its square times the condition number of the pose.
 const LAST_CHANGE: f64 = 1e-8;
 
-/// Change of the last iteration (rad) up to which the Jacobian is that of the pose itself, to rounding.
-/// Predictions from five steps magnify the rounding of a turn up to 31 times.
+/// Largest change of the last iteration (rad) at which the Jacobian is that of the pose itself, to rounding.
+/// Predictions from five steps amplify the rounding error of a turn up to 31 times.
 /// In steps of a tenth of a degree they come this near to the solution.
 const SAME_POSE: f64 = 4e-14;
-/// Largest correction of a predicted pose (rad). Near a dead point predictions are poor, and the corrected pose
-/// may be on another branch.
+/// Largest correction of a predicted pose (rad). Near a dead point predictions are poor, and the corrected pose may be
+/// on another branch.
 const MAX_CORRECTION: f64 = 0.01;
-/// Share of the squared determinant that must be left after a step, as extrapolated from the last step.
+/// Share of the squared determinant that must remain after a step, as extrapolated from the last step.
 const LEAST_LEFT: f64 = 0.25;
-/// Steps of the driving angles (rad) below which a jump to another branch is no longer possible.
+/// Step of the driving angles (rad) below which a jump to another branch is impossible.
 const SMALLEST_STEP: f64 = 1e-6;
-/// Share of the determinant in the largest so far below which a pose is singular.
-/// At a change point the determinant is linear in the driving angles, and branches less than [`SMALLEST_STEP`] from it
-/// are nearer to each other than Newton's method can tell: it may go over to the one that keeps the sign.
-/// At a dead point the determinant falls with the square root of the way, and its sign tells.
+/// Ratio of the determinant to the largest determinant so far, below which a pose is singular.
+/// At a change point the determinant is linear in the driving angles. Within [`SMALLEST_STEP`] of it Newton's method
+/// cannot distinguish the branches and may change to the branch that keeps the sign.
+/// At a dead point the determinant falls with the square root of the distance, and its sign distinguishes the branches.
 const SINGULAR: f64 = 1e-6;
 
-/// `direction` turned by a small angle (rad), to the seventh order of the angle, and of unit length to rounding.
+/// Returns `direction` turned by a small angle (rad), accurate to the seventh order of the angle and of unit length to
+/// rounding.
 #[inline]
 fn slightly_turned(direction: Vec2, angle: f64) -> Vec2 {
     let square = angle * angle;
     let sine = angle * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
     let cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)));
     let turned = rotated(direction, Vec2::new(cosine, sine));
-    // The length differs from 1 by 1e-8 at most, and that from its inverse root by the square of it.
+    // The length differs from 1 by at most 1e-8; the error of this inverse root is of the order of its square.
     turned * (1.5 - 0.5 * turned.norm_squared())
 }
 
@@ -78,14 +79,14 @@ struct At {
 #[derive(Clone, Debug)]
 struct World {
     arrows: Vec<Vec2>,
-    /// The same times the square of the angular velocity with which they turn (m/s^2).
+    /// The vectors times the square of the angular velocity with which they turn (m/s^2).
     centripetal: Vec<Vec2>,
     roots: Vec<At>,
-    /// The joints of the nodes to their parents.
+    /// The joints from the nodes to their parents.
     joints: Vec<At>,
 }
 
-/// Higher group, prepared for solving.
+/// A higher group, prepared for solving.
 #[derive(Clone, Debug)]
 pub struct Chain {
     contours: Contours,
@@ -93,24 +94,24 @@ pub struct Chain {
     jacobian: Lu,
     unknown: Vec<f64>,
     branch: f64,
-    /// Determinant at the last pose, its square, and the square's derivatives by the driving angles (1/rad).
-    /// Every step corrects the derivative along itself (Broyden's update).
+    /// Determinant at the last pose, its square, and the derivatives of the square by the driving angles (1/rad).
+    /// Every step corrects the derivative in its direction (Broyden's update).
     determinant: f64,
     square: f64,
     slopes: Vec<f64>,
-    /// Driving angles at the last pose, and their changes to the wanted one (rad).
+    /// Driving angles at the last pose, and their changes to the requested pose (rad).
     at: Vec<f64>,
     step: Vec<f64>,
-    /// Directions of the links at the last pose, for a return to it.
+    /// Directions of the links at the last pose, restored if a step fails.
     kept: Vec<Vec2>,
-    /// Slides at this pose and at the last one, and their rates (m, m, m/s). 0 for revolute joints.
+    /// Slides at this pose and at the last one, and their rates (m, m, m/s); 0 for revolute joints.
     slides: Vec<f64>,
     kept_slides: Vec<f64>,
     speeds: Vec<f64>,
     /// Length by which slides are divided, so that all unknowns are of one order of magnitude (m).
     size: f64,
     is_sliding: bool,
-    /// Largest determinant at a pose so far, without sign.
+    /// Largest magnitude of the determinant so far.
     largest: f64,
     memory: Memory,
     tally: Box<WorkTally>,
@@ -162,7 +163,7 @@ impl Chain {
         &self.contours.nodes
     }
 
-    /// The joints that close its contours.
+    /// The joints that close the group's contours.
     #[inline]
     #[must_use]
     pub fn closings(&self) -> &[ClosingJoint] {
@@ -175,14 +176,14 @@ impl Chain {
         &self.contours
     }
 
-    /// Length by which the unknowns divide slides (m).
+    /// Length by which slides are divided to form the unknowns (m).
     #[inline]
     #[must_use]
     pub fn size(&self) -> f64 {
         self.size
     }
 
-    /// World place of the joint between a node and its parent, on the node's own link, at the last pose.
+    /// World position at the last pose of the joint between a node and its parent, taken on the node's link.
     #[inline]
     pub(in crate::assur) fn pole(&self, node: usize) -> Vec2 {
         self.world.joints[node].place
@@ -194,15 +195,15 @@ impl Chain {
         self.is_sliding
     }
 
-    /// Takes the last pose for that of a first driving angle farther on by `way` (rad), some whole turns.
+    /// Treats the last pose as that of a first driving angle larger by `way` (rad), a whole number of turns.
     pub(super) fn skip(&mut self, way: f64) {
         self.at[0] += way;
-        // Whole turns are rounded: the next step is not the same as the last.
+        // Whole turns are rounded, so the next step differs from the last.
         self.memory.start_anew();
     }
 
-    /// Positions at these driving angles (rad), from those of the last pose.
-    /// Returns `false`, with the links' directions unchanged, if the branch cannot be followed there.
+    /// Computes the positions at these driving angles (rad), starting from the last pose.
+    /// Returns `false` and leaves the links' directions unchanged if the branch cannot be followed there.
     pub(super) fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> bool {
         match self.is_sliding {
             true => self.positions_as::<true>(angles, motions),
@@ -210,7 +211,7 @@ impl Chain {
         }
     }
 
-    /// The same for a group with guides, or for one without.
+    /// Solves a group with guides (`SLIDING`) or without.
     fn positions_as<const SLIDING: bool>(&mut self, angles: &[f64], motions: &mut [Motion]) -> bool {
         if self.slides[0].is_nan() {
             self.read_slides(motions);
@@ -233,7 +234,7 @@ impl Chain {
             self.kept_slides.copy_from_slice(&self.slides);
         }
         self.find_roots(motions);
-        // A prediction is a first change of the unknowns.
+        // A prediction is the first change of the unknowns.
         let allowed = if self.memory.predict(&self.step) {
             for (index, node) in self.contours.nodes.iter().enumerate() {
                 let change = self.memory.change(index);
@@ -262,9 +263,9 @@ impl Chain {
         followed
     }
 
-    /// Positions at these driving angles (rad) near the expected poses `like`, on whatever side of a singular pose they
-    /// are.
-    /// Returns `false` if there are none so near.
+    /// Computes the positions at these driving angles (rad) near the expected poses `like`, on either side of a
+    /// singular pose.
+    /// Returns `false` if no pose is near enough.
     pub(super) fn positions_like(&mut self, like: &[Motion], angles: &[f64], motions: &mut [Motion]) -> bool {
         for node in &self.contours.nodes {
             motions[node.link].direction = like[node.link].direction;
@@ -272,7 +273,7 @@ impl Chain {
         self.read_slides(like);
         self.branch = 0.0;
         self.find_roots(motions);
-        // Seldom asked for: guides are looked for in any case.
+        // Rarely called: the version with guides serves every group.
         if !self.follow::<true>(MAX_CORRECTION, motions) {
             return false;
         }
@@ -285,16 +286,16 @@ impl Chain {
 
     /// Whether the pose is singular.
     fn is_singular(&self) -> bool {
-        // Written so that NaN is.
+        // The negated comparison makes a NaN determinant singular.
         !(self.determinant.abs() >= SINGULAR * self.largest)
     }
 
-    /// Determinant of the Jacobian at the last pose. Along a branch it goes through zero at a change point.
+    /// Determinant of the Jacobian at the last pose. Along a branch it passes through zero at a change point.
     pub(crate) fn determinant(&self) -> f64 {
         self.determinant
     }
 
-    /// Reads the slides of the start pose, which the links still have when the group is placed for the first time.
+    /// Reads the slides of the start pose, in which the links still are when the group is placed for the first time.
     fn read_slides(&mut self, motions: &[Motion]) {
         for (slide, node) in self.slides.iter_mut().zip(&self.contours.nodes) {
             let from = motions[node.parent.link].point(node.parent.local);
@@ -303,7 +304,7 @@ impl Chain {
         }
     }
 
-    /// Places of the joints on links outside the group.
+    /// Computes the positions of the joints on links outside the group.
     fn find_roots(&mut self, motions: &[Motion]) {
         let moving = |(_, side): &(&mut At, &JointSide)| side.link != GROUND;
         for (root, side) in self.world.roots.iter_mut().zip(&self.contours.roots).filter(moving) {
@@ -313,7 +314,7 @@ impl Chain {
         }
     }
 
-    /// Vectors of the tree for the links' directions. Every guided link is turned with its parent.
+    /// Computes the vectors of the tree from the links' directions, and turns every guided link with its parent.
     fn draw<const SLIDING: bool>(&mut self, motions: &mut [Motion]) {
         let Contours { nodes, arrows, .. } = &self.contours;
         if SLIDING {
@@ -359,7 +360,7 @@ impl Chain {
         }
     }
 
-    /// Newton's method to rounding. Leaves the factored Jacobian of the pose in which it ends.
+    /// Iterates Newton's method to rounding. Leaves the factored Jacobian of the final pose.
     fn follow<const SLIDING: bool>(&mut self, allowed: f64, motions: &mut [Motion]) -> bool {
         for _ in 0..MAX_ITERATIONS {
             self.assemble::<SLIDING>(motions);
@@ -369,17 +370,17 @@ impl Chain {
                 return false;
             }
             self.jacobian.solve(&mut self.unknown);
-            // NaN is not within any bound.
+            // NaN exceeds every bound.
             let within = |unknown: &[f64], bound: f64| unknown.iter().all(|change| change.abs() <= bound);
             if !within(&self.unknown, allowed) {
                 return false;
             }
             self.memory.correct(&self.unknown);
-            // Quadratic convergence: the remaining error is of the order of the square.
+            // Newton's method converges quadratically: the remaining error is of the order of the square.
             let is_last = within(&self.unknown, LAST_CHANGE);
             for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
                 if is_last && !(SLIDING && node.is_guided()) {
-                    // The square of this turn is less than rounding.
+                    // The square of this turn is below rounding.
                     let direction = &mut motions[node.link].direction;
                     *direction -= turned(*direction) * change;
                 } else {
@@ -407,7 +408,8 @@ impl Chain {
         false
     }
 
-    /// Origins of all links from their directions. Returns `false` if the pose lies beyond a singular one.
+    /// Computes the origins of all links from their directions. Returns `false` if the pose lies beyond a singular
+    /// pose.
     fn hang<const SLIDING: bool>(&mut self, motions: &mut [Motion]) -> bool {
         let World { arrows, roots, joints, .. } = &mut self.world;
         for (index, node) in self.contours.nodes.iter().enumerate() {
@@ -420,7 +422,7 @@ impl Chain {
             }
             let motion = &mut motions[node.link];
             if node.at_origin {
-                // The arm is zero, and stays so.
+                // The arm is zero and stays zero.
                 motion.origin = place;
             } else {
                 let arm = motion.arm(node.own);
@@ -430,7 +432,7 @@ impl Chain {
             joints[index].place = place;
         }
         self.determinant = self.jacobian.determinant();
-        // The product of many small pivots may vanish. Its sign does not.
+        // The product of many small pivots may underflow to zero; its sign is still known.
         let vanishes = self.determinant == 0.0;
         let sign = if vanishes { self.jacobian.determinant_sign() } else { self.determinant.signum() };
         if self.branch == 0.0 {
@@ -439,11 +441,11 @@ impl Chain {
         sign == self.branch
     }
 
-    /// Stores the squared determinant of this pose, and how it has changed in this step.
+    /// Stores the squared determinant of this pose and its change in this step.
     fn learn(&mut self) {
         let square = self.determinant.powi(2);
         if let ([step], [slope]) = (&self.step[..], &mut self.slopes[..]) {
-            // The same for one driving link.
+            // Broyden's update for one driving link.
             if *step * *step > 0.0 && self.square.is_finite() {
                 *slope += (square - self.square - *slope * step) / (step * step) * step;
             }
@@ -458,7 +460,7 @@ impl Chain {
         self.square = square;
     }
 
-    /// Change of the squared determinant over this step, as extrapolated from the last ones.
+    /// Change of the squared determinant over this step, extrapolated from the last steps.
     #[inline(always)]
     fn foreseen(&self) -> f64 {
         if let ([step], [slope]) = (&self.step[..], &self.slopes[..]) {
@@ -467,17 +469,17 @@ impl Chain {
         self.slopes.iter().zip(&self.step).map(|(slope, step)| slope * step).sum()
     }
 
-    /// Whether this step might lead over a dead point. Near one, the square of the determinant is linear in the
-    /// driving angles.
-    /// A step on which it would lose most of its value must be smaller, or it might end on the other side of a gap
+    /// Whether this step might lead over a dead point, near which the squared determinant is linear in the driving
+    /// angles.
+    /// A step in which it would lose most of its value must be smaller, or it might end on the other side of a gap
     /// between two branches.
     fn is_bold(&self) -> bool {
         let goes = self.step.iter().any(|step| step.abs() > SMALLEST_STEP);
         goes && self.square + self.foreseen() < LEAST_LEFT * self.square
     }
 
-    /// Multipliers of the closing joints (forces on their second links, x and y in turn, N), in place: J^T lambda
-    /// = -Q.
+    /// Computes the multipliers of the closing joints in place: J^T lambda = -Q.
+    /// The multipliers are the forces on the second links (N), x and y alternating.
     /// The input is the generalised forces on the unknowns (N m; for a slide, the force along the axis times
     /// [`Chain::size`]).
     /// The pose must be the last one solved.

@@ -1,10 +1,10 @@
-//! Outer prismatic pair of a dyad: a link that slides on a known link and turns with it.
+//! Outer prismatic joint of a dyad: a link that slides on a known link and turns with it.
 
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{Joint, JointSide, LinkId};
 
-/// `a` times the conjugate of `b` as complex numbers: the direction of a frame in which the unit vector `b` points
-/// along `a`.
+/// Returns `a` times the conjugate of `b` as complex numbers: the direction of a frame in which the unit vector `b`
+/// points along `a`.
 #[inline]
 pub(super) fn turn_between(a: Vec2, b: Vec2) -> Vec2 {
     Vec2::new(b.dot(&a), cross(b, a))
@@ -14,11 +14,11 @@ pub(super) fn turn_between(a: Vec2, b: Vec2) -> Vec2 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Guide {
     pub(super) link: LinkId,
-    /// The guide's link and the joint's place on it.
+    /// The guide's link and the position of the joint on it.
     pub(super) base: JointSide,
-    /// The axis in the guide's link.
+    /// The axis in the frame of the guide's link.
     axis: Vec2,
-    /// The joint's place on the sliding link.
+    /// The position of the joint on the sliding link.
     own: Vec2,
     /// Direction of the sliding link's frame in the frame of the guide's link.
     turn: Vec2,
@@ -49,19 +49,19 @@ impl Guide {
         motions[self.link].direction = rotated(motions[self.base.link].direction, self.turn);
     }
 
-    /// World place of the sliding link's point `local` at slide zero. The link must have been aimed.
+    /// World position of the point `local` of the sliding link at slide zero. [`Guide::aim`] must have been called.
     #[inline]
     pub(super) fn at_zero(&self, local: Vec2, motions: &[Motion]) -> Vec2 {
         motions[self.base.link].point(self.base.local) + motions[self.link].arm(local - self.own)
     }
 
-    /// Puts the sliding link's point `local` on a world place.
+    /// Places the point `local` of the sliding link at a world position.
     #[inline]
     pub(super) fn put(&self, local: Vec2, place: Vec2, motions: &mut [Motion]) {
         motions[self.link].origin = place - motions[self.link].arm(local);
     }
 
-    /// Gives the sliding link the guide's rotation and its point `local` a velocity.
+    /// Gives the sliding link the guide's angular velocity and its point `local` a velocity.
     #[inline]
     pub(super) fn put_velocity(&self, local: Vec2, velocity: Vec2, motions: &mut [Motion]) {
         let omega = motions[self.base.link].omega;
@@ -70,7 +70,7 @@ impl Guide {
         motion.velocity = velocity - turned(motion.arm(local)) * omega;
     }
 
-    /// Gives the sliding link the guide's rotation and its point `local` an acceleration.
+    /// Gives the sliding link the guide's angular acceleration and its point `local` an acceleration.
     #[inline]
     pub(super) fn put_acceleration(&self, local: Vec2, acceleration: Vec2, motions: &mut [Motion]) {
         let alpha = motions[self.base.link].alpha;

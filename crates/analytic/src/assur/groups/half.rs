@@ -1,4 +1,4 @@
-//! The two links of a dyad, in the order that its equations need.
+//! The two links of a dyad, in the order that its equations require.
 
 use linkage::mechanism::{Group, Joint, LinkId, Mechanism};
 
@@ -8,7 +8,7 @@ pub(super) struct Half<'a> {
     pub(super) outer: &'a Joint,
 }
 
-/// The two halves of a dyad. The half for which `is_first` is true comes first.
+/// Returns the two halves of a dyad. The half for which `is_first` is true comes first.
 pub(super) fn of_dyad<'a>(
     mechanism: &'a Mechanism,
     group: &Group,

@@ -1,4 +1,4 @@
-//! Outer revolute pair of a dyad: a link that turns about a point of a known link.
+//! Outer revolute joint of a dyad: a link that turns about a point of a known link.
 
 use super::bounds::Bounds;
 use linkage::math::{Motion, Vec2, turned};
@@ -8,9 +8,9 @@ use linkage::mechanism::{Joint, JointSide, LinkId};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pin {
     pub(super) link: LinkId,
-    /// The known link and the joint's place on it.
+    /// The known link and the position of the joint on it.
     base: JointSide,
-    /// The joint's place on the turning link.
+    /// The position of the joint on the turning link.
     pub(super) own: Vec2,
 }
 
@@ -19,12 +19,12 @@ impl Pin {
         Pin { link, base: joint.other(link), own: joint.on(link).expect("the joint is on the link") }
     }
 
-    /// Bounds of its speed and acceleration; `None` if those of the known link are not known.
+    /// Bounds of the pin's speed and acceleration; `None` if the bounds of the known link are not known.
     pub(super) fn rates(&self, links: &Bounds) -> Option<[f64; 2]> {
         links[self.base.link].map(|link| link.at(self.base.local))
     }
 
-    /// World place of the pin.
+    /// World position of the pin.
     #[inline]
     pub(super) fn place(&self, motions: &[Motion]) -> Vec2 {
         motions[self.base.link].point(self.base.local)
@@ -42,7 +42,7 @@ impl Pin {
         motions[self.base.link].point_acceleration(self.base.local)
     }
 
-    /// Places the turning link for its direction.
+    /// Places the turning link, given its direction.
     #[inline]
     pub(super) fn put(&self, direction: Vec2, motions: &mut [Motion]) {
         let place = self.place(motions);

@@ -1,11 +1,13 @@
-//! Dyad of two sliders on one pin: outer prismatic pairs, inner revolute pair (class II, order 2).
+//! Dyad of two sliders on one pin: outer prismatic joints, inner revolute joint (class II, order 2).
 //!
-//! Both links turn with their guides. The inner joint C lies on two lines along the axes e and b: (C1 + s e - C2)
-//! x b = 0.
-//! C1 and C2 are its places on the two links at slide zero.
+//! Both links turn with their guides.
+//! The inner joint C lies on two lines along the axes e and b: (C1 + s e - C2) x b = 0.
+//! C1 and C2 are its positions on the two links at slide zero.
 //! With E1, E2 the points of the guides' links at C, v_E1 + s' e = v_E2 + t' b.
 //! The accelerations have the same form, with their Coriolis parts.
-//! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the fourth kind.
+//! Derived here from the closure of the vector contour; in Artobolevsky's classification this is the class II group of
+//! the fourth kind.
+//! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::bounds::{Bounds, Limit};
 use super::guide::Guide;
@@ -21,7 +23,7 @@ pub struct Prp {
     inner: [Vec2; 2],
     /// Sign of the sine of the angle between the axes on the followed branch; 0 before the first pose.
     side: f64,
-    /// That sine at the last pose, with the sign of the branch.
+    /// Sine of the angle between the axes at the last pose, with the sign of the branch.
     gauge: f64,
 }
 
@@ -40,13 +42,13 @@ impl Prp {
         }
     }
 
-    /// Its gauge at the last pose: the sine of the angle between its axes, with the sign of its branch.
+    /// Gauge at the last pose: the sine of the angle between the dyad's axes, with the sign of its branch.
     #[inline]
     pub(super) fn gauge(&self) -> f64 {
         self.gauge
     }
 
-    /// Its limit over a step of the crank. The angle between the axes turns with the guides.
+    /// Limit of the gauge over a step of the crank. The angle between the axes turns with the guides.
     pub(super) fn limit(&self, links: &Bounds) -> Option<Limit> {
         let [first, second] = self.guides.map(|guide| links[guide.base.link]);
         let (first, second) = (first?, second?);

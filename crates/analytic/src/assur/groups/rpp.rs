@@ -1,13 +1,14 @@
-//! Dyad of a pinned link that slides on a slider: outer revolute, inner and outer prismatic pair (class II, order
-//! 2).
+//! Dyad of a pinned link that slides on a slider: outer revolute, inner and outer prismatic joint (class II, order 2).
 //!
-//! All angles follow from the guide's link. It has the axis e; b is the inner axis, and X a point of the slider on
-//! the inner axis.
+//! All angles follow from the guide's link. It has the axis e; b is the inner axis, and X a point of the slider on the
+//! inner axis.
 //! The guide carries X, which slides along e and lies on a line along b that turns about the pin:
 //! b x (X - line) = 0 gives s, and b x (v_E - v_A) + s' b x e = 0 gives s'.
 //! E and A are the points of the guide's link and of the pinned link at X.
 //! The accelerations, with both Coriolis parts, give s''.
-//! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the fifth kind.
+//! Derived here from the closure of the vector contour; in Artobolevsky's classification this is the class II group of
+//! the fifth kind.
+//! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::guide::{Guide, turn_between};
 use super::half::of_dyad;
@@ -23,17 +24,17 @@ pub struct Rpp {
     guide: Guide,
     /// Inner axis in the frames of the pinned link and of the slider.
     axes: [Vec2; 2],
-    /// The inner joint's place in the same frames.
+    /// The position of the inner joint in the same frames.
     inner: [Vec2; 2],
     /// Sign of the sine of the angle between the axes on the followed branch; 0 before the first pose.
     side: f64,
 }
 
-/// Values that every derivative needs again.
+/// Values shared by all derivatives.
 struct Pose {
     axis: Vec2,
     inner_axis: Vec2,
-    /// World place of the inner joint on the slider.
+    /// World position of the inner joint on the slider.
     place: Vec2,
 }
 

@@ -1,11 +1,13 @@
-//! Dyad of a swinging guide and a block: outer revolute pairs, inner prismatic pair (class II, order 2).
+//! Dyad of a swinging guide and a block: outer revolute joints, inner prismatic joint (class II, order 2).
 //!
-//! The outer pins are P1 (on the pair's first link) and P2. With d = P2 - P1 and the axis e with its normal n, d =
-//! e s + n h.
+//! The outer pins are P1 (on the prismatic joint's first link) and P2. With d = P2 - P1 and the axis e with its normal
+//! n, d = e s + n h.
 //! h is a constant of the two links, and s = +-sqrt(d^2 - h^2) gives the common direction.
 //! d' = s' e + omega x d gives omega = n . d' / s and s' = e . d' + omega h.
 //! A second derivative gives alpha = (n . d'' - 2 s' omega + omega^2 h) / s.
-//! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the third kind.
+//! Derived here from the closure of the vector contour; in Artobolevsky's classification this is the class II group of
+//! the third kind.
+//! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::bounds::{Bound, Bounds, Limit, of_square};
 use super::guide::turn_between;
@@ -68,34 +70,34 @@ impl Rpr {
         Ok(())
     }
 
-    /// The axis in the world and the distance of the pins along it.
+    /// World direction of the axis, and the distance of the pins along it.
     #[inline]
     fn along(&self, motions: &[Motion]) -> (Vec2, f64) {
         let axis = rotated(motions[self.pins[0].link].direction, self.axes[0]);
         (axis, axis.dot(&(self.pins[1].place(motions) - self.pins[0].place(motions))))
     }
 
-    /// The dyad in its other configuration.
+    /// Returns the dyad in its other configuration.
     pub(super) fn flipped(self) -> Self {
         Self { sense: -self.sense, ..self }
     }
 
-    /// Its gauge at the last pose: the square of the distance of the pins (m^2).
+    /// Gauge at the last pose: the squared distance of the pins (m^2).
     #[inline]
     pub(super) fn gauge(&self) -> f64 {
         self.gauge
     }
 
-    /// Its limit over a step of the crank, over which its pins are not farther apart than at its ends and on the way
-    /// from there.
+    /// Limit of the gauge over a step of the crank. `farthest` is the largest squared distance of the pins at the ends
+    /// of the step (m^2); `step` bounds its growth between them.
     pub(super) fn limit(&self, links: &Bounds, farthest: f64, step: f64) -> Option<Limit> {
         let [[v1, a1], [v2, a2]] = [self.pins[0].rates(links)?, self.pins[1].rates(links)?];
         let second = of_square([v1 + v2, a1 + a2], farthest.sqrt() + (v1 + v2) * step);
         Some(Limit { range: [self.across * self.across, f64::INFINITY], second, way: f64::INFINITY })
     }
 
-    /// Bounds of its links while its gauge stays above the first end of a band.
-    /// From the formulas of omega and alpha.
+    /// Writes the bounds of the dyad's links while its gauge stays above the lower end of `band`.
+    /// They follow from the formulas of omega and alpha.
     pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
         let [Some(first), Some(second)] = self.pins.map(|pin| pin.rates(links)) else { return };
         let (speed, rate) = (first[0] + second[0], first[1] + second[1]);
@@ -108,17 +110,17 @@ impl Rpr {
         }
     }
 
-    /// Its two links.
+    /// The two links of the dyad.
     pub(super) fn links(&self) -> [LinkId; 2] {
         self.pins.map(|pin| pin.link)
     }
 
-    /// The sine of its clearance.
+    /// Sine of the clearance.
     pub(super) fn sine(&self, motions: &[Motion]) -> f64 {
         self.along(motions).1.abs() / self.size
     }
 
-    /// How far the dyad is from a singular pose. Velocities must be known.
+    /// Distance of the dyad from a singular pose. Velocities must be known.
     pub(super) fn clearance(&self, motions: &[Motion]) -> SingularityDistance {
         let (axis, along) = self.along(motions);
         let [v1, v2] = self.pins.map(|pin| pin.velocity(motions));

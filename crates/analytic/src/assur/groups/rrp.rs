@@ -71,7 +71,7 @@ impl Rrp {
         Ok(())
     }
 
-    /// The dyad in its other configuration.
+    /// Returns the dyad in its other configuration.
     pub(super) fn flipped(self) -> Self {
         Self { sense: -self.sense, ..self }
     }
@@ -121,7 +121,7 @@ impl Rrp {
         links[self.guide.link] = Some(Bound { about: self.inner, speed, second, ..guide });
     }
 
-    /// Its two links.
+    /// The two links of the dyad.
     pub(super) fn links(&self) -> [LinkId; 2] {
         [self.rod.link, self.guide.link]
     }
@@ -131,7 +131,7 @@ impl Rrp {
         (self.guide.axis(motions).dot(&motions[self.rod.link].arm(self.span)) / self.span.norm()).abs()
     }
 
-    /// How far the dyad is from a singular pose. Velocities must be known.
+    /// Distance of the dyad from a singular pose. Velocities must be known.
     pub(super) fn clearance(&self, motions: &[Motion]) -> SingularityDistance {
         let (axis, r, length) = (self.guide.axis(motions), motions[self.rod.link].arm(self.span), self.span.norm());
         let turn = motions[self.guide.base.link].omega - motions[self.rod.link].omega;

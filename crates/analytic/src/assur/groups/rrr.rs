@@ -193,7 +193,7 @@ impl Rrr {
         Ok(())
     }
 
-    /// The dyad in its other configuration.
+    /// Returns the dyad in its other configuration.
     pub(super) fn flipped(self) -> Self {
         Self { half: -self.half, ..self }
     }
@@ -234,7 +234,7 @@ impl Rrr {
         }
     }
 
-    /// Its two links.
+    /// The two links of the dyad.
     pub(super) fn links(&self) -> [LinkId; 2] {
         self.arms.map(|arm| arm.link)
     }
@@ -245,7 +245,7 @@ impl Rrr {
         (self.product * self.inverse_lengths).abs()
     }
 
-    /// How far the dyad is from a singular pose. Velocities must be known.
+    /// Distance of the dyad from a singular pose. Velocities must be known.
     #[inline]
     pub(super) fn clearance(&self, motions: &[Motion]) -> SingularityDistance {
         let [r1, r2] = self.spans;

@@ -1,4 +1,4 @@
-//! Sides that pass over discs, against samples of both.
+//! Tests of sides that pass over discs, against samples of sides and discs.
 
 use std::f64::consts::TAU;
 
@@ -8,8 +8,9 @@ use super::super::tests::slider_crank;
 use super::*;
 use linkage::mechanism::LinkId;
 
-/// A crank of 0.1 m, rounded by 0.02 m, sweeps a disc of 0.12 m: no square that is covered sticks out of it, and none
-/// that is free reaches into it.
+/// A crank of 0.1 m, rounded by 0.02 m, sweeps a disc of 0.12 m: every covered square lies inside the disc and every
+/// free
+/// square outside.
 #[test]
 fn squares_are_covered_or_free_with_all_their_corners() {
     let case = slider_crank();
@@ -37,11 +38,11 @@ fn squares_are_covered_or_free_with_all_their_corners() {
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }
 
-/// A side that passes has every place of the disc on one side first and on the other at the end, and between its ends
-/// all the time, wherever its ends are within their errors.
+/// A passing side has every point of the disc on one side at the start, on the other at the end, and between its ends
+/// throughout, for any ends within their errors.
 #[test]
 fn what_passes_over_a_disc_passes_over_each_of_its_places() {
-    // Knuth's MMIX generator: the same numbers in every run.
+    // Knuth's MMIX generator: repeatable random numbers.
     let mut state: u64 = 7;
     let mut number = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

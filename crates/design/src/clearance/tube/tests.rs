@@ -1,20 +1,21 @@
-//! The bounds against samples: random joints between random tubes. Each quantity is left out in some of them, so that
-//! every term of a bound is the largest somewhere.
+//! Tests the bounds against samples: random joints between random tubes. Some samples leave out a quantity, so that
+//! every
+//! term of a bound dominates somewhere.
 
 use linkage::math::unit;
 use linkage::mechanism::{JointKind, JointSide, LinkId};
 
 use super::*;
 
-/// Joints, and poses tried for each.
+/// Number of joints, and of poses tried for each.
 const JOINTS: usize = 4_000;
 const POSES: usize = 30;
 
-/// Random numbers, the same in every run (Knuth's MMIX generator).
+/// Repeatable random numbers (Knuth's MMIX generator).
 struct Random(u64);
 
 impl Random {
-    /// From -1 to 1.
+    /// Returns a number from -1 to 1.
     fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
@@ -24,7 +25,7 @@ impl Random {
         self.number() > 0.0
     }
 
-    /// A number of at most `most`, or, as often, zero.
+    /// Returns a number of at most `most`, or, as often, zero.
     fn some(&mut self, most: f64) -> f64 {
         let number = most * self.number();
         if self.yes() { number } else { 0.0 }
@@ -36,14 +37,14 @@ impl Random {
     }
 }
 
-/// Place of a link: its reference point and its angle.
+/// Pose of a link: its reference point and its angle.
 type Place = (Vec2, f64);
 
 fn point(tube: &Tube, (at, angle): Place, local: Vec2) -> Vec2 {
     at + rotated(unit(angle), local - tube.centre)
 }
 
-/// A place that the tube allows, at the distance `by` from the middle crank angle: often at the tube's wall.
+/// Returns a pose within the tube at the distance `by` from the middle crank angle, often on the tube's wall.
 fn place(tube: &Tube, by: f64, random: &mut Random) -> Place {
     let mut share = || if random.yes() { random.number() } else { random.number().signum() };
     let (off, twist) = (tube.off * share(), tube.twist * share());
@@ -64,7 +65,7 @@ fn tube(random: &mut Random, half: f64) -> Tube {
     }
 }
 
-/// A joint of two links, which nearly holds at the middle, the tubes of both, and which of them are of the group.
+/// Joint of two links that nearly closes at the middle, the tubes of both, and which of them belong to the group.
 struct Sample {
     joint: Joint,
     tubes: [Tube; 2],
@@ -81,7 +82,7 @@ impl Sample {
         let slides = random.yes();
         let axis = unit(4.0 * random.number());
         if slides {
-            // The axes are nearly parallel, and the sliding place is near the line.
+            // The axes are nearly parallel, and the sliding point is near the line.
             let turn = unit(random.some(0.01));
             let along = rotated(tubes[0].direction, axis);
             let gap = along * random.some(1.0) + turned(along) * random.some(0.01);
@@ -106,8 +107,9 @@ impl Sample {
         Sample { joint, tubes, own, half }
     }
 
-    /// How far the joint's equations are open. The places coincide; or the second lies on the first's line, and both
-    /// axes have one direction.
+    /// Residuals of the joint's two equations: the points coincide (revolute), or the second point lies on the first's
+    /// line
+    /// and both axes are parallel (prismatic).
     fn open(&self, places: [Place; 2]) -> [f64; 2] {
         let sides = [self.joint.first, self.joint.second];
         let [first, second] = [0, 1].map(|k| point(&self.tubes[k], places[k], sides[k].local));
@@ -117,7 +119,7 @@ impl Sample {
         [cross(one, gap), cross(one, two).atan2(one.dot(&two))]
     }
 
-    /// The derivative of the equations by the places of the links of the group, by differences.
+    /// Derivative of the equations with respect to the poses of the group's links, by differences.
     fn derivative(&self, places: [Place; 2]) -> Matrix {
         const STEP: f64 = 1e-5;
         let mut found = Matrix::zeros(2, 6);
@@ -151,7 +153,7 @@ impl Sample {
     }
 }
 
-/// Distance from the middle crank angle: often one of the ends.
+/// Distance from the middle crank angle, often one of the ends.
 fn distance(half: f64, random: &mut Random) -> f64 {
     half * if random.yes() { random.number() } else { random.number().signum() }
 }
@@ -173,7 +175,7 @@ fn points_stay_within_the_error_of_their_tracks() {
     }
 }
 
-/// Links of the group move evenly, the others are anywhere in their tubes.
+/// Links of the group move evenly; other links are anywhere in their tubes.
 #[test]
 fn equations_are_open_by_no_more_than_is_said() {
     let mut random = Random(2);
@@ -196,7 +198,7 @@ fn equations_are_open_by_no_more_than_is_said() {
             }
         }
     }
-    // Not a bound that holds because it is wide.
+    // The bound is tight, too.
     assert!(tightest.iter().flatten().all(|share| *share > 0.99), "{tightest:?}");
 }
 

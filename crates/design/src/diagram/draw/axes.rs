@@ -6,23 +6,23 @@ use drawing::paper::scale::{factor, round_up};
 use drawing::paper::style::BLACK;
 use linkage::math::{KeepNan, Vec2};
 
-/// Style of a grid line.
+/// Grid line.
 pub const GRID: Style = solid("#c8c8c8", 0.15);
 
 /// Margins of a sheet (mm).
 const MARGIN: f64 = 12.0;
 
-/// Distances on a sheet (mm).
+/// Spacing on a sheet (mm).
 pub struct Room {
-    /// Below the notes.
+    /// Space below the notes.
     pub gap: f64,
-    /// On the left of all diagrams.
+    /// Space left of all diagrams.
     pub left: f64,
-    /// Between two diagrams.
+    /// Space between two diagrams.
     pub between: f64,
 }
 
-/// A sheet of diagrams below each other, with a title and notes above.
+/// Draws a sheet of diagrams below each other, with a title and notes above.
 pub fn stacked(title: &str, notes: &[String], room: &Room, panels: impl Iterator<Item = DrawnFigure>) -> String {
     let mut sheet = DrawnFigure::default();
     sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), title, Type { bold: true, ..words(5.0) });
@@ -40,16 +40,16 @@ pub fn stacked(title: &str, notes: &[String], room: &Room, panels: impl Iterator
     framed(&sheet, MARGIN, title)
 }
 
-/// A sheet with its upper left corner at the origin as a document, with a margin (mm) on the right and below.
+/// Returns a sheet as a document; its upper left corner is the origin, `margin` (mm) the space on the right and below.
 pub fn framed(sheet: &DrawnFigure, margin: f64, title: &str) -> String {
     let [low, high] = sheet.bounds();
     document(sheet, [(high.x + margin).ceil(), (margin - low.y).ceil()], title)
 }
 
-/// A vertical axis between two round values.
+/// Vertical axis between two round values.
 #[derive(Clone, Copy, Debug)]
 pub struct ValueAxis {
-    /// Its ends, in steps.
+    /// Ends of the axis, in steps.
     bottom: f64,
     up: f64,
     /// Value between two grid lines.
@@ -59,14 +59,14 @@ pub struct ValueAxis {
 }
 
 impl ValueAxis {
-    /// The axis for values from `low` to `high`, at most `room` (mm) long.
+    /// Returns the axis for values from `low` to `high`, at most `room` (mm) long.
     pub fn of([low, high]: [f64; 2], room: f64) -> Self {
         let step = if high > low { round_up((high - low) / 6.0) } else { 1.0 };
         let (bottom, up) = ((low / step).floor(), (high / step).ceil().larger((low / step).floor() + 1.0));
         ValueAxis { bottom, up, step, scale: factor((up - bottom) * step, room) }
     }
 
-    /// Height (mm) of a value above the lower end.
+    /// Height of a value above the lower end (mm).
     pub fn y(&self, value: f64) -> f64 {
         (value - self.bottom * self.step) / self.scale
     }
@@ -76,7 +76,7 @@ impl ValueAxis {
         self.y(self.up * self.step)
     }
 
-    /// Grid lines at round values, `long` (mm) in length, and their numbers on the left.
+    /// Draws grid lines of length `long` (mm) at round values, with their numbers on the left.
     pub fn draw(&self, figure: &mut DrawnFigure, long: f64) {
         let step = self.step;
         for k in 0..=(self.up - self.bottom).round() as i32 {
@@ -89,12 +89,12 @@ impl ValueAxis {
     }
 }
 
-/// The frame of a diagram; its lower left corner is the origin.
+/// Draws the frame of a diagram; its lower left corner is the origin.
 pub fn frame(figure: &mut DrawnFigure, size: Vec2, colour: &'static str) {
     figure.area(rectangle([Vec2::zeros(), size]), None, solid(colour, 0.25));
 }
 
-/// A multiple of `step` with the digits that it needs.
+/// Formats a multiple of `step` with the digits it needs.
 fn number(value: f64, step: f64) -> String {
     if (1e-4..1e6).contains(&step) {
         let decimals = format!("{step}").split_once('.').map_or(0, |(_, decimals)| decimals.len());
@@ -103,7 +103,7 @@ fn number(value: f64, step: f64) -> String {
     if value == 0.0 {
         return "0".into();
     }
-    // Some multiples of a round number differ from the round value by rounding.
+    // Some multiples of a round number differ from the round value by rounding error.
     let round: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     format!("{round:e}")
 }

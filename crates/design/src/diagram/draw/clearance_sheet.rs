@@ -1,5 +1,5 @@
-//! Clearance as a drawing: the housing, what every link sweeps over the range, the mechanism with its outlines where the
-//! smallest distance or the first collision is.
+//! Clearance drawing: the housing, the swept area of every link, and the mechanism with its outlines at the smallest
+//! distance or the first collision.
 
 use crate::clearance::{ClearanceResult, PairClearance, poses};
 use crate::sentences;
@@ -15,20 +15,20 @@ use linkage::math::{KeepNan, Motion, Vec2};
 use linkage::mechanism::LinkPose;
 use scenario::clearance::{ClearanceQuestion, Outline};
 
-/// Room of the drawing (mm).
+/// Largest size of the drawing (mm).
 const ROOM: Vec2 = Vec2::new(150.0, 150.0);
-/// Positions of a link that make its swept area.
+/// Number of positions drawn for a link's swept area.
 const POSITIONS: usize = 240;
-/// Opacity of what is swept, and of outlines.
+/// Opacity of swept areas and of outlines.
 const SWEPT: f64 = 0.2;
 const OUTLINE: f64 = 0.45;
-/// Least width of a line (mm).
+/// Smallest line width (mm).
 const THIN: f64 = 0.2;
 
-/// Draws a question and its answer. Swept areas are shown by many positions of each link.
+/// Draws a clearance question and its result. Many positions of each link show its swept area.
 ///
 /// # Errors
-/// Those of a pose.
+/// Those of the pose solver.
 pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &ClearanceResult) -> Result<String> {
     let [from, to] = found.range;
     let cranks: Vec<f64> = (0..=POSITIONS).map(|k| from + (to - from) * (k as f64 / POSITIONS as f64)).collect();
@@ -48,7 +48,7 @@ pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &Cle
     let scale = fit(extent(asked, &all), ROOM);
     let sketch = Sketch::of(&case.mechanism, &travels, scale).with_drives(&case.mechanism, &case.drives);
     let sketch = sketch.without(&[MarkRole::MassCentre, MarkRole::MassQuarter]);
-    // The walls of a housing are where they are; a guide's mark would stand for them elsewhere.
+    // The walls show the fixed housing; a guide's mark would suggest walls elsewhere.
     let has_housing = asked.bodies.iter().any(|body| !body.moves());
     let sketch = if has_housing { sketch.without(&[MarkRole::Bore, MarkRole::Rail, MarkRole::Hatch]) } else { sketch };
     let places: Vec<LinkPlacement> = here.iter().map(|own| LinkPlacement::Here(pose_of(own))).collect();
@@ -94,7 +94,7 @@ pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &Cle
     Ok(document(&page, size, &title))
 }
 
-/// How far all outlines reach over all poses (m).
+/// Extent of all outlines over all poses (m).
 fn extent(asked: &ClearanceQuestion, all: &[Vec<Motion>]) -> Vec2 {
     let (mut low, mut high) = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
     for body in &asked.bodies {
@@ -110,10 +110,10 @@ fn pose_of(motion: &Motion) -> LinkPose {
     LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) }
 }
 
-/// An outline: its rounding is the width of a line with round joins.
+/// Draws an outline; its rounding is the width of a line with round joins.
 fn draw(figure: &mut DrawnFigure, outline: &Outline, pose: &Motion, paint: &'static str, scale: f64) {
     let mut corners: Vec<Vec2> = outline.corners().iter().map(|&corner| pose.point(corner) / scale).collect();
-    // A single place is a line to itself.
+    // A single point is drawn as a line of zero length.
     if let [only] = corners[..] {
         corners.push(only);
     }

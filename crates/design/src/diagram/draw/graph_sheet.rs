@@ -1,4 +1,4 @@
-//! The sheet of graphs over the crank angle, arranged vertically.
+//! Sheet of graphs over the crank angle, arranged vertically.
 
 use super::axes::{GRID, Room, ValueAxis, frame, stacked};
 use crate::diagram::graphs::{CrankGraph, Graphs};
@@ -7,26 +7,26 @@ use drawing::paper::figure::{DrawnFigure, Style, Type, scripted, solid, words};
 use drawing::paper::style::{COLOURS, GREY, significant};
 use linkage::math::{KeepNan, Vec2};
 
-/// Length of the crank angle axis (mm): over one turn two degrees per millimetre.
+/// Length of the crank angle axis (mm): two degrees per millimetre for one turn.
 const LONG: f64 = 180.0;
-/// Largest height of a graph, and the distances of graphs (mm).
+/// Largest height of a graph, and distances between graphs (mm).
 const HIGH: f64 = 56.0;
 const ROOM: Room = Room { gap: 3.0, left: 22.0, between: 6.0 };
-/// Room above and below a curve for the text at its extremes, as a share of its range.
+/// Space above and below a curve for the labels of its extremes, as a share of its range.
 const ASIDES: f64 = 0.2;
-/// Closer to an end of the axis than this (mm), the text at an extreme starts or ends there.
+/// Distance from an end of the axis (mm) below which the label of an extreme starts or ends there.
 const ASIDE: f64 = 28.0;
-/// Style of the line at the mean.
+/// Line at the mean.
 const MEAN: Style = Style { colour: COLOURS[1], width: 0.3, dash: "2 1.2" };
 
-/// The graphs as an SVG document; `title` is written above them.
+/// Returns the graphs as an SVG document with `title` above them.
 #[must_use]
 pub fn graphs(graphs: &Graphs, title: &str) -> String {
     let panels = graphs.graphs.iter().map(|graph| panel(graph, graphs.period));
     stacked(title, &graphs.notes, &ROOM, panels)
 }
 
-/// One graph; the lower left corner of its frame is the origin.
+/// Draws one graph; the lower left corner of its frame is the origin.
 fn panel(graph: &CrankGraph, [start, end]: [f64; 2]) -> DrawnFigure {
     let mut figure = DrawnFigure::default();
     let constant = graph.is_constant();
@@ -69,7 +69,7 @@ fn panel(graph: &CrankGraph, [start, end]: [f64; 2]) -> DrawnFigure {
     figure
 }
 
-/// Grid lines at round crank angles, their numbers, and the axis title.
+/// Draws grid lines at round crank angles, their numbers and the axis title.
 fn angles(figure: &mut DrawnFigure, [start, end]: [f64; 2], height: f64) {
     let (from, to) = (start.to_degrees(), end.to_degrees());
     let every = 30.0 * ((to - from).abs() / 360.0).ceil().larger(1.0);

@@ -1,4 +1,4 @@
-//! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, arranged vertically.
+//! Sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, arranged vertically.
 
 use super::axes::{GRID, Room, ValueAxis, frame, stacked};
 use crate::diagram::motion::{Method, MethodResult, MotionDiagram};
@@ -10,25 +10,25 @@ use linkage::math::statistics::ends;
 
 /// Length of the crank angle axis (mm): two degrees per millimetre.
 const LONG: f64 = 180.0;
-/// Largest height of a diagram, and the distances of diagrams (mm).
+/// Largest height of a diagram, and distances between diagrams (mm).
 const HIGH: f64 = 60.0;
 const ROOM: Room = Room { gap: 3.4, left: 28.0, between: 10.0 };
-/// The chords of the displacement.
+/// Chords of the displacement.
 const CHORDS: Style = Style { colour: COLOURS[0], width: 0.25, dash: "1.5 1" };
-/// Font size of the legend, and distance of its lines (mm).
+/// Font size and line distance of the legend (mm).
 const TEXT: f64 = 3.3;
 const LINE: f64 = 5.0;
-/// Largest number of points of a curve on paper: more are not visible.
+/// Largest number of points of a curve on paper; more would not be visible.
 const POINTS: usize = 361;
 
-/// The diagrams as an SVG document; `title` is written above them.
+/// Returns the diagrams as an SVG document with `title` above them.
 #[must_use]
 pub fn motion(diagram: &MotionDiagram, title: &str) -> String {
     let note = sentences::chord_method_and_graphical_integration(&diagram.divisions);
     stacked(title, &[note], &ROOM, (0..3).map(|which| panel(diagram, which)))
 }
 
-/// One diagram; the lower left corner of its frame is the origin.
+/// Draws one diagram; the lower left corner of its frame is the origin.
 fn panel(diagram: &MotionDiagram, which: usize) -> DrawnFigure {
     let mut figure = DrawnFigure::default();
     let exact = &diagram.exact[which];
@@ -62,7 +62,7 @@ fn panel(diagram: &MotionDiagram, which: usize) -> DrawnFigure {
     figure
 }
 
-/// The legend: the method of each mark, and its error relative to the curve.
+/// Draws the legend: the method of each mark and its error relative to the curve.
 fn caption(figure: &mut DrawnFigure, found: &[&MethodResult], which: usize, unit: &str) {
     let mut line = -14.5;
     let lines = [
@@ -101,7 +101,7 @@ fn mark(figure: &mut DrawnFigure, method: Method, at: Vec2) {
     }
 }
 
-/// Frame, grid lines at round values and at the divisions of the turn, and their numbers.
+/// Draws the frame, grid lines at round values and at the divisions of the turn, and their numbers.
 fn axes(figure: &mut DrawnFigure, diagram: &MotionDiagram, axis: &ValueAxis) {
     let height = axis.height();
     axis.draw(figure, LONG);

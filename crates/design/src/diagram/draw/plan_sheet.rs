@@ -1,5 +1,6 @@
-//! The sheet of a mechanism's plans: kinematic diagram, velocity plan and acceleration plan below each other.
-//! Each stands above its table. So the sheet is narrow, and its letters can be read at the width of a web page.
+//! Sheet of a mechanism's plans: kinematic diagram, velocity plan and acceleration plan below each other, each above
+//! its
+//! table. The narrow sheet keeps its letters legible at the width of a web page.
 
 use super::scheme_figure;
 use crate::diagram::builder::NOTHING;
@@ -22,13 +23,13 @@ const TITLE: f64 = 18.0;
 const HEADING: f64 = 15.0;
 /// Points closer to each other on paper than this (mm) share one label.
 const ONE: f64 = 0.7;
-/// Distance (mm) of arrows that would lie on each other, and the length that they must share for it.
+/// Distance between arrows that would coincide, and the common length from which they are set apart (mm).
 const APART: f64 = 0.8;
 const SHARED: f64 = 1.0;
-/// Arrows shorter than this (mm) are drawn as points.
+/// Length below which an arrow is drawn as a point (mm).
 const POINT: f64 = 0.15;
 
-/// The plans as an SVG document, true to scale; `name` and `title` are written above them.
+/// Returns the plans as an SVG document true to scale, with `name` and `title` above them.
 #[must_use]
 pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
     let heading = |words: &str, symbol: &str, index: &str, scale: f64, unit: &str| {
@@ -72,7 +73,7 @@ pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
     document(&sheet, [(high.x.larger(MARGIN + widest) + MARGIN).ceil(), (MARGIN - low.y).ceil()], name)
 }
 
-/// An angle in degrees, without digits that are only rounding.
+/// Formats an angle in degrees, without digits of rounding error.
 fn degrees(angle: f64) -> String {
     let degrees = (angle.to_degrees() * 1e6).round() / 1e6 + 0.0;
     format!("{degrees}")
@@ -91,7 +92,7 @@ fn style(vector: &Vector) -> Style {
     }
 }
 
-/// The plan; its pole is the origin.
+/// Draws the plan; its pole is the origin.
 fn figure(plan: &VectorPlan) -> DrawnFigure {
     let mut figure = DrawnFigure::default();
     let mut obstacles = Obstacles::default();
@@ -139,7 +140,7 @@ fn figure(plan: &VectorPlan) -> DrawnFigure {
     figure
 }
 
-/// An arrow beside all those drawn before that would cover it: vectors on one line are set apart, their lengths kept.
+/// Shifts an arrow sideways, with its length kept, until it coincides with none of the arrows drawn before it.
 fn beside(ends: [Vec2; 2], drawn: &[[Vec2; 2]]) -> [Vec2; 2] {
     let along = (ends[1] - ends[0]).normalize();
     let aside = turned(along) * APART;
@@ -150,7 +151,7 @@ fn beside(ends: [Vec2; 2], drawn: &[[Vec2; 2]]) -> [Vec2; 2] {
         let common = high.smaller((ends[1] - ends[0]).norm()) - low.larger(0.0);
         other.iter().all(|at| off(at) < APART / 2.0) && common > SHARED
     };
-    // To either side in turn, ever farther.
+    // To alternate sides, with growing distance.
     let shifts =
         (0..=2 * drawn.len()).map(|k| f64::from(k.div_ceil(2) as u32) * if k.is_multiple_of(2) { 1.0 } else { -1.0 });
     let mut places = shifts.map(|shift| ends.map(|end| end + aside * shift));
@@ -163,7 +164,7 @@ fn marks(plan: &VectorPlan) -> Vec<(Vec2, String)> {
     for tip in &plan.tips {
         let at = tip.at / plan.scale;
         match marks.iter_mut().find(|(place, _)| (place - at).norm() < ONE) {
-            // The end of a part that coincides visibly with another point needs no letter.
+            // The end of a part that visibly coincides with another point needs no letter.
             Some(_) if matches!(tip.kind, TipKind::Normal | TipKind::Coriolis) => {}
             Some((_, text)) => *text += &format!(", {}", letters(tip)),
             None => marks.push((at, letters(tip))),
@@ -182,14 +183,14 @@ fn letters(tip: &Tip) -> String {
     }
 }
 
-/// All vectors of the plan with their magnitudes.
+/// Table of all vectors of the plan with their magnitudes.
 fn table(plan: &VectorPlan) -> LegendTable {
     let letter = |name: &String| plan.tips.iter().find(|tip| tip.letter == *name).map_or_else(|| name.clone(), letters);
     let rows = plan.vectors.iter().map(|vector| {
         let meaning = vector.meaning.replace(", perpendicular to the ", " ⊥ ").replace(", along the ", " ∥ ");
         let meaning = meaning.replace(", perpendicular to ", " ⊥ ");
         let meaning = meaning.replace("omega^2", "ω²").replace("omega x", "ω ×").replace("alpha", "α");
-        // At a dead point some vectors consist of rounding errors only.
+        // At a dead point some vectors are pure rounding error.
         let size = if plan.paper(vector) > NOTHING { vector.value.norm() } else { 0.0 };
         let cells = vec![
             scripted(&vector.name),

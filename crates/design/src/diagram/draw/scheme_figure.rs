@@ -1,4 +1,4 @@
-//! The kinematic diagram as a figure.
+//! Figure of the kinematic diagram.
 
 use crate::diagram::scheme::{Scheme, SchemeLink};
 use crate::diagram::singular::SingularPoint;
@@ -9,12 +9,12 @@ use drawing::picture::Picture;
 use drawing::{Lettering, Mark, MarkRole};
 use linkage::math::Vec2;
 
-/// Share of the natural scale below which an angular velocity or acceleration is rounding.
+/// Share of the natural scale below which an angular velocity or acceleration is rounding error.
 const ROUNDING: f64 = 1e-12;
-/// A singular point farther than this (mm) from the ends of the leads is not drawn.
+/// Distance from the leads' ends (mm) beyond which a singular point is not drawn.
 const NEAR: f64 = 120.0;
 
-/// The mechanism; the world's origin is the figure's origin.
+/// Draws the mechanism; the world origin is the figure's origin.
 pub fn scheme(scheme: &Scheme) -> DrawnFigure {
     let mut picture = Picture::of(&scheme.sketch, &scheme.places, scheme.scale);
     for (at, leads) in scheme.singular.iter().filter_map(|point| lines_through(scheme, point)) {
@@ -50,8 +50,8 @@ pub fn scheme(scheme: &Scheme) -> DrawnFigure {
     picture.finish(1)
 }
 
-/// A singular point on paper and the lines that meet in it, each from the lead's farther end.
-/// `None` if it lies too far away.
+/// Returns a singular point on paper and the lines that meet in it, each from the lead's farther end; `None` if it lies
+/// too far away.
 fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2; 2]; 2])> {
     let named = |name: &String| scheme.points.iter().find(|(own, _)| own == name).map(|(_, at)| at / scheme.scale);
     let at = point.at / scheme.scale;
@@ -63,10 +63,10 @@ fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2
     Some((at, [line(&point.leads[0])?, line(&point.leads[1])?]))
 }
 
-/// The links with their numbers, angular velocities and angular accelerations.
+/// Table of the links with their numbers, angular velocities and angular accelerations.
 pub fn table(scheme: &Scheme) -> LegendTable {
     let driver = scheme.links.iter().find(|link| link.number == scheme.driver).map_or(0.0, |link| link.omega.abs());
-    // At a dead point only rounding is left, relative to the crank's speed and its square.
+    // At a dead point only rounding error is left, relative to the crank's speed and its square.
     let shown = |value: f64, scale: f64| significant(if value.abs() > ROUNDING * scale { value } else { 0.0 });
     let row = |link: &SchemeLink| {
         let (omega, alpha) = (shown(link.omega, driver), shown(link.alpha, driver * driver));

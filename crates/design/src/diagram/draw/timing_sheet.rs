@@ -1,4 +1,4 @@
-//! The sheet of a timing diagram.
+//! Sheet of a timing diagram.
 
 use crate::sentences;
 use std::f64::consts::TAU;
@@ -13,17 +13,17 @@ use linkage::math::Vec2;
 const LONG: f64 = 180.0;
 /// Height of the stroke (mm).
 const HIGH: f64 = 80.0;
-/// Height of the strip of phases above it (mm).
+/// Height of the strip of phases above the stroke (mm).
 const STRIP: f64 = 11.0;
-/// Left margin, for the numbers of the axis, and the other margins (mm).
+/// Left margin with the numbers of the axis, and the other margins (mm).
 const LEFT: f64 = 14.0;
 const MARGIN: f64 = 12.0;
-/// The wanted motion.
+/// Required motion.
 const WANTED: Style = Style { colour: COLOURS[1], width: 0.45, dash: "2 1.2" };
 /// Background of a phase in which the output should dwell.
 const REST: &str = "#e3edf4";
 
-/// The diagram as an SVG document; `title` is written above it.
+/// Returns the diagram as an SVG document with `title` above it.
 #[must_use]
 pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
     let mut figure = DrawnFigure::default();
@@ -40,7 +40,7 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
     for stretch in &diagram.stretches {
         let [from, to] = [x(stretch.from), x(stretch.to)];
         figure.line([Vec2::new(to, 0.0), Vec2::new(to, HIGH + STRIP)], solid(GREY, 0.25));
-        // Narrow phases have text in a smaller font.
+        // Narrow phases use a smaller font.
         let size = ((to - from) / 6.0).clamp(1.8, 2.8);
         let middle = (from + to) / 2.0;
         let set = Type { anchor: "middle", ..words(size) };
@@ -70,7 +70,7 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
     framed(&sheet, MARGIN, title)
 }
 
-/// Frame, grid and numbers.
+/// Draws frame, grid and numbers.
 fn axes(figure: &mut DrawnFigure, x: &dyn Fn(f64) -> f64) {
     for share in 0..=4 {
         let y = HIGH * f64::from(share) / 4.0;

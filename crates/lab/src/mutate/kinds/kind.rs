@@ -56,7 +56,7 @@ pub enum Plant {
 /// A mistake in a formula that claims an exact value, or in a step that it uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mistake {
-    /// One slip of the pen.
+    /// One slip in writing.
     Slip(Slip),
     /// The whole formula is larger by a share.
     Larger,

@@ -1,4 +1,4 @@
-//! The smallest fault in every part, and the error for it.
+//! The smallest fault in each part and the error it raises.
 
 use crate::case::{Case, CaseParts, Grid};
 use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor, MotorLaw};
@@ -7,12 +7,12 @@ use crate::math::Vec2;
 use crate::mechanism::{AssemblyMode, JointId, JointSide, LinkId, LinkPose, Structure};
 use crate::{Error, ErrorKind};
 
-/// The error of the four-bar with one part changed.
+/// Error of the four-bar with one part changed.
 fn refused(change: impl FnOnce(&mut CaseParts)) -> Error {
     turning(four_bar()).with(change).unwrap_err()
 }
 
-/// Asserts kind, key and words of the error.
+/// Asserts the kind, key and words of the error.
 fn says(kind: ErrorKind, key: &str, words: &[&str], change: impl FnOnce(&mut CaseParts)) {
     let error = refused(change);
     assert_eq!((error.kind(), error.scenario_key()), (kind, Some(key)), "{error}");
@@ -98,7 +98,7 @@ fn numbers_of_a_motor_are_such() {
     }
 }
 
-/// A four-bar whose chain hangs on the end of a second crank has two degrees of freedom.
+/// Regression mechanism: a double pendulum with two driving links has two degrees of freedom.
 #[test]
 fn drives_together_are_what_is_solved() {
     let links = vec![
@@ -187,7 +187,7 @@ fn a_start_pose_closes_the_joints_where_the_drive_starts() {
     says(Input, "start", &["\"rocker\""], |parts| parts.start.0[LinkId(3)].angle = f64::NAN);
     says(Geometry, "start", &["\"B\"", "e-8 m"], |parts| parts.start.0[LinkId(3)].angle += 1e-8);
     says(Geometry, "start", &["\"crank\"", "1.000e-8 rad"], |parts| parts.drives.crank_mut().start = 1e-8);
-    // Whole turns and rounding are not faults.
+    // Whole turns and rounding errors are accepted.
     let turned = turning(four_bar()).with(|parts| {
         parts.start.0[LinkId(2)].angle += 3.0 * std::f64::consts::TAU;
         parts.start.0[LinkId(3)].angle += 1e-14;

@@ -1,4 +1,4 @@
-//! What follows from the parts of a load: where it acts, and the same load elsewhere or of another amount.
+//! Changed loads: the same load on other links, at other points or times a factor.
 
 use super::{Acts, Load, LoadPart, LoadRole, On};
 use crate::drive::Course;
@@ -6,7 +6,7 @@ use crate::math::Vec2;
 use crate::mechanism::{JointSide, LinkId};
 
 impl Load {
-    /// The links that the load acts on, and on whose motion it depends: one or two, by their numbers.
+    /// Numbers of the links on which the load acts and on whose motion it depends: one or two.
     #[must_use]
     pub fn links(&self) -> Vec<LinkId> {
         match self.nature().on {
@@ -17,7 +17,7 @@ impl Load {
         }
     }
 
-    /// The points that it acts on; none of a moment.
+    /// Points at which the load acts; empty for a moment.
     #[must_use]
     pub fn points(&self) -> Vec<JointSide> {
         match self.nature().on {
@@ -27,7 +27,7 @@ impl Load {
         }
     }
 
-    /// The same load on other links: `number` gives the new number of each of [`Load::links`].
+    /// Returns this load on other links: `number` gives the new number of each of [`Load::links`].
     #[must_use]
     pub fn on_links(&self, number: impl Fn(LinkId) -> LinkId) -> Load {
         let mut load = self.clone();
@@ -40,7 +40,7 @@ impl Load {
         load
     }
 
-    /// Moves the point of this number among [`Load::points`] to another place of its link (m).
+    /// Moves the point with this number in [`Load::points`] to the place `local` on its link (m).
     pub fn put_point(&mut self, number: usize, local: Vec2) {
         let mut points = self.parts().into_iter().filter_map(|part| match part {
             LoadPart::Point(side) => Some(side),
@@ -55,7 +55,7 @@ impl Load {
         }
     }
 
-    /// The number at which it vanishes, a free length or angle, with its unit (m or rad).
+    /// Free length or free angle, with its unit (m or rad).
     pub fn rest(&mut self) -> Option<(&mut f64, &'static str)> {
         self.parts().into_iter().find_map(|part| match part {
             LoadPart::Number { role: LoadRole::Rest { unit }, name: _, value } => Some((value, unit)),
@@ -64,7 +64,7 @@ impl Load {
         })
     }
 
-    /// Whether all its numbers are finite, and none is negative that must not be.
+    /// Whether all numbers are finite and those that may not be negative are not.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         self.clone().parts().into_iter().all(|part| match part {
@@ -75,16 +75,16 @@ impl Load {
         })
     }
 
-    /// Loads that together act as this one times `factor`: none for 0; a negative factor turns the load round.
-    /// Of a spring or damper the stiffness or damping is multiplied, not its free length or angle.
-    /// `None` where no loads act so: a resisting force cannot drive.
+    /// Loads that together equal this load times `factor`: an empty list for 0; a negative factor reverses the load.
+    /// For a spring or damper the stiffness or damping is multiplied, not the free length or angle.
+    /// `None` where no combination of loads has this effect: a resisting force cannot drive.
     #[must_use]
     pub fn times(&self, factor: f64) -> Option<Vec<Load>> {
         if factor == 0.0 {
             return Some(Vec::new());
         }
         if let (&Load::Resistance { link, moment }, true) = (self, factor < 0.0) {
-            // What resists, turned round, drives: a moment for either sense.
+            // A reversed resistance drives: one moment for each sense of rotation.
             let acting = |acts, moment| Load::Moment { link, moment: Course::Constant(moment), acts };
             let size = -factor * moment;
             return Some(vec![acting(Acts::CounterClockwise, size), acting(Acts::Clockwise, -size)]);

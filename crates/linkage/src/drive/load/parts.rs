@@ -1,4 +1,4 @@
-//! What can be asked of every load, whatever its sort.
+//! Properties that every load has, whatever its sort.
 
 use crate::drive::Course;
 use crate::mechanism::{JointSide, LinkId};
@@ -6,7 +6,7 @@ use crate::mechanism::{JointSide, LinkId};
 /// The sense of rotation of the link for which a moment acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acts {
-    /// For every motion of the link.
+    /// In every motion of the link.
     Always,
     /// While the link turns counter-clockwise, not at standstill.
     CounterClockwise,
@@ -14,19 +14,20 @@ pub enum Acts {
     Clockwise,
 }
 
-/// The motion whose sense a load depends on. Its law changes where that motion reverses, so that nobody integrates over
-/// such an instant. It need not jump there: see [`Load::jump`](super::Load::jump).
+/// The motion on whose sense a load depends.
+/// The load's law changes where that motion reverses, so integration stops at that instant. The load need not jump
+/// there: see [`Load::jump`](super::Load::jump).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Senses {
     /// The load does not depend on a sense of motion.
     Nothing,
-    /// On the sense of rotation of a link.
+    /// The load depends on the sense of rotation of a link.
     Link(LinkId),
-    /// On the sense of motion of a point.
+    /// The load depends on the direction of motion of a point.
     Point(JointSide),
 }
 
-/// Where a load acts.
+/// Place of action of a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum On {
     /// A moment on a link.
@@ -35,37 +36,37 @@ pub enum On {
     Point(JointSide),
     /// A force between two points: it pulls them together or pushes them apart.
     Points([JointSide; 2]),
-    /// A moment between two links: on the second one the opposite of that on the first.
+    /// A moment between two links: opposite on the second link to that on the first.
     Links([LinkId; 2]),
 }
 
-/// What a load is called, where it acts, and the quantities it depends on: see [`Load::nature`](super::Load::nature).
+/// Name, place of action and dependencies of a load: see [`Load::nature`](super::Load::nature).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadNature<'a> {
     /// Name of its sort in scenario files.
     pub sort: &'static str,
-    /// Where it acts.
+    /// Place of action.
     pub on: On,
-    /// The motion whose sense it depends on.
+    /// Motion on whose sense the load depends.
     pub senses: Senses,
-    /// Whether it depends on the size of speeds, not only on their senses.
+    /// Whether the load depends on the size of speeds, not only on their senses.
     pub is_viscous: bool,
     /// The two links whose [`Setting::twist`](super::LoadState::twist) it depends on.
     pub twist: Option<[LinkId; 2]>,
-    /// Its quantities that may depend on the crank angle.
+    /// Quantities that may depend on the crank angle.
     pub courses: &'a [Course],
 }
 
-/// What a number of a load means.
+/// Meaning of a number of a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LoadRole {
     /// The load is proportional to it.
     Amount,
-    /// The load is proportional to it, and it must not be negative.
+    /// The load is proportional to it; not negative.
     Size,
-    /// Where the load vanishes, in this unit.
+    /// Value at which the load vanishes, in this unit.
     Rest {
-        /// m or rad.
+        /// `m` or `rad`.
         unit: &'static str,
     },
 }
@@ -73,13 +74,13 @@ pub enum LoadRole {
 /// A part of a load, to be read or changed: see [`Load::parts`](super::Load::parts).
 #[derive(Debug, PartialEq)]
 pub enum LoadPart<'a> {
-    /// A link that it acts on.
+    /// A link on which the load acts.
     Link(&'a mut LinkId),
-    /// A point that it acts on.
+    /// A point on which the load acts.
     Point(&'a mut JointSide),
     /// A number.
     Number {
-        /// What it means.
+        /// Meaning of the number.
         role: LoadRole,
         /// Its name in output, with its unit.
         name: &'static str,
@@ -93,8 +94,8 @@ pub enum LoadPart<'a> {
         /// The quantities, in SI units.
         values: &'a mut [Course],
     },
-    /// When it acts.
+    /// Sense of rotation for which it acts.
     Acts(&'a mut Acts),
-    /// Whether its direction turns with its link.
+    /// Whether the force's direction turns with the link.
     Follows(&'a mut bool),
 }

@@ -1,14 +1,14 @@
-//! What loads are given, and what they do to links.
+//! Input and output of loads: the state on which they depend and their action on links.
 
 use crate::math::{Motion, Vec2, angle, cross};
 use crate::mechanism::{LinkId, LinkPose};
 
-/// The state that loads depend on. Slices have one entry per link.
+/// The state on which loads depend. Slices have one entry per link.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadState<'a> {
     /// Motions of all links. Loads do not use the accelerations.
     pub motions: &'a [Motion],
-    /// Angles of all links (rad), turns kept. Only torsional springs use them.
+    /// Angles of all links (rad), turns kept. Only torsion springs use them.
     pub angles: &'a [f64],
     /// Poses at t = 0.
     pub start: &'a [LinkPose],
@@ -32,27 +32,27 @@ pub struct Action {
     pub link: LinkId,
     /// Force (N, world axes).
     pub force: Vec2,
-    /// World place at which the force acts (m).
+    /// World coordinates of the point of application (m).
     pub place: Vec2,
-    /// Additional moment besides that of the force (N m), counter-clockwise positive.
+    /// Moment in addition to that of the force (N m), counter-clockwise positive.
     pub moment: f64,
 }
 
 impl Action {
-    /// Only a moment (N m, counter-clockwise positive), no force.
+    /// Returns the action of a pure moment (N m, counter-clockwise positive).
     #[must_use]
     pub fn of_moment(link: LinkId, moment: f64) -> Self {
         Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
     }
 
-    /// Moment of force and moment together about a world point (N m).
+    /// Total moment of force and moment about a world point (N m), counter-clockwise positive.
     #[inline]
     #[must_use]
     pub fn about(&self, pole: Vec2) -> f64 {
         cross(self.place - pole, self.force) + self.moment
     }
 
-    /// Power on a link with this motion (W).
+    /// Power of the action on a link with this motion (W).
     #[inline]
     #[must_use]
     pub fn power(&self, motion: &Motion) -> f64 {

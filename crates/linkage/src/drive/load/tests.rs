@@ -61,7 +61,7 @@ fn a_force_keeps_its_direction_or_follows_its_link() {
 
 #[test]
 fn a_resisting_force_opposes_the_point_not_the_link() {
-    // The point one metre along the link's x axis is above its origin. It moves with (-1, 2) m/s where the link turns
+    // The point one metre along the link's x axis is above its origin. It moves with (-1, 2) m/s when the link turns
     // with 1 rad/s.
     let load = Load::ResistingForce { at: side(LinkId(1), 1.0, 0.0), force: 10.0 };
     let found = act(&load, &motions(1.0), &[], 0.0)[0];
@@ -95,7 +95,7 @@ fn a_spring_pulls_when_it_is_long_and_pushes_when_it_is_short() {
 
 #[test]
 fn a_damper_resists_the_rate_of_its_length() {
-    // The point at (3, 5) moves with (0, 2) - 5 (1, 0) = (-5, 2) m/s where the link turns with 1 rad/s.
+    // The point at (3, 5) moves with (0, 2) - 5 (1, 0) = (-5, 2) m/s when the link turns with 1 rad/s.
     // Its distance from (0, 1) changes with (-5 * 0.6 + 2 * 0.8) = -1.4 m/s.
     let load = Load::Damper { ends: [side(LinkId(0), 0.0, 1.0), side(LinkId(1), 5.0, 0.0)], damping: 10.0 };
     let [ground, link] = act(&load, &motions(1.0), &[], 0.0)[..] else { panic!("two ends") };
@@ -106,7 +106,7 @@ fn a_damper_resists_the_rate_of_its_length() {
 
 #[test]
 fn a_torsion_spring_counts_turns_from_the_start() {
-    // At the start the link stands at 90 degrees. Two turns later the spring is wound up by two turns, whatever angle
+    // At the start the link's angle is 90 degrees. Two turns later the spring is wound up by two turns, whatever angle
     // the pose reports.
     let load = Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.5 };
     let still = motions(0.0);
@@ -162,7 +162,7 @@ fn loads_of_another_amount_act_in_proportion() {
     ];
     for load in &loads {
         for omega in [2.0, -1.5] {
-            // The ground's share would cancel the other end's.
+            // The ground's entry would cancel that of the other end.
             let one = moments(std::slice::from_ref(load), omega);
             for factor in [0.0, 0.5, 3.0, -2.0] {
                 match load.times(factor) {
@@ -183,7 +183,7 @@ fn loads_of_another_amount_act_in_proportion() {
     }
 }
 
-/// A load that vanishes where its link reverses has a kink there at most, and so has one without a size.
+/// A load that vanishes where its link reverses has at most a kink there; so has a load of size zero.
 #[test]
 fn a_load_jumps_by_what_it_is_for_either_sense() {
     let one_way = |moment, acts| Load::Moment { link: LinkId(1), moment, acts };

@@ -1,42 +1,44 @@
-//! Terms and factors that a derivation may have lost: steps, sines and cosines of its angles, products of these.
+//! Dictionary of terms and factors that a derivation may have lost: steps, sines and cosines of its angles, and
+//! products of these.
 
 use crate::claims::slips::{at_every_place, with_parts};
 use crate::claims::trial::Trial;
 use formula::{FormulaTree, Function, NodeShape, Operator, Program};
 use linkage::math::KeepNan;
 
-/// Most angles that functions are taken of.
+/// Largest number of angles of which functions are taken.
 const ANGLES: usize = 10;
-/// Most steps that are tried, those right before the formula: products of two of them are their square in number.
+/// Largest number of steps tried, those right before the formula: the number of products of two steps grows with the
+/// square.
 const STEPS: usize = 60;
 
-/// An expression that changes with the crank.
+/// An expression that varies with the crank angle.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     pub(super) tree: FormulaTree,
-    /// How complicated it is.
+    /// Its complexity.
     pub(super) weight: usize,
     /// Its values at the trial's few instants.
     pub(super) values: Vec<f64>,
-    /// Index after that of the last formula in it.
+    /// Index after that of the last formula used in it.
     pub(super) after: usize,
 }
 
 impl Entry {
-    /// Whether it is the one that a constant is a multiple of.
+    /// Whether it is the constant one.
     pub(super) fn is_one(&self) -> bool {
         matches!(self.tree.shape, NodeShape::Number(_))
     }
 }
 
-/// The dictionary of a trial, and the steps before it that do not change, by name and value.
+/// The dictionary of a trial, with the constant steps before it by name and value.
 pub(super) struct Dictionary {
     pub(super) entries: Vec<Entry>,
     pub(super) constants: Vec<(String, f64)>,
 }
 
-/// What may be missing, each with its weight: made of a step `a`; of two, `a` and `b`; of two angles, `x` and `y`; of a
-/// step and an angle; of an angle.
+/// Possibly missing expressions, each with its weight: of a step `a`; of two steps `a` and `b`; of two angles `x` and
+/// `y`; of a step and an angle; of an angle.
 const OF_STEP: &str = "a: 1; a^2: 2; 1/a: 2; 1/a^2: 3";
 const OF_STEPS: &str = "a*b: 2; a/b: 3; b/a: 3; a^2*b: 4; a*b^2: 4";
 const OF_ANGLES: &str = "cos(x)*tan(y): 0; sin(x)*tan(y): 0";
@@ -46,7 +48,7 @@ const OF_ANGLE: &str = "cos(x)*sin(x): 2; cos(x)^2: 2; cos(x)^3: 2; 1/cos(x): 2;
                         sin(x)^2: 2; sin(x)^3: 2; 1/sin(x): 2; 1/sin(x)^2: 3; 1/sin(x)^3: 3; \
                         cos(x): 0; sin(x): 0; tan(x): 1";
 
-/// Expressions with letters, and their weights.
+/// Reads expressions with letters, and their weights.
 fn read(text: &str) -> Vec<(FormulaTree, usize)> {
     let one = |own: &str| {
         let (tree, weight) = own.split_once(':').expect("an expression has a weight");
@@ -56,7 +58,7 @@ fn read(text: &str) -> Vec<(FormulaTree, usize)> {
 }
 
 impl Dictionary {
-    /// What may be missing in the formula of a trial, made of all that stands before it.
+    /// Collects what may be missing in the formula of a trial from everything that stands before it.
     pub(super) fn of(trial: &Trial) -> Self {
         let before = trial.index.saturating_sub(STEPS)..trial.index;
         let steps: Vec<FormulaTree> =
@@ -97,8 +99,8 @@ impl Dictionary {
     }
 }
 
-/// Angles of the derivation, with the weight of a function of them: the crank angle, what stands within a sine or
-/// cosine, and differences of two of these.
+/// Angles of the derivation, with the weight of a function of them: the crank angle, arguments of sines and cosines,
+/// and differences of two of these.
 fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
     let mut names: Vec<FormulaTree> = vec![FormulaTree::name("phi")];
     let known = &trial.formulas.list[..trial.index];
@@ -114,7 +116,7 @@ fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
             arguments[0].names().iter().for_each(|(name, _)| put(name));
         });
     }
-    // Steps that are angles, though nothing takes a function of them.
+    // Steps that are angles although no function of them is used.
     known.iter().rev().filter(|own| is_angle(&own.tree)).for_each(|own| put(&own.name));
     let multiple =
         |factor: f64| FormulaTree::pair(Operator::Times, FormulaTree::number(factor), FormulaTree::name("phi"));
@@ -127,7 +129,7 @@ fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
     single.chain([2.0, 3.0].map(|factor| (multiple(factor), 3))).chain(differences).collect()
 }
 
-/// Whether a formula is an angle by its form.
+/// Whether a formula has the form of an angle.
 fn is_angle(tree: &FormulaTree) -> bool {
     match &tree.shape {
         NodeShape::Call(Function::Asin | Function::Acos | Function::Atan | Function::Atan2, _) => true,
@@ -137,7 +139,7 @@ fn is_angle(tree: &FormulaTree) -> bool {
     }
 }
 
-/// Expressions with their values at the trial's few instants.
+/// Evaluates expressions at the trial's few instants.
 fn valued(trial: &Trial, all: impl Iterator<Item = (FormulaTree, usize)>) -> Vec<Entry> {
     let mut graph = trial.formulas.graph.clone();
     let all: Vec<(FormulaTree, usize)> = all.collect();

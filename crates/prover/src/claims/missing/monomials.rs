@@ -1,12 +1,12 @@
-//! Products of powers of known quantities, as they may be written.
+//! Products of powers of known quantities, as they may be written in a formula.
 
 use crate::claims::dimension::{Dimensions, Known};
 use formula::{FormulaTree, Function, NodeShape, Operator, Product, Products, information};
 use scenario::Formulas;
 
-/// Most quantities that products are made of.
+/// Largest number of quantities in the products.
 const MOST: usize = 14;
-/// Most products of one value that are told apart.
+/// Largest number of different products kept for one value.
 const SIMPLEST: usize = 100;
 
 /// All products, by their value.
@@ -16,7 +16,8 @@ pub(in crate::claims) struct Monomials {
 }
 
 impl Monomials {
-    /// Of the parameters, of steps before `formula` that do not change, and of sine and cosine of constant angles.
+    /// Builds the products of the parameters, of constant steps before `formula`, and of sines and cosines of constant
+    /// angles.
     pub(in crate::claims) fn of(
         formulas: &Formulas,
         formula: usize,
@@ -38,19 +39,20 @@ impl Monomials {
         Monomials { products: Products::of(&valued), quantities }
     }
 
-    /// Number of products: the work of making them.
+    /// Number of products, which is the work of building them.
     pub(in crate::claims) fn len(&self) -> usize {
         self.products.len()
     }
 
-    /// Products with this value, to this relative accuracy, with their complexity; the simplest first, and not too many.
+    /// Returns the products with this value, to this relative accuracy, with their complexity, the simplest first and
+    /// limited in number.
     pub(in crate::claims) fn with_value(&self, value: f64, accuracy: f64) -> Vec<(FormulaTree, usize)> {
         let near = self.products.near(value.abs(), accuracy).into_iter().take(SIMPLEST);
         near.map(|own| (self.tree(own, own.is_negative != (value < 0.0)), own.weight)).collect()
     }
 
-    /// How many products of this dimension are no more complicated, and how many of them have by chance a number that
-    /// says as little.
+    /// Returns how many products of this dimension are no more complicated, and the expected number of them that match
+    /// by chance with as few digits.
     pub(in crate::claims) fn by_chance(
         &self,
         value: f64,
@@ -75,7 +77,7 @@ impl Monomials {
             let powers = product.powers.iter().filter(move |(_, exponent)| (*exponent > 0) == is_above);
             powers.map(power)
         };
-        // Halves and thirds stand below the stroke, as they are written.
+        // Halves and thirds are written below the fraction bar.
         let is_whole = |below: &f64| (below * product.number).fract() == 0.0;
         let below = [1.0, 2.0, 3.0, 4.0, 8.0].into_iter().find(is_whole).unwrap_or(1.0);
         let above = below * product.number;
@@ -89,7 +91,7 @@ impl Monomials {
     }
 }
 
-/// Sine and cosine of names that do not change, as formulas up to this one have them.
+/// Sines and cosines of constants that occur in formulas up to this one.
 fn calls(formulas: &Formulas, formula: usize) -> Vec<(FormulaTree, f64)> {
     let mut found: std::collections::BTreeMap<String, FormulaTree> = std::collections::BTreeMap::new();
     let mut put = |part: &FormulaTree| {
@@ -97,7 +99,7 @@ fn calls(formulas: &Formulas, formula: usize) -> Vec<(FormulaTree, f64)> {
     };
     for own in &formulas.list[..=formula] {
         crate::claims::slips::at_every_place(&own.tree, &mut |_, part| {
-            // A long argument is no angle of a drawing.
+            // A long argument is not an angle of a drawing.
             if let NodeShape::Call(Function::Sin | Function::Cos, arguments) = &part.shape
                 && matches!(arguments[0].shape, NodeShape::Name(_))
             {
@@ -105,7 +107,7 @@ fn calls(formulas: &Formulas, formula: usize) -> Vec<(FormulaTree, f64)> {
             }
         });
     }
-    // Angles of the file, not only those that formulas take the cosine of.
+    // Angles of the file, including those whose cosine no formula takes.
     for own in formulas.parameters.iter().filter(|own| own.is_angle()) {
         put(&FormulaTree::call(Function::Cos, vec![FormulaTree::name(own.quantity())]));
         put(&FormulaTree::call(Function::Sin, vec![FormulaTree::name(own.quantity())]));

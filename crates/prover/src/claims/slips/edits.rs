@@ -1,4 +1,4 @@
-//! Slips at one place of a formula: what may have been meant by a part.
+//! Slips at one place of a formula: the possible corrections of a part.
 
 use super::rules::with_slips;
 use super::slip::SlipKind;
@@ -6,11 +6,11 @@ use formula::Operator::{Minus, Over, Plus, Power, Times};
 use formula::{FormulaTree, NodeShape};
 use scenario::Parameter;
 
-/// Values of the acceleration of gravity (m/s^2), as they are written.
+/// Written values of the gravitational acceleration (m/s^2).
 pub(super) const GRAVITY: [f64; 5] = [9.81, 9.806_65, 9.8, 9.807, 10.0];
 
-/// What may have been meant by a part, where it is wrong by one kind of slip. `names` are those of quantities. What no
-/// rule can say comes before what rules say.
+/// Returns the possible corrections of a part for one kind of slip. `names` are the names of quantities. Corrections
+/// that no rule can express come first.
 pub(super) fn of(part: &FormulaTree, kind: SlipKind, names: &[&str], parameters: &[Parameter]) -> Vec<FormulaTree> {
     let other_than = |numbers: &[f64], own: f64| -> Vec<FormulaTree> {
         numbers.iter().filter(|other| **other != own).map(|other| FormulaTree::number(*other)).collect()
@@ -31,18 +31,18 @@ pub(super) fn of(part: &FormulaTree, kind: SlipKind, names: &[&str], parameters:
     edits
 }
 
-/// Whether a number stands in formulas because of units.
+/// Whether a number typically comes from a conversion of units.
 fn is_unit(value: f64) -> bool {
     GRAVITY.contains(&value) || [1e3, 1e6, 1e-3, 1e-6, 30.0, 60.0, 90.0, 180.0, 270.0, 360.0, 3600.0].contains(&value)
 }
 
-/// The quantity whose plain number a name stands for.
+/// The quantity whose plain number a name denotes.
 fn quantity<'a>(part: &FormulaTree, parameters: &'a [Parameter]) -> Option<&'a str> {
     let NodeShape::Name(own) = &part.shape else { return None };
     parameters.iter().find(|parameter| parameter.key == *own).and_then(Parameter::short)
 }
 
-/// The other names that may have been meant by one.
+/// Other names that may have been meant.
 fn others(part: &FormulaTree, names: &[&str], parameters: &[Parameter]) -> Vec<FormulaTree> {
     let NodeShape::Name(own) = &part.shape else { return Vec::new() };
     let quantity = quantity(part, parameters);
@@ -50,7 +50,7 @@ fn others(part: &FormulaTree, names: &[&str], parameters: &[Parameter]) -> Vec<F
     names.iter().filter(is_other).map(|other| FormulaTree::name(*other)).collect()
 }
 
-/// A sum, difference, product or quotient of two quantities with these exchanged, wherever they stand in it.
+/// A sum, difference, product or quotient of two quantities with the two exchanged wherever they occur in it.
 fn exchanged(part: &FormulaTree, names: &[&str]) -> Vec<FormulaTree> {
     let NodeShape::Pair(Plus | Minus | Over | Times, _) = part.shape else { return Vec::new() };
     let mut own: Vec<&str> = part.names().into_iter().map(|(name, _)| name).filter(|own| names.contains(own)).collect();
@@ -78,8 +78,8 @@ fn rename(tree: &mut FormulaTree, [one, other]: [&str; 2]) {
     }
 }
 
-/// The same signs in the same order, grouped otherwise, where a rule cannot say it: a*b + c + d for a*(b + c + d),
-/// a/b + c for a/(b + c), sin(a) + b for sin(a + b), sin(a^2) for sin(a)^2.
+/// The same symbols in the same order, grouped differently, where no rule can express it: a*b + c + d for a*(b + c +
+/// d), a/b + c for a/(b + c), sin(a) + b for sin(a + b), sin(a^2) for sin(a)^2.
 fn regrouped(part: &FormulaTree) -> Option<FormulaTree> {
     let first = first_of(part);
     match (&part.shape, &first.shape) {

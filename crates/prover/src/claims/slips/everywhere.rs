@@ -1,4 +1,4 @@
-//! Slips that are made wherever a quantity or a function stands.
+//! Slips repeated wherever a quantity or a function occurs.
 
 use super::edits;
 use super::places::at_every_place;
@@ -8,8 +8,8 @@ use crate::claims::trial::Trial;
 use formula::{DerivationSheet, FormulaTree, Function, NodeShape, Operator};
 use scenario::Formulas;
 
-/// Tries every quantity and every function mended wherever it stands: in the first of the formulas `used`, then in all
-/// of them. What stands at one place only is no slip of this kind.
+/// Tries to correct every quantity and every function wherever it occurs: in the first of the formulas `used`, then in
+/// all of them. A part that occurs only once is not a slip of this kind.
 pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimensions: &Dimensions, tried: &mut Tried) {
     use Function::{Cos, Sin, Tan};
     let formulas = trial.formulas.clone();
@@ -64,14 +64,14 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimension
 /// The search in some formulas.
 struct Search<'a, 'b> {
     trial: &'a mut Trial<'b>,
-    /// Their indices.
+    /// Indices of the formulas.
     scope: &'a [usize],
     dimensions: &'a Dimensions<'a>,
     tried: &'a mut Tried,
 }
 
 impl Search<'_, '_> {
-    /// The parts that are meant, with their places.
+    /// The parts for which `is_meant` holds, with their places.
     fn places<'t>(
         &mut self,
         formulas: &'t Formulas,
@@ -94,7 +94,7 @@ impl Search<'_, '_> {
         self.trial.sheet.depending(&places.iter().map(|(place, _)| *place).collect::<Vec<usize>>())
     }
 
-    /// Tries a slip mended by `changes` of the sheet, and of trees by `change`.
+    /// Tries a correction made by `changes` of the sheet and by `change` of trees.
     fn mended(
         &mut self,
         kind: SlipKind,
@@ -116,7 +116,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// What may have been meant by a name wherever it stands.
+/// What may have been meant by a name wherever it occurs.
 fn of_name(name: &str, names: &[&str], formulas: &Formulas) -> Vec<(SlipKind, FormulaTree)> {
     let own = FormulaTree::name(name);
     let of = |operator: Operator, right: FormulaTree| FormulaTree::pair(operator, own.clone(), right);

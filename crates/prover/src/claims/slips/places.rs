@@ -1,19 +1,19 @@
-//! Places in formulas, and the names and steps that they use.
+//! Places in formulas, and the names and steps used by them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use formula::FormulaTree;
 use scenario::Formulas;
 
-/// Names of parameters (in SI), and of the steps before a formula: they stand for quantities.
+/// Names of quantities: the parameters (in SI units) and the steps before a formula.
 pub(in crate::claims) fn quantities(formulas: &Formulas, formula: usize) -> Vec<String> {
-    // A plain number is no quantity.
+    // A plain number is not a quantity.
     let steps = formulas.list[..formula].iter().filter(|step| !step.tree.names().is_empty());
     let steps = steps.map(|step| step.name.clone());
     formulas.parameters.iter().map(|own| own.quantity().to_string()).chain(steps).collect()
 }
 
-/// Indices of a formula and of those that it uses, itself first.
+/// Indices of a formula and of the formulas that it uses, itself first.
 pub(in crate::claims) fn used_by(formulas: &Formulas, formula: usize) -> Vec<usize> {
     let names: BTreeMap<&str, usize> =
         formulas.list[..formula].iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect();
@@ -55,7 +55,7 @@ pub(in crate::claims) fn numbered(tree: &FormulaTree, number: usize) -> &Formula
     found
 }
 
-/// A tree with another part in place of the one with a number.
+/// A tree with the part of a number replaced by another.
 pub(in crate::claims) fn replaced(tree: &FormulaTree, number: usize, other: &FormulaTree) -> FormulaTree {
     let (mut at, mut next) = (Vec::new(), 0);
     at_every_place(tree, &mut |place, _| {

@@ -1,4 +1,4 @@
-//! Slips as rules: what is written, and what may have been meant by it.
+//! Slips as rules: the written form and its possible corrections.
 
 use crate::sentences;
 use std::sync::LazyLock;
@@ -8,10 +8,11 @@ use formula::{FormulaTree, NodeShape};
 use scenario::INPUTS;
 use scenario::formula::OMEGA;
 
-/// What is written, and what may have been meant, the likeliest first. In what is written, `a`, `b` and `c` are any
-/// parts, `n` is a number, `q` is neither a number nor pi, `u` is that and no call, `t` is an angle or a time by its
-/// form: multiples of it may turn by whole turns from instant to instant; `r` is none of these, and `g` is it where
-/// gravity has no name. `w` is the crank's angular velocity.
+/// Written form and possible corrections, the likeliest first.
+/// In the written form `a`, `b` and `c` are any parts; `n` is a number; `q` is neither a number nor pi; `u` is a `q`
+/// that is not a call; `t` has the form of an angle or a time (its multiples may change by whole turns from instant to
+/// instant); `r` is none of these; `g` is gravity where it has no name.
+/// `w` is the crank's angular velocity.
 const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Sign, "a + b => a - b"),
     (SlipKind::Sign, "a - b => a + b; b - a"),
@@ -23,7 +24,7 @@ const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Branch, "atan(a) => atan(a) + pi"),
     (SlipKind::Branch, "atan(a/b) => atan2(a, b)"),
     (SlipKind::Branch, "atan2(a, b) => atan2(a, b) + pi"),
-    // Degrees, turns a minute, seconds in a minute, turns, and powers of ten.
+    // Degrees, revolutions per minute, seconds per minute, turns, and powers of ten.
     (SlipKind::Unit, sentences::PI_PI),
     (SlipKind::Unit, sentences::PI_PI_PI_PI_PI_PI),
     (SlipKind::Unit, "r => r*1e3; r/1e3; r*1e6; r/1e6"),
@@ -45,7 +46,7 @@ const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Function, "acos(a) => asin(a); atan(a); cos(a)"),
     (SlipKind::Function, "atan(a) => asin(a); acos(a); tan(a)"),
     (SlipKind::Function, "atan2(a, b) => atan2(b, a)"),
-    // As where a small angle is taken for its sine.
+    // For example a small angle taken for its sine.
     (SlipKind::Function, "u => sin(u); cos(u); tan(u); asin(u); atan(u)"),
     (SlipKind::Power, "a^b => a; a^2; a^3; a^4; a^0.5"),
     (SlipKind::Power, "sqrt(a) => a"),
@@ -69,7 +70,7 @@ const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Parentheses, "a/b^c => (a/b)^c"),
 ];
 
-/// A rule, read.
+/// A parsed rule.
 struct Rule {
     kind: SlipKind,
     written: FormulaTree,
@@ -85,7 +86,7 @@ static READ: LazyLock<Vec<Rule>> = LazyLock::new(|| {
     RULES.into_iter().map(read).collect()
 });
 
-/// Adds what may have been meant by a part, by the rules of a kind.
+/// Adds the possible corrections of a part by the rules of a kind.
 pub(super) fn with_slips(part: &FormulaTree, kind: SlipKind, has_gravity: bool, edits: &mut Vec<FormulaTree>) {
     for rule in READ.iter().filter(|rule| rule.kind == kind) {
         let mut found = Vec::new();
@@ -95,7 +96,7 @@ pub(super) fn with_slips(part: &FormulaTree, kind: SlipKind, has_gravity: bool, 
     }
 }
 
-/// Whether a part has the form of what is written; `found` are the parts that its letters stand for.
+/// Whether a part matches a written form; `found` receives the parts that match its letters.
 fn goes_with<'a>(
     written: &'a FormulaTree,
     part: &'a FormulaTree,
@@ -129,7 +130,7 @@ fn goes_with<'a>(
     }
 }
 
-/// Whether a part is an angle or a time by its form.
+/// Whether a part has the form of an angle or a time.
 fn is_turning(part: &FormulaTree) -> bool {
     match &part.shape {
         NodeShape::Name(name) => INPUTS.contains(&name.as_str()),
@@ -138,7 +139,7 @@ fn is_turning(part: &FormulaTree) -> bool {
     }
 }
 
-/// A tree with parts in place of the letters that stand for them.
+/// A tree with its letters replaced by parts.
 pub(in crate::claims) fn with_parts(tree: &FormulaTree, parts: &[(&str, &FormulaTree)]) -> FormulaTree {
     let go = |tree: &FormulaTree| with_parts(tree, parts);
     match &tree.shape {

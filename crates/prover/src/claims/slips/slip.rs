@@ -1,21 +1,21 @@
-//! A slip of the pen, its kinds, and what a formula is with it mended.
+//! A slip in writing, its kinds, and the corrected formula.
 
 use crate::claims::dimension::Dimensions;
 use crate::claims::trial::Trial;
 use formula::FormulaTree;
 
-/// A slip of the pen.
+/// A slip in writing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormulaSlip {
-    /// The formula that it is in.
+    /// The formula that contains it.
     pub formula: String,
-    /// What kind it is.
+    /// Kind of slip.
     pub kind: SlipKind,
-    /// What is written, and what would be right.
+    /// The written part.
     pub written: String,
-    /// See `written`.
+    /// The corrected part.
     pub right: String,
-    /// Whether it is wrong wherever it stands, in the formula and in the steps that it uses.
+    /// Whether it occurs everywhere in the formula and in the steps that it uses.
     pub everywhere: bool,
 }
 
@@ -23,7 +23,7 @@ linkage::words! {
     /// Kinds of slips, the simplest first.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     pub enum SlipKind: words {
-        /// A sign.
+        /// A missing factor `* -1`.
         Sign = "a sign",
         /// Another branch of a square root or of an inverse function.
         Branch = "another branch",

@@ -1,4 +1,4 @@
-//! Reactions of higher groups on pins, for several poses at once.
+//! Joint reactions of higher groups on pins, for several poses at once.
 
 use pulp::Simd;
 
@@ -9,7 +9,7 @@ use crate::assur::groups::Hangs;
 use linkage::math::Vec2;
 
 impl Chain {
-    /// Reactions in all joints.
+    /// Computes the reactions in all joints.
     #[inline(always)]
     pub(in crate::assur::batch) fn hold<S: Simd>(
         &self,
@@ -38,7 +38,7 @@ impl Chain {
             (forces[index], moments[index]) = node.body.resultant(gravity, tile);
         }
         self.gather(&mut forces);
-        // Moments of the forces that hang on the arrows, about the poles of the links that carry them.
+        // Adds the moments of the forces at the ends of the arrows, about the poles of the links that carry the arrows.
         for (index, node) in self.nodes.iter().enumerate().rev() {
             if let Hangs::Arrow(arrow) = node.hangs {
                 let parent = self.arrows[arrow].node;
@@ -63,7 +63,7 @@ impl Chain {
         }
     }
 
-    /// Sums forces from the outermost link inwards: a pin passes on a force only.
+    /// Sums the forces from the outermost link inwards: a pin transmits a force only.
     #[inline(always)]
     fn gather<S: Simd>(&self, forces: &mut [Plane<S>]) {
         for (index, node) in self.nodes.iter().enumerate().rev() {

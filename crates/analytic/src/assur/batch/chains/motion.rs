@@ -1,7 +1,7 @@
 //! Motion of higher groups on pins, for several poses at once.
 //!
-//! Every pose starts from a direction of each link that is interpolated between two anchors (see `batch::anchors`).
-//! One correction by Newton's method makes it the pose; a second Jacobian is that of the pose itself.
+//! Every pose starts from link directions interpolated between two anchors (see `batch::anchors`).
+//! One Newton correction leads to the pose; a second Jacobian is assembled at the pose itself.
 
 use pulp::Simd;
 
@@ -14,11 +14,11 @@ use crate::assur::groups::Hangs;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
-/// Largest correction of an interpolated direction (rad). Its square is less than rounding.
+/// Largest correction of an interpolated direction (rad). Its square is below rounding.
 const LAST_CHANGE: f64 = 1e-8;
 
 impl Chain {
-    /// Motion of all links. Returns NaN where a pose is not found from its start.
+    /// Computes the motion of all links. Returns NaN where Newton's method does not reach the pose from its start.
     #[inline(always)]
     pub(in crate::assur::batch) fn turn<S: Simd>(
         &self,
@@ -62,7 +62,7 @@ impl Chain {
         for (node, change) in self.nodes.iter().zip(changes) {
             let direction = tile.vector(node.body.link + DIRECTION);
             tile.put_vector(node.body.link + DIRECTION, direction - direction.turned() * change);
-            // A sum, so that NaN stays.
+            // A sum, not a maximum, so that NaN is kept.
             largest = largest + change.abs();
         }
         let (jacobian, _) = self.assembled::<S, N>(tile, work, first);
@@ -83,7 +83,7 @@ impl Chain {
         is_near.of(is_kept.of(zero, none), none)
     }
 
-    /// The Jacobian of the contours and their gaps, from the links' directions. Draws the arrows.
+    /// Assembles the Jacobian of the contours and their gaps from the link directions, and computes the arrows.
     #[inline(always)]
     fn assembled<S: Simd, const N: usize>(
         &self,
@@ -112,7 +112,7 @@ impl Chain {
         (jacobian, gaps)
     }
 
-    /// Origins of all links.
+    /// Computes the origins of all links.
     #[inline(always)]
     fn put_links<S: Simd>(&self, tile: &mut Window<S>, work: &mut Window<S>, first: usize) {
         for (index, node) in self.nodes.iter().enumerate() {
@@ -221,7 +221,7 @@ impl Chain {
     }
 }
 
-/// The direction from which a link starts: that of an anchor, turned by a polynomial of the way from there.
+/// Direction from which a link starts: its direction at the anchor, turned by the interpolating polynomial.
 #[inline(always)]
 fn start<S: Simd>(work: &Window<S>, column: usize) -> Plane<S> {
     let way = work.get(column + 2);

@@ -4,44 +4,43 @@ use crate::assur::groups::guide::turn_between;
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{Group, Joint, JointId, JointKind, JointSide, LinkId, Mechanism, PerJoint};
 
-/// How the parent guides a link with a prismatic joint to it.
+/// Guide of a link that has a prismatic joint to its parent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Guided {
     /// The axis in the parent's frame.
     pub(super) axis: Vec2,
-    /// Direction of the link's frame in the parent's.
+    /// Direction of the link's frame in the parent's frame.
     pub(super) turn: Vec2,
 }
 
-/// A link of the group. A joint connects it to its parent, which is known before it.
+/// A link of the group. A joint connects it to its parent, which is placed before it.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
     /// The link.
     pub link: LinkId,
     /// The joint to its parent.
     pub joint: JointId,
-    /// That joint in the link's own frame, and whether it is the origin there.
+    /// The joint in the link's frame, and whether it is the origin there.
     pub own: Vec2,
     pub(super) at_origin: bool,
-    /// That joint on the parent.
+    /// The joint on the parent.
     pub parent: JointSide,
-    /// Position of the parent among the nodes; `None` for a link outside the group.
+    /// Index of the parent among the nodes; `None` for a link outside the group.
     pub parent_node: Option<usize>,
-    /// Position of the node whose unknown is this link's angle.
-    /// It is the node itself if its joint is revolute, otherwise its parent's; `None` if a link outside the group
-    /// leads it.
+    /// Index of the node whose unknown is this link's angle: the node itself if its joint is revolute, otherwise that
+    /// of its parent; `None` if a link outside the group leads it.
     pub spin: Option<usize>,
-    /// Where the joint to the parent is.
+    /// Position of the joint on the parent's side.
     pub(in crate::assur) hangs: Hangs,
     pub(super) guided: Option<Guided>,
 }
 
-/// The place of a joint on the side that is known before.
+/// Position of a joint on the side that is known first.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) enum Hangs {
-    /// One of the joints on links outside the group: its number in [`Contours::roots`].
+    /// A joint on a link outside the group: index in [`Contours::roots`].
     Root(usize),
-    /// On another node, at the end of an arrow: its number in [`Contours::arrows`].
+    /// A joint on another node, at the end of an arrow: index in [`Contours::arrows`].
     Arrow(usize),
 }
 
@@ -74,41 +73,41 @@ impl Node {
         self.guided.is_some()
     }
 
-    /// World direction of the prismatic joint to the parent; `None` for a revolute one.
+    /// World direction of the prismatic joint to the parent; `None` for a revolute joint.
     #[inline]
     #[must_use]
     pub fn axis(&self, motions: &[Motion]) -> Option<Vec2> {
         self.guided.map(|guided| motions[self.parent.link].arm(guided.axis))
     }
 
-    /// The same for a node that has one.
+    /// World direction of the prismatic joint, for a node that has one.
     #[inline]
     pub(super) fn slide_axis(&self, motions: &[Motion]) -> Vec2 {
         self.axis(motions).expect("slides belong to prismatic joints")
     }
 }
 
-/// A vector of the tree: from a node's own joint to another joint on its link, or the slide of a node.
+/// A vector of the tree: from a node's joint to its parent to another joint on its link, or the slide of a node.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Arrow {
     pub(in crate::assur) node: usize,
     /// The vector in the frame of the node's link; `None` for the node's slide.
     pub(in crate::assur) local: Option<Vec2>,
-    /// The link that it turns with, and the node whose unknown is that link's angle.
+    /// The link with which the vector turns, and the node whose unknown is that link's angle.
     pub(super) carrier: LinkId,
     pub(in crate::assur) spin: Option<usize>,
 }
 
-/// An arrow on the way to a closing joint.
+/// An arrow on the path to a closing joint.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Stretch {
-    /// Its number in [`Contours::arrows`], and its sign.
+    /// Index in [`Contours::arrows`], and sign.
     pub(in crate::assur) arrow: usize,
     pub(in crate::assur) sign: f64,
     /// As in [`Arrow`].
     pub(super) carrier: LinkId,
     pub(super) spin: Option<usize>,
-    /// The node whose slide it is.
+    /// The node whose slide this arrow is.
     pub(super) slide: Option<usize>,
 }
 
@@ -121,14 +120,15 @@ pub struct ClosingJoint {
     pub nodes: [Option<usize>; 2],
     /// The joint on its second link.
     place: JointSide,
-    /// Known joints from which the two ways start, by number: second with sign +1, first with -1.
+    /// Indices of the known joints at which the two paths start, with signs: +1 for the path to the second link, -1 for
+    /// the first.
     pub(in crate::assur) ends: [(usize, f64); 2],
-    /// Arrows along both ways.
+    /// Arrows along both paths.
     pub(in crate::assur) ways: Vec<Stretch>,
 }
 
 impl ClosingJoint {
-    /// World place of the joint.
+    /// World position of the joint.
     #[inline]
     #[must_use]
     pub fn place(&self, motions: &[Motion]) -> Vec2 {
@@ -141,7 +141,7 @@ impl ClosingJoint {
 pub(in crate::assur) struct Contours {
     /// The group's links, parents before children.
     pub(in crate::assur) nodes: Vec<Node>,
-    /// The remaining joints.
+    /// The joints outside the tree.
     pub(in crate::assur) closings: Vec<ClosingJoint>,
     /// Joints on links outside the group.
     pub(in crate::assur) roots: Vec<JointSide>,
@@ -154,7 +154,7 @@ impl Contours {
         let joints = mechanism.joints();
         let mut all = Contours::default();
         let mut used = vec![false; joints.len()];
-        // Breadth first: all outer joints, then inner ones from the links already in the tree.
+        // Breadth first: all outer joints, then inner joints from the links already in the tree.
         while all.nodes.len() < group.links.len() {
             let known = |link: LinkId| !group.links.contains(&link) || all.nodes.iter().any(|node| node.link == link);
             let hung = |&joint: &JointId| {
@@ -166,7 +166,8 @@ impl Contours {
                 }
             };
             let next = || group.outer.iter().chain(&group.inner).filter_map(hung);
-            // Prismatic joints first, so that none of them remains (Prim's spanning tree of smallest weight).
+            // Prismatic joints first, so that all of them are in the tree (Prim's algorithm for the minimum spanning
+            // tree).
             let slider = next().find(|&(joint, _)| joints[joint].slides());
             let (joint, link) = slider.or_else(|| next().next()).expect("a group hangs together");
             used[joint] = true;
@@ -181,7 +182,7 @@ impl Contours {
         all
     }
 
-    /// The number of a joint on a link outside the group.
+    /// Index of a joint on a link outside the group.
     fn root(&mut self, side: JointSide) -> usize {
         self.roots.iter().position(|&known| known == side).unwrap_or_else(|| {
             self.roots.push(side);
@@ -189,7 +190,8 @@ impl Contours {
         })
     }
 
-    /// The number of the arrow from a node's own joint to the place `to` on its link, or of the node's slide.
+    /// Index of the arrow from a node's joint to the position `to` on its link, or of the node's slide if `to` is
+    /// `None`.
     fn arrow(&mut self, node: usize, to: Option<Vec2>) -> usize {
         let own = &self.nodes[node];
         let local = to.map(|to| to - own.own);
@@ -201,11 +203,11 @@ impl Contours {
         })
     }
 
-    /// The way to a closing joint over both of its links.
+    /// Returns the closing joint with the paths to it over both of its links.
     fn closing(&mut self, found: &Joint, joint: JointId) -> ClosingJoint {
         let mut ways = Vec::new();
         let mut way = |side: JointSide, sign: f64| {
-            // Where sliders carry all links, an outer pin remains too. The way to it over the link outside is empty.
+            // Where sliders carry all links, an outer pin remains too. The path to it over the link outside is empty.
             let node = self.nodes.iter().position(|node| node.link == side.link);
             let (mut next, mut to) = (node, side);
             while let Some(index) = next {
@@ -219,7 +221,7 @@ impl Contours {
         };
         let (second, second_end) = way(found.second, 1.0);
         let (first, first_end) = way(found.first, -1.0);
-        // Both ways may begin with the same arrows. These cancel.
+        // Arrows common to the beginnings of both paths cancel.
         let all = ways.clone();
         ways.retain(|&(arrow, sign)| !all.contains(&(arrow, -sign)));
         let stretch = |(number, sign): (usize, f64)| {

@@ -1,9 +1,9 @@
-//! What a group remembers of its last steps, and where it expects its unknowns after the next one.
+//! Prediction of a group's unknowns after the next step, from its last steps.
 
 /// Number of steps that a prediction uses.
 const MEMORY: usize = 5;
 
-/// Copies numbers of driving links. Most often there is one.
+/// Copies one number per driving link; usually there is one driving link.
 #[inline(always)]
 pub(super) fn copy(from: &[f64], to: &mut [f64]) {
     match (from, &mut *to) {
@@ -15,13 +15,13 @@ pub(super) fn copy(from: &[f64], to: &mut [f64]) {
 /// Changes of the unknowns from pose to pose.
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
-    /// Changes of the unknowns in the last step, and the backward differences of those in the last steps, from the
-    /// first to the fourth; zero where fewer steps are known. How many of these steps were the same; and that step
-    /// (rad of the driving angles).
+    /// Changes of the unknowns in the last step, and their backward differences over the last steps, from the first to
+    /// the fourth; zero where fewer steps are known.
+    /// Then the number of equal steps, and the last step (rad of the driving angles).
     differences: Vec<[f64; MEMORY]>,
     equal_steps: usize,
     last_step: Vec<f64>,
-    /// Changes of the unknowns in the present step, so far, and whether it is the same as the last one.
+    /// Changes of the unknowns in the present step so far, and whether this step equals the last one.
     present: Vec<f64>,
     is_repeated: bool,
 }
@@ -37,21 +37,21 @@ impl Memory {
         }
     }
 
-    /// No step is known any more.
+    /// Forgets the last step.
     pub(super) fn forget(&mut self) {
         self.last_step.fill(f64::NAN);
     }
 
-    /// The same, and none was ever made.
+    /// Forgets the last step and the number of equal steps.
     pub(super) fn start_anew(&mut self) {
         self.forget();
         self.equal_steps = 0;
     }
 
-    /// Begins a step of the driving angles. If it is the same as the last one, the changes of the unknowns are those
-    /// extrapolated from the last steps, otherwise none. Returns whether it is.
-    /// The polynomial through the last steps is continued: its next difference is zero, so that the sum of all others is
-    /// the next change.
+    /// Begins a step of the driving angles. Returns whether it equals the last step.
+    /// If it does, the changes of the unknowns are extrapolated from the last steps; otherwise they are zero.
+    /// The polynomial through the last steps is continued: its next difference is zero, so that the sum of all lower
+    /// differences is the next change.
     pub(super) fn predict(&mut self, step: &[f64]) -> bool {
         let same = |(step, last): (&f64, &f64)| (step - last).abs() <= 1e-6 * step.abs();
         self.is_repeated = step.iter().zip(&self.last_step).all(same);
@@ -65,7 +65,7 @@ impl Memory {
         self.is_repeated
     }
 
-    /// Change of an unknown in the present step, so far.
+    /// Change of an unknown in the present step so far.
     #[inline]
     pub(super) fn change(&self, unknown: usize) -> f64 {
         self.present[unknown]
@@ -77,7 +77,7 @@ impl Memory {
         self.present.iter_mut().zip(corrections).for_each(|(present, correction)| *present -= correction);
     }
 
-    /// Whether no unknown has changed by more than this in the present step.
+    /// Whether every unknown has changed by at most `bound` in the present step.
     #[inline]
     pub(super) fn is_within(&self, bound: f64) -> bool {
         self.present.iter().all(|change| change.abs() <= bound)
@@ -86,7 +86,7 @@ impl Memory {
     /// Stores the present step for the next prediction.
     pub(super) fn remember(&mut self, step: &[f64]) {
         self.equal_steps = if self.is_repeated { self.equal_steps + 1 } else { 1 };
-        // Differences of steps that were not the same, or are not known, count for nothing.
+        // Differences of unequal or unknown steps are zero.
         let orders = self.equal_steps.min(MEMORY);
         for (differences, &present) in self.differences.iter_mut().zip(&self.present) {
             let [a, b, c, d, _] = *differences;
