@@ -39,12 +39,12 @@ myst_enable_extensions = ["html_image"]
 suppress_warnings = ["misc.highlighting_failure"]
 
 CONTENTS = {
-    "Start": ["docs/tutorial", "docs/gallery", "docs/scenario", "docs/formulas"],
+    "Start": ["docs/tutorial", "docs/guide", "docs/gallery", "docs/scenario", "docs/formulas"],
     "Proofs": ["docs/report", "docs/recording", "docs/compare", "docs/testing", "docs/mutate", "docs/findings", "docs/foreign", "docs/stories", "docs/skip"],
     "Design": ["docs/synthesis", "docs/draw", "docs/plans", "docs/clearance", "docs/variants60"],
     "Engines": ["docs/engines", "docs/rapier", "docs/mjcf", "docs/peers", "docs/bench", "docs/stress"],
     "Numerics": [f"docs/numerics/{page}" for page in ("bounds", "settings", "forces", "change_points", "twins", "diagnosis", "laboratory")],
-    "Reference": ["docs/notation", "ARCHITECTURE", "docs/extending", "CHANGELOG", "CONTRIBUTING", "SECURITY"],
+    "Reference": ["docs/verification", "docs/notation", "ARCHITECTURE", "docs/extending", "CHANGELOG", "CONTRIBUTING", "SECURITY"],
 }
 
 
