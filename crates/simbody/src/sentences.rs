@@ -5,6 +5,7 @@
 macro_rules! sentences {
     (@one $name:ident = $text:literal) => { pub(crate) const $name: &str = $text; };
     (@one $name:ident($($value:ident),+) = $text:literal) => {
+        #[allow(clippy::too_many_arguments, reason = "a sentence has as many values as it needs")]
         pub(crate) fn $name($($value: &dyn std::fmt::Display),+) -> String { format!($text) }
     };
     ($($name:ident $(($($value:ident),+))? = $text:literal;)*) => {
