@@ -51,10 +51,10 @@ pub(super) fn of(
         let (solver, suspect, judged) = (suspect.other().solver(), suspect.name(), &between[..]);
         diagnose(&DiagnosisInput { suspect, reference, suspicious, judged, case, solver, step: None }, &parties)
     };
-    match (alone, engine) {
-        (Some(name), _) if let Some(side) = Reference::named(&name) => of_side(side),
-        (_, None) => of_side(main.other()),
-        (_, Some(engine)) => {
+    match (alone.and_then(|name| Reference::named(&name)), engine) {
+        (Some(side), _) => of_side(side),
+        (None, None) => of_side(main.other()),
+        (None, Some(engine)) => {
             let (_, suspicious) = ran.iter().find(|(own, _)| own.info.name == engine.info.name)?;
             let question = DiagnosisInput {
                 suspect: engine.info.name,
