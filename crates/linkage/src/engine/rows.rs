@@ -79,7 +79,7 @@ impl Rows {
         Layout::of(case).width() * size_of::<f64>() + size_of::<bool>()
     }
 
-    /// For every row: whether the run has reached it.
+    /// Whether the run has reached a row.
     #[must_use]
     pub fn has(&self, row: usize) -> bool {
         self.reached[row]
