@@ -18,7 +18,7 @@ const FREE: f64 = 11.0;
 /// What is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnSubject<'a> {
-    /// Kinematic diagram.
+    /// The mechanism.
     pub mechanism: &'a Mechanism,
     /// What moves it.
     pub drives: &'a [Drive],

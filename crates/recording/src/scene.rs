@@ -17,7 +17,7 @@ const FRAMES_PER_SECOND: f64 = 50.0;
 
 /// Everything that can be drawn of a recording.
 pub struct ViewerScene<'a> {
-    /// Kinematic diagram.
+    /// The mechanism.
     pub mechanism: &'a Mechanism,
     /// The sides that have positions.
     pub sides: Vec<PlacedSide<'a>>,

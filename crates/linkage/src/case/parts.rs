@@ -41,7 +41,7 @@ impl Wanted {
 /// The unchecked parts of a [`Case`](super::Case). SI units, world axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseParts {
-    /// Kinematic diagram.
+    /// The mechanism.
     pub mechanism: Mechanism,
     /// Driving links and Assur groups of the mechanism.
     pub structure: Structure,
