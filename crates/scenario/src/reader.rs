@@ -397,7 +397,7 @@ impl<'a> TomlTable<'a> {
                 let section = if self.section.is_empty() { own.into() } else { format!("{}.{own}", self.section) };
                 Ok(TomlTable { name: key.into(), path, ..TomlTable::new(self.source, section, value.span(), table) })
             }
-            _ => Err(self.mistyped(key, value, Needed::TomlTable)),
+            _ => Err(self.mistyped(key, value, Needed::Table)),
         }
     }
 
@@ -432,7 +432,7 @@ enum Needed {
     Numbers,
     WholeNumber,
     Boolean,
-    TomlTable,
+    Table,
     Tables,
 }
 
@@ -446,7 +446,7 @@ impl Needed {
             Needed::Numbers => sentences::AN_ARRAY_OF_NUMBERS,
             Needed::WholeNumber => sentences::A_WHOLE_NUMBER,
             Needed::Boolean => sentences::TRUE_OR_FALSE,
-            Needed::TomlTable => "a table",
+            Needed::Table => "a table",
             Needed::Tables => sentences::AN_ARRAY_OF_TABLES,
         }
     }
@@ -462,8 +462,8 @@ impl Needed {
             (Needed::Numbers, _) => sentences::WRITE_NUMBERS_IN_BRACKETS_SUCH_AS,
             (Needed::WholeNumber, _) => sentences::WRITE_A_WHOLE_NUMBER_SUCH_AS,
             (Needed::Boolean, _) => sentences::WRITE_TRUE_OR_FALSE_WITHOUT,
-            (Needed::TomlTable, DeValue::Array(_)) => return format!("write [{path}]"),
-            (Needed::TomlTable, _) => sentences::WRITE_KEYS_WITH_THEIR_VALUES,
+            (Needed::Table, DeValue::Array(_)) => return format!("write [{path}]"),
+            (Needed::Table, _) => sentences::WRITE_KEYS_WITH_THEIR_VALUES,
             (Needed::Tables, DeValue::Table(_)) => return format!("write [[{path}]]"),
             (Needed::Tables, _) => return sentences::write_a_section_for_each(&path),
         };

@@ -78,8 +78,7 @@ pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option
     let left_over: Vec<Channel> = wrong.iter().filter(|channel| !explained.contains(channel)).cloned().collect();
     // A number that was fitted says no more than a slip that needs none. Partial explanations beside each other would
     // only confuse, unless they are of the same part.
-    let says_more =
-        |one: &Found| one.rank != Rank::Fitted || first.as_ref().is_some_and(|own| own.rank != Rank::DataSlip);
+    let says_more = |one: &Found| one.rank != Rank::Fitted || first.as_ref().is_some_and(|own| own.rank != Rank::Slip);
     let also = named.filter(|one| one.explained == explained && says_more(one)).map(|one| one.cause);
     let also = also.take(MENTIONED).collect();
     let nature = if left_over.is_empty() { None } else { nature(question, &off) };

@@ -22,7 +22,7 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
         let is_exchanged = |other: &&Wrong| one.has_values_of(other.right) && other.has_values_of(one.right);
         if let Some(other) = wrong[index + 1..].iter().find(is_exchanged) {
             let both = [one.channel.clone(), other.channel.clone()];
-            put(DataSlip::Exchanged(both.clone()), Rank::DataSlip, both.to_vec());
+            put(DataSlip::Exchanged(both.clone()), Rank::Slip, both.to_vec());
             continue;
         }
         let others = || question.reference.iter().filter(|(channel, _)| alike(channel, one.channel));

@@ -55,7 +55,7 @@ impl Found {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Rank {
     /// A slip without a free number: sign, unit, twice, half.
-    DataSlip,
+    Slip,
     /// A change of the case without a free number: something missing, or the other way round.
     Change,
     /// A part of the case multiplied by a number with a meaning.

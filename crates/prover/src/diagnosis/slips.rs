@@ -92,7 +92,7 @@ pub(super) fn found(wrong: &[Wrong]) -> Vec<Found> {
         let explained: Vec<Channel> =
             wrong.iter().filter(|wrong| wrong.is_explained_by(&slip)).map(|wrong| wrong.channel.clone()).collect();
         if !explained.is_empty() {
-            causes.push(Found::of_values(slip, Rank::DataSlip, explained));
+            causes.push(Found::of_values(slip, Rank::Slip, explained));
         }
     }
     for Fitted { slip, number, is_angle } in fitted(wrong) {

@@ -80,7 +80,7 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
 fn drift(from: &RowKey, to: &RowKey, places: &[Place]) -> impl Fn(&[Rounded], Option<f64>) -> Vec<f64> + use<> {
     let widest = from.values.iter().map(|at| at.error).fold(0.0, f64::larger);
     let of = |(place, own): (&Place, &Rounded)| match place {
-        Place::RowKey(row) => own.error + from.values[*row].error,
+        Place::At(row) => own.error + from.values[*row].error,
         Place::Between(_) => own.error + widest,
         Place::Nowhere => 0.0,
     };
@@ -92,7 +92,7 @@ fn drift(from: &RowKey, to: &RowKey, places: &[Place]) -> impl Fn(&[Rounded], Op
 /// Where an instant of the second party lies among the rows of the first.
 enum Place {
     /// At a row.
-    RowKey(usize),
+    At(usize),
     /// Between two rows, in order to be interpolated.
     Between(f64),
     /// Between two rows, and nothing is interpolated; or beyond all of them.
@@ -114,7 +114,7 @@ fn places(from: &RowKey, to: &RowKey, how: &ComparisonRule) -> Vec<Place> {
             (at(*index) - wanted.value).abs() <= slack.larger(SAME * step).larger(1e-9 * wanted.value.abs())
         };
         if let Some(index) = near.into_iter().flatten().find(is_same) {
-            return Place::RowKey(order[index]);
+            return Place::At(order[index]);
         }
         match near {
             [Some(_), Some(_)] if how.interpolates => Place::Between(wanted.value),
@@ -131,7 +131,7 @@ fn at_places(values: &[Rounded], from: &RowKey, places: &[Place], turn: Option<f
     let sorted: Vec<Rounded> = order.iter().map(|&row| values[row]).collect();
     let course = Course::new(&at, &sorted, turn);
     let of = |place: &Place| match place {
-        Place::RowKey(row) => values[*row],
+        Place::At(row) => values[*row],
         Place::Between(wanted) => course.value(*wanted),
         Place::Nowhere => MISSING,
     };
