@@ -1,7 +1,9 @@
 //! Every sentence that the command and its reports can show, in one place, to be read as a list.
 
+#[cfg(feature = "command")]
 mod command;
 mod report;
 
+#[cfg(feature = "command")]
 pub(crate) use command::*;
 pub(crate) use report::*;

@@ -105,7 +105,7 @@ impl RecordArgs {
         }
         let directory = &self.record;
         fs::create_dir_all(directory).map_err(|error| {
-            Error::new(ErrorKind::Io, sentences::the_directory_cannot_be_made_2(&directory.display(), &error))
+            Error::new(ErrorKind::Io, sentences::the_directory_cannot_be_made(&directory.display(), &error))
                 .help(sentences::NAME_ANOTHER_DIRECTORY_WITH_RECORD)
         })?;
         metadata.extend(self.record_hz.map(|hz| ("record_hz".into(), hz.to_string())));

@@ -48,7 +48,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     for &family in &families {
         let kept = files::text(&json_of(&args.out, family)).map_err(|error| {
             let place = json_of(&args.out, family);
-            Error::new(ErrorKind::Io, sentences::cannot_be_read_2(&place.display(), &error))
+            Error::new(ErrorKind::Io, sentences::cannot_be_read(&place.display(), &error))
                 .key("--out")
                 .help(sentences::NAME_ANOTHER_DIRECTORY_OR_REMOVE)
         })?;

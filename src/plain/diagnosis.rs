@@ -72,10 +72,10 @@ fn since(diagnosis: &Diagnosis, first: &Since) -> String {
     let mut told = sentences::crank_angle_deg_first_in(&fixed(time, 6), &fixed(crank, 3), &names(&together));
     if let Some(next) = diagnosis.since.get(together.len()) {
         let (time, crank) = (next.time, next.crank.to_degrees());
-        put!(told, "{}", sentences::from_deg_in(&fixed(time, 6), &fixed(crank, 3), &next.channel));
+        put!(told, sentences::from_deg_in(&fixed(time, 6), &fixed(crank, 3), &next.channel));
         let more = diagnosis.since.len() - together.len() - 1;
         if more > 0 {
-            put!(told, "{}", sentences::and_later_in_more(&more));
+            put!(told, sentences::and_later_in_more(&more));
         }
     }
     told

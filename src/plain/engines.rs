@@ -49,14 +49,14 @@ pub fn disputes(proof: &Proof) -> String {
     for party in [proof.reference].into_iter().chain(proof.engines.iter().map(|engine| engine.info.name)) {
         let alone = proof.disputes.iter().filter(|dispute| dispute.odd == Some(party));
         if let Some(first) = alone.clone().next() {
-            say!(text, "{}", sentences::the_odd_one_out_in_channels(&alone.count(), &party, &first.channel));
+            say!(text, sentences::the_odd_one_out_in_channels(&alone.count(), &party, &first.channel));
         }
     }
     let open = proof.disputes.iter().filter(|dispute| dispute.odd.is_none());
     if let Some(first) = open.clone().next() {
         let pairs: Vec<String> = first.pairs.iter().map(|[a, b]| format!("{a} and {b}")).collect();
         let (count, channel, pairs) = (open.count(), &first.channel, pairs.join(", "));
-        say!(text, "{}", sentences::in_channels_no_single_one_stands(&count, &channel, &pairs));
+        say!(text, sentences::in_channels_no_single_one_stands(&count, &channel, &pairs));
     }
     text.truncate(text.trim_end().len());
     text

@@ -18,7 +18,7 @@ pub fn reasons(proof: &Proof, tell: Tell, width: Option<usize>, most: usize, tex
         say!(text, "\n{}", wrapped(&reason, width, 2));
     }
     if open.len() > most {
-        say!(text, "{}", sentences::and_more_3(&(open.len() - most), &tell(&Advice::AllResults)));
+        say!(text, sentences::and_more_3(&(open.len() - most), &tell(&Advice::AllResults)));
     }
 }
 
@@ -42,7 +42,7 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
     }
     let (count, told) = (findings.len(), distinct(findings));
     // One a line: a command that is broken cannot be copied.
-    say!(text, "{}", sentences::checks_disagree_as_expected_see(&count, &(told.join(",\n  "))));
+    say!(text, sentences::checks_disagree_as_expected_see(&count, &(told.join(",\n  "))));
 }
 
 /// How many instants are not judged, and of what.

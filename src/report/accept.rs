@@ -65,7 +65,7 @@ pub(crate) fn text(item: &Item) -> String {
         changes(comparison, &mut text);
     }
     if item.without_figures() > 0 {
-        say!(text, "{}", sentences::have_no_finite_bound_and_no_figures(&channels(item.without_figures())));
+        say!(text, sentences::have_no_finite_bound_and_no_figures(&channels(item.without_figures())));
     }
     text
 }
@@ -145,7 +145,7 @@ fn changes(comparison: &FigureComparison, text: &mut String) {
         say!(text, "\n{}", trimmed(table.add_rows(worst.iter().take(SHOWN).map(row))));
     }
     if worst.len() > SHOWN {
-        say!(text, "{}", sentences::and_more_channels_the_json(&(worst.len() - SHOWN)));
+        say!(text, sentences::and_more_channels_the_json(&(worst.len() - SHOWN)));
     }
     for (word, names) in [("new", &comparison.new), ("gone", &comparison.gone)] {
         if !names.is_empty() {
@@ -156,7 +156,6 @@ fn changes(comparison: &FigureComparison, text: &mut String) {
         let (channel, unit) = (&other.channel, unit(&other.channel));
         say!(
             text,
-            "{}",
             sentences::its_bound_was_now(
                 &channel,
                 &format_args!("{:.1e}", other.accepted),

@@ -42,9 +42,9 @@ pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
     for (name, peak, unit) in
         [("shaking force", peaks.shaking_force, "N"), ("balancing moment", peaks.balancing_moment, "N m")]
     {
-        say!(text, "{}", sentences::largest_at_deg(&name, &peak.value, &unit, &degrees(peak)));
+        say!(text, sentences::largest_at_deg(&name, &peak.value, &unit, &degrees(peak)));
     }
-    say!(text, "{}", sentences::journals_lever_mm_bending_stress(&journals.lever_mm, &journals.stress_mpa));
+    say!(text, sentences::journals_lever_mm_bending_stress(&journals.lever_mm, &journals.stress_mpa));
     text
 }
 

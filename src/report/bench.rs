@@ -56,11 +56,11 @@ pub(crate) fn text(bench: &Bench) -> String {
     let mut text = format!("{}: {}\n\n", bench.scenario[0], bench.scenario[1]);
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
     let (settings, instants, reference) = (bench.points.len(), bench.instants, &bench.floor.reference);
-    say!(text, "{}", sentences::settings_on_instants_failed_times(&settings, &instants, &failed, &reference));
-    say!(text, "{}", sentences::THE_FRONTS_WHAT_NOTHING_BEATS);
+    say!(text, sentences::settings_on_instants_failed_times(&settings, &instants, &failed, &reference));
+    say!(text, sentences::THE_FRONTS_WHAT_NOTHING_BEATS);
     for &stage in &bench.stages {
         let floor = bench.floor.errors[stage as usize];
-        say!(text, "{}", sentences::the_reference_is_known_to(&stage.name(), &format_args!("{floor:.1e}")));
+        say!(text, sentences::the_reference_is_known_to(&stage.name(), &format_args!("{floor:.1e}")));
         let sides = front(&bench.points, stage, CostAxis::Time, floor, &|_| true);
         let others = front(&bench.points, stage, CostAxis::Time, floor, &|point| point.party != MethodOwner::Side);
         let others = others.into_iter().filter(|index| !sides.contains(index));
@@ -76,19 +76,18 @@ pub(crate) fn text(bench: &Bench) -> String {
             let told = other.and_then(|point| Some(format!("{} {}", short(ratio(bench, point)?), point.program)));
             say!(
                 text,
-                "{}",
                 sentences::other_programs_at(&format_args!("{within:e}"), &told.unwrap_or_else(|| "none".into()))
             );
         }
     }
     for (reason, times) in super::bench_plot::reasons(bench) {
-        say!(text, "{}", sentences::failed_times(&times, &reason));
+        say!(text, sentences::failed_times(&times, &reason));
     }
     for (gap, times) in super::bench_plot::gaps(bench) {
-        say!(text, "{}", sentences::judged_in_part_times(&times, &gap));
+        say!(text, sentences::judged_in_part_times(&times, &gap));
     }
     if bench.left_out > 0 {
-        say!(text, "{}", sentences::finer_settings_were_not_run(&bench.left_out));
+        say!(text, sentences::finer_settings_were_not_run(&bench.left_out));
     }
     text
 }

@@ -35,7 +35,6 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     say!(text, "## {name}\n\n{}.\n", foreign(title));
     say!(
         text,
-        "{}",
         sentences::settings_on_instants_failed_diagram(&bench.points.len(), &bench.instants, &failed, &pictures, &name)
     );
     let stages: Vec<&str> = bench.stages.iter().map(|stage| stage.name()).collect();
@@ -50,17 +49,17 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     text.push('\n');
     for &stage in &bench.stages {
         let of_others = told(bench, stage, &|point| point.party != MethodOwner::Side);
-        say!(text, "{}", sentences::front_of(&stage.name(), &told(bench, stage, &|_| true)));
-        say!(text, "{}", sentences::of_engines_and_peers(&(if of_others.is_empty() { "none" } else { &of_others })));
+        say!(text, sentences::front_of(&stage.name(), &told(bench, stage, &|_| true)));
+        say!(text, sentences::of_engines_and_peers(&(if of_others.is_empty() { "none" } else { &of_others })));
     }
     for (reason, times) in reasons(bench).into_iter().take(REASONS) {
-        say!(text, "{}", sentences::failed_times_2(&times, &foreign(&reason)));
+        say!(text, sentences::failed_times_2(&times, &foreign(&reason)));
     }
     for (gap, times) in gaps(bench).into_iter().take(REASONS) {
-        say!(text, "{}", sentences::judged_in_part_times_2(&times, &foreign(&gap)));
+        say!(text, sentences::judged_in_part_times_2(&times, &foreign(&gap)));
     }
     if bench.left_out > 0 {
-        say!(text, "{}", sentences::finer_settings_were_not_run_the_work(&bench.left_out));
+        say!(text, sentences::finer_settings_were_not_run_the_work(&bench.left_out));
     }
     text.push('\n');
 }

@@ -61,9 +61,9 @@ fn names<'a>(asked: &'a ClearanceQuestion, pair: &PairClearance) -> [&'a str; 2]
 pub(crate) fn text(scenario: &Scenario, asked: &ClearanceQuestion, found: &ClearanceResult) -> String {
     let mut text = String::new();
     let [from, to] = found.range.map(degrees);
-    say!(text, "{}", sentences::clearance_over_crank_angles_to_deg(&scenario.name, &scenario.title, &from, &to));
+    say!(text, sentences::clearance_over_crank_angles_to_deg(&scenario.name, &scenario.title, &from, &to));
     if found.pairs.is_empty() {
-        say!(text, "{}", sentences::NO_TWO_BODIES_CAN_MEET_ALL);
+        say!(text, sentences::NO_TWO_BODIES_CAN_MEET_ALL);
     } else {
         let rows = found.pairs.iter().map(|pair| {
             let ([first, second], smallest) = (names(asked, pair).map(String::from), &pair.smallest);
@@ -73,7 +73,7 @@ pub(crate) fn text(scenario: &Scenario, asked: &ClearanceQuestion, found: &Clear
         });
         let header = "bodies | | smallest mm> | at crank deg> | nearest points mm | | first contact at deg>";
         say!(text, "{}\n", trimmed(table(header).add_rows(rows)));
-        say!(text, "{}", sentences::no_distance_is_smaller_by_more(&numbers::significant(1e3 * found.tolerance, 2)));
+        say!(text, sentences::no_distance_is_smaller_by_more(&numbers::significant(1e3 * found.tolerance, 2)));
     }
     if !found.swept.is_empty() {
         let rows = found.swept.iter().map(|(body, area)| {
@@ -84,16 +84,16 @@ pub(crate) fn text(scenario: &Scenario, asked: &ClearanceQuestion, found: &Clear
         say!(text, "{}\n", trimmed(table(header).add_rows(rows)));
         if let Some((body, area)) = found.swept.iter().find(|(_, area)| area.error() > asked.area * area.value) {
             let (name, share) = (&asked.bodies[*body].name, area.error() / area.value);
-            say!(text, "{}", sentences::the_area_of_is_known_to_only_the_work(&name, &numbers::percent(share)));
+            say!(text, sentences::the_area_of_is_known_to_only_the_work(&name, &numbers::percent(share)));
         }
     }
     for &[from, to] in &found.open {
         let why = sentences::THE_MECHANISM_IS_SINGULAR_THERE;
-        say!(text, "{}", sentences::not_proven_from_to_deg(&degrees(from), &degrees(to), &why));
+        say!(text, sentences::not_proven_from_to_deg(&degrees(from), &degrees(to), &why));
     }
     let said = |text: &mut String, what: &str, (pair, meeting): (&PairClearance, Meeting)| {
         let ([one, two], crank) = (names(asked, pair), degrees(meeting.cranks[1]));
-        say!(text, "{}", sentences::and_at_crank_angle_deg_place(&what, &one, &two, &crank, &place(meeting.place)));
+        say!(text, sentences::and_at_crank_angle_deg_place(&what, &one, &two, &crank, &place(meeting.place)));
     };
     if let Some(first) = found.first_collision() {
         said(&mut text, "first collision", first);
@@ -102,7 +102,7 @@ pub(crate) fn text(scenario: &Scenario, asked: &ClearanceQuestion, found: &Clear
         said(&mut text, &sentences::first_nearer_than_the_mm(&millimetres(wanted)), first);
     }
     let (word, ClearanceWork { poses, distances, positions, squares }) = (standing(found).word(), found.work);
-    say!(text, "{}", sentences::poses_and_distances_of_convex(&word, &poses, &distances, &positions, &squares));
+    say!(text, sentences::poses_and_distances_of_convex(&word, &poses, &distances, &positions, &squares));
     text
 }
 

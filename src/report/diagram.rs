@@ -12,10 +12,10 @@ use scenario::Scenario;
 /// The diagram as text: the largest and the mean error of every method.
 pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     let mut text = String::new();
-    say!(text, "{}", sentences::over_one_turn_in_divisions(&scenario.name, &diagram.course.0[0], &diagram.divisions));
+    say!(text, sentences::over_one_turn_in_divisions(&scenario.name, &diagram.course.0[0], &diagram.divisions));
     for (which, channel) in diagram.course.0.iter().enumerate() {
         let half = significant(diagram.half_range(which));
-        say!(text, "{}", sentences::half_range(&channel.to_string(), &half, &channel.kind.unit));
+        say!(text, sentences::half_range(&channel.to_string(), &half, &channel.kind.unit));
     }
     let [method, largest, rms, share, order] = ["method", "largest error", "rms", sentences::OF_HALF_RANGE, "order"];
     say!(text, "\n  {method:34} {largest:>20} {rms:>20} {share:>14} {order:>6} {order:>6}");
@@ -28,11 +28,7 @@ pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
         say!(text, "  {:34} {largest:>20} {rms:>20} {share:>12.3} % {first:>6} {second:>6}", found.method.words());
     }
     let n = diagram.divisions;
-    say!(
-        text,
-        "{}",
-        sentences::orders_of_the_rms_error_from_to_and_from_to_divisions(&n, &(2 * n), &(2 * n), &(4 * n))
-    );
+    say!(text, sentences::orders_of_the_rms_error_from_to_and_from_to_divisions(&n, &(2 * n), &(2 * n), &(4 * n)));
     text
 }
 

@@ -43,23 +43,23 @@ pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String
             format!("{} at {}", fixed_in(value, 9, unit), fixed_in(crank.to_degrees(), 4, "deg"))
         };
         say!(text, "{name}\n  mean      {}", fixed_in(mean, 9, unit));
-        say!(text, "{}", sentences::least_greatest(&end(extremes.least), &end(extremes.greatest)));
+        say!(text, sentences::least_greatest(&end(extremes.least), &end(extremes.greatest)));
     }
     if found.added > 0.0 {
-        say!(text, "{}", sentences::motor_and_reducer_on_the_crank(&found.added));
+        say!(text, sentences::motor_and_reducer_on_the_crank(&found.added));
     }
     match &found.steady {
         None => text.push_str(sentences::NO_MOTOR_ADD_A_MOTOR_SECTION),
         Some(([crank, motor], regime)) => {
-            say!(text, "{}", sentences::averaged_model_crank_rad_motor(&crank, &motor));
+            say!(text, sentences::averaged_model_crank_rad_motor(&crank, &motor));
             let constant = found.averaged.as_ref().map(|averaged| format!(" {:.9} s", averaged.time_constant));
             let none = sentences::NONE_THE_MOTOR_LAW_IS_NOT_ONE_STRAIGHT;
-            say!(text, "{}", sentences::time_constant(&constant.as_deref().unwrap_or(none)));
-            say!(text, "{}", sentences::steady_motion(&of_regime(regime)));
+            say!(text, sentences::time_constant(&constant.as_deref().unwrap_or(none)));
+            say!(text, sentences::steady_motion(&of_regime(regime)));
         }
     }
     if let Some((wanted, flywheel)) = &found.flywheel {
-        say!(text, "{}", sentences::flywheel_for_a_non_uniformity(&wanted, &flywheel.inertia));
+        say!(text, sentences::flywheel_for_a_non_uniformity(&wanted, &flywheel.inertia));
         say!(text, "{}", of_regime(&flywheel.regime));
     }
     if by_angle {
@@ -73,8 +73,8 @@ fn of_regime(regime: &Regime) -> String {
         format!("{} at {}", fixed_in(at.omega, 9, "rad/s"), fixed_in(at.crank.to_degrees(), 4, "deg"))
     };
     let mut text = sentences::mean_rad_period(&regime.mean_speed, &regime.period);
-    say!(text, "{}", sentences::at_start_rad(&regime.start_speed));
-    say!(text, "{}", sentences::slowest_fastest(&at(&regime.slowest), &at(&regime.fastest)));
+    say!(text, sentences::at_start_rad(&regime.start_speed));
+    say!(text, sentences::slowest_fastest(&at(&regime.slowest), &at(&regime.fastest)));
     put!(text, "  non-uniformity {:.6}", regime.non_uniformity());
     text
 }
@@ -145,7 +145,7 @@ pub(crate) fn run_up(run_up: &RunUp) -> String {
         RunUpEnd::Limit(t, crank) => sentences::run_up_at_a_limit_of_rotation(&t, &degrees(crank)),
     };
     if let Some(residual) = run_up.power_residual() {
-        put!(text, "{}", sentences::motor_against_reactions_of_the_largest(&error(residual)));
+        put!(text, sentences::motor_against_reactions_of_the_largest(&error(residual)));
     }
     text.push_str("\n\n");
     text

@@ -13,7 +13,7 @@ pub fn text(proof: &Proof, further: &[LedgerEntry]) -> String {
     let case = &proof.scene.case;
     let mut text = sentences::what_ran_how_often_and_why(&proof.scenario);
     say!(text, "asked      {}", asked(case));
-    say!(text, "{}", sentences::left_out(&left_out(&proof.scene.left_out)));
+    say!(text, sentences::left_out(&left_out(&proof.scene.left_out)));
     let entries = || proof.work.iter().chain(further);
     say!(text, "Ran:");
     for entry in entries() {

@@ -25,7 +25,7 @@ pub(crate) fn text(scenario: &Scenario) -> String {
         say!(text, "source     {source}");
     }
     say!(text, "mobility   W = 3*{links} - 2*{joints} = {}", structure.mobility);
-    say!(text, "{}", sentences::structure_links(&structure.formula(mechanism)));
+    say!(text, sentences::structure_links(&structure.formula(mechanism)));
     for ((id, link), pose) in mechanism.links().entries().zip(&case.start.0) {
         let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
         let at = format!("at {}", fixed_in(pose.angle.to_degrees(), 3, "deg"));
@@ -43,13 +43,13 @@ pub(crate) fn text(scenario: &Scenario) -> String {
         let driven = if joint.name == mechanism.joints()[case.crank().joint].name { ", driven" } else { "" };
         say!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
     }
-    say!(text, "{}", sentences::groups_at_the_start_crank(&fixed_in(case.crank().start.to_degrees(), 3, "deg")));
+    say!(text, sentences::groups_at_the_start_crank(&fixed_in(case.crank().start.to_degrees(), 3, "deg")));
     for ((group, &mode), choice) in structure.groups.iter().zip(&case.modes).zip(&scenario.choices) {
         let transmission = transmission_sine(mechanism, group, &case.start)
             .map_or_else(String::new, |sine| sentences::transmission_angle_deg(&sine.abs().asin().to_degrees()));
         let (names, from) = (group.names(mechanism), from_rough_place(choice));
         let (class, order, pairs, mode) = (group.class, group.order(), group.pairs(), mode.name());
-        say!(text, "{}", sentences::class_order_mode_2(&names, &class, &order, &pairs, &mode, &transmission, &from));
+        say!(text, sentences::class_order_mode_2(&names, &class, &order, &pairs, &mode, &transmission, &from));
     }
     text
 }

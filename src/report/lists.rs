@@ -22,7 +22,7 @@ pub(crate) fn scenarios(directory: &Path, all: &[(Result<Scenario>, PathBuf)], t
         say!(text, "{}\n    {told}", file.display());
     }
     if all.is_empty() {
-        say!(text, "{}", sentences::no_scenario_files_toml_in(&directory.display()));
+        say!(text, sentences::no_scenario_files_toml_in(&directory.display()));
     }
     text
 }

@@ -50,7 +50,7 @@ fn reasons(entry: &Entry, text: &mut String) {
         say!(text, "- `{name}` ({by}): {}", line(reason.as_deref().unwrap_or_default()));
     }
     if all.len() > REASONS {
-        say!(text, "{}", sentences::and_more_5(&(all.len() - REASONS)));
+        say!(text, sentences::and_more_5(&(all.len() - REASONS)));
     }
 }
 

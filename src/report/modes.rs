@@ -39,13 +39,13 @@ pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[
         let names = group.names(mechanism);
         let open = open(scenario, all, undecided, index);
         match &found.unknown {
-            None => say!(text, "{}", sentences::real_configurations(&names, &found.modes.len())),
-            Some(why) => say!(text, "{}", sentences::only_the_followed_one_is_shown(&names, &why)),
+            None => say!(text, sentences::real_configurations(&names, &found.modes.len())),
+            Some(why) => say!(text, sentences::only_the_followed_one_is_shown(&names, &why)),
         };
         match &open {
             None => {}
-            Some(Open::Undecided(why)) => say!(text, "{}", sentences::not_decided_by_the_scenario(&why)),
-            Some(Open::After(names, number)) => say!(text, "{}", sentences::for_configuration_of(&number, &names)),
+            Some(Open::Undecided(why)) => say!(text, sentences::not_decided_by_the_scenario(&why)),
+            Some(Open::After(names, number)) => say!(text, sentences::for_configuration_of(&number, &names)),
         };
         for (number, mode) in found.modes.iter().enumerate() {
             let name = (mode.mode != AssemblyMode::Followed).then(|| format!(", {}", mode.mode.name()));

@@ -30,31 +30,30 @@ pub(crate) fn text(scenario: &Scenario, choice: &MotorChoice) -> String {
     let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
     let (at, peak) = (fixed_in(choice.peak.0.to_degrees(), 4, "deg"), choice.peak.1);
     let ([power, asked], wanted) = ([choice.power, choice.asked].map(|own| own / 1e3), choice.wanted);
-    say!(text, "{}", sentences::power_peak_at_times_rad_kw(&peak, &at, &wanted, &power));
-    say!(text, "{}", sentences::asked_kw_with_an_efficiency(&asked, &geared.efficiency));
+    say!(text, sentences::power_peak_at_times_rad_kw(&peak, &at, &wanted, &power));
+    say!(text, sentences::asked_kw_with_an_efficiency(&asked, &geared.efficiency));
     let [rated, synchronous, turning] = [motor.rated_speed, motor.synchronous_speed, wanted].map(rpm);
     let (name, kilowatts, torque) = (&motor.name, motor.power / 1e3, motor.rated_torque());
-    say!(text, "{}", sentences::motor_kw_rpm_synchronous_rpm(&name, &kilowatts, &rated, &synchronous, &torque));
-    say!(text, "{}", sentences::ratio_rpm_to_rpm(&geared.ratio, &rated, &turning));
+    say!(text, sentences::motor_kw_rpm_synchronous_rpm(&name, &kilowatts, &rated, &synchronous, &torque));
+    say!(text, sentences::ratio_rpm_to_rpm(&geared.ratio, &rated, &turning));
     let share = |torque: f64| torque / motor.rated_torque();
     let [mean, peak] = [choice.mean_torque(), choice.peak_torque()];
-    say!(text, "{}", sentences::on_the_motor_shaft_mean_of_the_rated(&mean, &share(mean)));
-    say!(text, "{}", sentences::peak_of_it_without_what_inertia(&peak, &share(peak)));
+    say!(text, sentences::on_the_motor_shaft_mean_of_the_rated(&mean, &share(mean)));
+    say!(text, sentences::peak_of_it_without_what_inertia(&peak, &share(peak)));
     if let Some(breakdown) = motor.breakdown {
         let holds = if share(choice.peak_torque()) < breakdown { sentences::ABOVE_THE_PEAK } else { "BELOW THE PEAK" };
-        say!(text, "{}", sentences::breakdown_of_it(&(breakdown * motor.rated_torque()), &breakdown, &holds));
+        say!(text, sentences::breakdown_of_it(&(breakdown * motor.rated_torque()), &breakdown, &holds));
     }
     let off = |omega: f64| 100.0 * (omega / choice.wanted - 1.0);
     let mean = choice.regime.mean_speed.abs();
     let (averaged, geared_up) = (choice.averaged, choice.averaged * geared.ratio);
     let [off_averaged, off_mean, unrest] = [off(averaged), off(mean), choice.regime.non_uniformity()];
-    say!(text, "{}", sentences::steady_speed_averaged_crank_rad(&averaged, &off_averaged, &geared_up));
-    say!(text, "{}", sentences::periodic_crank_rad_non_uniformity(&mean, &off_mean, &unrest));
+    say!(text, sentences::steady_speed_averaged_crank_rad(&averaged, &off_averaged, &geared_up));
+    say!(text, sentences::periodic_crank_rad_non_uniformity(&mean, &off_mean, &unrest));
     say!(text, "\nFor the scenario:\n\n[motor] # {name}, {kilowatts} kW, {rated:.0} rpm\nlaw = \"linear\"");
     say!(text, "torque_at_rest_N_m = {at_rest:?}\nslope_N_m_s = {slope:?}");
     say!(
         text,
-        "{}",
         sentences::ratio_efficiency(&format_args!("{:?}", geared.ratio), &format_args!("{:?}", geared.efficiency))
     );
     text

@@ -19,7 +19,7 @@ pub(crate) fn text(found: &[Mutated]) -> String {
     for one in found.iter().filter(|one| !one.instead.is_empty()) {
         let (name, instead) = (&one.scenario, one.instead.join(", "));
         let formulas = if one.formulas == 0 { sentences::NO_FORMULA_OF_IT_CLAIMS_AN_EXACT } else { "" };
-        say!(text, "{}", sentences::no_fault_of_the_kinds_asked(&name, &instead, &formulas));
+        say!(text, sentences::no_fault_of_the_kinds_asked(&name, &instead, &formulas));
     }
     say!(text, "{}\n", scenarios(found));
     say!(text, "{}\n", trimmed(table(KINDS).add_rows(kinds(found))));
@@ -51,7 +51,7 @@ fn headline(tally: &FaultCounts) -> String {
     }
     if !trunk_kinds.is_empty() {
         let [found, all] = [trunk_found.len(), trunk_kinds.len()];
-        put!(line, "{}", sentences::in_the_trunk_of_kinds_are_found(&found, &all, &percent(found, all)));
+        put!(line, sentences::in_the_trunk_of_kinds_are_found(&found, &all, &percent(found, all)));
     }
     if *formulas != Share::default() {
         put!(line, "\nformulas: {}", of_share(formulas, "mistakes"));

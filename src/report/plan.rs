@@ -24,18 +24,18 @@ pub(crate) fn text(
     let mut text = sentences::at_crank_angle(&scenario.name, &fixed_in(plans.crank.to_degrees(), 4, "deg"));
     if is_free {
         let speed = significant(scenario.case.crank().top_speed());
-        say!(text, "{}", sentences::the_motion_is_free_these(&speed));
+        say!(text, sentences::the_motion_is_free_these(&speed));
     }
-    say!(text, "{}", sentences::kinematic_diagram_mu_mm(&plans.scheme.scale));
+    say!(text, sentences::kinematic_diagram_mu_mm(&plans.scheme.scale));
     for link in &plans.scheme.links {
         let (omega, alpha) = (significant(link.omega), significant(link.alpha));
-        say!(text, "{}", sentences::omega_rad_alpha_rad_2(&link.number, &link.name, &omega, &alpha));
+        say!(text, sentences::omega_rad_alpha_rad(&link.number, &link.name, &omega, &alpha));
     }
     for plan in [&plans.velocity, &plans.acceleration] {
         let (word, symbol, unit) = (plan.quantity.word(), plan.quantity.symbol(), plan.quantity.unit());
-        say!(text, "{}", sentences::plan_pole_mu_mm(&word, &plan.quantity.pole(), &symbol, &plan.scale, &unit));
+        say!(text, sentences::plan_pole_mu_mm(&word, &plan.quantity.pole(), &symbol, &plan.scale, &unit));
         let [x, y] = ["x", "y"].map(|axis| format!("{axis}, {unit}"));
-        say!(text, "{}", sentences::vector_from_to_mm_meaning(&unit, &x, &y));
+        say!(text, sentences::vector_from_to_mm_meaning(&unit, &x, &y));
         for vector in &plan.vectors {
             let (ends, value) = (format!("{}, {}", vector.from, vector.to), vector.value);
             let [size, x, y] = [value.norm(), value.x, value.y].map(significant);
@@ -46,7 +46,7 @@ pub(crate) fn text(
     for found in singular {
         match found {
             Ok(point) => singular_text(&mut text, &scenario.case, point),
-            Err(error) => say!(text, "{}", sentences::singular_point(&error.line_by(tell))),
+            Err(error) => say!(text, sentences::singular_point(&error.line_by(tell))),
         };
     }
     text
@@ -54,13 +54,13 @@ pub(crate) fn text(
 
 fn singular_text(text: &mut String, case: &Case, point: &SingularPoint) {
     let shown = |v: linkage::math::Vec2| format!("({}, {})", significant(v.x), significant(v.y));
-    say!(text, "{}", sentences::singular_point_of_the_class(&point.lines(), &shown(point.at)));
-    say!(text, "{}", sentences::on_both_base_links(&shown(point.velocity)));
+    say!(text, sentences::singular_point_of_the_class(&point.lines(), &shown(point.at)));
+    say!(text, sentences::on_both_base_links(&shown(point.velocity)));
     let [first, second] = point.accelerations;
-    say!(text, "{}", sentences::a_on_the_first_on_the_second(&shown(first), &shown(second)));
+    say!(text, sentences::a_on_the_first_on_the_second(&shown(first), &shown(second)));
     for (link, omega, alpha) in point.links {
         let (name, omega, alpha) = (&case.mechanism.links()[link].name, significant(omega), significant(alpha));
-        say!(text, "{}", sentences::omega_rad_alpha_rad(&link, &name, &omega, &alpha));
+        say!(text, sentences::omega_rad_alpha_rad(&link, &name, &omega, &alpha));
     }
 }
 

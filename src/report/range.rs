@@ -22,10 +22,10 @@ pub(crate) fn text(scenario: &Scenario, range: &Range) -> String {
     if let Some(four_bar) = &range.four_bar {
         let [frame, driver, coupler, output] = four_bar.lengths;
         say!(text, "four-bar   {}", four_bar.of_type.name());
-        say!(text, "{}", sentences::frame_driving_link_coupler_output(&frame, &driver, &coupler, &output));
+        say!(text, sentences::frame_driving_link_coupler_output(&frame, &driver, &coupler, &output));
     }
     say!(text, "\n{}", singularities(scenario, range));
-    say!(text, "{}", sentences::groups_nearest_to_a_singular(&groups(scenario, range)));
+    say!(text, sentences::groups_nearest_to_a_singular(&groups(scenario, range)));
     say!(text, "\nLinks:\n{}", links(scenario, range));
     text
 }

@@ -47,7 +47,7 @@ pub(crate) fn text(story: &Story) -> String {
         let [drawn, assembled] = found.candidates;
         let worst = found.refined.last().copied().unwrap_or(f64::NAN);
         let [cost, refined, worst] = [found.random_cost, found.cost, worst].map(|cost| numbers::significant(cost, 4));
-        say!(text, "{}", sentences::random_candidates_of_them_assembled(&drawn, &assembled, &cost, &refined, &worst));
+        say!(text, sentences::random_candidates_of_them_assembled(&drawn, &assembled, &cost, &refined, &worst));
         let rows = task.variables.iter().zip(values).map(|(variable, &value)| {
             let show = |value: f64| match variable.is_angle {
                 true => numbers::fixed_in(value.to_degrees(), 4, "deg"),
@@ -70,7 +70,7 @@ pub(crate) fn text(story: &Story) -> String {
     let mut phases = table(header);
     phases.add_rows(rows);
     say!(text, "{phases}\n\n{}", summary(task, achieved));
-    say!(text, "{}", sentences::a_dwell_ends_where_the_output(&(100.0 * BAND)));
+    say!(text, sentences::a_dwell_ends_where_the_output(&(100.0 * BAND)));
     text
 }
 

@@ -37,11 +37,11 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     match proof.engines.as_slice() {
         [only] => {
             let table = channels(&only.channels, width);
-            say!(text, "{}", sentences::engine_against_reference_the_worst(&table));
+            say!(text, sentences::engine_against_reference_the_worst(&table));
         }
         several => {
             let table = engines::table(several, width);
-            say!(text, "{}", sentences::side_by_side_the_largest(&table));
+            say!(text, sentences::side_by_side_the_largest(&table));
             say!(text, "\n{}", wrapped(&engines::disputes(proof), width, 2));
         }
     }

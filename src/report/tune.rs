@@ -52,38 +52,38 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
     let table = trimmed(table(header).add_rows(rows));
     let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
     let within = numbers::error(within);
-    say!(text, "{}", sentences::the_cheapest_settings_within_of_every_channel(&within, &table));
+    say!(text, sentences::the_cheapest_settings_within_of_every_channel(&within, &table));
     for (name, error) in &found.too_coarse {
         match error.is_finite() {
-            true => say!(text, "{}", sentences::does_not_meet_it_its_smallest(&name, &numbers::error(*error))),
-            false => say!(text, "{}", sentences::does_not_run_it_with_any(&name, &(hints.why)(name))),
+            true => say!(text, sentences::does_not_meet_it_its_smallest(&name, &numbers::error(*error))),
+            false => say!(text, sentences::does_not_run_it_with_any(&name, &(hints.why)(name))),
         };
     }
     for name in &found.too_dear {
-        say!(text, "{}", sentences::costs_more_than_the_cheapest(&name));
+        say!(text, sentences::costs_more_than_the_cheapest(&name));
     }
     let ([error, expected], runs) = ([found.best.verified, found.predicted].map(numbers::error), found.runs);
     let engine = found.best.engine;
-    say!(text, "{}", sentences::error_measured_against_the_reference(&engine, &error, &expected, &runs));
+    say!(text, sentences::error_measured_against_the_reference(&engine, &error, &expected, &runs));
     match found.best.is_proven {
         true if found.cheapest.price < found.best.price => {
             let Settings { resolution, sweeps, .. } = found.cheapest.settings;
             let (share, name) = (found.cheapest.price / found.best.price, found.cheapest.engine);
             let step = numbers::significant(resolution, 4);
-            put!(text, "{}", sentences::a_proof_at_these_settings_agrees_at_with_sweeps(&name, &step, &sweeps));
-            say!(text, "{}", sentences::of_the_price_but_proves_less(&share))
+            put!(text, sentences::a_proof_at_these_settings_agrees_at_with_sweeps(&name, &step, &sweeps));
+            say!(text, sentences::of_the_price_but_proves_less(&share))
         }
-        true => say!(text, "{}", sentences::A_PROOF_AT_THESE_SETTINGS_AGREES),
-        false => say!(text, "{}", sentences::A_PROOF_AT_THESE_SETTINGS),
+        true => say!(text, sentences::A_PROOF_AT_THESE_SETTINGS_AGREES),
+        false => say!(text, sentences::A_PROOF_AT_THESE_SETTINGS),
     };
     if found.is_spent {
-        say!(text, "{}", sentences::THE_WORK_THAT_WAS_ALLOWED_IS_DONE);
+        say!(text, sentences::THE_WORK_THAT_WAS_ALLOWED_IS_DONE);
     }
     let Section { text: section, file, is_written } = section;
     let place = file.display();
     match is_written {
         true => say!(text, "\nWritten to {place}:\n\n{section}"),
-        false => say!(text, "{}", sentences::for_or_let_put_it_there(&place, &hints.write, &section)),
+        false => say!(text, sentences::for_or_let_put_it_there(&place, &hints.write, &section)),
     };
     text
 }

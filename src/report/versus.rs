@@ -53,11 +53,7 @@ fn of_pair(pair: &SidePair, all: bool, tell: Tell, width: usize) -> String {
     let more = order.len() - shown;
     if more > 0 {
         let is_fine = order[shown..].iter().all(|own| rank(own) <= 1.0);
-        put!(
-            told,
-            "{}",
-            sentences::and_more_6(&more, &(if is_fine { sentences::ALL_WITHIN_THEIR_BOUNDS } else { "" }))
-        );
+        put!(told, sentences::and_more_6(&more, &(if is_fine { sentences::ALL_WITHIN_THEIR_BOUNDS } else { "" })));
     }
     told += &notes(pair);
     say!(text, "\n{told}");
@@ -122,7 +118,7 @@ fn sentence(paths: [&Path; 2], pair: &SidePair) -> String {
     let told = match (disagree, open, pair.crank_is_off()) {
         (0, 0, false) => sentences::all_channels(&agree),
         (0, 0, true) => sentences::the_crank_angle_and_none(&all),
-        (0, open, false) => sentences::of_channels_2(&open, &all),
+        (0, open, false) => sentences::of_channels(&open, &all),
         (disagree, _, true) => sentences::the_crank_angle_and_of_channels(&disagree, &all),
         (disagree, _, false) => sentences::of_channels(&disagree, &all),
     };
@@ -148,12 +144,12 @@ fn rank(own: &Compared) -> f64 {
 fn notes(pair: &SidePair) -> String {
     let mut text = String::new();
     if pair.unshared > 0 {
-        put!(text, "{}", sentences::left_out_instants_of_the_second(&pair.unshared));
+        put!(text, sentences::left_out_instants_of_the_second(&pair.unshared));
     }
     let missing: usize = pair.channels.iter().map(|own| own.missing).max().unwrap_or(0);
     if missing > pair.unshared {
         let count = missing - pair.unshared;
-        put!(text, "{}", sentences::left_out_up_to_instants_of_a_channel(&count));
+        put!(text, sentences::left_out_up_to_instants_of_a_channel(&count));
     }
     let (what, factor, unit) = if pair.by_crank { ("angle", 1f64.to_degrees(), "deg") } else { ("time", 1.0, "s") };
     if let Some(Contradiction { rows: [one, other], at, channel, values }) = &pair.contradiction {
@@ -161,7 +157,6 @@ fn notes(pair: &SidePair) -> String {
         let [first, second] = numbers::beside(*values, 0.0);
         put!(
             text,
-            "{}",
             sentences::rows_and_hold_at_the_same(
                 &(one + 1),
                 &(other + 1),
@@ -176,11 +171,11 @@ fn notes(pair: &SidePair) -> String {
     }
     if let Some((row, [from, to])) = pair.turns_back {
         let [from, to] = [from, to].map(|at| numbers::significant(factor * at, 6));
-        put!(text, "{}", sentences::the_jumps_back_in_row_from_to_has_it_begun(&what, &(row + 1), &from, &to, &unit));
+        put!(text, sentences::the_jumps_back_in_row_from_to_has_it_begun(&what, &(row + 1), &from, &to, &unit));
     }
     for (side, which) in ["first", "second"].into_iter().enumerate() {
         if !pair.alone[side].is_empty() {
-            put!(text, "{}", sentences::only_in_the(&which, &some(&pair.alone[side], NAMED)));
+            put!(text, sentences::only_in_the(&which, &some(&pair.alone[side], NAMED)));
         }
     }
     text
@@ -206,7 +201,7 @@ fn cause(pair: &SidePair, explained: &Explained, width: usize) -> String {
     let most = if *left > 0.0 { sentences::FOR_THE_MOST_PART_2 } else { "" };
     line("cause", &format!("{most}{cause}"));
     for one in found.also.iter().filter(|_| explained.terms.is_empty()) {
-        line("or", &sentences::which_explains_as_much_2(&diagnosis::cause(one)));
+        line("or", &sentences::which_explains_as_much(&diagnosis::cause(one)));
     }
     let but = explained
         .but

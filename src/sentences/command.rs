@@ -157,7 +157,6 @@ linkage::sentences! {
     it_is_kept_linkproof_view(why, path) = "\n           {why}: it is kept;\n           linkproof view {path} --with foxglove -o OTHER.json writes a new one";
     mcap_is_of_another_run_and_is_kept(scenario, found) = "\n           {scenario}.mcap is of another run and is kept: {found}";
     NAME_ANOTHER_DIRECTORY_WITH_RECORD = "name another directory with --record, or use --no-record";
-    the_directory_cannot_be_made_2(directory, error) = "the directory {directory} cannot be made: {error}";
     NAME_ANOTHER_DIRECTORY_OR_USE = "name another directory, or use --no-record";
     recordings_cannot_be_written_to(record, found) = "recordings cannot be written to {record}: {found}";
     LEAVE_OUT_ONE_OF_THE_TWO = "leave out one of the two, or add --live";
@@ -177,7 +176,6 @@ linkage::sentences! {
     NAME_A_FILE_IN_A_DIRECTORY = "name a file in a directory that may be written to";
     seed_of_points_were_run_the_others(text, seed, open, total, args) = "{text}Seed {seed}. {open} of {total} points were run, the others were in {args} already.\n";
     NAME_ANOTHER_DIRECTORY_OR_REMOVE = "name another directory, or remove what is in the way";
-    cannot_be_read_2(place, error) = "{place} cannot be read: {error}";
     NAME_A_DIRECTORY_OR_A_PLACE = "name a directory, or a place where one can be made";
     // cli/synthesize/closed_form.rs
     SLIDER_CRANK_FROM_STROKE_AND_OFFSET = "Slider-crank from stroke and offset";

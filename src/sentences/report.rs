@@ -270,7 +270,6 @@ linkage::sentences! {
     between_and(sort, link, link_2) = "{sort} between {link} and {link_2}";
     from_to(sort, start, end) = "{sort} from {start} to {end}";
     at_on(sort, point, link) = "{sort} at {point} on {link}";
-    weight_of_2(mechanism) = "weight of {mechanism}";
     // report/html/words.rs
     SETTINGS_AND_VERSIONS = "Settings and versions";
     INERTIA_KG = "inertia kg m²";
@@ -343,7 +342,6 @@ found down to: sizes above this are found in every scenario, to a factor of two;
     singular_point(error) = "\nsingular point: {error}";
     vector_from_to_mm_meaning(unit, x, y) = "  vector     from, to   {unit:>10} {x:>11} {y:>11}       mm  meaning";
     plan_pole_mu_mm(word, plan, symbol, scale, unit) = "\n{word} plan   pole {plan}, mu_{symbol} = {scale} ({unit})/mm";
-    omega_rad_alpha_rad_2(number, link, omega, alpha) = "  {number} {link:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s^2";
     kinematic_diagram_mu_mm(scale) = "kinematic diagram   mu_l = {scale} m/mm";
     the_motion_is_free_these(speed) = "the motion is free: these plans are of the nominal motion, the crank turning at {speed} rad/s";
     // report/range.rs
@@ -413,7 +411,6 @@ found down to: sizes above this are found in every scenario, to a factor of two;
     at_most_of_the_difference(numbers, but) = "at most {numbers} of the difference{but}";
     nothing_beyond_the_bounds(but) = "nothing beyond the bounds{but}";
     but_for_the_row_at_which_is_off(numbers) = ", but for the row at t = {numbers} s, which is off by itself";
-    which_explains_as_much_2(diagnosis) = "{diagnosis}, which explains as much";
     FOR_THE_MOST_PART_2 = "for the most part, ";
     crank_angle_deg(time, crank) = "t = {time} s, crank angle {crank} deg";
     only_in_the(which, some) = "\nonly in the {which}: {some}";
@@ -424,7 +421,6 @@ found down to: sizes above this are found in every scenario, to a factor of two;
     of_values(judged, of) = "{judged} of {of} values";
     of_channels(disagree, all) = "{disagree} of {all} channels";
     the_crank_angle_and_of_channels(disagree, all) = "the crank angle, and {disagree} of {all} channels";
-    of_channels_2(open, all) = "{open} of {all} channels";
     the_crank_angle_and_none(all) = "the crank angle, and none of {all} channels";
     all_channels(agree) = "all {agree} channels";
     THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH = "The rest is off by less than a fiftieth of its scale, as by the error of a method or of its step. Bounds are what digits and the analytic sides leave open: say what the other party is trusted to.";

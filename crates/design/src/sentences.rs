@@ -21,7 +21,6 @@ linkage::sentences! {
     normal_part_along_omega(of) = "normal part along {of}, omega^2 l";
     coriolis_part_omega_perpendicular_to_the_guide(joint) = "Coriolis part, 2 omega x v, perpendicular to the guide {joint}";
     of_relative_to(quantity, own, under, along) = "{quantity} of {own} relative to {under}{along}";
-    of_relative_to_2(word, to, name, line) = "{word} of {to} relative to {name}{line}";
     perpendicular_to(pair) = ", perpendicular to {pair}";
     of_the_point_of_link_under(word, under, guide, named, direction) = "{word} of {under}, the point of link {guide} under {named}{direction}";
     of_the_mass_centre_of_link(word, number, link, guide) = "{word} of the mass centre of link {number} ({link}){guide}";

@@ -15,7 +15,6 @@ linkage::sentences! {
     expected_a_directory_that_may(directory, why) = "{directory}: {why}; expected a directory that may be written to";
     expected_a_directory(there, error) = "{there}: {error}; expected a directory";
     is_no_directory_expected_one(there) = "{there} is no directory; expected one";
-    expected_a_directory_that_may_be_written(directory, error) = "{directory}: {error}; expected a directory that may be written to";
     there_is_no_directory_expected(directory) = "there is no directory {directory}; expected one that is there";
     is_no_directory_expected_a_file(directory) = "{directory} is no directory; expected a file in a directory";
     expected_a_file(error) = "{error}; expected a file";

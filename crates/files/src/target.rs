@@ -114,7 +114,7 @@ pub fn may_write(path: &Path) -> Result<(), String> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             Err(sentences::there_is_no_directory_expected(&directory.display()))
         }
-        Err(error) => Err(sentences::expected_a_directory_that_may_be_written(&directory.display(), &error)),
+        Err(error) => Err(sentences::expected_a_directory_that_may(&directory.display(), &error)),
     }
 }
 

@@ -263,7 +263,7 @@ fn side(table: &TomlTable, mechanism: &Mechanism, link: LinkId, point: &str, key
     let body = &mechanism.links()[link];
     let found = body.points.iter().find(|found| found.name == point);
     let missing = || -> Error {
-        let error = table.wrong(ErrorKind::Input, key, sentences::link_has_no_point_2(&body.name, &point));
+        let error = table.wrong(ErrorKind::Input, key, sentences::link_has_no_point(&body.name, &point));
         error.help(suggestion(point, body.points.iter().map(|point| point.name.as_str()), "\""))
     };
     found.map(|found| JointSide { link, local: found.local }).ok_or_else(missing)

@@ -26,7 +26,7 @@ pub(super) fn no_toml(text: &str, place: Places, error: &toml::de::Error) -> Err
             .help(sentences::decimals_take_a_point_write(&(found.replace(',', "."))));
     }
     let message = error.message().trim().replace('\n', ", ");
-    Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml_2(&message))
+    Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml(&message))
         .at(place(span))
         .help(sentences::A_KEY_IS_WRITTEN_NAME_VALUE)
 }

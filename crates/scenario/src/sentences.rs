@@ -169,7 +169,6 @@ linkage::sentences! {
     WRITE_POINTS_A_POINT_OF_THE_FIRST_LINK = "write `points = [\"S\", \"B\"]`: a point of the first link and one of the second";
     it_acts_between_and_itself(first) = "it acts between \"{first}\" and itself";
     found_links_but_this_load(names) = "found {names} links, but this load acts between two";
-    link_has_no_point_2(body, point) = "link \"{body}\" has no point \"{point}\"";
     NAME_A_LINK_THAT_TURNS = "name a link that turns";
     link_does_not_turn_prismatic(name) = "link \"{name}\" does not turn: prismatic joints alone connect it with the ground";
     NAME_A_MOVING_LINK = "name a moving link";
@@ -196,7 +195,6 @@ linkage::sentences! {
     first_in_line(message, line) = "{message}, first in line {line}";
     the_file_is_not_valid_toml_duplicate(key) = "the file is not valid TOML: duplicate key, `{key}` is given twice";
     A_KEY_IS_WRITTEN_NAME_VALUE = "a key is written `name = value`, a section `[name]`, text stands in \"quotes\"";
-    the_file_is_not_valid_toml_2(message) = "the file is not valid TOML: {message}";
     decimals_take_a_point_write(found) = "decimals take a point: write {found}";
     the_file_is_not_valid_toml_has_a_decimal(found) = "the file is not valid TOML: `{found}` has a decimal comma";
     // mapping.rs

@@ -36,7 +36,7 @@ pub(super) fn why(proof: &Proof, tell: Tell) -> String {
 pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     let mut told = String::new();
     if proof.engines.len() > 1 {
-        say!(told, "{}", sentences::engines_and_reference_against_each(&engines::disputes(proof)));
+        say!(told, sentences::engines_and_reference_against_each(&engines::disputes(proof)));
     }
     // What does not decide the verdict may be open beside an agreement.
     if agrees(proof) {
@@ -45,7 +45,7 @@ pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     let all = grouped(proof, tell);
     write(&all, if agrees(proof) { 0 } else { FIRST }..MOST, &mut told);
     if all.len() > MOST {
-        say!(told, "{}", sentences::of_more_the_channels_and_the_table(&(all.len() - MOST)));
+        say!(told, sentences::of_more_the_channels_and_the_table(&(all.len() - MOST)));
     }
     reasons::left_out(proof, None, &mut told);
     reasons::expected(proof, tell, &mut told);

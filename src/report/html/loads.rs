@@ -58,7 +58,7 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
         Some(json!({ "name": name, "on": side(at), "torque": torque }))
     });
     let weights = list(weights(case), |own| {
-        let name = sentences::weight_of_2(&mechanism.links()[own.at.link].name);
+        let name = sentences::weight_of(&mechanism.links()[own.at.link].name);
         json!({ "name": name, "on": side(own.at), "force": pair(own.force) })
     });
     json!({

@@ -89,7 +89,7 @@ pub(super) fn body(outcomes: &[&StressOutcome]) -> String {
         }
     }
     for (at, why) in refused(outcomes) {
-        say!(reasons, "{}", sentences::no_mechanism_at(&at, &why));
+        say!(reasons, sentences::no_mechanism_at(&at, &why));
     }
     format!("{found}\n{reasons}")
 }

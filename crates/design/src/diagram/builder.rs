@@ -129,7 +129,7 @@ impl<'a> Builder<'a> {
             let (from, to) = (from.named, to.named);
             let line = sentences::perpendicular_to(&pair(&from.name, &to.name));
             let line = self.quantity.of(line.as_str(), "");
-            let meaning = sentences::of_relative_to_2(&word, &to.name, &from.name, &line);
+            let meaning = sentences::of_relative_to(&word, &to.name, &from.name, &line);
             let name = format!("{symbol}_{}", pair(&to.name, &from.name));
             self.push(name, VectorKind::Relative, [&from.letter, &to.letter], value, link, meaning);
         }
