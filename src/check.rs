@@ -79,13 +79,13 @@ pub fn check(scenario: &Scenario) -> Result<Claimed> {
 /// Judges one formula against a scenario, as [`check`] does those of its file.
 ///
 /// ```
-/// use linkproof::parts::Question;
+/// use linkproof::parts::FormulaQuestion;
 /// use linkproof::{Scenario, check_formula};
 ///
 /// # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
 /// let scenario = Scenario::load("scenarios/formulas/slider_crank_centric.toml")?;
-/// let right = Question::of("r*cos(phi) + sqrt(l^2 - (r*sin(phi))^2)", "point.B.x_m");
-/// let wrong = Question::of("r*cos(phi) + sqrt(l^2 + (r*sin(phi))^2)", "point.B.x_m");
+/// let right = FormulaQuestion::of("r*cos(phi) + sqrt(l^2 - (r*sin(phi))^2)", "point.B.x_m");
+/// let wrong = FormulaQuestion::of("r*cos(phi) + sqrt(l^2 + (r*sin(phi))^2)", "point.B.x_m");
 /// assert_eq!(check_formula(&scenario, &right)?.verdict.word(), "agree");
 /// assert_eq!(check_formula(&scenario, &wrong)?.verdict.word(), "disagree");
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -19,12 +19,12 @@ const AMONG: [f64; 2] = [100.0, 96.0];
 /// Draws a mechanism; gives the bytes of a file.
 ///
 /// ```
-/// use linkproof::parts::{Medium, Wish};
+/// use linkproof::parts::{Medium, PictureOptions};
 /// use linkproof::{Scenario, draw};
 ///
 /// # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
 /// let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
-/// let picture = draw(scenario, &Wish { crank: Some(0.5), ..Wish::default() }, Medium::Svg)?;
+/// let picture = draw(scenario, &PictureOptions { crank: Some(0.5), ..PictureOptions::default() }, Medium::Svg)?;
 /// assert!(String::from_utf8(picture)?.starts_with("<svg"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -45,18 +45,18 @@
 //! A table, a recording or another program's solution against a scenario:
 //!
 //! ```
-//! use linkproof::parts::{How, Mapping, Party};
+//! use linkproof::parts::{ComparedParty, ComparisonRule, Mapping};
 //! use linkproof::{Scenario, compare, solve};
 //!
 //! # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
 //! let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
 //! let solved = solve(&scenario.case)?;
-//! let found = compare([scenario.clone().into(), solved.into()], &How::default())?;
+//! let found = compare([scenario.clone().into(), solved.into()], &ComparisonRule::default())?;
 //! assert_eq!(found.verdict.word(), "agree");
 //!
 //! let mapping = Mapping::load("examples/foreign/mujoco_crank_rocker.map.toml".as_ref())?;
-//! let table = Party::table("examples/foreign/data/wrong_mujoco_late.csv", &mapping)?;
-//! let found = compare([scenario.into(), table], &How::default())?;
+//! let table = ComparedParty::table("examples/foreign/data/wrong_mujoco_late.csv", &mapping)?;
+//! let found = compare([scenario.into(), table], &ComparisonRule::default())?;
 //! assert_eq!(found.verdict.word(), "disagree");
 //! println!("{}", found.pairs[0].channels[0].since.unwrap().difference);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
