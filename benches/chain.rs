@@ -9,7 +9,7 @@ use analytic::{AssurSolver, NewtonSolver};
 use lab::stress::named;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
-use prover::proof::beside::sides;
+use prover::run::beside::sides;
 
 /// Timings, of which the shortest counts. What takes longer than a second is timed once.
 const REPEATS: usize = 5;

@@ -10,7 +10,7 @@ use linkage::case::Grid;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
-use prover::claims::{KnownTrajectory, judge, needed};
+use prover::check::{KnownTrajectory, judge, needed};
 use scenario::{Scenario, files_in};
 
 /// Timings, of which the shortest counts: other activity of the machine only adds time.

@@ -121,7 +121,7 @@ fn main() {
         let sides: Vec<RecordedSide> = std::iter::once(reference).chain(other).collect();
         let recording = shortest(|| record(&own, &sides, engine.errors.as_ref(), &ours));
 
-        let solved = prover::proof::solve(&long).unwrap();
+        let solved = prover::run::solve(&long).unwrap();
         let sides = ["reference", "engine"].map(|name| RecordedSide { name, trajectory: &solved });
         let writing = shortest(|| record(&own, &sides, None, &ours));
         let bytes = fs::read(&ours).unwrap();

@@ -16,7 +16,7 @@ use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::trajectory::Stage;
 use prover::engines::EngineName;
-use prover::proof::Options;
+use prover::run::Options;
 use scenario::Scenario;
 
 #[path = "../tests/suite/tune/exhaustive.rs"]

@@ -9,7 +9,7 @@ use analytic::AssurSolver;
 use linkage::engine::{Engine, Settings};
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use prover::compare::residuals;
+use prover::bounds::residuals;
 use rapier_twin::Rapier;
 use scenario::Scenario;
 

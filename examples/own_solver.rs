@@ -10,7 +10,7 @@ use linkage::math::{Motion, Vec2, unit};
 use linkage::solver::{Progress, Provision, Solver, State, Visit};
 use linkproof::parts::{Channel, Reference, Stage, Wanted};
 use linkproof::{Case, Scenario};
-use prover::compare::residuals;
+use prover::bounds::residuals;
 
 /// Lengths of crank, coupler, rocker and ground (m), and the angle of the line between the fixed pivots (rad).
 struct Freudenstein {

@@ -13,8 +13,8 @@ use linkage::case::{Case, Wanted};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use prover::compare::convergence::observed_order;
-use prover::compare::residuals;
+use prover::bounds::convergence::observed_order;
+use prover::bounds::residuals;
 use scenario::Scenario;
 
 fn solve(solver: &dyn Solver, case: &Case) -> Option<(Trajectory, f64)> {

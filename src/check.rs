@@ -1,7 +1,7 @@
 //! Formulas against a mechanism, over its whole motion.
 
 use linkage::error::{Error, ErrorKind, Result};
-use prover::proof::solved::{Claimed, judge};
+use prover::run::solved::{Claimed, judge};
 use scenario::formula::{fault_of_claim, refused};
 use scenario::{Claim, Scenario};
 

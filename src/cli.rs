@@ -7,6 +7,7 @@ mod bench;
 mod check;
 mod clearance;
 mod compare;
+mod completions;
 mod diagram;
 mod docs;
 mod draw;
@@ -22,6 +23,7 @@ mod jobs;
 mod list;
 mod live;
 mod load;
+mod man;
 mod mutate;
 mod new;
 mod number;
@@ -33,7 +35,6 @@ mod record_args;
 mod reports;
 mod run;
 mod schema;
-mod shell;
 mod solve;
 mod stress;
 mod synthesize;
@@ -44,7 +45,6 @@ use std::process::ExitCode;
 
 use crate::plain::style::wrapped;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use linkage::error::Result;
 use output::End;
 
 /// Most columns of help.
@@ -137,9 +137,9 @@ commands! {
         /// Write the format of scenario files as a JSON Schema, by which editors complete and check keys
         Schema(schema::Args) = schema::schema,
         /// Write the completions of a shell
-        Completions(shell::CompletionArgs) = completions,
+        Completions(completions::Args) = completions::run,
         /// Write the manual: the page of linkproof, or the pages of all commands
-        Man(shell::ManArgs) = man,
+        Man(man::Args) = man::run,
     }
 }
 
@@ -161,14 +161,6 @@ fn command() -> clap::Command {
     ))
 }
 
-fn completions(args: &shell::CompletionArgs) -> Result<()> {
-    shell::completions(args, Cli::command())
-}
-
-fn man(args: &shell::ManArgs) -> Result<()> {
-    shell::man(args, Cli::command())
-}
-
 /// Runs the command line and returns its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
@@ -187,6 +179,22 @@ mod tests {
     #[test]
     fn arguments_are_consistent() {
         Cli::command().debug_assert();
+    }
+
+    /// Commands that need no room besides `src/cli/NAME.rs`: their work is done by the solvers, the scenario or the documents.
+    const ONLY_HERE: [&str; 9] = ["completions", "docs", "inspect", "list", "man", "new", "schema", "solve", "view"];
+
+    /// From a command's name to its room in one hop: `src/cli/NAME.rs`, and the room `NAME` of the crate that does the work.
+    #[test]
+    fn every_command_has_a_room_of_its_name() {
+        let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let crates = ["src", "crates/prover/src", "crates/design/src", "crates/lab/src"];
+        for command in Cli::command().get_subcommands() {
+            let file = format!("{}.rs", command.get_name());
+            assert!(top.join("src/cli").join(&file).is_file(), "src/cli/{file}");
+            let found = crates.iter().any(|source| top.join(source).join(&file).is_file());
+            assert_eq!(found, !ONLY_HERE.contains(&command.get_name()), "room of {file}");
+        }
     }
 
     /// Our documents: those of the top, of `docs` and of the example for Python.

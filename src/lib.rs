@@ -96,11 +96,11 @@ pub use draw::draw;
 #[doc(inline)]
 pub use linkage::case::Case;
 #[doc(inline)]
-pub use prover::compare::Verdict;
+pub use prover::bounds::Verdict;
 #[doc(inline)]
-pub use prover::proof::{Options, Proof, prove, solve};
+pub use prover::compare::compare;
 #[doc(inline)]
-pub use prover::versus::compare;
+pub use prover::run::{Options, Proof, prove, solve};
 #[doc(inline)]
 pub use scenario::Scenario;
 
@@ -115,12 +115,12 @@ pub mod parts {
     pub use linkage::error::{Advice, Error, ErrorKind};
     pub use linkage::mechanism::AssemblyMode;
     pub use linkage::trajectory::{Channel, Stage, Trajectory};
-    pub use prover::compare::{Check, Residual};
+    pub use prover::bounds::{Check, Residual};
+    pub use prover::compare::{Compared, ComparedParty, ComparisonRule, PartyComparison, RowPair, SidePair};
     pub use prover::engines::EngineName;
-    pub use prover::proof::solved::Claimed;
-    pub use prover::proof::{ChannelProof, EngineInfo, EngineProof, Reference, prove_with};
+    pub use prover::run::solved::Claimed;
+    pub use prover::run::{ChannelProof, EngineInfo, EngineProof, Reference, prove_with};
     pub use prover::tables::By;
-    pub use prover::versus::{Compared, ComparedParty, ComparisonRule, PartyComparison, RowPair, SidePair};
     pub use scenario::mapping::{Allowed, Mapped, Mapping, Size};
     pub use scenario::{EngineSetting, EngineSettings, SettingOrigin};
 }

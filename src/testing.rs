@@ -17,8 +17,8 @@ use crate::sentences;
 use linkage::case::Grid;
 use linkage::drive::Drive;
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use prover::compare::Verdict;
-use prover::proof::{Options, Proof, prove};
+use prover::bounds::Verdict;
+use prover::run::{Options, Proof, prove};
 use scenario::grid::listed;
 use scenario::{Scenario, StartRequest};
 

@@ -12,7 +12,7 @@ use crate::plain::brief;
 use crate::report::accept::{Deed, Document, Item, text};
 use linkage::error::{Error, ErrorKind, Result};
 use prover::accept::{compared, figures, renewed};
-use prover::proof::{Proof, Reference, memory, prove_with};
+use prover::run::{Proof, Reference, memory, prove_with};
 use scenario::Scenario;
 use scenario::accepted::{self, beside};
 

@@ -10,7 +10,7 @@ use super::{exit_code, load, output};
 use crate::report::clearance::{self as report, Standing};
 use analytic::range::explained;
 use design::clearance::{ClearanceResult, course, find};
-use design::diagram::draw;
+use design::draw;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
 use scenario::clearance::ClearanceQuestion;

@@ -11,12 +11,12 @@ use super::number::not_negative;
 use super::reports::Reports;
 use super::{advice, exit_code, load, output};
 use crate::plain::style::Detail;
+use crate::report::compare as report;
 use crate::report::outcomes::Outcomes;
-use crate::report::versus as report;
 use linkage::error::Result;
-use prover::proof::memory;
+use prover::compare::{ComparedParty, ComparisonRule, compare as compared};
+use prover::run::memory;
 use prover::tables::By;
-use prover::versus::{ComparedParty, ComparisonRule, compare as compared};
 use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 
 #[derive(Debug, clap::Args)]

@@ -7,9 +7,10 @@ use super::load::plain;
 use super::{number, output};
 use crate::report::diagram as report;
 use analytic::range::explained;
-use design::diagram::{MotionCurve, MotionDiagram, draw};
+use design::diagram::{MotionCurve, MotionDiagram};
+use design::draw;
 use linkage::error::Result;
-use prover::proof::Reference;
+use prover::run::Reference;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/diagram.txt").trim_ascii_end())]

@@ -8,7 +8,7 @@ use super::output::{self, refused};
 use super::{exit_code, load, number};
 use crate::draw::{Drawn, Medium, Note, PictureOptions, picture};
 use linkage::error::{Error, ErrorKind, Result};
-use prover::proof::Reference;
+use prover::run::Reference;
 use scenario::StartRequest;
 
 #[derive(Debug, clap::Args)]

@@ -14,9 +14,9 @@ use analytic::range::explained;
 use analytic::reduced::means as reduced;
 use analytic::reduced::{ACCURACY, ReducedModel, RunUp};
 use analytic::steady::Averaged;
-use design::catalogue;
-use design::flywheel::Flywheel;
-use design::motor::MotorChoice;
+use design::drive::catalogue;
+use design::drive::flywheel::Flywheel;
+use design::drive::motor::MotorChoice;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
 

@@ -8,7 +8,7 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::error::Error;
 use prover::engines::EngineName;
-use prover::proof::{Options, Reference, memory};
+use prover::run::{Options, Reference, memory};
 use scenario::engine::{ROWS, SettingRow, Slot};
 use scenario::{EngineSetting, EngineSettings, Scenario, SettingOrigin};
 

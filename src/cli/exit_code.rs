@@ -1,6 +1,6 @@
 //! Exit codes.
 
-use prover::compare::Verdict;
+use prover::bounds::Verdict;
 
 /// Exit code when everything agrees.
 pub const AGREE: u8 = 0;

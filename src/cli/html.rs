@@ -13,7 +13,7 @@ use analytic::range::explained;
 use analytic::reduced::ReducedModel;
 use design::diagram::Graphs;
 use linkage::error::{Error, ErrorKind, Result};
-use prover::proof::Proof;
+use prover::run::Proof;
 use scenario::Scenario;
 
 /// Crank angle between two rows of the reduced quantities (deg): only their means and extremes are told.

@@ -8,7 +8,7 @@ use analytic::range::explained;
 use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::work::limited;
-use prover::proof::BUDGET;
+use prover::run::BUDGET;
 use scenario::StartRequest;
 
 #[derive(Debug, clap::Args)]

@@ -31,7 +31,7 @@ use linkage::error::{Error, ErrorKind, Result};
 #[cfg(not(feature = "live"))]
 use {
     super::record_args::RecordArgs,
-    prover::proof::{Proof, Reference},
+    prover::run::{Proof, Reference},
     scenario::Scenario,
     std::path::Path,
 };

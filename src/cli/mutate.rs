@@ -13,7 +13,7 @@ use crate::plain::errors;
 use crate::report::mutate as report;
 use lab::mutate::{FaultTally, FaultyParty, MutationPlan, all, mutate, named, tally};
 use linkage::error::Result;
-use prover::proof::Reference;
+use prover::run::Reference;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/mutate.txt").trim_ascii_end())]

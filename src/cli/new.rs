@@ -94,7 +94,7 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
 
 /// Says why the mechanism cannot be assembled or does not turn; the exit code.
 fn told(text: &str, path: &Path, template: &Template) -> u8 {
-    let Err(error) = Scenario::parse(text, path).and_then(|scenario| prover::proof::solve(&scenario.case)) else {
+    let Err(error) = Scenario::parse(text, path).and_then(|scenario| prover::run::solve(&scenario.case)) else {
         return exit_code::AGREE;
     };
     output::show(&error);

@@ -8,10 +8,11 @@ use super::load::plain;
 use super::{advice, number, output};
 use crate::report::plan as report;
 use analytic::range::explained;
-use design::diagram::plan::state_at;
-use design::diagram::{Plans, SingularPoint, draw};
+use design::draw;
+use design::plan::state_at;
+use design::plan::{Plans, SingularPoint};
 use linkage::error::{Error, ErrorKind, Result};
-use prover::proof::Reference;
+use prover::run::Reference;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/plan.txt").trim_ascii_end())]

@@ -10,7 +10,7 @@ use crate::report::{layout, recorded};
 use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
-use prover::proof::Proof;
+use prover::run::Proof;
 use recording::{self, RecordedSide, Recording, RecordingPlace, Show};
 use scenario::Scenario;
 #[cfg(feature = "live")]

@@ -15,7 +15,7 @@ use super::progress::Shared;
 use super::{load, output};
 use linkage::error::Result;
 use linkage::threads::cores;
-use prover::proof::{Proof, memory, prove_with};
+use prover::run::{Proof, memory, prove_with};
 use scenario::{Scenario, StartRequest};
 use session::Session;
 

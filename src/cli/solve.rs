@@ -14,8 +14,8 @@ use crate::report::table_csv;
 use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
 use prover::engines::EngineName;
-use prover::proof::Reference;
-use prover::proof::memory;
+use prover::run::Reference;
+use prover::run::memory;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/solve.txt").trim_ascii_end())]

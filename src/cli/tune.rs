@@ -10,7 +10,7 @@ use crate::report::tune as report;
 use lab::tune::{Candidate, WantedAccuracy, by_work, tune};
 use linkage::engine::Engine;
 use linkage::error::{Advice, Error, Result};
-use prover::proof::Reference;
+use prover::run::Reference;
 use scenario::EngineSettings;
 use scenario::{Scenario, edit};
 

@@ -7,7 +7,7 @@ use drawing::bitmap::{Bitmap, bitmap, to_gif, to_png, to_webp};
 use drawing::paper::document::document;
 use drawing::paper::figure::DrawnFigure;
 use linkage::error::Result;
-use prover::proof::Reference;
+use prover::run::Reference;
 
 /// What is asked of a picture.
 #[derive(Clone, Debug, Default)]

@@ -3,8 +3,8 @@
 use super::media::{Medium, PictureOptions};
 use super::motion::{swung, turned, with_travels};
 use crate::sentences;
-use design::diagram::draw::significant;
-use design::diagram::plan::state_at;
+use design::draw::significant;
+use design::plan::state_at;
 use drawing::lay::{GroupPlacement, Laid, all_modes, lay, lay_loose};
 use drawing::sheet::SheetCell;
 use drawing::view::{DrawnSubject, Extras, Shot, Trace, cells};

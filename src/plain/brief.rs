@@ -7,7 +7,7 @@ use super::{Tell, engines, reasons};
 use crate::sentences;
 use linkage::trajectory::{Channel, Trajectory, Unit};
 use prover::numbers;
-use prover::proof::{EngineInfo, Proof};
+use prover::run::{EngineInfo, Proof};
 
 /// Channels that are shown with their values.
 const WORST: usize = 3;

@@ -6,9 +6,9 @@ use super::judged::{Grade, grade, worst};
 use crate::sentences;
 use linkage::solver::Provision;
 use linkage::trajectory::Stage;
-use prover::compare::overall;
+use prover::bounds::overall;
 use prover::numbers;
-use prover::proof::{EngineProof, ForceFault, Proof};
+use prover::run::{EngineProof, ForceFault, Proof};
 
 /// One row per engine, one column per stage: the channel that uses the largest share of its bound.
 pub fn table(engines: &[EngineProof], width: Option<usize>) -> String {

@@ -5,8 +5,8 @@ use crate::sentences;
 use std::cmp::Reverse;
 
 use linkage::math::statistics::share;
-use prover::compare::{Check, Verdict};
-use prover::proof::{ChannelProof, EngineProof, Proof};
+use prover::bounds::{Check, Verdict};
+use prover::run::{ChannelProof, EngineProof, Proof};
 
 linkage::words! {
     /// What a verdict comes to; the gravest is the last.

@@ -7,8 +7,8 @@ use super::style::wrapped;
 use super::{Tell, diagnosis};
 use crate::sentences;
 use linkage::error::Advice;
-use prover::compare::{Check, Verdict};
-use prover::proof::Proof;
+use prover::bounds::{Check, Verdict};
+use prover::run::Proof;
 
 /// Why something disagrees or is open, with the way out: `most` reasons in full, what disagrees first.
 pub fn reasons(proof: &Proof, tell: Tell, width: Option<usize>, most: usize, text: &mut String) {

@@ -5,7 +5,7 @@ use anstyle::{AnsiColor, Style};
 use textwrap::{Options, WordSplitter, wrap};
 
 use super::judged::{Grade, grade};
-use prover::compare::Verdict;
+use prover::bounds::Verdict;
 
 /// How much a report tells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,7 +14,7 @@ use crate::plain::judged::{Grade, grade};
 use linkage::error::Error;
 use linkage::trajectory::Channel;
 use prover::accept::{ChannelFigure, FigureComparison, Moved, Wider};
-use prover::proof::Proof;
+use prover::run::Proof;
 use scenario::accepted::Accepted;
 
 /// Channels of which figures are shown; the others are counted.

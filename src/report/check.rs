@@ -11,11 +11,11 @@ use crate::plain::Tell;
 use crate::plain::cells::{counted, flush, trimmed};
 use crate::plain::judged::Grade;
 use crate::plain::style::{self, wrapped};
-use prover::claims::{CUT, FormulaAtInstant, FormulaCause, FormulaOutcome, JudgedFormula, Missing, Term, WORDS};
-use prover::compare::Verdict;
+use prover::bounds::Verdict;
+use prover::check::{CUT, FormulaAtInstant, FormulaCause, FormulaOutcome, JudgedFormula, Missing, Term, WORDS};
 use prover::numbers::{beside, error, fixed, fixed_in, with_unit};
-use prover::proof::Reference;
-use prover::proof::solved::Claimed;
+use prover::run::Reference;
+use prover::run::solved::Claimed;
 use scenario::{Formula, Scenario};
 
 /// Claims that the short report shows with their values.

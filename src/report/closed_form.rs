@@ -4,8 +4,8 @@ use crate::sentences;
 use serde_json::json;
 
 use super::pretty::pretty;
-use design::synthesis::crank_rocker::{CrankRocker, RockerExtreme};
-use design::synthesis::slider_crank::SliderCrank;
+use design::synthesize::crank_rocker::{CrankRocker, RockerExtreme};
+use design::synthesize::slider_crank::SliderCrank;
 use prover::numbers::fixed_in;
 
 /// A result as text and as JSON.

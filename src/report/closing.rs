@@ -4,9 +4,9 @@ use crate::plain::brief::resolution;
 use crate::plain::cells::{flush, trimmed};
 use crate::plain::judged::{Grade, grade, ranked};
 use linkage::math::statistics::share;
-use prover::compare::Check;
+use prover::bounds::Check;
 use prover::numbers::percent;
-use prover::proof::Proof;
+use prover::run::Proof;
 
 /// What came of the files so far, in their order: scenario, verdict, what is worst, its share of its bound, engine.
 #[derive(Clone, Debug, Default)]

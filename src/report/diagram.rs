@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::pretty::{list, pretty};
 use design::diagram::MotionDiagram;
-use design::diagram::draw::significant;
+use design::draw::significant;
 use prover::numbers;
 use scenario::Scenario;
 

@@ -10,7 +10,7 @@ use analytic::reduced::{RunUp, RunUpEnd};
 use analytic::steady::course::{Extremes, ReducedRow};
 use analytic::steady::regime::SpeedAtCrank;
 use analytic::steady::{Averaged, Regime};
-use design::flywheel::Flywheel;
+use design::drive::flywheel::Flywheel;
 use prover::numbers::{error, fixed, fixed_in};
 use scenario::Scenario;
 

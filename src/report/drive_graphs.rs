@@ -4,7 +4,8 @@ use super::drive::Found;
 use crate::sentences;
 use analytic::steady::Regime;
 use analytic::steady::course::{Extremes, ReducedRow};
-use design::diagram::{CrankGraph, GraphPoint, Graphs, draw};
+use design::diagram::{CrankGraph, GraphPoint, Graphs};
+use design::draw;
 use linkage::math::KeepNan;
 use scenario::Scenario;
 

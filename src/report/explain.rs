@@ -5,7 +5,7 @@ use crate::sentences;
 use linkage::case::{Case, LeftOut};
 use linkage::trajectory::Stage;
 use linkage::work::Work;
-use prover::proof::{LedgerEntry, Proof};
+use prover::run::{LedgerEntry, Proof};
 
 /// The page of one proof. `further` are parts that the command adds: recording, other files.
 #[must_use]

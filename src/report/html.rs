@@ -21,7 +21,7 @@ use drawing::{Sketch, Travels};
 use markup::contained;
 pub(super) use markup::{escaped, filled};
 use placed::Placed;
-use prover::proof::Proof;
+use prover::run::Proof;
 use serde_json::Value;
 use thinned::Thinned;
 

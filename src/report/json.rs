@@ -13,9 +13,9 @@ use linkage::case::LeftOut;
 use linkage::error::{Advice, Error};
 use linkage::solver::Provision;
 use linkage::work::Work;
-use prover::compare::{Check, Verdict};
+use prover::bounds::{Check, Verdict};
 use prover::diagnosis::{Diagnosis, PartyStanding, Since};
-use prover::proof::{
+use prover::run::{
     ChannelProof, Dispute, EngineInfo, EngineProof, ForceFault, LedgerEntry, Proof, SearchEnd, SettingsSearch,
 };
 

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use serde_json::json;
 
 use super::pretty::pretty;
-use design::motor::MotorChoice;
+use design::drive::motor::MotorChoice;
 use linkage::drive::MotorLaw;
 use prover::numbers::fixed_in;
 use scenario::Scenario;

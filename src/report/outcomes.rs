@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use super::versus;
+use super::compare;
 use crate::plain::Tell;
 use crate::plain::judged::{self, Grade, JudgedNumber, Sort, grade};
 use linkage::error::Error;
-use prover::compare::Verdict;
-use prover::proof::Proof;
-use prover::versus::{PartyComparison, SidePair};
+use prover::bounds::Verdict;
+use prover::compare::{PartyComparison, SidePair};
+use prover::run::Proof;
 
 /// One channel or check.
 #[derive(Clone, Debug)]
@@ -57,7 +57,7 @@ impl Outcomes {
         let entry = |pair: &SidePair| {
             let channels = pair.channels.iter().map(|own| all.case("comparison", own.claim.text.clone(), &own.verdict));
             let checks = pair.checks.iter().map(|check| all.case(SIDES, check.name(), &check.verdict));
-            let (name, cases) = (versus::who(paths, pair), channels.chain(checks).collect());
+            let (name, cases) = (compare::who(paths, pair), channels.chain(checks).collect());
             Entry { name, title: String::new(), verdict: pair.verdict().word(), cases, error: None }
         };
         all.entries = comparison.pairs.iter().map(entry).collect();
@@ -96,7 +96,7 @@ mod tests {
     use crate::plain::judged::{counts, verdicts};
     use crate::report::{junit, markdown};
     use linkage::error::Advice;
-    use prover::proof::{Options, prove};
+    use prover::run::{Options, prove};
     use scenario::of_repository;
 
     /// The step is so coarse that the engine proves little.

@@ -5,8 +5,8 @@ use serde_json::json;
 
 use super::pretty::{list, pretty};
 use crate::plain::Tell;
-use design::diagram::draw::significant;
-use design::diagram::{Plans, SingularPoint, VectorPlan};
+use design::draw::significant;
+use design::plan::{Plans, SingularPoint, VectorPlan};
 use linkage::case::Case;
 use linkage::error::Result;
 use prover::numbers::fixed_in;

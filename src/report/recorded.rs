@@ -6,8 +6,8 @@ use super::json;
 use crate::plain::Tell;
 use crate::plain::judged::{self, Grade, grade};
 use linkage::math::KeepNan;
-use prover::compare::Verdict;
-use prover::proof::{EngineProof, Proof};
+use prover::bounds::Verdict;
+use prover::run::{EngineProof, Proof};
 use recording::{Level, LogEntry};
 
 /// Versions, settings and verdict, by name.

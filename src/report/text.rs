@@ -6,9 +6,9 @@ use crate::plain::style::wrapped;
 use crate::plain::{Tell, brief, engines, reasons};
 use crate::sentences;
 use linkage::math::statistics;
-use prover::compare::{Check, Verdict, overall};
+use prover::bounds::{Check, Verdict, overall};
 use prover::numbers;
-use prover::proof::{ChannelProof, EngineInfo, EngineProof, Proof, SearchEnd, SettingsSearch};
+use prover::run::{ChannelProof, EngineInfo, EngineProof, Proof, SearchEnd, SettingsSearch};
 
 /// Number of reasons that are shown in full; the others are only counted.
 const REASONS: usize = 5;
@@ -228,7 +228,7 @@ pub fn residuals(proof: &Proof) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use prover::proof::{Options, prove};
+    use prover::run::{Options, prove};
     use scenario::of_repository;
 
     /// Residual, bound and what is used of it, line by line, in the order of the proof.

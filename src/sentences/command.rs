@@ -165,7 +165,7 @@ linkage::sentences! {
     viewers_can_listen_at_from_now(live) = "viewers can listen at {live} from now on";
     // cli/run/session.rs
     NOT_ASKED_FOR = "not asked for";
-    // cli/shell.rs
+    // cli/man.rs
     NAME_ANOTHER_DIRECTORY_WITH = "name another directory with -o";
     the_manual_cannot_be_written(to, error) = "the manual cannot be written to {to}: {error}";
     // cli/solve.rs

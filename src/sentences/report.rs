@@ -363,7 +363,7 @@ found down to: sizes above this are found in every scenario, to a factor of two;
     no_mechanism_at(at, why) = "  no mechanism at {at}: {why}";
     points_of_results_agree_are_inconclusive(points, silent, panics, verdicts, agree, open, against, fails, refused) = "{points} points: {silent}, {panics}; of {verdicts} results {agree} agree, {open} are inconclusive, {against} disagree, {fails} fail with a reason; {refused} points are no mechanism, with a reason";
     NO_SILENT_WRONG_NUMBER = "no silent wrong number";
-    // report/synthesis.rs
+    // report/synthesize.rs
     a_dwell_ends_where_the_output(value) = "A dwell ends where the output leaves the middle of its extremes by {value} % of the stroke, a motion at its extreme position.";
     random_candidates_of_them_assembled(drawn, assembled, cost, refined, worst) = "{drawn} random candidates, {assembled} of them assembled near the limits; cost {cost}, refined {refined} (worst of the refined {worst})\n";
     stroke_largest_motion_in_a_dwell(stroke, angle, unrest, wrong, late, short) = "Stroke {stroke}{angle}. Largest motion in a dwell {unrest:.3} % of the stroke,\nlargest way in a wrong sense {wrong:.3} %. Extreme positions within {late:.2} deg of the table, dwells short by {short:.2} deg at most.";
@@ -407,7 +407,7 @@ found down to: sizes above this are found in every scenario, to a factor of two;
     does_not_run_it_with_any(name, hints) = "{name} does not run it with any settings: {hints} says why.";
     does_not_meet_it_its_smallest(name, numbers) = "{name} does not meet it: its smallest error was {numbers}.";
     the_cheapest_settings_within_of_every_channel(within, table) = "The cheapest settings within {within} of every channel's scale:\n{table}\n";
-    // report/versus.rs
+    // report/compare.rs
     at_most_of_the_difference(numbers, but) = "at most {numbers} of the difference{but}";
     nothing_beyond_the_bounds(but) = "nothing beyond the bounds{but}";
     but_for_the_row_at_which_is_off(numbers) = ", but for the row at t = {numbers} s, which is off by itself";

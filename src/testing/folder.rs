@@ -9,7 +9,7 @@ use libtest_mimic::{Arguments, Failed, Trial, run};
 use super::{Proving, failure};
 use crate::plain::errors;
 use linkage::error::Advice;
-use prover::proof::Options;
+use prover::run::Options;
 use scenario::files_in;
 
 /// Proves every scenario of a folder (`*.toml`, without those of folders inside), each as a test with the name of its

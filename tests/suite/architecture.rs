@@ -74,16 +74,13 @@ const ROOMS: &[(&str, &str)] = &[
     ("analytic::steady", "assur assur_solver motion reduced"),
     ("analytic::witness", ""),
     ("design::bearings", ""),
-    ("design::catalogue", "motor"),
     ("design::clearance", ""),
-    ("design::diagram", "clearance"),
+    ("design::diagram", ""),
+    ("design::draw", "clearance diagram plan"),
+    ("design::drive", ""),
     ("design::export", ""),
-    ("design::flywheel", ""),
-    ("design::motor", ""),
-    ("design::redraw", "task"),
-    ("design::synthesis", "task"),
-    ("design::task", ""),
-    ("design::task_file", "task"),
+    ("design::plan", ""),
+    ("design::synthesize", ""),
     ("lab::bench", "steps"),
     ("lab::mutate", ""),
     ("lab::outside", "bench"),
@@ -91,16 +88,16 @@ const ROOMS: &[(&str, &str)] = &[
     ("lab::steps", ""),
     ("lab::stress", "specimens"),
     ("lab::tune", "steps"),
-    ("prover::accept", "compare proof"),
-    ("prover::claims", "numbers"),
-    ("prover::compare", "numbers tolerance"),
-    ("prover::diagnosis", "compare"),
+    ("prover::accept", "bounds run"),
+    ("prover::bounds", "numbers tolerance"),
+    ("prover::check", "numbers"),
+    ("prover::compare", "bounds check diagnosis run tables tolerance"),
+    ("prover::diagnosis", "bounds"),
     ("prover::engines", ""),
     ("prover::numbers", ""),
-    ("prover::proof", "claims compare diagnosis engines numbers tolerance"),
+    ("prover::run", "bounds check diagnosis engines numbers tolerance"),
     ("prover::tables", ""),
     ("prover::tolerance", ""),
-    ("prover::versus", "claims compare diagnosis proof tables tolerance"),
     ("linkproof::check", ""),
     ("linkproof::cli", "check draw plain report shipped"),
     ("linkproof::draw", ""),
@@ -113,12 +110,12 @@ const ROOMS: &[(&str, &str)] = &[
 /// Parts of other crates that a room must not name, although its crate may.
 const NEVER: &[(&str, &str)] = &[
     // Only trajectories are compared.
-    ("prover::compare", "analytic rapier_twin simbody_twin linkage::case linkage::mechanism linkage::solver"),
+    ("prover::bounds", "analytic rapier_twin simbody_twin linkage::case linkage::mechanism linkage::solver"),
     // It solves changed cases with the solver that it is given.
     ("prover::diagnosis", "analytic rapier_twin simbody_twin linkage::engine"),
     ("prover::tolerance", "analytic rapier_twin simbody_twin linkage"),
     // Engines come from one list only.
-    ("prover::proof", "rapier_twin simbody_twin"),
+    ("prover::run", "rapier_twin simbody_twin"),
     // Results of the analytic crate and of design work are shown here, but no motion is computed.
     ("linkproof::report", "analytic::assur analytic::assur_solver analytic::motion analytic::newton rapier_twin"),
     ("linkproof::cli", "rapier_twin"),
@@ -129,7 +126,7 @@ const NEVER: &[(&str, &str)] = &[
     // States of any solver can be drawn and exported.
     ("design::diagram", "analytic"),
     ("design::export", "analytic"),
-    ("design::task", "analytic linkage::solver"),
+    ("design::synthesize::task", "analytic linkage::solver"),
 ];
 
 /// Names that only some rooms may use. Foreign crates stay behind the room that wraps them, the clock and the terminal
@@ -141,7 +138,7 @@ const HOMES: &[(&str, &str)] = &[
     ("prost", "recording"),
     ("prost_types", "recording"),
     ("toml", "scenario"),
-    ("toml_edit", "design::redraw scenario"),
+    ("toml_edit", "design::synthesize::redraw scenario"),
     ("comfy_table", "linkproof::plain linkproof::report"),
     // Other programs are run in one room. `testing` gives an exit code.
     ("Command", "linkproof::cli lab::outside"),
@@ -186,8 +183,8 @@ const HOMES: &[(&str, &str)] = &[
     ("differential_equations", "analytic::motion analytic::reduced"),
     ("num_integer", "analytic::reduced"),
     ("pulp", "analytic::assur"),
-    ("cobyla", "design::synthesis"),
-    ("chacha20", "lab::specimens design::synthesis"),
+    ("cobyla", "design::synthesize"),
+    ("chacha20", "lab::specimens design::synthesize"),
     ("parry2d_f64", "design::clearance rapier_twin::double scenario::clearance"),
     ("svg", "drawing::paper"),
     ("tiny_skia", "drawing::bitmap"),

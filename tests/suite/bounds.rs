@@ -11,7 +11,7 @@ use std::path::Path;
 
 use linkage::math::KeepNan;
 use linkproof::{Options, Proof, Scenario, prove};
-use prover::proof::solved::judge;
+use prover::run::solved::judge;
 
 const TABLE: &str = include_str!("bounds/parts.txt");
 /// Largest ratio of two numbers that are the same but for noise.

@@ -4,7 +4,7 @@
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{from_outside, shipped};
 use linkage::math::Vec2;
-use prover::proof::{Options, Proof, Reference, prove};
+use prover::run::{Options, Proof, Reference, prove};
 use scenario::Scenario;
 use std::path::Path;
 

@@ -13,7 +13,7 @@ use linkage::case::Case;
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
 use linkproof::plain::diagnosis::cause;
-use prover::compare::{differences, scales};
+use prover::bounds::{differences, scales};
 use prover::diagnosis::{Diagnosis, DiagnosisInput, SuspectChannel, diagnose};
 use scenario::Scenario;
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use analytic::AssurSolver;
 use assert_cmd::Command;
-use design::diagram::plan::state_at;
+use design::plan::state_at;
 use linkage::math::{KeepNan, Vec2};
 use linkproof::Scenario;
 

@@ -21,8 +21,8 @@ use linkage::engine::{CachedEngine, Engine, Settings};
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, ChannelSubject, Stage, Trajectory};
-use prover::compare::convergence::observed_order;
-use prover::compare::residuals;
+use prover::bounds::convergence::observed_order;
+use prover::bounds::residuals;
 
 fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
     solver.solve(case).unwrap_or_else(|error| panic!("{error}"))

@@ -7,7 +7,7 @@ use std::path::Path;
 use linkage::case::Wanted;
 use linkage::math::{KeepNan, Vec2, largest_size};
 use linkage::trajectory::Stage;
-use prover::proof::{ChannelProof, Options, Proof, prove};
+use prover::run::{ChannelProof, Options, Proof, prove};
 use scenario::Scenario;
 
 use crate::common::shipped;

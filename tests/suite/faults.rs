@@ -5,7 +5,7 @@ use std::path::Path;
 
 use linkage::trajectory::Stage;
 use prover::engines::EngineName;
-use prover::proof::{Options, Proof, prove_against};
+use prover::run::{Options, Proof, prove_against};
 use scenario::Scenario;
 
 use crate::common::by_night;

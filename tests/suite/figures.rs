@@ -10,8 +10,8 @@ use linkage::math::KeepNan;
 use linkage::mechanism::JointId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory};
-use prover::compare::{Verdict, difference, residuals, scales};
-use prover::proof::{Options, Proof, prove};
+use prover::bounds::{Verdict, difference, residuals, scales};
+use prover::run::{Options, Proof, prove};
 use prover::tolerance::{BoundBasis, BoundOrigin};
 use scenario::Scenario;
 
@@ -316,7 +316,7 @@ fn a_length_as_solved_is_held_to_its_last_digit() {
         .checks
         .iter()
         .filter(|check| check.verdict.word() == "disagree")
-        .map(prover::compare::Check::name)
+        .map(prover::bounds::Check::name)
         .collect();
     for side in ["assur", "newton"] {
         let name = format!("published lengths, known to be wrong ({side}), distance_m of A B");

@@ -13,8 +13,8 @@ mod wrong_input;
 
 use std::path::{Path, PathBuf};
 
-use prover::claims::FormulaOutcome;
-use prover::proof::solved::{Claimed, judge};
+use prover::check::FormulaOutcome;
+use prover::run::solved::{Claimed, judge};
 use scenario::{Formulas, Scenario, files_in};
 
 fn files() -> Vec<PathBuf> {

@@ -9,7 +9,7 @@ use linkage::ErrorKind;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use prover::compare::{magnitudes, residuals};
+use prover::bounds::{magnitudes, residuals};
 
 /// Number of mechanisms of each family.
 const TRIES: usize = 60;

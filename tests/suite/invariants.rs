@@ -12,7 +12,7 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 use proptest::test_runner::TestCaseError;
-use prover::compare::residuals;
+use prover::bounds::residuals;
 
 /// Number of mechanisms on which every invariant is tested.
 const COUNT: u32 = 128;

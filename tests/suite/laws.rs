@@ -7,8 +7,8 @@ use analytic::{self, witness::momentum, witness::power};
 use linkage::engine::Route;
 use linkage::error::ErrorKind;
 use linkage::trajectory::Stage;
-use prover::compare::residuals;
-use prover::proof::{Options, prove};
+use prover::bounds::residuals;
+use prover::run::{Options, prove};
 use scenario::Scenario;
 
 use crate::common::{assert_within, shipped, states};

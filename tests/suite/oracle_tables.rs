@@ -8,12 +8,12 @@ use linkage::case::{Case, Grid};
 use linkage::math::{KeepNan, largest_size};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
-use prover::compare::Check;
-use prover::proof::{Options, prove};
+use prover::bounds::Check;
+use prover::run::{Options, prove};
 use prover::tolerance::BoundBasis;
 use scenario::Scenario;
 
-use crate::versus::digits::{Format, RandomSource};
+use crate::compare::digits::{Format, RandomSource};
 
 /// A column of instants: format, size of its unit, name.
 type Instants = (Format, f64, &'static str);

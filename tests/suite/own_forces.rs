@@ -6,7 +6,7 @@ use linkage::engine::{Engine, Route};
 use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::{Channel, ChannelSubject, Stage};
 use prover::engines::EngineName;
-use prover::proof::{EngineProof, Options, Proof, prove};
+use prover::run::{EngineProof, Options, Proof, prove};
 use rapier_twin::{Build, Precision, Rapier};
 use scenario::Scenario;
 

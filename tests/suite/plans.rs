@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use analytic::{AssurSolver, NewtonSolver};
-use design::diagram::plan::state_at;
-use design::diagram::{Plans, SingularPoint, TipKind, Vector, VectorKind, VectorPlan};
+use design::plan::state_at;
+use design::plan::{Plans, SingularPoint, TipKind, Vector, VectorKind, VectorPlan};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::GroupId;
@@ -234,8 +234,7 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     let group = &case.structure.groups[GroupId(0)];
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         for degrees in 0..72 {
-            let state =
-                design::diagram::plan::state_at(&case, solver, (5.0 * f64::from(degrees)).to_radians()).unwrap();
+            let state = design::plan::state_at(&case, solver, (5.0 * f64::from(degrees)).to_radians()).unwrap();
             let point = SingularPoint::of(&case, group, &state.motions).unwrap().unwrap();
             assert_eq!(point.lines(), "BD x CE");
             // The farther S is from the group, the more digits cancel. The measure is its distance over the size of the
@@ -266,7 +265,7 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     }
     for name in ["crank_rocker", "ov7_new"] {
         let case = scenario(name).case;
-        let state = design::diagram::plan::state_at(&case, &AssurSolver, 0.3).unwrap();
+        let state = design::plan::state_at(&case, &AssurSolver, 0.3).unwrap();
         for group in &case.structure.groups {
             assert_eq!(SingularPoint::of(&case, group, &state.motions).unwrap(), None, "{name}");
         }

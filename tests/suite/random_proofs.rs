@@ -7,7 +7,7 @@ use crate::common::draws;
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::{SORTS, for_each_of};
 use crate::common::sketch::RandomSource;
-use prover::proof::{Options, prove};
+use prover::run::{Options, prove};
 use scenario::{EngineSetting, Scenario};
 
 /// Symptom: correct mechanisms disagree in their velocities, by up to twice the bound. Cause: too few sweeps leave an

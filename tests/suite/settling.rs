@@ -5,7 +5,7 @@ use std::path::Path;
 use linkage::case::Grid;
 use linkage::engine::Route;
 use prover::engines::EngineName;
-use prover::proof::{Options, Proof, SearchEnd, prove, prove_against};
+use prover::run::{Options, Proof, SearchEnd, prove, prove_against};
 use scenario::Scenario;
 
 use crate::common::spec::four_bar;
@@ -22,9 +22,8 @@ fn proven(scenario: &Scenario) -> Proof {
 
 /// What a proof says, and what it does not depend on the machine: every number of every channel.
 fn numbers(proof: &Proof) -> Vec<(f64, f64, String)> {
-    let of = |channel: &prover::proof::ChannelProof| {
-        (channel.residual.max, channel.bound, channel.verdict.word().to_string())
-    };
+    let of =
+        |channel: &prover::run::ChannelProof| (channel.residual.max, channel.bound, channel.verdict.word().to_string());
     proof.engine().channels.iter().map(of).collect()
 }
 
@@ -64,7 +63,7 @@ fn regress_sweeps_that_have_hardly_begun_to_converge_prove_nothing() {
     let proof = prove(&scenario, &Options::default().step(1.39e-2).sweeps(64)).unwrap();
     assert_eq!(proof.verdict.word(), "inconclusive", "{:?}", proof.verdict);
     let of_speed =
-        |channel: &&prover::proof::ChannelProof| channel.residual.channel.to_string() == "link.link1.omega_rad_s";
+        |channel: &&prover::run::ChannelProof| channel.residual.channel.to_string() == "link.link1.omega_rad_s";
     let speed = proof.engine().channels.iter().find(of_speed).unwrap();
     assert!(!(speed.residual.max > speed.bound), "{} {}", speed.residual.max, speed.bound);
 }

@@ -15,10 +15,10 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GroupId, JointId, LinkId};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
-use prover::compare::{Verdict, residuals};
+use prover::bounds::{Verdict, residuals};
 use prover::engines::EngineName;
 use prover::engines::Simbody;
-use prover::proof::{Options, prove};
+use prover::run::{Options, prove};
 use std::collections::BTreeMap;
 
 /// Every scenario of the repository's top level.

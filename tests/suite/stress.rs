@@ -10,8 +10,8 @@ use linkage::mechanism::AssemblyMode;
 use linkage::trajectory::{Stage, Unit};
 use linkage::work::Count;
 use linkproof::Case;
-use prover::compare::Verdict;
-use prover::proof::beside::sides;
+use prover::bounds::Verdict;
+use prover::run::beside::sides;
 
 use crate::common::assert_within;
 

@@ -17,7 +17,7 @@ use linkage::mechanism::{GROUND, LinkId};
 use linkage::solver::{Solver, State};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use prover::proof::{Options, prove};
+use prover::run::{Options, prove};
 use scenario::Scenario;
 
 /// Largest differences from a solver, relative to the largest value of the quantity.

@@ -6,7 +6,7 @@ mod near;
 use lab::tune::{WantedAccuracy, tune};
 use linkage::engine::{Engine, Settings};
 use prover::engines::EngineName;
-use prover::proof::{Options, prove};
+use prover::run::{Options, prove};
 
 use crate::common::shipped;
 use exhaustive::{REFERENCES, Space, thinned};

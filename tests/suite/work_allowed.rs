@@ -8,7 +8,7 @@ use lab::stress::named;
 use linkage::error::{Error, ErrorKind};
 use linkage::work::{Count, Work, counted, limited};
 use linkproof::parts::Advice;
-use prover::proof::{Options, Proof, SearchEnd, prove};
+use prover::run::{Options, Proof, SearchEnd, prove};
 use scenario::Scenario;
 
 use crate::common::shipped;

@@ -6,16 +6,16 @@ mod second_half;
 
 use std::path::Path;
 
-use super::versus::{against, table};
+use super::compare::{against, table};
 use linkage::case::{Case, CaseParts, Grid};
 use linkage::math::KeepNan;
 use linkage::mechanism::{Link, Mechanism};
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use linkproof::plain::diagnosis::{cause, nature};
-use linkproof::report::versus::why;
+use linkproof::report::compare::why;
+use prover::compare::{ComparisonRule, Explained, PartyComparison, compare};
 use prover::tables::{Held, load};
-use prover::versus::{ComparisonRule, Explained, PartyComparison, compare};
 use scenario::Scenario;
 use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 

@@ -2,14 +2,11 @@
 //! It covers bearings, clearance, diagrams, export, flywheel, motor choice and synthesis.
 
 pub mod bearings;
-pub mod catalogue;
 pub mod clearance;
 pub mod diagram;
+pub mod draw;
+pub mod drive;
 pub mod export;
-pub mod flywheel;
-pub mod motor;
-pub mod redraw;
+pub mod plan;
 mod sentences;
-pub mod synthesis;
-pub mod task;
-pub mod task_file;
+pub mod synthesize;

@@ -3,7 +3,7 @@
 linkage::sentences! {
     // bearings.rs
     PEAKS_ARE_LOOKED_FOR_OVER = "peaks are looked for over the crank angle, but the drive's law may come to an angle more than once";
-    // catalogue.rs
+    // drive/catalogue.rs
     GIVE_BREAKDOWN_TORQUE_OVER_RATED = "give breakdown torque over rated torque, 2 to 3 as a rule, or leave it out";
     THE_BREAKDOWN_TORQUE_IS_NOT_ABOVE = "the breakdown torque is not above the rated one";
     CHECK_THE_TWO_SPEEDS_AND_THEIR = "check the two speeds and their units";
@@ -15,7 +15,7 @@ linkage::sentences! {
     // clearance.rs
     PRESCRIBE_THE_DRIVES_OR_LET = "prescribe the drives, or let no more than one link move freely";
     CLEARANCE_IS_LOOKED_FOR_OVER = "clearance is looked for over crank angles, but forces decide several freedoms of the motion";
-    // diagram/builder.rs
+    // plan/builder.rs
     along_the_guide(joint) = ", along the guide {joint}";
     tangential_part_alpha_perpendicular_to(line) = "tangential part, alpha l, perpendicular to {line}";
     normal_part_along_omega(of) = "normal part along {of}, omega^2 l";
@@ -24,26 +24,26 @@ linkage::sentences! {
     perpendicular_to(pair) = ", perpendicular to {pair}";
     of_the_point_of_link_under(word, under, guide, named, direction) = "{word} of {under}, the point of link {guide} under {named}{direction}";
     of_the_mass_centre_of_link(word, number, link, guide) = "{word} of the mass centre of link {number} ({link}){guide}";
-    // diagram/draw/clearance_sheet.rs
+    // draw/clearance_sheet.rs
     smallest_distance_at(distance, names, crank) = "smallest distance {distance}: {names} at {crank}";
     first_collision_at(names, crank) = "first collision: {names} at {crank}";
     crank_angle_deg(significant) = "crank angle {significant} deg";
     swept_by(body) = "swept by {body}";
-    // diagram/draw/graph_sheet.rs
+    // draw/graph_sheet.rs
     CRANK_ANGLE_DEG_2 = "crank angle φ, deg";
     scale_factor(graph, symbol, unit, scale, per) = "{graph} {symbol}, {unit}; scale factor {scale} {per}";
-    // diagram/draw/motion_sheet.rs
+    // draw/motion_sheet.rs
     largest_error_rms_observed_order(one, significant, unit, share, significant_2, orders) = "{one}: largest error {significant} {unit} ({share:.2} %), rms {significant_2} {unit}, observed order {orders}";
     CHORDS_WHOSE_SLOPES_GIVE_THE_VELOCITY = "chords whose slopes give the velocity";
     EXACT_BY_THE_SOLVER = "exact, by the solver";
     CRANK_ANGLE_DEG_3 = "crank angle, deg";
     scale_factor_2(channel, sub, scale, per) = "{channel}, scale factor μ{sub} = {scale} {per}";
     chord_method_and_graphical_integration(divisions) = "chord method and graphical integration, {divisions} divisions of the turn; errors as shares of half the range of the exact curve";
-    // diagram/draw/plan_sheet.rs
+    // draw/plan_sheet.rs
     FROM_TO = "from → to";
     crank_at(name, degrees) = "{name}, crank at {degrees}°";
     scale_factor_3(symbol, sub, scale, scripted) = "scale factor {symbol}{sub} = {scale} {scripted}";
-    // diagram/draw/timing_sheet.rs
+    // draw/timing_sheet.rs
     WANTED_REST_OR_AT_LEAST_SO = "wanted: rest, or at least so far";
     ACHIEVED_SHARE_OF_THE_STROKE = "achieved, share of the stroke";
     // diagram/motion.rs
@@ -59,11 +59,11 @@ linkage::sentences! {
     ask_for_its_diagram_shows(stem, endings) = "ask for {stem}{endings}: its diagram shows this one too";
     is_a_derivative_already_a_motion(name) = "\"{name}\" is a derivative already; a motion diagram starts from a position or an angle";
     the_mechanism_has_no_channel(name) = "the mechanism has no channel \"{name}\"";
-    // diagram/plan.rs
+    // plan/planner.rs
     GIVE_A_CRANK_ANGLE_IN_DEGREES = "give a crank angle in degrees, as 70 or -30";
     name_some_of(all) = "name some of {all}";
     no_point_and_no_link_is_called(name) = "no point and no link is called \"{name}\"";
-    // diagram/singular.rs
+    // plan/singular.rs
     TAKE_A_CRANK_ANGLE_A_LITTLE = "take a crank angle a little beside this one";
     the_singular_point_lies_in_line(names) = "the singular point {names} lies in line with the outer joints: a dead point";
     the_leads_are_parallel_their(names) = "the leads {names} are parallel: their singular point lies at infinity";
@@ -94,27 +94,27 @@ linkage::sentences! {
     ROTOR_AND_REDUCER_OF_THE_MOTOR = "Rotor and reducer of the motor.";
     IT_HAS_NO_MASS_OR_NO_INERTIA = "It has no mass or no inertia: MuJoCo gets a small one.";
     AS_STIFF_AS_A_STEP_ALLOWS = "As stiff as a step allows: the time constant is raised to twice the time step, whatever that is.";
-    // flywheel.rs
+    // drive/flywheel.rs
     ASK_FOR_A_LARGER_COEFFICIENT = "ask for a larger coefficient";
     the_flywheel_for_a_coefficient(wanted, steps) = "the flywheel for a coefficient of non-uniformity of {wanted} was not found in {steps} steps";
     no_flywheel_makes_the_coefficient(wanted) = "no flywheel makes the coefficient of non-uniformity {wanted}";
     GIVE_A_NUMBER_ABOVE_ZERO = "give a number above zero, such as 0.02";
     a_coefficient_of_non_uniformity(wanted) = "a coefficient of non-uniformity of {wanted} is asked for";
-    // motor.rs
+    // drive/motor.rs
     GIVE_A_CATALOGUE_WITH_STRONGER = "give a catalogue with stronger motors, or lower the peak: a flywheel on the crank carries over it";
     the_drive_asks_for_kw_the_strongest(asked, strongest) = "the drive asks for {asked:.4} kW, the strongest motor has {strongest:.4} kW";
     GIVE_THE_SCENARIO_THE_LOADS = "give the scenario the loads that the drive works against";
     the_greatest_moment_of_resistance(greatest) = "the greatest moment of resistance is {greatest:.6} N m: nothing needs a motor";
     GIVE_A_SHARE_ABOVE_AND_AT_MOST = "give a share above 0 and at most 1: 0.92 for 92 %";
     the_efficiency_is(efficiency) = "the efficiency is {efficiency}";
-    // redraw.rs
+    // synthesize/redraw.rs
     GIVE_THE_TEXT_OF_THE_SCENARIO = "give the text of the scenario that the task names";
     the_drawing_has_no_where(name) = "the drawing has no `{name}` where the task has it";
     left_out_of_the_drawing_because(keys) = "\nLeft out of the drawing, because it holds for its own dimensions only: {keys}.\nComments below are those of the drawing.";
     the_file_is_not_valid_toml(error) = "the file is not valid TOML: {error}";
-    // synthesis/achieved.rs
+    // synthesize/achieved.rs
     THE_MECHANISM_CANNOT_BE_ASSEMBLED = "the mechanism cannot be assembled over a whole turn of its crank, or its output does not rock";
-    // synthesis/crank_rocker.rs
+    // synthesize/crank_rocker.rs
     GIVE_THE_ROCKER_A_PIVOT_OF_ITS_OWN = "give the rocker a pivot of its own";
     BOTH_PIVOTS_ARE_ONE_POINT = "both pivots are one point";
     GIVE_AN_ANGLE_BETWEEN_AND_DEG = "give an angle between -180 and 180 deg that is not zero";
@@ -130,14 +130,14 @@ linkage::sentences! {
     MOVE_A_PIVOT_OR_TURN_THE_EXTREME_POSITIONS = "move a pivot, or turn the extreme positions, so that one lies farther from the crank's pivot";
     a_crank_of_no_length_would(told) = "{told}: a crank of no length would be needed";
     is_from_in_one_extreme_position(distances, distances_2) = "O is {distances:.6} m from B in one extreme position and {distances_2:.6} m in the other";
-    // synthesis/draft.rs
+    // synthesize/draft.rs
     JOINTS_NAME_GUIDE_TYPE_PRISMATIC = "[[joints]]\nname = \"guide\"\ntype = \"prismatic\"\nlinks = [\"ground\", \"slider\"]\npoints = [\"G\", \"B\"]\naxis_deg = 0\n\n";
     ground_points_on_the_slider(offset) = "[ground.points]\nO = {{ x_m = 0, y_m = 0 }}\nG = {{ x_m = 0, y_m = {offset} }} # on the slider's line\n";
     joints_name_type_revolute_links(name, first, second) = "[[joints]]\nname = \"{name}\"\ntype = \"revolute\"\nlinks = [\"{first}\", \"{second}\"]\n\n";
-    // synthesis/search.rs
+    // synthesize/search.rs
     DRAW_MORE_CANDIDATES_NARROW_THE_BOUNDS = "draw more candidates, narrow the bounds about a drawing that turns fully, or ask for less in `limits`";
     none_of_candidates_can_be_assembled(candidates) = "none of {candidates} candidates can be assembled over a whole turn of the crank with the transmission angle and the stroke asked for";
-    // synthesis/slider_crank.rs
+    // synthesize/slider_crank.rs
     ask_for_less_than_or_choose(most) = "ask for less than {most:.6}, or choose a smaller offset";
     a_time_ratio_of_is_out_of_reach(ratio, stroke, e) = "a time ratio of {ratio} is out of reach with a stroke of {stroke:.6} m at an offset of {e:.6} m";
     GIVE_THE_LENGTH_OF_THE_ROD = "give the length of the rod instead of the time ratio, or change the offset";
@@ -152,7 +152,7 @@ linkage::sentences! {
     the_offset_is(offset) = "the offset is {offset} m";
     GIVE_A_DECIMAL_NUMBER_FOR_A_CENTRAL = "give a decimal number; 0 for a central one";
     the_stroke_is(stroke) = "the stroke is {stroke} m";
-    // task.rs
+    // synthesize/task.rs
     THE_SEARCH_HAS_NO_CANDIDATES = "the search has no candidates, no refinements or no evaluations";
     GIVE_COUNTS_OF_OR_MORE_AND_NO_MORE = "give counts of 1 or more, and no more refinements than candidates";
     LEAVE_TRANSMISSION_OUT = "leave `transmission` out";
@@ -161,7 +161,7 @@ linkage::sentences! {
     ADD_A_TABLE_VARY_FOR_EACH = "add a table `[[vary]]` for each length or pivot to be found";
     TAKE_A_SCENARIO_WITH_ONE_DRIVE = "take a scenario with one `[drive]`";
     THE_MECHANISM_HAS_SEVERAL_DRIVES = "the mechanism has several drives, but a timing belongs to one crank";
-    // task/timing.rs
+    // synthesize/task/timing.rs
     GIVE_EVERY_MOVING_PHASE_ITS_LEVEL = "give every moving phase its `level`, or leave `follow` out";
     THE_CURVE_IS_TO_BE_FOLLOWED = "the curve is to be followed, but not all levels are known";
     AN_OUTPUT_THAT_ROCKS_GOES = "an output that rocks goes forward and back in every turn";
@@ -177,7 +177,7 @@ linkage::sentences! {
     JOIN_PHASES_OF_ONE_SENSE = "join phases of one sense";
     found_phases_more_than(phases, most_phases) = "found {phases} phases, more than {most_phases}";
     found_phases_but_a_motion(phases) = "found {phases} phases, but a motion has two at least";
-    // task_file.rs
+    // synthesize/task_file.rs
     NOTHING_ABOUT_THIS_POINT_VARIES = "nothing about this point varies";
     PUT_ALL_THAT_VARIES_ABOUT = "put all that varies about a point into one table";
     THIS_POINT_VARIES_ALREADY = "this point varies already";

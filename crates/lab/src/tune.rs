@@ -25,7 +25,7 @@ use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage};
 use prover::numbers::significant;
-use prover::proof::{Options, memory};
+use prover::run::{Options, memory};
 use scenario::Scenario;
 
 /// Work allowed by default, in steps without sweeps: many times what the shipped mechanisms take at 1e-7.

@@ -4,8 +4,8 @@
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::compare::{Verdict, overall};
-use crate::proof::Proof;
+use crate::bounds::{Verdict, overall};
+use crate::run::Proof;
 use linkage::math::KeepNan;
 use linkage::math::statistics::{rms, share};
 use scenario::accepted::{Accepted, AcceptedChannel};

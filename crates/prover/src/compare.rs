@@ -1,13 +1,182 @@
-//! Two trajectories against each other: residuals, their distribution, the engine's own convergence, and the verdict.
+//! Two parties side by side: scenarios, recordings, tables of other programs.
+//!
+//! One of the two is brought to the instants of the other: a scenario is solved there, a table has them or is
+//! interpolated. Then channel by channel is compared, within what is known of both and what is allowed besides.
 
-pub mod convergence;
-pub mod other_sweeps;
-mod residual;
-pub mod verdict;
+mod align;
+mod allowed;
+mod analytic_party;
+mod cause;
+mod instants;
+mod interpolate;
+mod judge;
+mod pair;
+mod scale;
 
-pub use convergence::{Convergence, Ladder};
-pub use linkage::math::statistics::{differences, largest_difference};
-pub use other_sweeps::OtherSweeps;
-pub(crate) use residual::{Built, magnitudes_by, scales_beyond};
-pub use residual::{Residual, difference, magnitudes, residuals, residuals_on, scales};
-pub use verdict::{Check, Verdict, overall};
+use crate::sentences;
+pub use allowed::ComparisonRule;
+pub use cause::Explained;
+pub use judge::{Compared, RowPair};
+pub use pair::{Contradiction, SidePair};
+
+use self::judge::Which;
+use self::pair::Side;
+use self::scale::Scales;
+use crate::bounds::{Verdict, overall};
+use crate::tables::{Held, May, load_within};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::Trajectory;
+use scenario::Scenario;
+use scenario::mapping::Mapping;
+use scenario::words::choice;
+use std::path::Path;
+
+/// One of the two that are compared.
+pub struct ComparedParty {
+    name: String,
+    holds: Holds,
+}
+
+enum Holds {
+    /// A scenario, which is solved.
+    Scenario(Box<Scenario>),
+    /// Trajectories by the names of their sides.
+    Recording(Vec<(String, Trajectory)>),
+    Table(Box<Held>),
+}
+
+impl ComparedParty {
+    /// What a recording holds: trajectories by the names of their sides, of which `reference` is analytic. Messages call
+    /// it `name`.
+    pub fn recording(name: impl Into<String>, sides: Vec<(String, Trajectory)>) -> ComparedParty {
+        ComparedParty { name: name.into(), holds: Holds::Recording(sides) }
+    }
+
+    /// A table in a file, CSV or Parquet, and which of its columns are which channels. A column that has the name of a
+    /// channel, unit included, needs no line of the mapping.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] if it is no table of numbers, or if the mapping does
+    /// not fit it, with the place.
+    pub fn table(path: impl AsRef<Path>, mapping: &Mapping) -> Result<ComparedParty> {
+        ComparedParty::table_within(path, mapping, &|_, _| Ok(()))
+    }
+
+    /// The same where `may` is asked before memory is taken.
+    ///
+    /// # Errors
+    /// Those of [`ComparedParty::table`], and what `may` says.
+    pub fn table_within(path: impl AsRef<Path>, mapping: &Mapping, may: May) -> Result<ComparedParty> {
+        let path = path.as_ref();
+        let held = Held::of_table(&load_within(path, may)?, mapping)?;
+        Ok(ComparedParty { name: path.display().to_string(), holds: Holds::Table(Box::new(held)) })
+    }
+}
+
+/// A scenario, which is solved where the other party has instants.
+impl From<Scenario> for ComparedParty {
+    fn from(scenario: Scenario) -> ComparedParty {
+        ComparedParty { name: scenario.path.display().to_string(), holds: Holds::Scenario(Box::new(scenario)) }
+    }
+}
+
+/// What another program, or an engine, has found: numbers of which nobody knows the errors.
+impl From<Trajectory> for ComparedParty {
+    fn from(trajectory: Trajectory) -> ComparedParty {
+        ComparedParty::recording("the trajectory", vec![(String::new(), trajectory)])
+    }
+}
+
+/// What is read of a table.
+impl From<Held> for ComparedParty {
+    fn from(held: Held) -> ComparedParty {
+        ComparedParty { name: "the table".into(), holds: Holds::Table(Box::new(held)) }
+    }
+}
+
+/// Two parties compared.
+pub struct PartyComparison {
+    /// One after the other: a recording may have several sides.
+    pub pairs: Vec<SidePair>,
+    /// The verdict on all of them.
+    pub verdict: Verdict,
+}
+
+/// Name of the analytic side in a recording.
+const REFERENCE: &str = "reference";
+
+/// Compares two parties channel by channel, within what is known of both and what is allowed besides.
+///
+/// # Errors
+/// [`ErrorKind::Input`] if they have no instant or no channel in common, and those of the sides.
+pub fn compare(parties: [ComparedParty; 2], how: &ComparisonRule) -> Result<PartyComparison> {
+    let names = parties.each_ref().map(|party| party.name.clone());
+    let [first, second] = parties.map(|party| party.holds);
+    let beside = |scenario: &Scenario, which: Which, other: Holds| -> Result<Vec<SidePair>> {
+        sides(other, how)?.into_iter().map(|side| analytic_party::beside(scenario, which, side, how)).collect()
+    };
+    let pairs = match (first, second) {
+        (one, Holds::Scenario(other)) => beside(&other, Which::Second, one)?,
+        (Holds::Scenario(one), other) => beside(&one, Which::First, other)?,
+        (one, other) => {
+            let (ones, others) = (sides(one, how)?, sides(other, how)?);
+            let pairs = paired(&ones, &others, &names)?;
+            pairs.into_iter().map(|[one, other]| align::beside(one, other, how)).collect::<Result<_>>()?
+        }
+    };
+    how.check_used(pairs.iter().flat_map(|pair| &pair.channels).map(|own| &own.claim))?;
+    let verdicts: Vec<Verdict> = pairs.iter().map(SidePair::verdict).collect();
+    Ok(PartyComparison { verdict: overall(&verdicts), pairs })
+}
+
+/// The sides of a party that are asked for.
+fn sides(party: Holds, how: &ComparisonRule) -> Result<Vec<Side>> {
+    let alone = |held: Held| vec![Side { name: String::new(), held }];
+    match party {
+        Holds::Scenario(scenario) => Ok(alone(analytic_party::held(&scenario)?)),
+        Holds::Table(held) => Ok(alone(*held)),
+        Holds::Recording(all) => asked(all, how),
+    }
+}
+
+/// The sides of a recording that are asked for.
+fn asked(all: Vec<(String, Trajectory)>, how: &ComparisonRule) -> Result<Vec<Side>> {
+    let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
+    let is_asked = |name: &str| how.side.as_deref().is_none_or(|side| side == name);
+    let held = |(name, own): (String, Trajectory)| {
+        let mut held = Held::of_trajectory(&own);
+        held.is_analytic = name == REFERENCE;
+        let scales = Scales::of_trajectory(&own);
+        held.columns.iter_mut().for_each(|column| column.scale = scales.of_claim(&column.claim));
+        if held.is_analytic {
+            for column in &mut held.columns {
+                let known = scales.known(&column.claim.channels[0].1.channel);
+                column.values.iter_mut().for_each(|value| value.error += known);
+            }
+        }
+        Side { name, held }
+    };
+    let asked: Vec<Side> = all.into_iter().filter(|(name, _)| is_asked(name)).map(held).collect();
+    match (&how.side, asked.is_empty()) {
+        (Some(side), true) => Err(Error::new(ErrorKind::Input, sentences::a_recording_has_no_side(&side))
+            .help(sentences::it_has(&choice(names.iter().map(String::as_str), "")))),
+        _ => Ok(asked),
+    }
+}
+
+/// Which sides of two parties belong together: those of the same name, or all with one that is alone.
+fn paired<'a>(ones: &'a [Side], others: &'a [Side], names: &[String; 2]) -> Result<Vec<[&'a Side; 2]>> {
+    let pairs: Vec<[&Side; 2]> = match (ones, others) {
+        ([one], others) => others.iter().map(|other| [one, other]).collect(),
+        (ones, [other]) => ones.iter().map(|one| [one, other]).collect(),
+        (ones, others) => {
+            let same = |one: &'a Side| Some([one, others.iter().find(|other| other.name == one.name)?]);
+            ones.iter().filter_map(same).collect()
+        }
+    };
+    if pairs.is_empty() {
+        let message = sentences::and_have_no_side_of_the_same(&names[0], &names[1]);
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::NAME_A_SIDE_THAT_BOTH_HAVE_SUCH_AS_REFERENCE));
+    }
+    Ok(pairs)
+}

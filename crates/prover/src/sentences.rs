@@ -4,7 +4,7 @@ linkage::sentences! {
     // accept.rs
     TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN = "too little is known, now or when it was accepted";
     NOT_AS_ACCEPTED = "not as accepted";
-    // claims/cause.rs
+    // check/cause.rs
     THE_SEARCH_ENDED_AT_ITS_LIMIT = "the search ended at its limit of work, before all slips and terms were tried";
     for_the_most_part_with_that_of_the_difference(cause, left) = "for the most part {cause}; with that, {left:.2} % of the difference stays over";
     no_single_slip_or_term_it_is_right(significant, significant_2) = "no single slip or term; it is right to {significant} % of the largest number, as an approximation or a rounded number is: `error = {significant_2}` claims it as one";
@@ -20,26 +20,26 @@ linkage::sentences! {
     too_much_everywhere(significant) = "{significant} too much everywhere";
     in_instead_of(kind, formula, right, written, wherever) = "{kind}, in {formula}: `{right}` instead of `{written}`{wherever}";
     WHEREVER_IT_STANDS = " wherever it stands";
-    // claims/course.rs
+    // check/course.rs
     was_not_asked_for(what) = "{what} was not asked for";
-    // claims/judged.rs
+    // check/judged.rs
     WRITE_IT_SO_THAT_NO_DIGITS = "write it so that no digits cancel, for example with atan2 in place of acos";
     rounding_leaves_the_formula_less(lost, all) = "rounding leaves the formula less than six digits at {lost} of {all} instants";
     LET_THE_GRID_COME_TO_THEM = "let the grid come to them, or claim it for others";
     NO_INSTANT_LIES_BETWEEN_THE_CRANK = "no instant lies between the crank angles for which the formula is claimed";
     CLAIM_IT_WHERE_THE_CRANK = "claim it where the crank turns";
     the_claim_has_no_number_at_any(undefined) = "the claim has no number at any of {undefined} instants: it divides by zero";
-    // claims/slips/rules.rs
+    // check/slips/rules.rs
     PI_PI_PI_PI_PI_PI_PI_PI = "q => q + pi/2; q - pi/2; q + pi; q - pi; q + 2*pi; q - 2*pi; pi - q; pi/2 - q";
     PI_PI_PI_PI_PI_PI = "r => r*(180/pi); r/(180/pi); r*(30/pi); r/(30/pi); r*60; r/60; r*(2*pi); r/(2*pi)";
     PI_PI = "t => t*(180/pi); t/(180/pi)";
-    // claims/undefined.rs
+    // check/undefined.rs
     at_crank_angle_deg_whatever(message, crank, place, help) = "{message} at crank angle {crank} deg, {place}: {help}, whatever the result is multiplied by";
     in_from_its_letter(written, formula, start) = "`{written}` in {formula}, from its letter {start}";
-    // compare/residual.rs
+    // bounds/residual.rs
     COMPARE_ONLY_TRAJECTORIES_THAT_WERE_SOLVED = "compare only trajectories that were solved for the same times";
     THE_TWO_TRAJECTORIES_STAND_ON_DIFFERENT = "the two trajectories stand on different grids";
-    // compare/verdict.rs
+    // bounds/verdict.rs
     is_beyond_the_bound(error_in, error_in_2) = "{error_in} is beyond the bound {error_in_2}";
     neither_the_printed_number_nor(finding, place) = "neither the printed number nor the one that \"{finding}\" says is right: {place}";
     the_finding_says_that_the_printed(finding) = "the finding \"{finding}\" says that the printed number is wrong, but it agrees: correct one of the two";
@@ -98,11 +98,11 @@ linkage::sentences! {
     // engines.rs
     build_with_the_cargo_feature(feature) = "build with the cargo feature \"{feature}\"";
     the_engine_is_asked_for_but_this_build(name) = "the engine \"{name}\" is asked for, but this build does not have it";
-    // proof.rs
+    // run.rs
     ITS_SHARE_OF_THE_WORK_THAT_WAS_ALLOWED = "its share of the work that was allowed is done";
     REST_OF_THE_DIAGNOSIS = "rest of the diagnosis";
     WHAT_ORACLE_SAYS = "what [[oracle]] says";
-    // proof/checks.rs
+    // run/checks.rs
     REACTIONS_AND_SPEEDS_COME_FROM_THE_ENGINE = "reactions and speeds come from the engine each by itself";
     BOTH_FROM_THE_SAME_ACCELERATIONS = "both from the same accelerations, so that it holds the equations of motion and the speeds of the loops, not the accelerations";
     driving_moment_from_reactions_and_from_powers(engine) = "driving moment from reactions and from powers ({engine})";
@@ -116,14 +116,14 @@ linkage::sentences! {
     SUMS_OF_A_FEW_FORCES_AND_POWERS = "sums of a few forces and powers";
     CLOSURE_OF_ALL_JOINTS_2 = "closure of all joints";
     POSITIONS_ARE_GOOD_TO_A_FEW = "positions are good to a few units in the last place of the largest coordinate";
-    // proof/dial.rs
+    // run/dial.rs
     is_beyond_the_scaled_bound(error, error_2) = "{error} is beyond the scaled bound {error_2}";
-    // proof/engine_proof.rs
+    // run/engine_proof.rs
     a_millionth_more_of_gravity(share) = "; a millionth more of gravity and motor torque changes the channel by {share:.2} millionths of its scale";
     AT_THE_PACE_OF_ITS_ROUNDS = "at the pace of its rounds the work that was allowed would not be enough";
     THE_WORK_THAT_WAS_ALLOWED = "the work that was allowed is done";
     A_FINER_STEP_ADDS_MORE_ROUNDING = "a finer step adds more rounding than it takes away";
-    // proof/engines.rs
+    // run/engines.rs
     leave_the_step_to_the_proof(error, sweeps, combined, outcome) = "leave the step to the proof: it takes {error} s and {sweeps} sweeps, {combined}, and {outcome}";
     extrapolated_times(times) = "extrapolated {times} times";
     the_verdict_there_is(verdict) = "the verdict there is {verdict}";
@@ -138,7 +138,7 @@ linkage::sentences! {
     the_work_that_was_allowed_is_done(error) = "the work that was allowed is done, and no run stands: {error}";
     ITS_ERROR_FROM_ITS_OWN_RUNS = "its error from its own runs";
     FINDS_ITS_SETTINGS_AND_ITS_ERROR = "finds its settings, and its error from its own runs";
-    // proof/entrants.rs
+    // run/entrants.rs
     BY_VALUE_AND_BY_DERIVATIVE = "by value and by derivative, on both sides";
     NONE_CLAIMS_A_WANTED_CHANNEL = "none claims a wanted channel";
     SOLVED_AT_THEIR_OWN_INSTANTS = "solved at their own instants";
@@ -151,46 +151,46 @@ linkage::sentences! {
     THE_MOTION_IS_PRESCRIBED = "the motion is prescribed";
     SHOWS_THE_ERROR_THAT_BOTH = "shows the error that both sides share";
     CHECKS_THE_REFERENCE = "checks the reference";
-    // proof/figures.rs
+    // run/figures.rs
     ADD_MOTOR_OR_LEAVE_THE_FIGURE = "add `[motor]`, or leave the figure out";
     THE_STEADY_SPEED_NEEDS_A_MOTOR = "the steady speed needs a motor, and the crank has none";
-    // proof/formulas.rs
+    // run/formulas.rs
     first_at_crank_angle_deg(fixed, fixed_2, found, significant) = "first at t = {fixed} s, crank angle {fixed_2} deg: {found}, the mechanism {significant}";
     it_gives(significant) = "it gives {significant}";
     IT_HAS_NO_VALUE = "it has no value";
     cause_not_found(cut) = "cause not found: {cut}";
     cause_perhaps_another(cause, cut) = "cause: {cause}; perhaps another: {cut}";
-    // proof/judge.rs
+    // run/judge.rs
     A_DRIVE_OR_A_LOADED_LINK = "a drive or a loaded link reverses at every instant";
     THE_MOTION_CHANGES_WITHIN_A_FRACTION = "the motion changes within a fraction of a step, so that no runs at such steps show their error";
-    // proof/memory.rs
+    // run/memory.rs
     instants_of_channels_need_about(instants, channels, gigabytes) = "{instants} instants of {channels} channels need about {gigabytes} of memory";
     are_allowed(what, gigabytes) = "{what}; {gigabytes} are allowed";
     needs_about_of_memory(what, gigabytes) = "{what} needs about {gigabytes} of memory";
     GIVE_FEWER_ROWS_OR_FEWER = "give fewer rows, or fewer columns";
-    // proof/methods.rs
+    // run/methods.rs
     CLASS_III_REACTIONS_BY_THE_GROUP = "class III reactions by the group's linear system";
     CLASS_III_REACTIONS_BY_THE_SINGULAR = "class III reactions by the singular Assur point";
     CLASS_III_BY_CLASS_CHANGE = "class III by class change";
     CLASS_III_BY_CRAMER_RULE = "class III by Cramer's rule";
     TWO_METHODS_WITHOUT_A_COMMON = "two methods without a common equation, each good to rounding";
-    // proof/options.rs
+    // run/options.rs
     choose_one_of(offered) = "choose one of: {offered}";
     there_is_no_route_of_engine(engine, asked) = "there is no route of engine {engine} called \"{asked}\"";
     GIVE_A_WHOLE_NUMBER_GREATER = "give a whole number greater than zero";
     found_but_an_engine_needs(what) = "found 0 {what}, but an engine needs at least one";
-    // proof/oracle.rs
+    // run/oracle.rs
     KNOWN_TO_BE_WRONG = ", known to be wrong";
     given_found(value, unit, value_2) = "given {value} {unit}, found {value_2:.10}";
     NAME_A_LINK_POINT_OR_JOINT = "name a link, point or joint of this scenario";
     oracle_there_is_no_channel(oracle, channel) = "oracle {oracle}: there is no channel {channel}";
     PRINT_THE_INSTANTS_WITH_MORE = "print the instants with more digits, zeros at their ends included";
     at_the_rounding_of_the_instant(at) = "at {at} the rounding of the instant leaves more open than a hundredth of the channel's scale, and the number is off by more";
-    // proof/order.rs
+    // run/order.rs
     the_runs_converge_with_order(order, error, error_2, formal) = "the runs converge with order {order:.2}, at all of five steps from {error} to {error_2} s, where the method has {formal}: what is read or computed is not what the method gives";
-    // proof/own_forces.rs
+    // run/own_forces.rs
     the_motion_has_taken_the_work(error, error_2) = "the motion has taken the work of {error} steps, and the forces that the engine exerts need no less; {error_2} are allowed for them";
-    // proof/planted.rs
+    // run/planted.rs
     VALUE_DIGITS = "value = 0.26, digits = 2";
     VALUE_DIGITS_2 = "value = 0.25, digits = 2";
     VALUE_DIGITS_3 = "value = 302.6267, digits = 4 },";
@@ -207,14 +207,14 @@ linkage::sentences! {
     ASSUR_AGAINST_NEWTON_ACCELERATIONS = "assur against newton, accelerations";
     ASSUR_AGAINST_NEWTON_VELOCITIES = "assur against newton, velocities";
     ASSUR_AGAINST_NEWTON_POSITIONS = "assur against newton, positions";
-    // proof/runs.rs
+    // run/runs.rs
     the_run_from_which_the_error(what, message) = "the run {what}, from which the error of the run asked for is estimated, failed: {message}";
     with_sweeps(sweeps) = "with {sweeps} sweeps";
-    // proof/settle.rs
+    // run/settle.rs
     THE_OTHERS_ARE_NOT_CONCLUSIVE = "the others are not conclusive";
     NO_FINER_RUN_BEARS_IT_OUT = "no finer run bears it out";
     the_first_runs_of_the_engine(error, error_2) = "the first runs of the engine, with all their substeps, take the work of {error} steps of a four-bar, {error_2} are allowed";
-    // proof/solved.rs
+    // run/solved.rs
     CLAIM_A_CHANNEL_OF_THE_SCENARIO = "claim a channel of the scenario";
     NO_CLAIMED_CHANNEL_WAS_SOLVED = "no claimed channel was solved";
     ADD_CHANNEL_TO_A_FORMULA = "add `channel` to a [[formula]], or give a formula as an argument; docs/formulas.md has examples";
@@ -280,20 +280,20 @@ linkage::sentences! {
     truncation_at_resolutions_and_safety(origin, order, resolution, resolution_2, resolution_3, safety, discretisation, iteration, rounding, noise, reference) = "{origin}: truncation, {order} at resolutions {resolution}, {resolution_2} and {resolution_3}, safety factor {safety}; discretisation {discretisation}, iteration {iteration}, rounding {rounding} ({noise}), reference {reference}";
     observed_order_formal(observed, formal) = "observed order {observed:.2} (formal {formal})";
     below_round_off_order_assumed(formal) = "below round-off, order {formal} assumed";
-    // versus.rs
+    // compare.rs
     NAME_A_SIDE_THAT_BOTH_HAVE_SUCH_AS_REFERENCE = "name a side that both have, such as reference";
     and_have_no_side_of_the_same(names, names_2) = "{names} and {names_2} have no side of the same name";
     it_has(choice) = "it has {choice}";
     a_recording_has_no_side(side) = "a recording has no side {side}";
-    // versus/align.rs
+    // compare/align.rs
     ALLOW_INTERPOLATION_OR_GIVE_BOTH = "allow interpolation, or give both the same instants; check the units of both";
     of_the_second_party_is_one_of_the_first(which, what) = "{which} {what} of the second party is one of the first";
     MAP_THE_COLUMNS_OF_BOTH_TO_THE_SAME = "map the columns of both to the same channels";
     the_two_have_no_channel_in_common(some, some_2) = "the two have no channel in common: {some} against {some_2}";
-    // versus/allowed.rs
+    // compare/allowed.rs
     name_one_of_them_a_subject(all) = "name one of them ({all}, ...), a subject or a stage";
     no_channel_that_is_compared(word) = "no channel that is compared is called {word}";
-    // versus/analytic_party.rs
+    // compare/analytic_party.rs
     the_instants_of_the_other(message) = "the instants of the other party: {message}";
     CHECK_THE_UNIT_OF_THE_INSTANTS = "check the unit of the instants, and where they begin";
     GIVE_THE_TABLE_A_COLUMN_OF_TIMES = "give the table a column of times";
@@ -302,10 +302,10 @@ linkage::sentences! {
     NAME_A_CHANNEL_A_SUBJECT = "name a channel, a subject or a stage of both";
     no_channel_that_both_have_is_called(how) = "no channel that both have is called {how}";
     comparing_rows(at) = "comparing {at} rows";
-    // versus/cause.rs
+    // compare/cause.rs
     THE_OTHER_PARTY = "the other party";
     THE_ANALYTIC_SIDES = "the analytic sides";
-    // versus/judge.rs
+    // compare/judge.rs
     first_at_against(when, told, told_2, way_out) = "first at {when}: {told} against {told_2}{way_out}";
     LEAVE_A_CELL_EMPTY_WHERE = "; leave a cell empty where nothing was measured";
     GIVE_MORE_DIGITS_OR_CLOSER = "give more digits or closer instants, or say what difference is allowed";
@@ -313,7 +313,7 @@ linkage::sentences! {
     SAY_WHAT_DIFFERENCE_IS_ALLOWED = "say what difference is allowed";
     they_differ_by_up_to_and_neither(largest) = "they differ by up to {largest}, and neither is analytic, so that no bound is known";
     AT_NO_INSTANT_DO_BOTH_HAVE_A_NUMBER = "at no instant do both have a number";
-    // versus/pair.rs
+    // compare/pair.rs
     THE_CRANK_ANGLES_DIFFER_AND_NEITHER = "the crank angles differ, and neither party is analytic: say by how much the channel crank may differ";
     BOTH_ARE_SAID_TO_COUNT_THE_CRANK = "both are said to count the crank angle alike: digits, rounding and integration allow this";
 }

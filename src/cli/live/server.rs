@@ -12,7 +12,7 @@ use super::viewer::Viewer;
 use crate::cli::record_args::RecordArgs;
 use crate::report::live::pace_told;
 use linkage::error::{Error, ErrorKind, Result};
-use prover::proof::{Proof, Reference};
+use prover::run::{Proof, Reference};
 use scenario::Scenario;
 
 /// Most viewers at a time.

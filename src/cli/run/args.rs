@@ -10,7 +10,7 @@ use crate::cli::load::StartArgs;
 use crate::cli::record_args::RecordArgs;
 use crate::cli::reports::Reports;
 use crate::cli::{html, number};
-use prover::proof::Reference;
+use prover::run::Reference;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("../help/run.txt").trim_ascii_end())]

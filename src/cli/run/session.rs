@@ -20,7 +20,7 @@ use crate::report::outcomes::Outcomes;
 use crate::report::{explain, json, recorded, text};
 use linkage::error::{Error, Result};
 use linkage::work::Work;
-use prover::proof::{EngineProof, LedgerEntry, Proof};
+use prover::run::{EngineProof, LedgerEntry, Proof};
 use scenario::Scenario;
 
 /// What the command has shown and written so far. It takes the proofs in the order of the files.

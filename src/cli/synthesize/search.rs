@@ -6,12 +6,12 @@ use std::path::PathBuf;
 use super::target::{scenario_target, write_scenario};
 use crate::cli::load::plain;
 use crate::cli::{output, progress};
-use crate::report::synthesis::{self as report, Story};
-use design::diagram::draw;
-use design::redraw;
-use design::synthesis::{self, Achieved};
-use design::task::Task;
-use design::task_file::TaskFile;
+use crate::report::synthesize::{self as report, Story};
+use design::draw;
+use design::synthesize::redraw;
+use design::synthesize::task::Task;
+use design::synthesize::task_file::TaskFile;
+use design::synthesize::{self, Achieved};
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
 
@@ -80,7 +80,7 @@ pub(super) fn search(args: &Args) -> Result<()> {
     effort.refined = args.refined.unwrap_or(effort.refined);
     effort.evaluations = args.evaluations.unwrap_or(effort.evaluations);
     let mut bar = progress::Bar::new(&task.name);
-    let found = synthesis::search(&task, args.threads, &mut |part| bar.at(part))?;
+    let found = synthesize::search(&task, args.threads, &mut |part| bar.at(part))?;
     drop(bar);
     let values = redraw::round_values(&task, &found.values);
     // The reported figures are measured on the scenario as it is written and read back.

@@ -10,7 +10,7 @@ use drawing::{Lettering, MarkShape, Sketch};
 use linkage::math::Vec2;
 use linkage::mechanism::JointSide;
 use linkage::trajectory::{Channel, Trajectory};
-use prover::proof::{ChannelProof, EngineProof, Proof};
+use prover::run::{ChannelProof, EngineProof, Proof};
 
 /// Everything, as one object.
 pub(super) fn of(proof: &Proof, errors: &[Errors], thinned: &Thinned, tell: Tell) -> Map<String, Value> {

@@ -5,8 +5,8 @@ use crate::plain::judged::{Grade, grade, unproven};
 use crate::plain::{Tell, engines, reasons};
 use crate::sentences;
 use linkage::trajectory::Channel;
-use prover::compare::Verdict;
-use prover::proof::Proof;
+use prover::bounds::Verdict;
+use prover::run::Proof;
 
 /// Reasons at the head of the page; the others stand among the findings.
 const FIRST: usize = 3;

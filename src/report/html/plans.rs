@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::markup::column;
 use super::placed::Placed;
 use crate::report::pretty::list;
-use design::diagram::{Planner, Quantity, VectorPlan};
+use design::plan::{Planner, Quantity, VectorPlan};
 use linkage::case::Case;
 use linkage::solver::State;
 

@@ -6,7 +6,7 @@ use linkage::math::KeepNan;
 use linkage::math::statistics::{ascending, differences};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 
-use prover::proof::Proof;
+use prover::run::Proof;
 
 /// Bytes of base64 that all columns may take. A page then stays below 3 MB.
 const BYTES: usize = 1_900_000;

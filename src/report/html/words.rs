@@ -9,7 +9,7 @@ use crate::plain::judged::{self, Grade, JudgedNumber, Sort, grade};
 use crate::report::text;
 use linkage::mechanism::{JointId, LinkId, Mechanism};
 use prover::numbers::{error_in, fixed, significant};
-use prover::proof::Proof;
+use prover::run::Proof;
 
 /// Longest scenario that is shown (bytes).
 const LONGEST: usize = 200_000;

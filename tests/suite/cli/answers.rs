@@ -11,7 +11,7 @@ use analytic::reduced::means::means_over_turn;
 use analytic::{AssurSolver, NewtonSolver};
 use design::bearings::{Peak, over_range};
 use design::clearance::{Meeting, course, find};
-use design::motor::MotorChoice;
+use design::drive::motor::MotorChoice;
 use linkage::case::{Case, Grid};
 use linkage::drive::{DriveMotion, Load};
 use linkage::math::{KeepNan, Vec2};
@@ -380,7 +380,7 @@ fn a_choice_of_a_motor_is_told_in_json() {
         ))
         .json();
     let number = |key: &str| told[key].as_f64().unwrap_or_else(|| panic!("no {key} in {told}"));
-    let motors = design::catalogue::load(&catalogue).unwrap();
+    let motors = design::drive::catalogue::load(&catalogue).unwrap();
     let case = scenario(&place, "crank_rocker").nominal().case;
     let choice = MotorChoice::of(&case, &motors, number("efficiency")).unwrap();
     assert_eq!(told["peak"], json!({"crank_rad": choice.peak.0, "moment_N_m": choice.peak.1}));

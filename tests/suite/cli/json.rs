@@ -7,7 +7,7 @@ use linkage::solver::Provision;
 use linkproof::parts::{ChannelProof, Check, EngineInfo, EngineName, EngineProof};
 use linkproof::report::json::Document;
 use linkproof::{Options, Proof, Scenario, Verdict, prove};
-use prover::proof::{SearchEnd, prove_against};
+use prover::run::{SearchEnd, prove_against};
 use serde_json::Value;
 
 use super::tools::Place;

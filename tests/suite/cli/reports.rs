@@ -95,7 +95,7 @@ fn proofs() -> [Proof; 3] {
     let scenario = Scenario::load(&path).unwrap();
     let wrong = fs::read_to_string(&path).unwrap().replace("mass_kg = 34.7", "mass_kg = 34.8");
     let wrong = Scenario::parse(&wrong, &path).unwrap();
-    let disagrees = prover::proof::prove_against(&scenario, &wrong.case, &Options::default().step(2e-3)).unwrap();
+    let disagrees = prover::run::prove_against(&scenario, &wrong.case, &Options::default().step(2e-3)).unwrap();
     let open = prove(&scenario, &Options::default().step(2e-2)).unwrap();
     let mut failed = open.clone();
     failed.engines.push(failed.engines[0].clone());

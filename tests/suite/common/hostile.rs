@@ -68,9 +68,9 @@ const TASK: &str = include_str!("../../../scenarios/ov7_drives/sinker_task.toml"
 const DRAWING: &str = include_str!("../../../scenarios/ov7_drives/rockers_drawing.toml");
 const SINKER: &str = include_str!("../../../scenarios/ov7_drives/sinker.toml");
 const PARQUETS: [&[u8]; 3] = [
-    include_bytes!("../versus/pandas.parquet"),
-    include_bytes!("../versus/polars_f32.parquet"),
-    include_bytes!("../versus/gzip.parquet"),
+    include_bytes!("../compare/pandas.parquet"),
+    include_bytes!("../compare/polars_f32.parquet"),
+    include_bytes!("../compare/gzip.parquet"),
 ];
 const CATALOGUE: &str = include_str!("../../../catalogues/motors.toml");
 const MAPPING: &str = "[channels]\n\"point.B.x_mm\" = \"point.B.x_m*1000\"\n\n[tolerance]\nall = { rel = 0.01 }\n\

@@ -2,7 +2,7 @@
 
 use super::{Tally, edited, parsed, text};
 use prover::diagnosis::PartyStanding;
-use prover::proof::{Options, prove_against};
+use prover::run::{Options, prove_against};
 
 use crate::common::by_night;
 

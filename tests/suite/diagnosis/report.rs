@@ -5,7 +5,7 @@ use linkage::error::Advice;
 use linkage::work::{Count, PLACED};
 use linkproof::report::json::Document;
 use linkproof::report::text::proof as told;
-use prover::proof::{Options, Proof, prove_against};
+use prover::run::{Options, Proof, prove_against};
 
 fn against(from: &str, to: &str) -> Proof {
     let right = text("crank_rocker");

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::common::{assert_within, shipped};
 use analytic::reduced::means;
 use analytic::reduced::{ACCURACY, ReducedModel, RunUp, RunUpEnd, motion};
-use design::flywheel::Flywheel;
+use design::drive::flywheel::Flywheel;
 use linkage::drive::{Load, Motor, MotorLaw};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::LinkId;

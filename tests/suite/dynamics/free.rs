@@ -10,9 +10,9 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{LinkId, Mechanism};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
-use prover::compare::{Verdict, residuals};
+use prover::bounds::{Verdict, residuals};
 use prover::engines::EngineName;
-use prover::proof::{Options, prove};
+use prover::run::{Options, prove};
 use scenario::Scenario;
 
 use crate::common::{assert_within, shipped};

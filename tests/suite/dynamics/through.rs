@@ -9,8 +9,8 @@ use linkage::error::ErrorKind;
 use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
-use prover::compare::Verdict;
-use prover::proof::{Options, prove};
+use prover::bounds::Verdict;
+use prover::run::{Options, prove};
 use scenario::Scenario;
 
 use super::free::{column, energies, solve};

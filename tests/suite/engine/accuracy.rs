@@ -7,8 +7,8 @@ use linkage::engine::{Engine, Route, Settings};
 use linkage::math::KeepNan;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Stage, Unit};
-use prover::compare::convergence::observed_order;
-use prover::compare::{Residual, residuals};
+use prover::bounds::convergence::observed_order;
+use prover::bounds::{Residual, residuals};
 
 use super::solve;
 #[cfg(feature = "f32")]

@@ -5,7 +5,7 @@ use linkage::case::{Case, Grid};
 use linkage::engine::{Route, Settings};
 use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::{Stage, Trajectory};
-use prover::compare::residuals;
+use prover::bounds::residuals;
 
 use super::solve;
 use crate::common::assert_within;

@@ -4,7 +4,7 @@ use linkage::case::{Case, Grid};
 use linkage::engine::Settings;
 use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
-use prover::compare::residuals;
+use prover::bounds::residuals;
 
 use super::{double, solve, stepping};
 use crate::common::assert_within;
@@ -26,7 +26,7 @@ fn differ(dense: &Trajectory, other: &Trajectory, row: impl Fn(usize) -> usize) 
         dense.iter().map(|(_, values)| (0..other.times().len()).map(|k| values[row(k)]).collect()).collect();
     let channels = dense.channels().to_vec();
     let picked = Trajectory::new(other.times().to_vec(), other.inputs().to_vec(), channels, picked).unwrap();
-    let scales = prover::compare::scales(dense);
+    let scales = prover::bounds::scales(dense);
     let worst = residuals(&picked, other).unwrap().into_iter().zip(scales).map(|(r, scale)| (r.max / scale, r.channel));
     let (worst, channel) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
     (worst, channel.to_string())

@@ -5,7 +5,7 @@ use crate::common::{assert_within, rapiers};
 use linkage::case::Grid;
 use linkage::trajectory::Channel;
 use prover::engines::{EngineName, with_step};
-use prover::proof::{Options, prove};
+use prover::run::{Options, prove};
 use scenario::Scenario;
 
 const ON_A_LOOP: &str = include_str!("hanging_on_loop.toml");

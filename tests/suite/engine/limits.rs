@@ -10,7 +10,7 @@ use linkage::case::Grid;
 use linkage::math::statistics::largest_difference;
 use linkage::solver::Solver;
 use prover::engines::EngineName;
-use prover::proof::{Options, prove};
+use prover::run::{Options, prove};
 use scenario::Scenario;
 
 use super::stepping;

@@ -103,7 +103,7 @@ fn regress_53_errors_of_sliders_are_as_measured() {
     for (sample, measured) in sliders::all().into_iter().zip(measured) {
         let truth = solve(&NewtonSolver, &sample.case);
         for engine in [prover::engines::named("rapier", 1e-4).unwrap()] {
-            let found = prover::compare::residuals(&truth, &solve(engine.as_ref(), &sample.case)).unwrap();
+            let found = prover::bounds::residuals(&truth, &solve(engine.as_ref(), &sample.case)).unwrap();
             for residual in found {
                 let error = residual.share();
                 assert_within!(error, 1.1 * measured, "{} {}: {error:e}", sample.name, residual.channel);

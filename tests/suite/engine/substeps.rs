@@ -5,7 +5,7 @@ use linkage::case::{Case, Grid};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, Stage, Unit};
-use prover::compare::residuals;
+use prover::bounds::residuals;
 
 use super::{epsilon, has_formal_order, solve};
 use crate::common::assert_within;
@@ -70,7 +70,7 @@ fn regress_67_two_substeps_are_nearly_as_good_as_half_the_step() {
     let worst = |name: &str, route: Route, substeps: usize| {
         let run = solve(engine(name, route, substeps).as_ref(), &case);
         let found = residuals(&truth, &run).unwrap();
-        let most = |wanted: &dyn Fn(&prover::compare::Residual) -> bool| {
+        let most = |wanted: &dyn Fn(&prover::bounds::Residual) -> bool| {
             found.iter().filter(|r| wanted(r)).map(|r| r.share()).fold(0.0, f64::larger)
         };
         [most(&|r| r.channel.kind.unit == Unit::Radian), most(&|r| r.channel.kind.stage >= Stage::Reactions)]

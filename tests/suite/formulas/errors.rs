@@ -1,8 +1,8 @@
 //! Wrong formulas of kinds that the search was not built on: every mistake is found, most are called by their cause,
 //! and no cause is made up.
 
-use prover::claims::{FormulaCause, MOST_WORK};
-use prover::proof::solved::Claimed;
+use prover::check::{FormulaCause, MOST_WORK};
+use prover::run::solved::Claimed;
 use scenario::{Claim, Formulas, Scenario};
 
 use super::{files, is_named, is_wrong, judged, load};

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use linkproof::{Options, prove};
-use prover::claims::FormulaOutcome;
+use prover::check::FormulaOutcome;
 use scenario::Scenario;
 
 use super::{judged, load, rewritten};
@@ -82,7 +82,7 @@ fn what_is_right_at_the_instants_alone_is_found_by_its_rate() {
     let scenario = load(&path);
     let orders = |scenario: &Scenario| -> Vec<Vec<(usize, bool)>> {
         let sides = judged(scenario).judgement.sides;
-        let of = |all: &Vec<Vec<prover::claims::JudgedFormula>>| {
+        let of = |all: &Vec<Vec<prover::check::JudgedFormula>>| {
             all.iter().flatten().map(|own| (own.order, own.outcome() == FormulaOutcome::Right)).collect()
         };
         sides.iter().map(|(_, all)| of(all)).collect()

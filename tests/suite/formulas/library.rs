@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use prover::claims::FormulaCause;
+use prover::check::FormulaCause;
 
 use super::{files, is_wrong, judged, load, rewritten};
 

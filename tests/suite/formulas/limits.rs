@@ -1,7 +1,7 @@
 //! The search for a cause is counted, and ends: whatever is written, and however much of it.
 
-use prover::claims::{CUT, FormulaCause, MOST_WORK};
-use prover::proof::solved::Claimed;
+use prover::check::{CUT, FormulaCause, MOST_WORK};
+use prover::run::solved::Claimed;
 use scenario::{Claim, Formulas, Scenario};
 
 use super::{files, judged, load, rewritten};

@@ -1,6 +1,6 @@
 use formula::{FormulaTree, Function, NodeShape, Operator, Program, Rounded};
 use linkage::math::KeepNan;
-use prover::claims::{FormulaCause, SlipKind};
+use prover::check::{FormulaCause, SlipKind};
 use scenario::{Formula, Scenario};
 
 use super::{files, is_wrong, judged, load, rewritten};

@@ -1,7 +1,7 @@
 //! What is undefined is neither right nor read over, at whatever door it comes in.
 
-use prover::claims::FormulaOutcome;
-use prover::proof::Reference;
+use prover::check::FormulaOutcome;
+use prover::run::Reference;
 use scenario::Scenario;
 
 use crate::cli::tools::Place;

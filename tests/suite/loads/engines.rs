@@ -2,7 +2,7 @@
 
 use linkage::engine::Route;
 use linkage::error::ErrorKind;
-use prover::proof::{Options, prove};
+use prover::run::{Options, prove};
 
 use crate::common::shipped;
 

@@ -2,7 +2,7 @@
 
 use linkage::engine::Route;
 use linkage::trajectory::Stage;
-use prover::proof::{Options, Proof, prove};
+use prover::run::{Options, Proof, prove};
 use scenario::Scenario;
 
 use crate::common::{from_outside, shipped};

@@ -6,7 +6,7 @@ use analytic::{self, witness::momentum, witness::power};
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::trajectory::Stage;
-use prover::compare::residuals;
+use prover::bounds::residuals;
 use scenario::Scenario;
 
 use crate::common::loads::Sizes;

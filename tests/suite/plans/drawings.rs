@@ -1,6 +1,6 @@
 //! Drawings of plans: well formed, complete, true to scale, legible.
 
-use design::diagram::draw;
+use design::draw;
 use linkage::math::{KeepNan, Vec2};
 
 use super::{Named, REVOLUTE, SLIDERS, all, degrees_of, plans};

@@ -3,7 +3,8 @@
 use crate::common::assert_within;
 use std::f64::consts::TAU;
 
-use design::diagram::{CrankGraph, GraphPoint, Graphs, draw};
+use design::diagram::{CrankGraph, GraphPoint, Graphs};
+use design::draw;
 
 /// A cosine about 3 N over one turn from 90 deg on, in the direction `way`.
 fn cosine(amplitude: f64, way: f64) -> Graphs {

@@ -5,8 +5,9 @@ use std::f64::consts::{PI, TAU};
 
 use analytic::AssurSolver;
 use design::diagram::motion::Method;
-use design::diagram::plan::state_at;
-use design::diagram::{MotionCurve, MotionDiagram, draw};
+use design::diagram::{MotionCurve, MotionDiagram};
+use design::draw;
+use design::plan::state_at;
 
 use super::scenario;
 use crate::common::assert_within;

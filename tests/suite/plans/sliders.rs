@@ -2,8 +2,9 @@
 //! derivatives, and drawn guides.
 
 use analytic::{AssurSolver, NewtonSolver};
-use design::diagram::plan::state_at;
-use design::diagram::{TipKind, VectorKind, draw};
+use design::draw;
+use design::plan::state_at;
+use design::plan::{TipKind, VectorKind};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2, cross, rotated, turned};
 use linkage::solver::{Solver, State};

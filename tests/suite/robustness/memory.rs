@@ -8,7 +8,7 @@ use assert_cmd::cargo::CommandCargoExt;
 use linkage::case::{Grid, Wanted};
 use linkage::trajectory::Stage;
 use linkproof::{Options, prove};
-use prover::proof::memory;
+use prover::run::memory;
 
 use crate::common::{by_night, shipped};
 

@@ -8,7 +8,7 @@ use linkage::mechanism::{AssemblyMode, LinkId};
 use linkage::trajectory::Trajectory;
 use linkproof::{Case, Scenario};
 use precise::{dyads, whole};
-use prover::compare::{difference, magnitudes};
+use prover::bounds::{difference, magnitudes};
 
 use crate::common::assert_within;
 use crate::common::random::for_each;
@@ -88,7 +88,7 @@ fn random_dyads_agree_with_the_sides() {
         let times = (0..8).map(|k| 0.04 * f64::from(k) / case.crank().top_speed().abs()).collect();
         let case = case.on(linkage::case::Grid::of_times(case.crank(), times)).unwrap();
         let truth = precise::solve(&case).unwrap_or_else(|error| panic!("{error}"));
-        let found = prover::proof::beside::sides(&case, Some(&truth)).unwrap();
+        let found = prover::run::beside::sides(&case, Some(&truth)).unwrap();
         for own in found.sides.iter().flat_map(|side| &side.deviations) {
             assert_within!(own.used, 1.0, "{} {own:?}", sample.spec.toml());
         }

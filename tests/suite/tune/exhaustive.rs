@@ -7,7 +7,7 @@ use linkage::engine::{Engine, Settings};
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
-use prover::compare::{Residual, residuals};
+use prover::bounds::{Residual, residuals};
 use scenario::Scenario;
 
 /// Mechanisms with published figures, of every class, with and without sliders.

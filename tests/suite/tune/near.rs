@@ -4,7 +4,7 @@
 use lab::tune::{Tuning, WantedAccuracy, price_of, tune};
 use linkage::engine::Engine;
 use prover::engines::EngineName;
-use prover::proof::Options;
+use prover::run::Options;
 use scenario::Scenario;
 
 use super::exhaustive::{Space, cheaper, error_of, truth};

@@ -10,7 +10,7 @@ use linkage::error::Result;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use prover::compare::residuals;
+use prover::bounds::residuals;
 
 /// Share of the difference between a run at the usual accuracy and the tighter reference that may be left in the
 /// reference: it allows a hundredth in every step, and four times that is the margin of `proof::known`.

@@ -10,7 +10,7 @@ use linkage::math::KeepNan;
 use linkage::math::statistics::share;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage as Of;
-use prover::compare::magnitudes;
+use prover::bounds::magnitudes;
 
 /// Change, relative to the largest number of a quantity, that is rounding: of a case solved once more with other
 /// numbers, which follow from each other. It is a tenth and less of what the two sides are allowed to differ by.

@@ -12,8 +12,8 @@ use linkage::error::Result;
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
 use linkage::trajectory::{Channel, Stage as Of};
-use prover::claims::{KnownTrajectory, planted};
-use prover::proof::{Judgement, Reference, formula_checks};
+use prover::check::{KnownTrajectory, planted};
+use prover::run::{Judgement, Reference, formula_checks};
 use scenario::{Claim, Formula, Formulas};
 
 /// Work of an operation of a formula at an instant, in steps of an engine's four-bar.

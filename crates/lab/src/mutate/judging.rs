@@ -10,8 +10,8 @@ use linkage::case::Wanted;
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::trajectory::Stage as Of;
-use prover::compare::Verdict;
-use prover::proof::Options;
+use prover::bounds::Verdict;
+use prover::run::Options;
 use scenario::{Scenario, of_repository};
 
 kinds! { Judgement, Answer:

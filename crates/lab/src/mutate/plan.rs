@@ -11,7 +11,7 @@ use super::stage::Stage;
 use crate::sentences;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::threads::{cores, made};
-use prover::proof::{BUDGET, Options};
+use prover::run::{BUDGET, Options};
 use scenario::Scenario;
 
 /// What is asked for.

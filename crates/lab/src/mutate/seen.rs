@@ -3,8 +3,8 @@
 use crate::sentences;
 use linkage::math::statistics::ascending;
 use linkage::trajectory::Trajectory;
-use prover::compare::{Check, Verdict, differences, overall};
-use prover::proof::{ChannelProof, EngineProof, Judgement, ObservedSides};
+use prover::bounds::{Check, Verdict, differences, overall};
+use prover::run::{ChannelProof, EngineProof, Judgement, ObservedSides};
 
 /// A channel or a check beyond its bound.
 #[derive(Clone, Debug, PartialEq)]

@@ -15,8 +15,8 @@ use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use linkage::work::{Count, PLACED, counted, limited};
-use prover::compare::overall;
-use prover::proof::{
+use prover::bounds::overall;
+use prover::run::{
     BUDGET, EachSide, EngineProof, EngineRole, Entrant, Ledger, ObservedSides, Options, Problem, Reference, SIDES,
     TRUE_SIDES,
 };

@@ -8,7 +8,7 @@ use super::seen::FaultyProof;
 use super::stage::Stage;
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Load};
-use prover::proof::Options;
+use prover::run::Options;
 use scenario::{Scenario, of_repository};
 
 fn scenario(name: &str) -> Scenario {

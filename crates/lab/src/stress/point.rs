@@ -12,10 +12,10 @@ use linkage::work::{Count, counted};
 
 use super::outcome::{PartyAtPoint, PointEnd, QuantityGroup, StressOutcome, WorstOfGroup, rounded};
 use super::{EngineUse, Setup, StressFamily};
-use prover::compare::{Check, Verdict, difference, scales};
+use prover::bounds::{Check, Verdict, difference, scales};
 use prover::engines::{self, EngineName};
-use prover::proof::beside::{AnalyticSide, BothSides, Deviation, sides};
-use prover::proof::{EngineProof, Options, prove};
+use prover::run::beside::{AnalyticSide, BothSides, Deviation, sides};
+use prover::run::{EngineProof, Options, prove};
 use scenario::Scenario;
 
 /// Solves a family's point with everything that this build has. A panic is a failure of the point like any other.

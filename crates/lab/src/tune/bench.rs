@@ -11,8 +11,8 @@ use linkage::case::Case;
 use linkage::engine::{CachedEngine, Engine, Settings};
 use linkage::error::{ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
-use prover::compare::{Convergence, Ladder, OtherSweeps, residuals};
-use prover::proof::Options;
+use prover::bounds::{Convergence, Ladder, OtherSweeps, residuals};
+use prover::run::Options;
 
 /// Coarsest accuracy that is tried for an engine that controls its error.
 const COARSEST: f64 = 0.1;

@@ -7,8 +7,8 @@ use linkage::trajectory::Channel;
 
 use super::bench::Bench;
 use super::candidate::{Candidate, Measured};
-use prover::compare::Verdict;
-use prover::proof::{EngineProof, Options, Reference, prove};
+use prover::bounds::Verdict;
+use prover::run::{EngineProof, Options, Reference, prove};
 use scenario::Scenario;
 
 /// Largest number of refinements.

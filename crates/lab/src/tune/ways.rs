@@ -3,7 +3,7 @@
 use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::trajectory::Stage;
-use prover::proof::Options;
+use prover::run::Options;
 
 /// Numbers of sweeps that are tried.
 const SWEEPS: [usize; 11] = [4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];

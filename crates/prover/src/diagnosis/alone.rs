@@ -1,6 +1,6 @@
 //! Which of several parties contradicts the others.
 
-use crate::compare::largest_difference;
+use crate::bounds::largest_difference;
 use linkage::trajectory::{Channel, Trajectory};
 
 /// One party: its results and how wrong they may be.

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::question::{DiagnosisInput, SuspectChannel};
 use super::slips::KNOWN;
-use crate::compare::{differences, magnitudes};
+use crate::bounds::{differences, magnitudes};
 use linkage::case::{Case, Grid};
 use linkage::math::statistics::ascending;
 use linkage::math::{KeepNan, largest_size};

@@ -5,7 +5,7 @@ use super::cause::{Change, DisagreementCause, PartChange};
 use super::nature::{ErrorNature, nature};
 use super::question::{DiagnosisInput, Found, Rank, SuspectChannel};
 use super::{changes, derived, others, slips};
-use crate::compare::differences;
+use crate::bounds::differences;
 use linkage::math::statistics::ascending;
 use linkage::trajectory::{Channel, Trajectory};
 

@@ -2,7 +2,7 @@
 
 use super::question::DiagnosisInput;
 use super::slips::Wrong;
-use crate::compare::{differences, scales};
+use crate::bounds::{differences, scales};
 use linkage::math::statistics::{ascending, rms};
 use linkage::math::{KeepNan, largest_size};
 

@@ -3,7 +3,7 @@
 use super::cause::DataSlip;
 use super::question::{DiagnosisInput, Found, Rank};
 use super::slips::{Wrong, settled};
-use crate::compare::differences;
+use crate::bounds::differences;
 use linkage::math::statistics::half_range;
 use linkage::trajectory::{Channel, Unit};
 

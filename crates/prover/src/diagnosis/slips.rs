@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use super::cause::{DataSlip, Plain};
 use super::knobs::significant_in;
 use super::question::{DiagnosisInput, Found, Rank, SuspectChannel};
-use crate::compare::{differences, magnitudes};
+use crate::bounds::{differences, magnitudes};
 use linkage::math::angle::wrapped;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Stage, Unit};

@@ -1,7 +1,7 @@
 //! Mistakes in formulas: those that a diagnosis knows, made on purpose, and claims of something else.
 
 use super::kind::{FaultFamily, FaultKind, Mistake, Plant};
-use prover::claims::SlipKind as Slip;
+use prover::check::SlipKind as Slip;
 
 pub(super) const KINDS: &[FaultKind] = &[
     slip("formula-sign", "a sign of a formula is wrong", Slip::Sign),

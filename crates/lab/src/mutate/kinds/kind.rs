@@ -2,7 +2,7 @@
 
 use linkage::case::Case;
 use linkage::solver::State;
-use prover::claims::SlipKind as Slip;
+use prover::check::SlipKind as Slip;
 
 linkage::words! {
     /// What a fault is in.

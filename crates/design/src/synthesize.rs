@@ -1,0 +1,32 @@
+//! Dimensions from a wanted motion: in closed form where possible, else by a search over lengths and pivots.
+
+pub mod achieved;
+pub mod crank_rocker;
+pub mod draft;
+mod evaluate;
+mod rating;
+pub mod redraw;
+pub mod search;
+pub mod slider_crank;
+pub mod task;
+pub mod task_file;
+
+pub use achieved::Achieved;
+pub use crank_rocker::CrankRocker;
+pub use draft::DraftContents;
+pub use search::{SearchResult, search};
+pub use slider_crank::SliderCrank;
+
+use linkage::error::{Error, ErrorKind};
+use std::f64::consts::PI;
+
+/// Time of the slower stroke divided by that of the faster one, at a constant speed of the crank:
+/// K = (pi + |theta|) / (pi - |theta|).
+/// `theta` (rad) is the difference between the directions of crank and coupler in the two extreme positions.
+fn time_ratio(theta: f64) -> f64 {
+    (PI + theta.abs()) / (PI - theta.abs())
+}
+
+fn wrong(key: &str, message: String, help: &str) -> Error {
+    Error::new(ErrorKind::Input, message).key(key).help(help)
+}

@@ -1,0 +1,207 @@
+//! The achieved motion of a mechanism compared with the wanted motion of its output, on a fine grid of its scenario.
+
+use crate::sentences;
+use linkage::math::KeepNan;
+use linkage::math::statistics::ends;
+use std::f64::consts::TAU;
+
+use super::evaluate::Evaluator;
+use crate::synthesize::task::{Phase, Sense, Task};
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::mechanism::GroupKind;
+
+/// Rows per turn.
+const ROWS: usize = 7200;
+/// Half width of the band about a dwell (share of the stroke). The dwell ends where the output leaves the band.
+pub const BAND: f64 = 0.01;
+
+/// Achieved motion in one phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhaseDone {
+    /// Displacement from its beginning to its end, forward positive (share of the stroke).
+    pub displacement: f64,
+    /// Greatest minus least position (share of the stroke); in a dwell it should be zero.
+    pub motion: f64,
+    /// Distance travelled in the wrong sense (share of the stroke); 0 in a dwell.
+    pub wrong: f64,
+    /// Position of the output at the end of the phase (share of the stroke).
+    pub level: f64,
+    /// Crank angle (rad) at which the phase actually ends.
+    /// Between two motions it is the extreme position.
+    /// At a dwell it is where the output departs from the middle of the dwell, or approaches it, by [`BAND`].
+    /// `None` between two motions in one sense, and if there is no such point nearby.
+    pub end: Option<f64>,
+}
+
+/// A motion compared with its timing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Achieved {
+    /// Stroke of the output (rad or m).
+    pub stroke: f64,
+    /// Smallest transmission angle of any dyad over the turn (rad); `None` with higher groups, which have none.
+    pub transmission: Option<f64>,
+    /// The phases, in their order.
+    pub phases: Vec<PhaseDone>,
+    /// Crank angles of the curve (rad from crank angle zero in the sense of rotation).
+    pub turns: Vec<f64>,
+    /// The output at these angles (share of the stroke, 0 rearmost).
+    pub shares: Vec<f64>,
+    /// Sense of the output that is forward: +1 or -1.
+    pub forward: f64,
+}
+
+impl Achieved {
+    /// Achieved motion of the mechanism of `task.case` with its present dimensions.
+    /// `forward` is the sense of the output that counts as forward (+1 or -1).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] if it cannot be assembled over the whole turn, or if its output turns fully.
+    pub fn of(task: &Task, forward: f64) -> Result<Self> {
+        let turns: Vec<f64> = (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect();
+        let as_drawn = Task { places: Vec::new(), ..task.clone() };
+        let mut evaluator = Evaluator::new(&as_drawn);
+        evaluator.run(&[], task.case.crank().zero, &turns).map_err(|_| {
+            let message = sentences::THE_MECHANISM_CANNOT_BE_ASSEMBLED;
+            Error::new(ErrorKind::Geometry, message).help(Advice::LookAtRange)
+        })?;
+        let curve = &evaluator.curve;
+        let [low, high] = ends(curve.iter().copied());
+        let dyads = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
+        let share =
+            |&value: &f64| if forward > 0.0 { (value - low) / (high - low) } else { (high - value) / (high - low) };
+        let mut found = Achieved {
+            stroke: high - low,
+            transmission: dyads.then(|| evaluator.sine.clamp(0.0, 1.0).asin()),
+            phases: Vec::new(),
+            shares: curve.iter().map(share).collect(),
+            turns,
+            forward,
+        };
+        found.phases = (0..task.timing.phases().len()).map(|phase| found.phase(task, phase)).collect();
+        Ok(found)
+    }
+
+    /// The same for the sense of the output that is closer to the timing, if the task leaves the sense open.
+    ///
+    /// # Errors
+    /// Those of [`Achieved::of`].
+    pub fn of_either(task: &Task) -> Result<Self> {
+        if let Some(forward) = task.forward {
+            return Achieved::of(task, forward);
+        }
+        let [ahead, back] = [Achieved::of(task, 1.0)?, Achieved::of(task, -1.0)?];
+        let wrong = |found: &Achieved| found.phases.iter().map(|phase| phase.wrong).sum::<f64>();
+        Ok(if wrong(&ahead) <= wrong(&back) { ahead } else { back })
+    }
+
+    /// Every phase as it is and as it is wanted, with the sense of the next one.
+    fn with_next<'a>(&'a self, task: &'a Task) -> impl Iterator<Item = (&'a PhaseDone, &'a Phase, Sense)> {
+        let phases = task.timing.phases();
+        let next = phases.iter().cycle().skip(1).map(|phase| phase.sense);
+        self.phases.iter().zip(phases).zip(next).map(|((done, phase), next)| (done, phase, next))
+    }
+
+    /// Largest motion in any dwell (share of the stroke).
+    #[must_use]
+    pub fn unrest(&self, task: &Task) -> f64 {
+        let dwells = self.with_next(task).filter(|(_, phase, _)| phase.sense == Sense::Dwell);
+        dwells.map(|(done, ..)| done.motion).fold(0.0, f64::larger)
+    }
+
+    /// Largest distance travelled in the wrong sense in any phase (share of the stroke).
+    #[must_use]
+    pub fn wrong(&self) -> f64 {
+        self.phases.iter().map(|phase| phase.wrong).fold(0.0, f64::larger)
+    }
+
+    /// Largest deviation (rad) of an extreme position from the limit between two opposite motions where it should be.
+    #[must_use]
+    pub fn late(&self, task: &Task) -> f64 {
+        let turns = self.with_next(task).filter(|(_, phase, next)| phase.sense.sign() * next.sign() < 0.0);
+        let apart = turns.map(|(done, phase, _)| done.end.map_or(TAU, |end| (end - phase.to).abs()));
+        apart.fold(0.0, f64::larger)
+    }
+
+    /// Largest shortfall of a dwell at either end (rad): the output is outside [`BAND`] although it should dwell.
+    /// A dwell that is longer than required does not count.
+    #[must_use]
+    pub fn short(&self, task: &Task) -> f64 {
+        let missing = |(done, phase, next): (&PhaseDone, &Phase, Sense)| match (phase.sense, next) {
+            (Sense::Dwell, Sense::Dwell) => None,
+            (Sense::Dwell, _) => Some(phase.to - done.end?),
+            (_, Sense::Dwell) => Some(done.end? - phase.to),
+            _ => None,
+        };
+        self.with_next(task).filter_map(missing).fold(0.0, f64::larger)
+    }
+
+    /// The share at any row; rows continue over several turns.
+    fn at(&self, row: i64) -> f64 {
+        self.shares[row.rem_euclid(ROWS as i64) as usize]
+    }
+
+    /// The least and the greatest share from one row to another.
+    fn ends(&self, from: i64, to: i64) -> [f64; 2] {
+        ends((from..=to).map(|row| self.at(row)))
+    }
+
+    fn row(&self, turn: f64) -> i64 {
+        (turn / TAU * ROWS as f64).round() as i64
+    }
+
+    fn phase(&self, task: &Task, index: usize) -> PhaseDone {
+        let phases = task.timing.phases();
+        let (phase, next) = (&phases[index], &phases[(index + 1) % phases.len()]);
+        let (from, to) = (self.row(phase.from), self.row(phase.to));
+        let [low, high] = self.ends(from, to);
+        let sign = phase.sense.sign();
+        let end = match (phase.sense, next.sense) {
+            (Sense::Dwell, Sense::Dwell) => None,
+            (Sense::Dwell, _) => self.leaves(from, to, 1).map(|row| self.turn_near(row, phase.to)),
+            (_, Sense::Dwell) => {
+                let far = self.row(next.to) - self.row(next.from);
+                self.leaves(to + far, to, -1).map(|row| self.turn_near(row, phase.to))
+            }
+            (own, other) if own != other => self.extreme(to, sign).map(|row| self.turn_near(row, phase.to)),
+            _ => None,
+        };
+        PhaseDone {
+            displacement: self.at(to) - self.at(from),
+            motion: high - low,
+            wrong: (from..to).map(|row| (-sign * (self.at(row + 1) - self.at(row))).larger(0.0)).sum(),
+            level: self.at(to),
+            end,
+        }
+    }
+
+    /// Crank angle (rad) of a row, in the turn that is closest to `to`.
+    fn turn_near(&self, row: f64, to: f64) -> f64 {
+        let turn = row * TAU / ROWS as f64;
+        turn + TAU * ((to - turn) / TAU).round()
+    }
+
+    /// Row at which the output leaves the band about its dwell.
+    /// The search starts in the middle of the dwell between the rows `from` and `to`, and goes towards `to` and beyond.
+    /// The band is centred between the dwell's extremes.
+    fn leaves(&self, from: i64, to: i64, way: i64) -> Option<f64> {
+        let (first, last) = (from.min(to), from.max(to));
+        let [low, high] = self.ends(first, last);
+        let middle = (high + low) / 2.0;
+        let mut row = (first + last) / 2;
+        let outside = to + way * (ROWS as i64 / 4);
+        while row != outside && (self.at(row) - middle).abs() <= BAND {
+            row += way;
+        }
+        (row != outside).then_some(row as f64)
+    }
+
+    /// The extreme position nearest to a row, within a quarter of a turn: a maximum for `sign` +1.
+    /// Between rows it is interpolated by a parabola through three rows.
+    fn extreme(&self, to: i64, sign: f64) -> Option<f64> {
+        let value = |row: i64| sign * self.at(row);
+        let is_top = |row: &i64| value(*row) >= value(row - 1) && value(*row) > value(row + 1);
+        let row = (0..ROWS as i64 / 4).flat_map(|off| [to - off, to + off]).find(is_top)?;
+        let [a, b, c] = [row - 1, row, row + 1].map(value);
+        Some(row as f64 + 0.5 * (a - c) / (a - 2.0 * b + c))
+    }
+}

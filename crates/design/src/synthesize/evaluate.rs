@@ -1,0 +1,172 @@
+//! The motion of a candidate: from dimensions to the output over one turn.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::synthesize::task::{OutputQuantity, Task};
+use analytic::assur::groups::{SolutionPlan, Step};
+use linkage::math::{KeepNan, Motion, cross, unit};
+use linkage::mechanism::assembly::transmission_sine;
+use linkage::mechanism::{Mechanism, PerLink, Pose, first_pose};
+use linkage::solver::State;
+
+/// Poses that are tried first: most candidates that cannot be assembled fail in one of them.
+const PROBES: usize = 8;
+/// Largest step (rad) between poses that are found by continuation.
+const FOLLOWED: f64 = PI / 90.0;
+
+/// Computes the turn of one candidate after another. The loop over the poses does not allocate.
+#[derive(Clone, Debug)]
+pub(super) struct Evaluator<'a> {
+    task: &'a Task,
+    mechanism: Mechanism,
+    motions: PerLink<Motion>,
+    /// Pose of the last motions, for dyads with prismatic joints.
+    pose: Pose,
+    /// Output at the crank angles of the last run, without jumps.
+    pub(super) curve: Vec<f64>,
+    /// Smallest transmission sine of any dyad so far.
+    pub(super) sine: f64,
+}
+
+impl<'a> Evaluator<'a> {
+    pub(super) fn new(task: &'a Task) -> Self {
+        let state = State::at_start(&task.case);
+        Evaluator {
+            task,
+            mechanism: task.case.mechanism.clone(),
+            motions: state.motions,
+            pose: task.case.start.clone(),
+            curve: Vec::new(),
+            sine: 1.0,
+        }
+    }
+
+    /// Sets the dimensions.
+    fn dimension(&mut self, values: &[f64]) {
+        for place in &self.task.places {
+            place.apply(values, &mut self.mechanism);
+        }
+    }
+
+    /// Computes the output at the crank angles `turns` into `curve`.
+    /// They are in rad from crank angle zero in the sense of rotation, ascending; the last is a turn after the first.
+    /// The crank's zero is at the world direction `zero` (rad).
+    ///
+    /// # Errors
+    /// The share of poses reached, if the mechanism cannot be assembled over the whole turn, or if the output turns fully.
+    pub(super) fn run(&mut self, values: &[f64], zero: f64, turns: &[f64]) -> Result<(), f64> {
+        self.dimension(values);
+        let case = &self.task.case;
+        let plan = SolutionPlan::of(&self.mechanism, &case.structure, &case.modes);
+        self.curve.clear();
+        self.curve.resize(turns.len(), 0.0);
+        self.sine = 1.0;
+        let sense = self.task.turning();
+        let world = |turn: f64| zero + sense * turn;
+        if plan.is_closed_form() {
+            self.probe_and_place(plan, &world, turns)?
+        } else {
+            self.follow(plan, &world, turns, zero)?
+        }
+        self.unwind()
+    }
+
+    /// Dyads only: poses do not depend on each other.
+    fn probe_and_place(
+        &mut self,
+        mut plan: SolutionPlan,
+        world: &dyn Fn(f64) -> f64,
+        turns: &[f64],
+    ) -> Result<(), f64> {
+        let last = turns.len() - 1;
+        for probe in 0..PROBES {
+            // Opposite poses first: 0, 4, 2, 6, 1, 5, 3, 7 eighths of the turn.
+            let at = probe.reverse_bits() >> (usize::BITS - 3);
+            if plan.positions(&[world(turns[at * last / PROBES])], &mut self.motions).is_err() {
+                return Err(probe as f64 / (2 * PROBES) as f64);
+            }
+        }
+        for (row, &turn) in turns.iter().enumerate() {
+            if plan.positions(&[world(turn)], &mut self.motions).is_err() {
+                return Err(0.5 + 0.5 * row as f64 / turns.len() as f64);
+            }
+            self.curve[row] = self.output();
+            self.watch(&plan);
+        }
+        Ok(())
+    }
+
+    /// Higher groups: from the start pose in small steps. After the turn the output must be at its start again.
+    fn follow(
+        &mut self,
+        mut plan: SolutionPlan,
+        world: &dyn Fn(f64) -> f64,
+        turns: &[f64],
+        zero: f64,
+    ) -> Result<(), f64> {
+        let case = &self.task.case;
+        let start = zero + case.crank().start;
+        let (pose, _) = first_pose(&self.mechanism, &case.structure, &[start], &self.task.starts).map_err(|_| 0.0)?;
+        for (motion, link) in self.motions.iter_mut().zip(&pose.0) {
+            (motion.origin, motion.direction) = (link.origin, unit(link.angle));
+        }
+        let mut angle = start;
+        plan.positions(&[angle], &mut self.motions).map_err(|_| 0.0)?;
+        for (row, &turn) in turns.iter().enumerate() {
+            let (from, way) = (angle, world(turn) - angle);
+            let steps = (way.abs() / FOLLOWED).ceil().larger(1.0);
+            for step in 1..=steps as usize {
+                angle = from + way * (step as f64 / steps);
+                plan.positions(&[angle], &mut self.motions).map_err(|_| row as f64 / turns.len() as f64)?;
+            }
+            self.curve[row] = self.output();
+        }
+        Ok(())
+    }
+
+    #[inline]
+    fn output(&self) -> f64 {
+        match self.task.output {
+            OutputQuantity::Angle { link } => {
+                let direction = self.motions[link].direction;
+                direction.y.atan2(direction.x)
+            }
+            OutputQuantity::Coordinate { link, point, along } => {
+                self.motions[link].point(self.mechanism.links()[link].points[point].local).dot(&along)
+            }
+        }
+    }
+
+    /// Updates the smallest transmission sine.
+    #[inline]
+    fn watch(&mut self, plan: &SolutionPlan) {
+        let mut placed = false;
+        for (group, step) in self.task.case.structure.groups.iter().zip(plan.steps()) {
+            let sine = if let Step::Rrr(dyad) = step {
+                let ([r1, r2], _) = dyad.spans();
+                (cross(r1, r2).powi(2) / (r1.norm_squared() * r2.norm_squared())).sqrt()
+            } else {
+                if !placed {
+                    for (link, motion) in self.pose.0.iter_mut().zip(&self.motions) {
+                        (link.origin, link.angle) = (motion.origin, motion.direction.y.atan2(motion.direction.x));
+                    }
+                    placed = true;
+                }
+                transmission_sine(&self.mechanism, group, &self.pose).map_or(1.0, f64::abs)
+            };
+            self.sine = self.sine.smaller(sine);
+        }
+    }
+
+    /// Removes jumps by a full turn from angles. An output that is not periodic over the turn is refused.
+    fn unwind(&mut self) -> Result<(), f64> {
+        if let OutputQuantity::Angle { .. } = self.task.output {
+            for row in 1..self.curve.len() {
+                let way = self.curve[row] - self.curve[row - 1];
+                self.curve[row] -= TAU * (way / TAU).round();
+            }
+        }
+        let [first, last] = [self.curve[0], self.curve[self.curve.len() - 1]];
+        if (last - first).abs() <= 1e-6 * (1.0 + first.abs()) { Ok(()) } else { Err(0.99) }
+    }
+}

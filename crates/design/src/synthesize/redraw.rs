@@ -1,0 +1,156 @@
+//! A drawing with other dimensions: the text of its scenario, changed only where dimensions are.
+
+use crate::sentences;
+use toml_edit::{DocumentMut, InlineTable, Item, TableLike, value};
+
+use crate::synthesize::task::{Task, TaskNumber};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::Vec2;
+use linkage::mechanism::{GROUND, Link, LinkId};
+
+/// Decimals kept of millimetres and of degrees: the accuracy of a workshop.
+const DECIMALS: [f64; 2] = [1e3, 1e4];
+
+/// A number rounded to a multiple of 1 / `parts`.
+fn rounded(value: f64, parts: f64) -> f64 {
+    (value * parts).round() / parts
+}
+
+/// Values of a task's variables (SI), rounded as [`redrawn`] writes them: to a micrometre and a ten thousandth of a
+/// degree.
+#[must_use]
+pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
+    let round = |(value, variable): (&f64, &crate::synthesize::task::Variable)| match variable.is_angle {
+        true => rounded(value.to_degrees(), DECIMALS[1]).to_radians(),
+        false => rounded(value * 1e3, DECIMALS[0]) / 1e3,
+    };
+    values.iter().zip(&task.variables).map(round).collect()
+}
+
+/// Sections of a drawing that hold for its own dimensions only: published numbers, with the tables that they name, what
+/// formulas claim, and where the dimensions come from.
+const OWN: [&str; 3] = ["oracle", "formula", "source"];
+
+/// The text of the drawing `text` with the dimensions that `values` (SI) give the task, under the task's name, with
+/// `comment` at the top. What holds for the drawing's own dimensions only is left out, and the comment says so. If the
+/// task states the mass of bars, every link gets the masses of slender bars from its first
+/// point to each of the others.
+///
+/// # Errors
+/// [`ErrorKind::Input`] if the text is not the scenario from which the task was read.
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
+pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result<String> {
+    let mut document: DocumentMut =
+        text.parse().map_err(|error| Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml(&error)))?;
+    let left_out: Vec<&str> = OWN.into_iter().filter(|key| document.remove(key).is_some()).collect();
+    let mut mechanism = task.case.mechanism.clone();
+    document["name"] = value(task.name.as_str());
+    document["title"] = value(task.title.as_str());
+    for place in &task.places {
+        place.apply(values, &mut mechanism);
+        let body = &mechanism.links()[place.handle.link];
+        let [a, b] = place.entries.map(|entry| entry.value(values));
+        let written = match place.from {
+            None => flat(Vec2::new(a, b)),
+            Some(from) => InlineTable::from_iter([
+                ("from", toml_edit::Value::from(body.points[from].name.as_str())),
+                ("length_mm", rounded(a * 1e3, DECIMALS[0]).into()),
+                ("angle_deg", rounded(b.to_degrees(), DECIMALS[1]).into()),
+            ]),
+        };
+        let owner = link_table(&mut document, place.handle.link, &body.name)?;
+        let points = owner.get_mut("points").and_then(Item::as_table_like_mut).ok_or_else(|| foreign(&body.name))?;
+        points.insert(&body.points[place.handle.point].name, value(written));
+    }
+    if let TaskNumber::Free(index) = task.zero {
+        let drive = match &mut document["drive"] {
+            Item::ArrayOfTables(drives) => drives.get_mut(0).map(|table| table as &mut dyn TableLike),
+            item => item.as_table_like_mut(),
+        };
+        let drive = drive.ok_or_else(|| foreign("drive"))?;
+        drive.remove("zero_rad");
+        drive.insert("zero_deg", value(rounded(values[index].to_degrees(), DECIMALS[1])));
+    }
+    if let Some(bar) = task.bar {
+        for (index, body) in mechanism.links().entries().filter(|(index, _)| *index != GROUND) {
+            weigh(link_table(&mut document, index, &body.name)?, body, bar);
+        }
+    }
+    let left_out = match &left_out[..] {
+        [] => String::new(),
+        keys => sentences::left_out_of_the_drawing_because(&keys.join(", ")),
+    };
+    let comment = comment.to_string() + &left_out;
+    let comment: String = comment.lines().map(|line| format!("# {line}").trim_end().to_string() + "\n").collect();
+    Ok(format!("{comment}\n{document}"))
+}
+
+fn foreign(name: &str) -> Error {
+    Error::new(ErrorKind::Input, sentences::the_drawing_has_no_where(&name))
+        .help(sentences::GIVE_THE_TEXT_OF_THE_SCENARIO)
+}
+
+/// The table of a link; the ground has its own table.
+fn link_table<'a>(document: &'a mut DocumentMut, link: LinkId, name: &str) -> Result<&'a mut dyn TableLike> {
+    let item = match link {
+        GROUND => document.get_mut("ground"),
+        _ => document.get_mut("links").and_then(|links| links.get_mut(name)),
+    };
+    item.and_then(Item::as_table_like_mut).ok_or_else(|| foreign(name))
+}
+
+/// A place in its link (m).
+fn flat(place: Vec2) -> InlineTable {
+    InlineTable::from_iter(
+        [("x_mm", place.x), ("y_mm", place.y)].map(|(key, at)| (key, rounded(at * 1e3, DECIMALS[0]))),
+    )
+}
+
+/// Masses of slender bars of `bar` (kg/m) from the first point of a link to each of the others.
+fn weigh(table: &mut dyn TableLike, body: &Link, bar: f64) {
+    let first = body.points[0].local;
+    let bars: Vec<Vec2> = body.points[1..].iter().map(|point| point.local - first).collect();
+    let mass: f64 = bars.iter().map(|arm| bar * arm.norm()).sum();
+    if !(mass > 0.0) {
+        return;
+    }
+    let centre = bars.iter().map(|arm| *arm * (0.5 * bar * arm.norm())).sum::<Vec2>() / mass;
+    let about_centre = |arm: &Vec2| {
+        let own = bar * arm.norm();
+        own * arm.norm_squared() / 12.0 + own * (*arm * 0.5 - centre).norm_squared()
+    };
+    let inertia: f64 = bars.iter().map(about_centre).sum();
+    for key in ["mass_g", "mass_kg", "inertia_kg_m2", "mass_centre"] {
+        table.remove(key);
+    }
+    table.insert("mass_kg", value(rounded(mass, 1e6)));
+    // Six significant digits.
+    let digits = 10f64.powi(5 - inertia.log10().floor() as i32);
+    table.insert("inertia_kg_m2", value(rounded(inertia, digits)));
+    table.insert("mass_centre", value(flat(first + centre)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use linkage::mechanism::Point;
+
+    #[test]
+    fn a_bar_has_its_mass_at_its_middle() {
+        let point = |name: &str, x: f64, y: f64| Point { name: name.into(), local: Vec2::new(x, y) };
+        let body = Link {
+            name: "bar".into(),
+            points: vec![point("A", 0.1, 0.0), point("B", 0.1, 0.2)],
+            mass: 0.0,
+            mass_centre: Vec2::zeros(),
+            inertia: 0.0,
+        };
+        let mut table = toml_edit::Table::new();
+        weigh(&mut table, &body, 2.0);
+        let text = table.to_string();
+        // m l^2 / 12 with 0.4 kg and 0.2 m.
+        for line in ["mass_kg = 0.4", "inertia_kg_m2 = 0.00133333", "x_mm = 100.0, y_mm = 100.0"] {
+            assert!(text.contains(line), "{line}: {text}");
+        }
+    }
+}

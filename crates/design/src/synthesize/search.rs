@@ -1,0 +1,230 @@
+//! Random search over lengths and pivots, and refinement of the best.
+//!
+//! Candidates are drawn uniformly within their bounds.
+//! Each block of them has its own random stream (ChaCha, by Bernstein).
+//! The result therefore depends on the seed and not on the number of threads.
+//! The best are refined by an evolution strategy with one parent and one child and the one-fifth rule (Rechenberg 1973).
+//! This strategy can cross kinks and edges.
+//! Linear approximation within a trust region follows (COBYLA, Powell 1994).
+
+mod candidate;
+mod refine;
+
+use crate::sentences;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
+
+use super::evaluate::Evaluator;
+use super::rating::Rater;
+use crate::synthesize::task::Task;
+use candidate::{Candidate, even, free_zero, of_share, values};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::threads::{cores, made};
+
+/// Equal parts of the turn on which the cost of random candidates is computed.
+const COARSE: usize = 72;
+/// Candidates per random stream.
+const BLOCK: usize = 4096;
+/// Blocks between two calls of the progress; a constant, so that the threads do not decide which candidates are kept.
+const ROUND: usize = 16;
+/// Largest number of threads.
+const MOST_THREADS: usize = 256;
+/// Share of the progress for the random candidates.
+const RANDOM_SHARE: f64 = 0.5;
+/// Shifts of the crank's zero are tried in steps of this many rows, then row by row about the best.
+const STRIDE: usize = 3;
+
+/// Random candidates whose stroke or transmission sine violates its limits by more than this factor are dropped.
+/// Refinement would hardly repair them.
+const NEAR: f64 = 1.5;
+
+/// Result of a search.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SearchResult {
+    /// Values of the variables (SI), in the order of [`Task::variables`].
+    pub values: Vec<f64>,
+    /// Sense of the output that is forward: +1 or -1.
+    pub forward: f64,
+    /// Cost of the best candidate: a sum of squares of shares of the stroke.
+    pub cost: f64,
+    /// Cost of the best candidate before refinement, on a coarser grid.
+    pub random_cost: f64,
+    /// Number of random candidates, and of those among them that assemble over the whole turn and are at least near the limits.
+    pub candidates: [usize; 2],
+    /// Costs of all refined candidates, ascending.
+    pub refined: Vec<f64>,
+}
+
+/// Searches the dimensions of a task with `threads` threads; 0 means as many as the machine has.
+/// `progress` is called with values from 0 to 1.
+///
+/// # Errors
+/// Those of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate can be assembled over the whole turn.
+pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Result<SearchResult> {
+    task.check()?;
+    let threads = if threads == 0 { cores() } else { threads.min(MOST_THREADS) };
+    let effort = task.effort;
+    let blocks: Vec<usize> = (0..effort.candidates.div_ceil(BLOCK)).collect();
+    let (mut kept, mut assembled) = (Vec::new(), 0);
+    let rounds = blocks.chunks(ROUND);
+    let count = rounds.len();
+    for (round, blocks) in rounds.enumerate() {
+        let found = made(blocks, threads, |&block| Random::new(task).block(block), |_| {});
+        for (best, own) in found {
+            kept.extend(best);
+            assembled += own;
+        }
+        keep(&mut kept, effort.refined);
+        progress(RANDOM_SHARE * (round + 1) as f64 / count as f64);
+    }
+    let Some(random_cost) = kept.first().map(|best| best.cost) else { return Err(none(task)) };
+    let mut refined = Vec::new();
+    let total = kept.len();
+    for chunk in kept.chunks(ROUND) {
+        refined.extend(made(chunk, threads, |candidate| refine::refine(task, candidate), |_| {}));
+        progress(RANDOM_SHARE + (1.0 - RANDOM_SHARE) * refined.len() as f64 / total as f64);
+    }
+    let count = refined.len();
+    keep(&mut refined, count);
+    let best = &refined[0];
+    Ok(SearchResult {
+        values: values(task, &best.shares),
+        forward: best.forward,
+        cost: best.cost,
+        random_cost,
+        candidates: [effort.candidates, assembled],
+        refined: refined.iter().map(|candidate| candidate.cost).collect(),
+    })
+}
+
+fn none(task: &Task) -> Error {
+    let message = sentences::none_of_candidates_can_be_assembled(&task.effort.candidates);
+    Error::new(ErrorKind::Numeric, message).help(sentences::DRAW_MORE_CANDIDATES_NARROW_THE_BOUNDS)
+}
+
+/// Keeps the cheapest `count`, in order; of equal ones the first drawn is first.
+fn keep(candidates: &mut Vec<Candidate>, count: usize) {
+    candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.number.cmp(&b.number)));
+    candidates.truncate(count);
+}
+
+/// Draws candidates and computes their costs.
+struct Random<'a> {
+    task: &'a Task,
+    evaluator: Evaluator<'a>,
+    rater: Rater<'a>,
+    zero: Option<usize>,
+    values: Vec<f64>,
+}
+
+impl<'a> Random<'a> {
+    fn new(task: &'a Task) -> Self {
+        Random {
+            task,
+            evaluator: Evaluator::new(task),
+            rater: Rater::even(&task.timing, COARSE),
+            zero: free_zero(task),
+            values: vec![0.0; task.freedoms()],
+        }
+    }
+
+    /// The best candidates of a block, and the number that could be assembled.
+    fn block(&mut self, block: usize) -> (Vec<Candidate>, usize) {
+        let effort = &self.task.effort;
+        let mut rng = ChaCha8Rng::seed_from_u64(effort.seed);
+        rng.set_stream(block as u64);
+        let (mut best, mut assembled): (Vec<Candidate>, usize) = (Vec::new(), 0);
+        let mut shares = vec![0.0; self.task.freedoms()];
+        for number in block * BLOCK..((block + 1) * BLOCK).min(effort.candidates) {
+            shares.iter_mut().for_each(|share| *share = even(&mut rng));
+            let worst = match best.len() < effort.refined {
+                true => f64::INFINITY,
+                false => best.last().map_or(f64::INFINITY, |last| last.cost),
+            };
+            let Some((cost, forward)) = self.rate(&mut shares) else { continue };
+            assembled += 1;
+            if cost < worst {
+                best.push(Candidate { shares: shares.clone(), forward, cost, number });
+                keep(&mut best, effort.refined);
+            }
+        }
+        (best, assembled)
+    }
+
+    /// Cost and sense of a candidate; the crank's zero is chosen here if it is free.
+    /// `None` if it cannot be assembled, or is far outside the limits.
+    fn rate(&mut self, shares: &mut [f64]) -> Option<(f64, f64)> {
+        if let Some(zero) = self.zero {
+            shares[zero] = 0.0;
+        }
+        for ((value, share), variable) in self.values.iter_mut().zip(shares.iter()).zip(&self.task.variables) {
+            *value = of_share(*share, variable);
+        }
+        let zero = self.task.zero.value(&self.values);
+        self.evaluator.run(&self.values, zero, &self.rater.turns).ok()?;
+        let span = self.rater.take(&self.evaluator.curve);
+        let [least, most] = self.task.stroke;
+        let sine = self.evaluator.sine;
+        if !(span > 0.0 && NEAR * span >= least && span <= NEAR * most && NEAR * sine >= self.task.transmission.sin()) {
+            return None;
+        }
+        let excess = self.rater.excess(self.task, sine);
+        let senses: &[f64] = match self.task.forward {
+            Some(sense) if sense > 0.0 => &[1.0],
+            Some(_) => &[-1.0],
+            None => &[1.0, -1.0],
+        };
+        let mut best = (f64::INFINITY, 1.0, 0);
+        for &sense in senses {
+            let mut consider = |shift: usize| {
+                let cost = self.rater.cost(shift, sense);
+                if cost < best.0 {
+                    best = (cost, sense, shift);
+                }
+            };
+            if self.zero.is_none() {
+                consider(0);
+                continue;
+            }
+            (0..COARSE).step_by(STRIDE).for_each(&mut consider);
+        }
+        if let Some(zero) = self.zero {
+            let (_, sense, middle) = best;
+            for near in (1..STRIDE).flat_map(|off| [middle + off, middle + COARSE - off]) {
+                let cost = self.rater.cost(near % COARSE, sense);
+                if cost < best.0 {
+                    best = (cost, sense, near % COARSE);
+                }
+            }
+            shares[zero] = (self.task.turning() * best.2 as f64 / COARSE as f64).rem_euclid(1.0);
+        }
+        Some((best.0 + excess, best.1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_candidates_are_kept_in_the_order_in_which_they_were_drawn() {
+        let candidate = |cost, number| Candidate { shares: Vec::new(), forward: 1.0, cost, number };
+        let mut all = vec![candidate(2.0, 0), candidate(1.0, 7), candidate(1.0, 3), candidate(f64::NAN, 1)];
+        keep(&mut all, 3);
+        assert_eq!(all.iter().map(|one| one.number).collect::<Vec<_>>(), [3, 7, 0]);
+    }
+
+    #[test]
+    fn random_numbers_are_even_and_repeat() {
+        // A task's seed determines its result, in every version of the library.
+        let draw = || {
+            let mut rng = ChaCha8Rng::seed_from_u64(5);
+            (0..10_000).map(|_| even(&mut rng)).collect::<Vec<_>>()
+        };
+        let found = draw();
+        assert_eq!(found, draw());
+        assert_eq!(found[..2], [0.201_249_703_347_803_68, 0.715_180_539_823_381_7]);
+        let mean = found.iter().sum::<f64>() / 1e4;
+        assert!((mean - 0.5).abs() < 0.01 && found.iter().all(|u| (0.0..1.0).contains(u)), "{mean}");
+    }
+}

@@ -1,0 +1,130 @@
+//! Refinement of one candidate: an evolution strategy across kinks and edges, then COBYLA.
+
+use std::cell::RefCell;
+
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
+use cobyla::{RhoBeg, minimize};
+
+use super::candidate::{Candidate, even, free_zero, values};
+use crate::synthesize::evaluate::Evaluator;
+use crate::synthesize::rating::Rater;
+use crate::synthesize::task::Task;
+
+/// Largest crank angle between two rows (rad): 3 degrees.
+const STEP: f64 = std::f64::consts::PI / 60.0;
+/// Cost of a candidate that cannot be assembled; twice as much if no pose can.
+const BROKEN: f64 = 100.0;
+/// Share of the evaluations for the evolution strategy.
+const EVOLUTION: f64 = 0.5;
+/// Step sizes of the evolution strategy as shares of the bounds.
+/// The first one, and the one at which it restarts with a larger step.
+const FIRST: f64 = 0.05;
+const LAST: f64 = 1e-5;
+/// Growth of the step after a success. After a failure the step is divided by the fourth root of it.
+/// The step is therefore stationary with one success in five.
+const GROWTH: f64 = 1.5;
+/// Share of the variables that change from parent to child.
+const CHANGED: f64 = 0.4;
+/// Initial step sizes of COBYLA, one run after another, each from the best so far.
+const RADII: [f64; 4] = [3e-2, 1e-2, 3e-3, 1e-3];
+/// Relative change of the cost at which a run ends.
+const SETTLED: f64 = 1e-7;
+
+/// Computes the cost of shares of the bounds, on rows that include all limits.
+struct Bench<'a> {
+    task: &'a Task,
+    evaluator: Evaluator<'a>,
+    rater: Rater<'a>,
+    forward: f64,
+    best: Vec<f64>,
+    cost: f64,
+}
+
+impl Bench<'_> {
+    fn cost(&mut self, shares: &[f64]) -> f64 {
+        let values = values(self.task, shares);
+        let zero = self.task.zero.value(&values);
+        let cost = match self.evaluator.run(&values, zero, &self.rater.turns) {
+            Err(reached) => BROKEN * (2.0 - reached),
+            Ok(()) if !(self.rater.take(&self.evaluator.curve) > 0.0) => BROKEN,
+            Ok(()) => self.rater.cost(0, self.forward) + self.rater.excess(self.task, self.evaluator.sine),
+        };
+        if cost < self.cost {
+            self.cost = cost;
+            self.best.copy_from_slice(shares);
+        }
+        cost
+    }
+}
+
+/// The candidate after refinement.
+pub(super) fn refine(task: &Task, candidate: &Candidate) -> Candidate {
+    let mut bench = Bench {
+        task,
+        evaluator: Evaluator::new(task),
+        rater: Rater::fitted(&task.timing, STEP),
+        forward: candidate.forward,
+        best: candidate.shares.clone(),
+        cost: f64::INFINITY,
+    };
+    bench.cost(&candidate.shares);
+    let zero = free_zero(task);
+    let evolving = (task.effort.evaluations as f64 * EVOLUTION) as usize;
+    evolve(&mut bench, zero, evolving, candidate.number);
+    approximate(&mut bench, zero, task.effort.evaluations - evolving);
+    if let Some(zero) = zero {
+        bench.best[zero] = bench.best[zero].rem_euclid(1.0);
+    }
+    Candidate { shares: bench.best, cost: bench.cost, ..*candidate }
+}
+
+/// One parent and one child; the better one becomes the parent.
+fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: usize) {
+    let mut rng = ChaCha8Rng::seed_from_u64(bench.task.effort.seed);
+    // Separate random streams, beyond those of the blocks.
+    rng.set_stream((1 << 40) + number as u64);
+    let mut child = bench.best.clone();
+    let mut step = FIRST;
+    for _ in 0..evaluations {
+        child.copy_from_slice(&bench.best);
+        for (index, share) in child.iter_mut().enumerate() {
+            if even(&mut rng) < CHANGED {
+                // Approximately normal: four uniform numbers, of variance 1 / 3 in total.
+                let normal = (0..4).map(|_| even(&mut rng) - 0.5).sum::<f64>() * 3f64.sqrt();
+                *share += step * normal;
+                if zero != Some(index) {
+                    *share = share.clamp(0.0, 1.0);
+                }
+            }
+        }
+        let before = bench.cost;
+        step *= if bench.cost(&child) < before { GROWTH } else { GROWTH.powf(-0.25) };
+        if step < LAST {
+            step = FIRST;
+        }
+    }
+}
+
+/// COBYLA from the best so far, with decreasing initial steps.
+fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
+    let each = evaluations / RADII.len();
+    // Zero would mean no limit to COBYLA.
+    if each == 0 {
+        return;
+    }
+    let count = bench.best.len();
+    let start = bench.best.clone();
+    let bounds: Vec<(f64, f64)> = (0..count)
+        .map(|index| if zero == Some(index) { (start[index] - 0.5, start[index] + 0.5) } else { (0.0, 1.0) })
+        .collect();
+    for radius in RADII {
+        let from = bench.best.clone();
+        let shared = RefCell::new(&mut *bench);
+        let objective = |shares: &[f64], _: &mut ()| shared.borrow_mut().cost(shares);
+        let none: [fn(&[f64], &mut ()) -> f64; 0] = [];
+        let stop = cobyla::StopTols { ftol_rel: SETTLED, ..cobyla::StopTols::default() };
+        // Its return value is not needed: the best candidate that it tried is kept during the run.
+        let _ = minimize(objective, &from, &bounds, &none, (), each, RhoBeg::All(radius), Some(stop));
+    }
+}

@@ -1,0 +1,276 @@
+//! Synthesis files: the dimensions of a drawing that may vary, and the wanted motion of its output. docs/synthesis.md
+//! describes the format.
+
+use crate::sentences;
+use std::path::Path;
+
+use crate::synthesize::task::{
+    OutputQuantity, Phase, PointPosition, SearchEffort, Sense, Task, TaskNumber, Timing, Variable,
+};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::unit;
+use linkage::mechanism::{GROUND, Mechanism};
+use scenario::Scenario;
+use scenario::header::{check_format, name};
+use scenario::joints::link;
+use scenario::reader::{Sign, TomlTable};
+use scenario::source::Source;
+use scenario::unit::{ANGLE, LENGTH, MASS_PER_LENGTH, UnitFamily};
+use scenario::words::suggestion;
+
+/// Least displacement of a moving phase (share of the stroke), unless the file states another one.
+const LEAST: f64 = 0.1;
+
+/// A task, and the drawing from which it starts.
+#[derive(Clone, Debug)]
+pub struct TaskFile {
+    /// The task.
+    pub task: Task,
+    /// The drawing.
+    pub drawing: Scenario,
+}
+
+impl TaskFile {
+    /// Reads the synthesis file at `path` and the scenario that it names, which is searched in the same directory.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] if a file cannot be read, [`ErrorKind::Input`] for anything wrong in it, and those of
+    /// [`Scenario::load`] and [`Task::check`].
+    pub fn load(path: &Path) -> Result<Self> {
+        let text = files::read_text(path).map_err(|error| {
+            Error::new(ErrorKind::Io, sentences::the_synthesis_file_cannot_be_read(&path.display(), &error))
+                .help(files::way_out(&error, sentences::GIVE_THE_PATH_OF_A_SYNTHESIS))
+        })?;
+        let source = Source::new(path, &text);
+        let tree = source.tree()?;
+        read(&mut TomlTable::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+    }
+}
+
+fn read(root: &mut TomlTable) -> Result<TaskFile> {
+    check_format(root)?;
+    let (own_name, title) = (name(root)?, root.string("title")?);
+    let file = root.string("scenario")?;
+    let (phases, follow) = (root.tables("phases")?, root.optional_boolean("follow")?.unwrap_or(false));
+    let (output, limits) = (root.table("output")?, root.optional_table("limits")?);
+    let (zero, vary) = (root.optional_table("zero")?, root.tables("vary")?);
+    let (effort, bar) = (root.table("search")?, root.optional_quantity("bar", &MASS_PER_LENGTH, Sign::Positive)?);
+    root.finish()?;
+
+    let beside = root.source().path.parent().unwrap_or(Path::new("")).join(&file);
+    let drawing = Scenario::load(&beside).map_err(|error| {
+        // A missing drawing is an error of this file; an error in the drawing has its own place.
+        if error.place().is_some() {
+            error
+        } else {
+            root.wrong(error.kind(), "scenario", error.message()).help(sentences::NAME_THE_SCENARIO_FILE_OF_THE_DRAWING)
+        }
+    })?;
+    let mechanism = &drawing.case.mechanism;
+    let timing = timing(phases)?;
+    let timing = if follow { timing.followed()? } else { timing };
+    let (output, forward) = read_output(output, mechanism)?;
+    let family = if matches!(output, OutputQuantity::Angle { .. }) { &ANGLE } else { &LENGTH };
+    let (stroke, transmission) = read_limits(limits, family)?;
+    let mut variables = Vec::new();
+    let mut places = Vec::new();
+    for table in vary {
+        let found = place(table, mechanism, &mut variables, &places)?;
+        places.push(found);
+    }
+    let zero = match zero {
+        None => TaskNumber::Fixed(drawing.case.crank().zero),
+        Some(mut table) => {
+            let bounds = bounds(&mut table, &ANGLE)?;
+            table.finish()?;
+            free(&mut variables, Variable { name: "zero".into(), bounds, is_angle: true })
+        }
+    };
+    let task = Task {
+        name: own_name,
+        title,
+        case: drawing.case.clone(),
+        starts: drawing.starts.clone(),
+        variables,
+        places,
+        zero,
+        output,
+        forward,
+        timing,
+        stroke,
+        transmission,
+        effort: read_effort(effort)?,
+        bar,
+    };
+    task.check()?;
+    Ok(TaskFile { task, drawing })
+}
+
+fn timing(tables: Vec<TomlTable>) -> Result<Timing> {
+    let (mut from, mut phases, mut places) = (0.0, Vec::new(), Vec::new());
+    for mut table in tables {
+        let to = table.quantity("to", &ANGLE, Sign::Positive)?;
+        let word = table.string("sense")?;
+        let all = [Sense::Dwell, Sense::Forward, Sense::Back];
+        let Some(&sense) = all.iter().find(|sense| sense.name() == word) else {
+            let error = table.wrong(ErrorKind::Input, "sense", sentences::is_no_sense_of_a_phase(&word));
+            return Err(error.help(suggestion(&word, all.map(Sense::name), "\"")));
+        };
+        let (level, least) = (table.optional_number("level")?, table.optional_number("least")?.unwrap_or(LEAST));
+        table.finish()?;
+        phases.push(Phase { from, to, sense, level, least });
+        places.push(table.fault(""));
+        from = to;
+    }
+    Timing::of(phases).map_err(|error| {
+        let own = places.iter().find(|own| own.scenario_key() == error.scenario_key());
+        match own.and_then(|own| own.place()).cloned() {
+            Some(place) => error.at(place),
+            None => error,
+        }
+    })
+}
+
+/// Output, and the sense of forward motion.
+fn read_output(mut table: TomlTable, mechanism: &Mechanism) -> Result<(OutputQuantity, Option<f64>)> {
+    let forward = match table.optional_string("forward")?.as_deref() {
+        None => None,
+        Some("positive") => Some(1.0),
+        Some("negative") => Some(-1.0),
+        Some(other) => {
+            let error = table.wrong(ErrorKind::Input, "forward", sentences::is_no_sense_of_an_output(&other));
+            return Err(error.help(suggestion(other, ["positive", "negative"], "\"")));
+        }
+    };
+    let (of_link, of_point) = (table.optional_string("link")?, table.optional_string("point")?);
+    let found = match (of_link, of_point) {
+        (Some(name), None) => {
+            let link = link(&mut table, &name, mechanism.links())?;
+            if link == GROUND {
+                let error = table.wrong(ErrorKind::Input, "link", sentences::THE_GROUND_DOES_NOT_TURN);
+                return Err(error.help(sentences::NAME_THE_MOVING_LINK_WHOSE));
+            }
+            OutputQuantity::Angle { link }
+        }
+        (None, Some(name)) => {
+            let along = unit(table.quantity("along", &ANGLE, Sign::Any)?);
+            let moving = || mechanism.links().entries().skip(1);
+            let found = moving()
+                .find_map(|(link, body)| Some((link, body.points.iter().position(|point| point.name == name)?)));
+            let Some((link, point)) = found else {
+                let names = moving().flat_map(|(_, body)| body.points.iter().map(|point| point.name.as_str()));
+                let error = table.wrong(ErrorKind::Input, "point", sentences::no_moving_link_has_a_point(&name));
+                return Err(error.help(suggestion(&name, names, "\"")));
+            };
+            OutputQuantity::Coordinate { link, point, along }
+        }
+        _ => {
+            let help = sentences::WRITE_LINK_LEVER_FOR_ITS_ANGLE;
+            return Err(table.fault(sentences::AN_OUTPUT_IS_ONE_LINK_OR_ONE_POINT).help(help));
+        }
+    };
+    table.finish()?;
+    Ok((found, forward))
+}
+
+/// Limits of the stroke, a quantity of this family, and the smallest transmission angle.
+fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily) -> Result<([f64; 2], f64)> {
+    let Some(mut table) = table else { return Ok(([0.0, f64::INFINITY], 0.0)) };
+    let transmission = table.optional_quantity("transmission", &ANGLE, Sign::NotNegative)?.unwrap_or(0.0);
+    if transmission >= std::f64::consts::FRAC_PI_2 {
+        let message = sentences::a_transmission_angle_of_deg(&transmission.to_degrees());
+        return Err(table.wrong(ErrorKind::Input, "transmission", message).help(sentences::GIVE_LESS_THAN_DEG_TO_DEG));
+    }
+    let stroke = match table.optional_table("stroke")? {
+        None => [0.0, f64::INFINITY],
+        Some(mut stroke) => {
+            let found = bounds(&mut stroke, family)?;
+            stroke.finish()?;
+            found
+        }
+    };
+    table.finish()?;
+    Ok((stroke, transmission))
+}
+
+fn read_effort(mut table: TomlTable) -> Result<SearchEffort> {
+    let mut count = |key: &str, default: i64| -> Result<u64> {
+        let found = table.optional_integer(key)?.unwrap_or(default);
+        u64::try_from(found).map_err(|_| {
+            table
+                .wrong(ErrorKind::Input, key, sentences::found_but_a_count_is_not_negative(&found))
+                .help(sentences::GIVE_A_WHOLE_NUMBER_FROM_ON)
+        })
+    };
+    let seed = count("seed", 1)?;
+    let size = |found: u64| usize::try_from(found).unwrap_or(usize::MAX);
+    let (candidates, refined) = (size(count("candidates", 200_000)?), size(count("refined", 16)?));
+    let evaluations = size(count("evaluations", 20_000)?);
+    table.finish()?;
+    Ok(SearchEffort { seed, candidates, refined, evaluations })
+}
+
+/// `from` and `to` of a quantity (SI).
+fn bounds(table: &mut TomlTable, family: &'static UnitFamily) -> Result<[f64; 2]> {
+    let (from, to) = (table.quantity("from", family, Sign::Any)?, table.quantity("to", family, Sign::Any)?);
+    if !(from <= to) {
+        let error = table.fault(sentences::THE_GREATEST_VALUE_IS_BELOW);
+        return Err(error.help(sentences::LET_FROM_BE_THE_SMALLER_OF_THE_TWO));
+    }
+    Ok([from, to])
+}
+
+fn free(variables: &mut Vec<Variable>, variable: Variable) -> TaskNumber {
+    variables.push(variable);
+    TaskNumber::Free(variables.len() - 1)
+}
+
+/// One `[[vary]]`: a point, by its coordinates or relative to another point of its link.
+fn place(
+    mut table: TomlTable,
+    mechanism: &Mechanism,
+    variables: &mut Vec<Variable>,
+    before: &[PointPosition],
+) -> Result<PointPosition> {
+    let (link_name, point_name) = (table.string("link")?, table.string("point")?);
+    let own = link(&mut table, &link_name, mechanism.links())?;
+    let points = &mechanism.links()[own].points;
+    let names = || points.iter().map(|point| point.name.as_str());
+    let index = |table: &TomlTable, key: &str, name: &str| {
+        points.iter().position(|point| point.name == name).ok_or_else(|| {
+            let error = table.wrong(ErrorKind::Input, key, sentences::link_has_no_point(&link_name, &name));
+            error.help(suggestion(name, names(), "\""))
+        })
+    };
+    let point = index(&table, "point", &point_name)?;
+    let Some(handle) = mechanism.handle(own, point) else {
+        let message = sentences::point_of_the_drawing_lies(&point_name);
+        return Err(table.wrong(ErrorKind::Input, "point", message).help(sentences::DRAW_THE_TWO_POINTS_IN_DIFFERENT));
+    };
+    if before.iter().any(|place| place.handle == handle) {
+        let message = sentences::THIS_POINT_VARIES_ALREADY;
+        return Err(table.wrong(ErrorKind::Input, "point", message).help(sentences::PUT_ALL_THAT_VARIES_ABOUT));
+    }
+    let from = table.optional_string("from")?.map(|name| index(&table, "from", &name)).transpose()?;
+    let drawn = points[point].local;
+    let (keys, drawn) = match from.map(|from| drawn - points[from].local) {
+        None => (["x", "y"], [drawn.x, drawn.y]),
+        Some(arm) => (["length", "angle"], [arm.norm(), arm.y.atan2(arm.x)]),
+    };
+    let mut entries = drawn.map(TaskNumber::Fixed);
+    for (entry, key) in entries.iter_mut().zip(keys) {
+        if let Some(mut own) = table.optional_table(key)? {
+            let is_angle = key == "angle";
+            let bounds = bounds(&mut own, if is_angle { &ANGLE } else { &LENGTH })?;
+            own.finish()?;
+            let name = format!("{link_name}.{point_name} {key}");
+            *entry = free(variables, Variable { name, bounds, is_angle });
+        }
+    }
+    table.finish()?;
+    if entries.iter().all(|entry| matches!(entry, TaskNumber::Fixed(_))) {
+        let help = format!("add `{0} = {{ from_mm = ..., to_mm = ... }}`", keys[0]);
+        return Err(table.fault(sentences::NOTHING_ABOUT_THIS_POINT_VARIES).help(help));
+    }
+    Ok(PointPosition { handle, from, entries })
+}

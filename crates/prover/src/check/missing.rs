@@ -1,0 +1,337 @@
+//! Missing terms and factors: finds from the numbers what makes a formula right at one of its places.
+//!
+//! At every place the missing summand or factor is calculated instant by instant.
+//! If it is proportional to an expression that the derivation contains, that expression is missing.
+
+mod dictionary;
+mod monomials;
+
+use std::collections::BTreeMap;
+
+use super::dimension::Dimensions;
+use super::slips::{at_every_place, numbered, replaced, used_by};
+use super::trial::Trial;
+use dictionary::{Dictionary, Entry};
+use formula::{FormulaTree, NodeShape, Operator};
+pub(in crate::check) use monomials::Monomials;
+
+/// A term or a factor that is missing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Missing {
+    /// The formula that lacks it.
+    pub formula: String,
+    /// The part beside which it is missing; `None` for the whole formula.
+    pub beside: Option<String>,
+    /// The missing expression with its sign: `+ m*g*s*cos(phi)`, `/ cos(beta)^3`.
+    pub what: String,
+    /// Whether it is a factor rather than a term.
+    pub is_factor: bool,
+}
+
+/// Fewest instants from which a function of the crank angle is recognised.
+const FEWEST: usize = 4;
+/// Relative accuracy to which a constant amount is recognised as a product of known quantities.
+const ACCURACY: f64 = 1e-9;
+
+/// Missing amount at a place by instant, with its error; `None` where it cannot be determined.
+type Needed = Vec<Option<[f64; 2]>>;
+
+/// Largest expected number of products that match by chance: where a single number is the only evidence, it must be one
+/// that the parameters do not produce anyway.
+const CHANCE: f64 = 0.5;
+/// Number of ways in which a product of several quantities may be missing where a formula is wrong only by a number.
+const LONG: f64 = 100.0;
+
+/// Returns what is missing, if one term or factor at one place makes the formula right with consistent units; several
+/// if the parameters produce the same number in several ways.
+pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing> {
+    let dictionary = Dictionary::of(trial);
+    let monomials = Monomials::of(&trial.formulas, trial.index, &dictionary.constants, dimensions);
+    trial.sheet.count((30 * dictionary.entries.len() * trial.few.len() + monomials.len()) as u64);
+    // Units that are inconsistent as written and become consistent with the missing expression are evidence too.
+    let own = trial.formulas.list[trial.index].tree.clone();
+    let units = if dimensions.are_sound(&[(trial.index, own)]) { 1.0 } else { 0.05 };
+    let is_weak = trial.is_number || trial.is_constant();
+    let mut ratios = Ratios::default();
+    let mut found = Vec::new();
+    for index in used_by(&trial.formulas, trial.index) {
+        let all = places(&trial.formulas.list[index].tree);
+        for &(depth, number) in &all {
+            for operator in [Operator::Plus, Operator::Times] {
+                if trial.is_spent() {
+                    break;
+                }
+                for needed in needed(trial, trial.sheet.places(index)[number], operator) {
+                    let alike = ratios.alike(&dictionary.entries, &needed);
+                    for entry in alike.into_iter().map(|own| &dictionary.entries[own]) {
+                        if trial.is_spent() {
+                            break;
+                        }
+                        // A formula that is wrong only by a number lacks nothing that changes.
+                        if entry.after > index || trial.is_number && !entry.is_one() {
+                            continue;
+                        }
+                        let Some(coefficient) = coefficient(entry, &needed) else { continue };
+                        for (what, weight) in written(&monomials, coefficient, entry, operator) {
+                            let Some(own) = Candidate::of(trial, [index, number], operator, &what) else { continue };
+                            let is_sound = dimensions.are_sound(&own.changed);
+                            trial.sheet.count(dimensions.work());
+                            if !is_sound {
+                                continue;
+                            }
+                            if entry.is_one()
+                                && !is_believed(
+                                    &monomials,
+                                    dimensions,
+                                    coefficient,
+                                    &what,
+                                    weight,
+                                    units,
+                                    is_weak.then(|| before(&all, depth)),
+                                )
+                            {
+                                continue;
+                            }
+                            // An expression missing in the formula itself, made of names that it already has, is
+                            // simpler.
+                            let outside = usize::from(index != trial.index) + depth + own.strangers;
+                            found.push((weight + 2 * outside, own));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    found.sort_by_key(|(weight, _)| *weight);
+    found.dedup_by(|one, other| one.1.changed == other.1.changed);
+    let mut right: Vec<(usize, Candidate)> = Vec::new();
+    for (weight, own) in found {
+        // Equally simple, and at the same place.
+        let is_equal = right.first().is_none_or(|(least, first)| weight <= least + 1 && own.is_beside(first));
+        if is_equal && right.len() < MOST && trial.fits(&own.changed, 0.0) {
+            right.push((weight, own));
+        }
+    }
+    right.into_iter().map(|(_, own)| own.missing).collect()
+}
+
+/// Largest number of equally good products that are reported.
+const MOST: usize = 3;
+
+/// Entries of a dictionary by the ratio of their values at two instants: entries proportional to an amount are found
+/// without testing all of them.
+#[derive(Default)]
+struct Ratios {
+    sorted: BTreeMap<[usize; 2], Vec<(f64, usize)>>,
+}
+
+impl Ratios {
+    /// Indices of the entries that may be proportional to the missing amount, in order, and of the entry for constants.
+    fn alike(&mut self, entries: &[Entry], needed: &Needed) -> Vec<usize> {
+        let mut known: Vec<(usize, [f64; 2])> =
+            needed.iter().enumerate().filter_map(|(instant, own)| Some((instant, (*own)?))).collect();
+        // The instants with the smallest relative error.
+        let sharpness = |(_, [amount, known]): &(usize, [f64; 2])| (amount / known).abs();
+        known.sort_by(|one, other| sharpness(other).total_cmp(&sharpness(one)));
+        let [(one, [first, first_known]), (other, [second, second_known])] = match known.as_slice() {
+            [one, other, ..] => [*one, *other],
+            _ => return entries.iter().position(Entry::is_one).into_iter().collect(),
+        };
+        let sorted = self.sorted.entry([one, other]).or_insert_with(|| {
+            let ratio = |(index, own): (usize, &Entry)| (own.values[one] / own.values[other], index);
+            let mut all: Vec<(f64, usize)> =
+                entries.iter().enumerate().map(ratio).filter(|(ratio, _)| ratio.is_finite()).collect();
+            all.sort_by(|one, other| one.0.total_cmp(&other.0));
+            all
+        });
+        let ratio = first / second;
+        let slack = 2.0 * ratio.abs() * ((first_known / first).abs() + (second_known / second).abs() + 1e-12);
+        let begin = sorted.partition_point(|(own, _)| *own < ratio - slack);
+        let near = sorted[begin..].iter().take_while(|(own, _)| *own <= ratio + slack);
+        let mut found: Vec<usize> = near.map(|(_, index)| *index).collect();
+        found.sort_unstable();
+        found
+    }
+}
+
+/// A possibly missing expression, and the formula with it.
+struct Candidate {
+    changed: Vec<(usize, FormulaTree)>,
+    /// Number of names in it that the formula lacks.
+    strangers: usize,
+    missing: Missing,
+}
+
+impl Candidate {
+    fn is_beside(&self, other: &Candidate) -> bool {
+        let of = |own: &Candidate| (own.missing.formula.clone(), own.missing.beside.clone(), own.missing.is_factor);
+        of(self) == of(other)
+    }
+
+    /// Returns `None` if the formula would need one that comes later.
+    fn of(trial: &Trial, [index, number]: [usize; 2], operator: Operator, what: &FormulaTree) -> Option<Self> {
+        let later = &trial.formulas.list[index..];
+        if what.names().iter().any(|(name, _)| later.iter().any(|own| own.name == *name)) {
+            return None;
+        }
+
+        let own = &trial.formulas.list[index];
+        let part = numbered(&own.tree, number);
+        let beside = (number > 0).then(|| part.to_string());
+        let tree = replaced(&own.tree, number, &with(operator, part.clone(), what.clone()));
+        let names = own.tree.names();
+        let is_stranger = |name: &str| name != "pi" && names.iter().all(|(own, _)| *own != name);
+        let strangers = what.names().iter().filter(|(name, _)| is_stranger(name)).count();
+        let (what, is_factor) = (signed(operator, what), operator == Operator::Times);
+        let missing = Missing { formula: own.name.clone(), beside, what, is_factor };
+        Some(Candidate { changed: vec![(index, tree)], strangers, missing })
+    }
+}
+
+/// Whether a number alone proves that a product is missing.
+/// The number must have more digits than chance explains among as many products with its unit.
+/// `places` is the number of places at which it may be missing if the formula is wrong only by a number: then all of
+/// them fit.
+fn is_believed(
+    monomials: &Monomials,
+    dimensions: &Dimensions,
+    coefficient: f64,
+    what: &FormulaTree,
+    weight: usize,
+    units: f64,
+    places: Option<usize>,
+) -> bool {
+    let dimension = dimensions.of_constant(what);
+    let (products, one) = monomials.by_chance(coefficient, ACCURACY, weight, dimension);
+    // The only quantity with the missing unit.
+    if weight <= 2 && products <= 1 && dimension.is_some() {
+        return true;
+    }
+    match places {
+        None => one * units <= CHANCE,
+        Some(_) if weight > 3 && units == 1.0 => one * LONG <= CHANCE,
+        Some(places) => one * 2.0 * places as f64 * units <= CHANCE,
+    }
+}
+
+/// Number of places no deeper than `depth`.
+fn before(places: &[(usize, usize)], depth: usize) -> usize {
+    places.partition_point(|(own, _)| *own <= depth)
+}
+
+/// Depths and numbers of all places of a tree at which an expression may be missing, the whole before its parts.
+fn places(tree: &FormulaTree) -> Vec<(usize, usize)> {
+    let (mut places, mut number) = (Vec::new(), 0);
+    at_every_place(tree, &mut |place, part| {
+        if !matches!(part.shape, NodeShape::Number(_)) {
+            places.push((place.len(), number));
+        }
+        number += 1;
+    });
+    places.sort_by_key(|(depth, _)| *depth);
+    places
+}
+
+/// A part with a term or factor added.
+fn with(operator: Operator, part: FormulaTree, what: FormulaTree) -> FormulaTree {
+    match (operator, what.shape) {
+        (Operator::Plus, NodeShape::Negative(inner)) => FormulaTree::pair(Operator::Minus, part, *inner),
+        (operator, shape) => FormulaTree::pair(operator, part, FormulaTree { shape, at: 0..0 }),
+    }
+}
+
+/// A term with its sign, or a factor with its operator.
+fn signed(operator: Operator, what: &FormulaTree) -> String {
+    let one = FormulaTree::number(1.0);
+    let whole = match (operator, &what.shape) {
+        (Operator::Times, NodeShape::Pair(Operator::Over, parts)) if parts[0].shape == one.shape => what.clone(),
+        _ => with(operator, one, what.clone()),
+    };
+    // Written after another part, with the parentheses needed there.
+    let text = whole.to_string();
+    let after = text.trim_start_matches('1').trim_start();
+    let (sign, rest) = after.split_at(1);
+    format!("{sign} {}", rest.trim_start())
+}
+
+/// Ways to write a number times an entry, each with its complexity: by a product of known quantities; for a constant
+/// factor also by such a product plus or minus one.
+fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(FormulaTree, usize)> {
+    let one = || FormulaTree::number(1.0);
+    let mut factors = match (coefficient.abs() - 1.0).abs() <= ACCURACY {
+        true => vec![(if coefficient < 0.0 { one().negative() } else { one() }, 0)],
+        false => monomials.with_value(coefficient, ACCURACY),
+    };
+    if entry.is_one() && operator == Operator::Times {
+        let more = monomials.with_value(coefficient - 1.0, ACCURACY).into_iter();
+        factors.extend(more.map(|(more, weight)| (with(Operator::Plus, one(), more), weight + 2)));
+    }
+    factors.into_iter().map(|(factor, weight)| (product(&factor, &entry.tree), weight + 2 * entry.weight)).collect()
+}
+
+/// A factor times an entry, without factors of one.
+fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
+    let is_one = |tree: &FormulaTree| tree.shape == NodeShape::Number(1.0);
+    match (&factor.shape, &entry.shape) {
+        (NodeShape::Negative(size), _) => product(size, entry).negative(),
+        (_, NodeShape::Number(_)) => factor.clone(),
+        _ if is_one(factor) => entry.clone(),
+        (_, NodeShape::Pair(Operator::Over, parts)) if is_one(&parts[0]) => {
+            FormulaTree::pair(Operator::Over, factor.clone(), parts[1].clone())
+        }
+        (_, NodeShape::Pair(operator @ (Operator::Times | Operator::Over), parts)) => {
+            FormulaTree::pair(*operator, product(factor, &parts[0]), parts[1].clone())
+        }
+        _ => FormulaTree::pair(Operator::Times, factor.clone(), entry.clone()),
+    }
+}
+
+/// Missing amount at a place at each of the few instants. The iteration starts from nothing at each instant, or from
+/// the neighbour's amount on either side, because squares have two solutions.
+fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
+    let depending = trial.sheet.depending(&[place]);
+    let neutral = if operator == Operator::Plus { 0.0 } else { 1.0 };
+    let Trial { sheet, targets, .. } = trial;
+    let mut at = |instant: usize, from: f64| sheet.amount(operator, &depending, instant, from, &targets[instant]);
+    let count = targets.len();
+    let afresh: Needed = (0..count).map(|instant| at(instant, neutral)).collect();
+    let mut followed = |instants: &mut dyn Iterator<Item = usize>| -> Needed {
+        let mut last = neutral;
+        let mut next = |instant: usize| {
+            let found = at(instant, last);
+            last = found.map_or(last, |[amount, _]| amount);
+            found
+        };
+        instants.map(&mut next).collect()
+    };
+    let forwards = followed(&mut (0..count));
+    let mut backwards = followed(&mut (0..count).rev());
+    backwards.reverse();
+    // A result that does not depend on the start is unique.
+    let is_same = |other: &Needed| {
+        afresh.iter().zip(other).all(|pair| match pair {
+            (Some([one, known]), Some([other, well])) => (one - other).abs() <= known + well,
+            (one, other) => one.is_none() && other.is_none(),
+        })
+    };
+    let others: Vec<Needed> = [forwards, backwards].into_iter().filter(|own| !is_same(own)).collect();
+    [vec![afresh], others].concat()
+}
+
+/// Coefficient of an entry, if the missing amount is proportional to it.
+fn coefficient(entry: &Entry, needed: &Needed) -> Option<f64> {
+    let known = || entry.values.iter().zip(needed).filter_map(|(value, own)| Some((*value, (*own)?)));
+    // The instant with the smallest relative error.
+    let sharpness = |(value, [_, known]): &(f64, [f64; 2])| (value / known).abs();
+    let (sharpest, [amount, sharp]) = known().max_by(|one, other| sharpness(one).total_cmp(&sharpness(other)))?;
+    // A number for a single instant is determined by that instant.
+    let fewest = if entry.is_one() { FEWEST.min(needed.len()) } else { FEWEST };
+    if known().count() < fewest {
+        return None;
+    }
+    let coefficient = amount / sharpest;
+    let goes_with = |(value, [amount, known]): (f64, [f64; 2])| {
+        (amount - coefficient * value).abs() <= known + sharp * (value / sharpest).abs()
+    };
+    (coefficient != 0.0 && coefficient.is_finite() && known().all(goes_with)).then_some(coefficient)
+}

@@ -1,0 +1,122 @@
+//! Products of powers of known quantities, as they may be written in a formula.
+
+use crate::check::dimension::{Dimensions, Known};
+use formula::{FormulaTree, Function, NodeShape, Operator, Product, Products, information};
+use scenario::Formulas;
+
+/// Largest number of quantities in the products.
+const MOST: usize = 14;
+/// Largest number of different products kept for one value.
+const SIMPLEST: usize = 100;
+
+/// All products, by their value.
+pub(in crate::check) struct Monomials {
+    quantities: Vec<(FormulaTree, f64)>,
+    products: Products,
+}
+
+impl Monomials {
+    /// Builds the products of the parameters, of constant steps before `formula`, and of sines and cosines of constant
+    /// angles.
+    pub(in crate::check) fn of(
+        formulas: &Formulas,
+        formula: usize,
+        steps: &[(String, f64)],
+        dimensions: &Dimensions,
+    ) -> Self {
+        let known = |own: &scenario::Parameter| {
+            let (_, number) = own.names().find(|(name, _)| *name == own.quantity())?;
+            Some((FormulaTree::name(own.quantity()), number.value))
+        };
+        let mut quantities: Vec<(FormulaTree, f64)> = vec![(FormulaTree::name("pi"), std::f64::consts::PI)];
+        quantities.extend(formulas.parameters.iter().filter_map(known));
+        quantities.extend(steps.iter().map(|(name, value)| (FormulaTree::name(name.as_str()), *value)));
+        quantities.extend(calls(formulas, formula));
+        quantities.retain(|(_, value)| *value != 0.0);
+        quantities.truncate(MOST);
+        let valued: Vec<(f64, Known)> =
+            quantities.iter().map(|(tree, value)| (*value, dimensions.of_constant(tree))).collect();
+        Monomials { products: Products::of(&valued), quantities }
+    }
+
+    /// Number of products, which is the work of building them.
+    pub(in crate::check) fn len(&self) -> usize {
+        self.products.len()
+    }
+
+    /// Returns the products with this value, to this relative accuracy, with their complexity, the simplest first and
+    /// limited in number.
+    pub(in crate::check) fn with_value(&self, value: f64, accuracy: f64) -> Vec<(FormulaTree, usize)> {
+        let near = self.products.near(value.abs(), accuracy).into_iter().take(SIMPLEST);
+        near.map(|own| (self.tree(own, own.is_negative != (value < 0.0)), own.weight)).collect()
+    }
+
+    /// Returns how many products of this dimension are no more complicated, and the expected number of them that match
+    /// by chance with as few digits.
+    pub(in crate::check) fn by_chance(
+        &self,
+        value: f64,
+        accuracy: f64,
+        weight: usize,
+        dimension: Known,
+    ) -> (usize, f64) {
+        let alike = self.products.alike(weight, dimension);
+        (alike, alike as f64 * (-information(value, accuracy)).exp2())
+    }
+
+    fn tree(&self, product: &Product, is_negative: bool) -> FormulaTree {
+        let power = |&(index, exponent): &(u8, i8)| {
+            let own = self.quantities[usize::from(index)].0.clone();
+            match exponent.abs() {
+                1 => own,
+                size => FormulaTree::pair(Operator::Power, own, FormulaTree::number(f64::from(size))),
+            }
+        };
+        let times = |one: FormulaTree, other: FormulaTree| FormulaTree::pair(Operator::Times, one, other);
+        let of = |is_above: bool| {
+            let powers = product.powers.iter().filter(move |(_, exponent)| (*exponent > 0) == is_above);
+            powers.map(power)
+        };
+        // Halves and thirds are written below the fraction bar.
+        let is_whole = |below: &f64| (below * product.number).fract() == 0.0;
+        let below = [1.0, 2.0, 3.0, 4.0, 8.0].into_iter().find(is_whole).unwrap_or(1.0);
+        let above = below * product.number;
+        let number = |value: f64| (value != 1.0).then(|| FormulaTree::number(value));
+        let above = number(above).into_iter().chain(of(true)).reduce(times).unwrap_or(FormulaTree::number(1.0));
+        let size = number(below)
+            .into_iter()
+            .chain(of(false))
+            .fold(above, |tree, part| FormulaTree::pair(Operator::Over, tree, part));
+        if is_negative { size.negative() } else { size }
+    }
+}
+
+/// Sines and cosines of constants that occur in formulas up to this one.
+fn calls(formulas: &Formulas, formula: usize) -> Vec<(FormulaTree, f64)> {
+    let mut found: std::collections::BTreeMap<String, FormulaTree> = std::collections::BTreeMap::new();
+    let mut put = |part: &FormulaTree| {
+        found.entry(part.to_string()).or_insert_with(|| part.clone());
+    };
+    for own in &formulas.list[..=formula] {
+        crate::check::slips::at_every_place(&own.tree, &mut |_, part| {
+            // A long argument is not an angle of a drawing.
+            if let NodeShape::Call(Function::Sin | Function::Cos, arguments) = &part.shape
+                && matches!(arguments[0].shape, NodeShape::Name(_))
+            {
+                put(part);
+            }
+        });
+    }
+    // Angles of the file, including those whose cosine no formula takes.
+    for own in formulas.parameters.iter().filter(|own| own.is_angle()) {
+        put(&FormulaTree::call(Function::Cos, vec![FormulaTree::name(own.quantity())]));
+        put(&FormulaTree::call(Function::Sin, vec![FormulaTree::name(own.quantity())]));
+    }
+    let mut graph = formulas.graph.clone();
+    let constant = |tree: FormulaTree| {
+        let id = graph.add(&tree).ok()?;
+        let value = graph.constant_of(id)?.value;
+        value.is_finite().then_some((tree, value))
+    };
+    found.into_values().filter_map(constant).collect()
+}

@@ -1,0 +1,166 @@
+//! Numbers that are wrong: of a formula, and of the parameters.
+//!
+//! The number that would be right is calculated instant by instant. It must be the same at all of them, and one that
+//! people write. Where any number of the formula could be to blame, because the formula is wrong by a factor or is a
+//! constant itself, only one whose digits were confused is named.
+
+use std::collections::BTreeSet;
+
+use super::edits;
+use super::places::{at_every_place, numbered, replaced};
+use super::slip::{FormulaSlip, SlipKind, Tried};
+use crate::check::trial::Trial;
+use formula::{FormulaTree, NodeShape, Operator, information};
+use linkage::math::KeepNan;
+
+/// Most digits of a number that somebody writes.
+const DIGITS: usize = 6;
+/// Relative accuracy to which a number must be known to have digits.
+const KNOWN: f64 = 1e-8;
+/// Bits of a factor so simple that it says nothing of digits.
+const SIMPLE: f64 = 2.0;
+
+/// Tries every number of the formulas `used`, and every parameter in them.
+pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
+    let formulas = trial.formulas.clone();
+    let known: BTreeSet<&str> =
+        used.iter().flat_map(|&index| formulas.list[index].tree.names()).map(|(name, _)| name).collect();
+    for own in &formulas.parameters {
+        let names: Vec<(String, f64)> = own.names().map(|(name, number)| (name.to_string(), number.value)).collect();
+        // With both names the two numbers would have to change together.
+        let names: Vec<&(String, f64)> = names.iter().filter(|(name, _)| known.contains(name.as_str())).collect();
+        let &[(name, number)] = names.as_slice() else { continue };
+        let Some(place) = trial.sheet.named(name) else { continue };
+        tried.count += 1;
+        let Some((right, is_confused)) = meant(trial, place, own.given) else { continue };
+        let number = FormulaTree::number(if own.given == 0.0 { right } else { number * (right / own.given) });
+        let change = |index: &usize| (*index, formulas.list[*index].tree.with_name(name, &number));
+        let changed: Vec<(usize, FormulaTree)> = used.iter().map(change).collect();
+        let text = |value: f64| format!("{} = {value}", own.key);
+        put(trial, tried, &changed, "[parameters]", [text(own.given), text(right)], is_confused);
+    }
+    for &index in used {
+        let own = &formulas.list[index];
+        let mut numbers = Vec::new();
+        let mut next = 0;
+        at_every_place(&own.tree, &mut |_, part| {
+            if let NodeShape::Number(value) = part.shape {
+                numbers.push((next, value));
+            }
+            next += 1;
+        });
+        for (number, value) in numbers {
+            let place = trial.sheet.places(index)[number];
+            tried.count += 1;
+            let Some((right, is_confused)) = meant(trial, place, value) else { continue };
+            let changed = vec![(index, replaced(&own.tree, number, &FormulaTree::number(right)))];
+            let written = numbered(&own.tree, number).to_string();
+            put(trial, tried, &changed, &own.name, [written, right.to_string()], is_confused);
+        }
+    }
+}
+
+fn put(
+    trial: &mut Trial,
+    tried: &mut Tried,
+    changed: &[(usize, FormulaTree)],
+    formula: &str,
+    texts: [String; 2],
+    is_confused: bool,
+) {
+    let [written, right] = texts;
+    let slip = FormulaSlip { formula: formula.into(), kind: SlipKind::Value, written, right, everywhere: false };
+    // A number changes no unit. What digits do not tell comes after what is missing.
+    let rank = (false, !is_confused, changed[0].0 != trial.index, SlipKind::Value);
+    tried.put(trial, changed, slip, rank);
+}
+
+/// The number that was meant by a wrong one at a place, if one number of the same sign is right at all instants, and
+/// whether its digits were confused.
+fn meant(trial: &mut Trial, place: usize, wrong: f64) -> Option<(f64, bool)> {
+    if trial.is_spent() || wrong == 0.0 {
+        return None;
+    }
+    let depending = trial.sheet.depending(&[place]);
+    let mut found: Option<[f64; 2]> = None;
+    for instant in trial.order.clone() {
+        let target = trial.targets[instant];
+        let Some([factor, known]) = trial.sheet.amount(Operator::Times, &depending, instant, 1.0, &target) else {
+            continue;
+        };
+        match found {
+            Some([other, well]) if (factor - other).abs() > known + well => return None,
+            Some([_, well]) if well <= known => {}
+            _ => found = Some([factor, known]),
+        }
+    }
+    let [factor, known] = found?;
+    if !(known <= KNOWN * factor.abs()) {
+        return None;
+    }
+    let right = short(factor * wrong, known * wrong.abs())?;
+    let is_open = trial.is_constant() || trial.is_number;
+    let is_confused = is_confused(wrong, right);
+    (right * wrong > 0.0 && (!is_open || is_confused)).then_some((right, is_confused))
+}
+
+/// A number of few digits within an error, if there is one.
+fn short(value: f64, error: f64) -> Option<f64> {
+    (0..DIGITS).find_map(|digits| {
+        let own: f64 = format!("{value:.digits$e}").parse().ok()?;
+        ((own - value).abs() <= error.larger(4.0 * f64::EPSILON * value.abs())).then_some(own)
+    })
+}
+
+/// Whether one number is written for another by confusing digits: two exchanged, one lost, added or doubled; or
+/// another value of gravity. A point in another place, and a simple factor, are no confusion of this number alone.
+fn is_confused(wrong: f64, right: f64) -> bool {
+    if edits::GRAVITY.contains(&wrong) && edits::GRAVITY.contains(&right) {
+        return true;
+    }
+    let digits = |value: f64| -> Vec<u8> {
+        let text = format!("{:e}", value.abs());
+        text.split('e').next().unwrap_or_default().bytes().filter(u8::is_ascii_digit).collect()
+    };
+    let [one, other] = [digits(wrong), digits(right)];
+    let is_simple = information(right / wrong, KNOWN) < SIMPLE;
+    let is_lost = |long: &[u8], short: &[u8]| {
+        long.len() == short.len() + 1
+            && short.len() >= 3
+            && (0..long.len()).any(|at| [&long[..at], &long[at + 1..]].concat() == short)
+    };
+    // Noughts at the end are digits here: 106 for 160.
+    let length = one.len().max(other.len());
+    let padded =
+        |digits: &[u8]| -> Vec<u8> { digits.iter().copied().chain(std::iter::repeat(b'0')).take(length).collect() };
+    let [written, meant] = [padded(&one), padded(&other)];
+    let is_exchanged = (1..length).any(|at| {
+        let mut turned = written.clone();
+        turned.swap(at - 1, at);
+        turned == meant && written != meant
+    });
+    !is_simple && (is_exchanged || is_lost(&one, &other) || is_lost(&other, &one))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{is_confused, short};
+
+    #[test]
+    fn digits_that_were_confused_are_told_from_simple_factors() {
+        for (wrong, right) in
+            [(0.0352, 0.0325), (164.0, 146.0), (106.0, 160.0), (105.0, 150.0), (10.0, 9.81), (0.105, 0.1055)]
+        {
+            assert!(is_confused(wrong, right), "{wrong} for {right}");
+        }
+        for (wrong, right) in [(40.0, 80.0), (4.0, 40.0), (0.5, 0.25), (3.0, 7.0), (160.0, 176.0)] {
+            assert!(!is_confused(wrong, right), "{wrong} for {right}");
+        }
+    }
+
+    #[test]
+    fn only_numbers_that_somebody_writes_are_short() {
+        assert_eq!(short(0.032_500_000_000_001, 1e-14), Some(0.0325));
+        assert_eq!(short(0.032_512_345_678, 1e-14), None);
+    }
+}

@@ -1,0 +1,177 @@
+//! What is missing in numbers, by least squares over what the mechanism has: sines and cosines of its links' angles, the
+//! squares of their speeds, their accelerations.
+
+use crate::check::KnownTrajectory;
+use linkage::math::{ColumnVector, KeepNan, Matrix};
+
+/// Numbers that are wrong.
+pub struct Wrong<'a> {
+    /// The instants of the course that they belong to.
+    pub rows: &'a [usize],
+    /// What would have to be added to them.
+    pub differences: Vec<f64>,
+    /// How far the difference may be from zero.
+    pub bounds: Vec<f64>,
+    /// The right numbers.
+    pub right: Vec<f64>,
+    /// Some of the places that everything is tried at first.
+    pub few: &'a [usize],
+}
+
+/// A quantity of the mechanism by instants.
+pub struct TermBasis {
+    /// What it is; empty for a constant.
+    pub text: String,
+    /// Its unit.
+    pub unit: &'static str,
+    values: Vec<f64>,
+}
+
+impl TermBasis {
+    /// Its largest value over the instants.
+    pub fn largest(&self) -> f64 {
+        self.values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()))
+    }
+}
+
+/// A quantity with its coefficient.
+pub struct WeightedTerm<'a> {
+    /// The quantity.
+    pub basis: &'a TermBasis,
+    /// Its coefficient, in the unit of the wrong numbers.
+    pub coefficient: f64,
+}
+
+/// What explains the difference.
+pub struct Explanation<'a> {
+    /// One quantity or two.
+    pub parts: Vec<WeightedTerm<'a>>,
+    /// Share of the largest difference that stays over; zero if nothing does.
+    pub left: f64,
+}
+
+/// Fewest instants that say anything.
+const FEWEST: usize = 8;
+/// Error of a channel's number over the largest of its column, as a basis.
+const KNOWN: f64 = 1e-10;
+/// Share of the difference that may stay over at a few places for all of them to be tried.
+const PROMISING: f64 = 1e-6;
+
+/// Calls `whole` with every explanation by one quantity or two that leaves nothing, as long as no single one has;
+/// returns the one that leaves least, if there is one.
+pub fn explanations<'a>(
+    wrong: &Wrong,
+    bases: &'a [TermBasis],
+    mut whole: impl FnMut(Vec<WeightedTerm<'a>>),
+) -> Option<Explanation<'a>> {
+    let Wrong { differences, few, .. } = wrong;
+    if differences.len() < FEWEST || differences.iter().any(|own| !own.is_finite()) {
+        return None;
+    }
+    let parts = |chosen: &[usize], coefficients: &[f64]| {
+        let part = |(&one, &coefficient): (&usize, &f64)| WeightedTerm { basis: &bases[one], coefficient };
+        chosen.iter().zip(coefficients).map(part).collect::<Vec<_>>()
+    };
+    let singles = (0..bases.len()).map(|one| vec![one]);
+    let pairs = (0..bases.len()).flat_map(|one| (one + 1..bases.len()).map(move |other| vec![one, other]));
+    let mut most: Option<(f64, Vec<usize>)> = None;
+    for chosen in singles.chain(pairs) {
+        let Some((coefficients, left)) = fitted(bases, &chosen, differences, few) else { continue };
+        if left < PROMISING && explains(wrong, bases, &chosen, &coefficients) {
+            whole(parts(&chosen, &coefficients));
+            // Two terms are no better than one.
+            if chosen.len() == 1 {
+                break;
+            }
+        }
+        let penalty = if chosen.len() == 1 { left } else { 2.0 * left };
+        if most.as_ref().is_none_or(|(least, _)| penalty < *least) {
+            most = Some((penalty, chosen));
+        }
+    }
+    let (_, chosen) = most?;
+    let all: Vec<usize> = (0..differences.len()).collect();
+    let (coefficients, _) = fitted(bases, &chosen, differences, &all)?;
+    let over = |place: usize| differences[place] - explained(bases, &chosen, &coefficients, place);
+    let largest = |of: &dyn Fn(usize) -> f64| all.iter().fold(0.0, |most: f64, &place| most.larger(of(place).abs()));
+    let left = largest(&over) / largest(&|place| differences[place]);
+    Some(Explanation { parts: parts(&chosen, &coefficients), left })
+}
+
+/// What the chosen quantities explain at an instant.
+fn explained(bases: &[TermBasis], chosen: &[usize], coefficients: &[f64], place: usize) -> f64 {
+    chosen.iter().zip(coefficients).map(|(&one, own)| own * bases[one].values[place]).sum()
+}
+
+/// Coefficients of the chosen quantities at some instants, and the share of the difference that they leave.
+fn fitted(bases: &[TermBasis], chosen: &[usize], differences: &[f64], places: &[usize]) -> Option<(Vec<f64>, f64)> {
+    let matrix = Matrix::from_fn(places.len(), chosen.len(), |row, column| bases[chosen[column]].values[places[row]]);
+    let right = ColumnVector::from_iterator(places.len(), places.iter().map(|&place| differences[place]));
+    // Normalised columns: speeds squared and cosines differ by powers of ten.
+    let sizes: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
+    if sizes.iter().any(|size| !(*size > 0.0)) {
+        return None;
+    }
+    let scaled = Matrix::from_fn(places.len(), chosen.len(), |row, column| matrix[(row, column)] / sizes[column]);
+    let solution = scaled.clone().svd(true, true).solve(&right, 1e-9).ok()?;
+    let left = (scaled * &solution - &right).norm() / right.norm();
+    let coefficients = solution.iter().zip(&sizes).map(|(own, size)| own / size).collect();
+    left.is_finite().then_some((coefficients, left))
+}
+
+/// Whether nothing is left over at any instant.
+fn explains(wrong: &Wrong, bases: &[TermBasis], chosen: &[usize], coefficients: &[f64]) -> bool {
+    let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()));
+    let known: f64 =
+        chosen.iter().zip(coefficients).map(|(&one, own)| KNOWN * own.abs() * largest(&bases[one].values)).sum();
+    wrong.differences.iter().zip(&wrong.bounds).enumerate().all(|(place, (difference, bound))| {
+        (difference - explained(bases, chosen, coefficients, place)).abs() <= 4.0 * bound + known
+    })
+}
+
+/// What the mechanism has, the simplest first.
+pub fn bases(course: &KnownTrajectory, wrong: &Wrong) -> Vec<TermBasis> {
+    let rows = wrong.rows;
+    let mut all = Vec::new();
+    let mut put = |text: &str, unit: &'static str, of: &dyn Fn(usize) -> f64| {
+        let values: Vec<f64> = rows.iter().map(|&row| of(row)).collect();
+        all.push(TermBasis { text: text.into(), unit, values });
+    };
+    let crank = |row: usize| course.cranks()[row];
+    put("", "rad", &|_| 1.0);
+    for (text, function) in [("cos", f64::cos as fn(f64) -> f64), ("sin", f64::sin)] {
+        put(&format!("{text}(phi)"), "rad", &|row| function(crank(row)));
+        put(&format!("{text}(2*phi)"), "rad", &|row| function(2.0 * crank(row)));
+    }
+    put("phi", "rad", &crank);
+    put("t", "s", &|row| course.times()[row]);
+    for (name, [angle, omega, alpha]) in course.links() {
+        for (text, function) in [("cos", f64::cos as fn(f64) -> f64), ("sin", f64::sin)] {
+            let turned = |row: usize| function(angle[row]);
+            put(&format!("{text}({name})"), "rad", &turned);
+            put(&format!("omega({name})*{text}({name})"), "rad/s", &|row| omega[row] * turned(row));
+            put(&format!("omega({name})^2*{text}({name})"), "rad/s^2", &|row| omega[row].powi(2) * turned(row));
+            put(&format!("alpha({name})*{text}({name})"), "rad/s^2", &|row| alpha[row] * turned(row));
+        }
+        put(&format!("omega({name})"), "rad/s", &|row| omega[row]);
+        put(&format!("omega({name})^2"), "rad/s^2", &|row| omega[row].powi(2));
+        put(&format!("alpha({name})"), "rad/s^2", &|row| alpha[row]);
+    }
+    for (channel, values) in course.points() {
+        put(&channel.to_string(), channel.kind.unit.symbol(), &|row| values[row]);
+    }
+    // What does not change says the same as the constant.
+    let changes = |own: &TermBasis| {
+        let largest = own.values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()));
+        own.text.is_empty() || own.values.iter().any(|value| (value - own.values[0]).abs() > 1e-6 * largest)
+    };
+    all.retain(changes);
+    // The claim itself, or what goes with it, explains nothing.
+    let claimed = ColumnVector::from_column_slice(&wrong.right);
+    let is_claim = |own: &TermBasis| {
+        let values = ColumnVector::from_column_slice(&own.values);
+        values.dot(&claimed).abs() >= (1.0 - 1e-12) * values.norm() * claimed.norm()
+    };
+    all.retain(|own| own.text.is_empty() || !is_claim(own));
+    all
+}

@@ -1,0 +1,138 @@
+//! A scenario beside another party: solved at its instants.
+
+use crate::sentences;
+use std::collections::BTreeSet;
+
+use super::allowed::ComparisonRule;
+use super::cause;
+use super::instants;
+use super::judge::{Both, Which};
+use super::pair::{Side, SidePair, crank_check};
+use super::scale::Scales;
+use crate::run::memory;
+use crate::run::solved::{Solved, asked};
+use crate::tables::{Held, PartyColumn, RowKey};
+use formula::Rounded;
+use linkage::case::Grid;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::Channel;
+use scenario::{Claim, Scenario, within};
+
+/// What a scenario says of its own channels, at its own instants.
+pub(super) fn held(scenario: &Scenario) -> Result<Held> {
+    let channel = |channel: &Channel| Claim::of_channels(&channel.to_string(), std::slice::from_ref(channel)).ok();
+    let claims: Vec<Claim> = scenario.case.channels().iter().filter_map(channel).collect();
+    let solved = Solved::of(scenario, scenario.case.grid.clone(), &claims)?;
+    let columns = columns(&solved, &claims, &|row| row, scenario.case.grid.len())?;
+    Ok(Held::of_columns(Held::of_trajectory(solved.trajectory()).at, columns).analytic())
+}
+
+/// What the sides say of claims, `of(row)` being the instant of a row.
+fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows: usize) -> Result<Vec<PartyColumn>> {
+    let column = |claim: &Claim| {
+        let values = solved.on_course(|course| course.values(claim))?;
+        let values = (0..rows).map(|row| values[of(row)]).collect();
+        Ok(PartyColumn { claim: claim.clone(), values, scale: None, mapped: None })
+    };
+    claims.iter().map(column).collect()
+}
+
+/// Compares a scenario, which is this party, with the other, which gives the instants.
+pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &ComparisonRule) -> Result<SidePair> {
+    let Side { name, held } = other;
+    let at = held.at(how.by)?;
+    let (claims, alone) = claims(scenario, &held, how)?;
+    let asked = claims.iter().flat_map(|claim| asked(claim, &scenario.case));
+    let channels: BTreeSet<String> = asked.map(|channel| channel.to_string()).collect();
+    let needed = memory::of_comparison(at.values.len(), claims.len(), channels.len());
+    memory::check_input(&sentences::comparing_rows(&at.values.len()), needed, how.memory)?;
+    let (grid, rows) = grid(scenario, &at)?;
+    let scales = Scales::of(scenario, &grid);
+    let solved = Solved::of(scenario, grid, &claims)?.known_at_least(&|channel| scales.known(channel));
+    let mut columns = columns(&solved, &claims, &|row| rows[row], at.values.len())?;
+    columns.iter_mut().for_each(|column| column.scale = scales.of_claim(&column.claim));
+    let drift = instants::drift(&solved, &columns, &at, &rows);
+    let own = Held::of_columns(held.at.clone(), columns).analytic();
+    let other = if held.is_analytic { as_well_known(held, &own) } else { held };
+    let place = |of: &[f64]| rows.iter().map(|&row| of[row]).collect::<Vec<f64>>();
+    let trajectory = solved.trajectory();
+    let both = Both {
+        parties: which.beside(&own, &other),
+        at: &at,
+        instants: [place(trajectory.times()), place(trajectory.inputs())],
+        drift: drift.claims,
+        how,
+    };
+    let mut pair = SidePair {
+        names: which.beside(String::new(), name),
+        alone: which.beside(Vec::new(), alone),
+        checks: solved.checks().to_vec(),
+        ..SidePair::of(&both, which.other(), &claims)
+    };
+    if pair.contradiction.is_none() {
+        pair.causes = cause::explained(scenario, which, &both, &pair.channels)?;
+    }
+    if let (false, Some(theirs)) = (at.is_crank, &other.at.cranks) {
+        let ours = solved.on_course(|course| Ok(rows.iter().map(|&row| course.crank(row)).collect::<Vec<_>>()))?;
+        pair.checks.extend(crank_check(&both, which.beside(ours.as_slice(), theirs), &drift.crank));
+    }
+    Ok(pair)
+}
+
+/// What a party says of channels that the scenario has, and the names of its other ones.
+fn claims(scenario: &Scenario, held: &Held, how: &ComparisonRule) -> Result<(Vec<Claim>, Vec<String>)> {
+    let (mut claims, mut alone) = (Vec::new(), Vec::new());
+    let asked = how.asked();
+    for column in held.columns.iter().filter(|column| asked(&column.claim)) {
+        match (Claim::parse(&column.claim.text, &scenario.case), &column.mapped) {
+            (Ok(claim), _) => claims.push(claim),
+            (Err(fault), Some(mapped)) => return Err(mapped.wrong(&fault.message, &fault.help)),
+            (Err(_), None) => alone.push(column.claim.text.clone()),
+        }
+    }
+    if claims.is_empty() && !how.only.is_empty() {
+        let message = sentences::no_channel_that_both_have_is_called(&how.only.join(" or "));
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::NAME_A_CHANNEL_A_SUBJECT));
+    }
+    if claims.is_empty() {
+        let message = sentences::the_scenario_has_no_channel(&scenario.name);
+        let error = Error::new(ErrorKind::Input, message);
+        return Err(error.help(sentences::COMPARE_THE_SAME_MECHANISM_OR_MAP));
+    }
+    Ok((claims, alone))
+}
+
+/// The grid of some instants, every one once, and for every row its place in it.
+fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
+    let mut rows = vec![0; at.values.len()];
+    let mut all: Vec<f64> = Vec::with_capacity(rows.len());
+    for row in at.ascending() {
+        let Rounded { value, error } = at.values[row];
+        // A rounded instant may lie a little beyond the motion.
+        let within = if at.is_crank { value } else { within(scenario.case.crank(), value) };
+        let value = if (within - value).abs() <= error { within } else { value };
+        if all.last() != Some(&value) {
+            all.push(value);
+        }
+        rows[row] = all.len() - 1;
+    }
+    let crank = scenario.case.crank();
+    let grid = if at.is_crank { Grid::of_inputs(crank, all) } else { Grid::of_times(crank, all) };
+    grid.check(crank).map_err(|message| {
+        let help = match at.is_crank && crank.is_free() {
+            true => sentences::GIVE_THE_TABLE_A_COLUMN_OF_TIMES,
+            false => sentences::CHECK_THE_UNIT_OF_THE_INSTANTS,
+        };
+        Error::new(ErrorKind::Input, sentences::the_instants_of_the_other(&message)).help(help)
+    })?;
+    Ok((grid, rows))
+}
+
+/// What an analytic side has recorded is as well known as what it finds now.
+fn as_well_known(mut held: Held, own: &Held) -> Held {
+    for column in &mut held.columns {
+        let Some(found) = own.values_of(&column.claim) else { continue };
+        column.values.iter_mut().zip(found.iter()).for_each(|(value, found)| value.error += found.error);
+    }
+    held
+}

@@ -1,0 +1,374 @@
+//! Why a table is off, where that is simple.
+
+use crate::sentences;
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+use std::f64::consts::{PI, TAU};
+
+use super::judge::{Both, Compared, Which};
+use crate::bounds::largest_difference;
+use crate::check::{KnownTrajectory, Term, Wrong, missing_in_numbers};
+use crate::diagnosis::{
+    CasePart, Change, DataSlip, DiagnosedParty, Diagnosis, DiagnosisInput, DisagreementCause, PartChange,
+    SuspectChannel, diagnose, even,
+};
+use analytic::AssurSolver;
+use formula::NodeShape;
+use linkage::case::Grid;
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::math::statistics::half_range;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Trajectory};
+use scenario::Scenario;
+
+/// A cause, and what stays over when it is granted.
+#[derive(Clone, Debug)]
+pub struct Explained {
+    /// The channels that were examined, by their texts.
+    pub of: Vec<String>,
+    /// What was found.
+    pub diagnosis: Diagnosis,
+    /// Terms that are missing, where that is the cause.
+    pub terms: Vec<Term>,
+    /// Share of the largest difference that may stay over when the cause is granted; zero for what the bounds allow.
+    pub left: f64,
+    /// The time (s) of a single row that is off besides, which no cause explains.
+    pub but: Option<f64>,
+}
+
+/// Shares of the largest difference that a cause may leave over: nothing but the bounds, then little, as the error of a
+/// simulation that is wrong besides.
+const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
+
+/// Number of channels that are off by little that terms are tried on.
+const TRIED: usize = 12;
+
+/// Number of instants that terms are tried on at first.
+const FEW: usize = 24;
+
+/// Number of instants that causes are sought on, besides those that tell most.
+const MOST: usize = 2000;
+
+/// Share of a channel's scale from which on a difference is a mistake, and not the error of a method.
+pub const GROSS: f64 = 0.02;
+
+/// Examines the channels of the party beside a scenario, which is this one, that disagree. What explains them to within their bounds is
+/// granted first, of all together, then of what it leaves; a single row that is off besides hides no cause.
+/// Then those that are grossly off are examined together and one by one, for causes that leave little. What is off by
+/// little and without a common cause is the error of a method.
+pub(super) fn explained(
+    scenario: &Scenario,
+    which: Which,
+    both: &Both,
+    channels: &[Compared],
+) -> Result<Vec<Explained>> {
+    let is_wrong = |own: &&Compared| own.since.is_some() && own.is_plain();
+    let mut open: Vec<&Compared> = channels.iter().filter(is_wrong).collect();
+    let Some(stage) = Stage::of(scenario, which, both, channels)? else { return Ok(Vec::new()) };
+    let mut found = Vec::new();
+    let mut grant = |open: &mut Vec<&Compared>, explained: Explained| {
+        open.retain(|own| !explained.of.contains(&own.claim.text));
+        found.push(explained);
+    };
+    while let Some(exact) = stage.examined(&open, LEFT[0]).or_else(|| stage.examined_but_one(&open, LEFT[0])) {
+        grant(&mut open, exact);
+    }
+    // A simulation is wrong by its step besides.
+    let most = stage.examined(&open, LEFT[1]).filter(|most| most.of.len() == open.len());
+    if let Some(most) = most.or_else(|| stage.examined_but_one(&open, LEFT[1])) {
+        grant(&mut open, most);
+    }
+    let (mut open, mut little): (Vec<&Compared>, Vec<&Compared>) = open.into_iter().partition(|own| own.is_gross());
+    while !open.is_empty() {
+        // All of them at once, unless that explains none.
+        let together = || LEFT[1..].iter().find_map(|&left| stage.examined(&open, left));
+        let alone = || open.iter().find_map(|one| LEFT.iter().find_map(|&left| stage.examined(&[*one], left)));
+        let next = together().or_else(|| if open.len() > 1 { alone() } else { None });
+        let Some(explained) = next.or_else(|| open.iter().find_map(|one| stage.lacking(one))) else { break };
+        grant(&mut open, explained);
+    }
+    if !open.is_empty() {
+        found.extend(stage.unexplained(&open));
+    }
+    // What is off by little may be a method's error, unless a term explains all of it.
+    for one in little.clone().into_iter().take(TRIED) {
+        if let Some(explained) = stage.lacking(one) {
+            little.retain(|own| !explained.of.contains(&own.claim.text));
+            found.push(explained);
+        }
+    }
+    let seen = stage.unexplained(&little).filter(|own| own.diagnosis.nature.is_some());
+    found.extend(seen);
+    Ok(found)
+}
+
+impl Compared {
+    /// Whether it is a channel with numbers on both sides.
+    fn is_plain(&self) -> bool {
+        matches!(self.claim.tree.shape, NodeShape::Name(_)) && self.largest.is_some()
+    }
+
+    /// Whether it is off by so much that no method's error explains it.
+    #[must_use]
+    pub fn is_gross(&self) -> bool {
+        self.since.is_some() && self.largest.is_some_and(|at| at.difference.abs() > GROSS * self.scale)
+    }
+}
+
+/// Whether a cause may be named that leaves something over. A number that was fitted may stand for anything then, and
+/// differences resemble values that are late by half a row. A drive that is turned is at constant speed the same as
+/// rows that are late.
+fn may_leave(cause: &DisagreementCause) -> bool {
+    match cause {
+        DisagreementCause::Case(Change { part, how: PartChange::Instead { .. } }) => {
+            matches!(part, CasePart::StartAngle(_))
+        }
+        // A simulation that bursts ends in rows beside which all others are small.
+        DisagreementCause::Values { slip: DataSlip::Differences { .. } | DataSlip::Outlier(_), .. } => false,
+        DisagreementCause::Case(_) | DisagreementCause::Values { .. } => true,
+    }
+}
+
+/// Whole turns are compared by nobody, and many programs print none: adds them, so that a right angle is near the right
+/// one, and a wrong one that is wrapped goes on where it was.
+fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
+    let is_wrapped = |own: &[f64]| half_range(own) <= PI * (1.0 + 1e-9);
+    if !is_right && !is_wrapped(values) {
+        return;
+    }
+    let mut turns = 0.0;
+    let mut before: Option<f64> = None;
+    for (value, right) in values.iter_mut().zip(right) {
+        let gap = *value - right;
+        let near = if is_right { 0.0 } else { before.unwrap_or(gap) };
+        // The first row says from which turn a wrong angle counts.
+        if is_right || before.is_some() {
+            turns = -((gap - near) / TAU).round();
+        }
+        *value += TAU * turns;
+        before = Some(*value - right);
+    }
+}
+
+/// Fewest instants of which one may be left out.
+const FEWEST: usize = 8;
+
+/// Rows from which on one that is off is not looked for: that costs as much as all else several times.
+const MOST_ROWS: usize = 20_000;
+
+/// What the channels are examined on: the rows at which all of them have numbers.
+struct Stage {
+    case: linkage::case::Case,
+    right: Trajectory,
+    found: Trajectory,
+    /// By channel of `found`: text of its claim, the bound on it in SI, and whether it agrees.
+    bounds: Vec<(String, f64, bool)>,
+}
+
+impl Stage {
+    fn of(scenario: &Scenario, which: Which, both: &Both, channels: &[Compared]) -> Result<Option<Stage>> {
+        let other = both.parties[which.other() as usize];
+        let plain = channels.iter().filter(|own| own.is_plain());
+        let plain: Vec<(&Compared, Cow<[formula::Rounded]>)> = plain
+            .filter(|own| !own.claim.channels[0].1.magnitude)
+            .filter_map(|own| Some((own, other.values_of(&own.claim)?)))
+            .collect();
+        let has_all = |row: &usize| plain.iter().all(|(_, values)| values[*row].value.is_finite());
+        let mut rows: Vec<usize> = both.at.ascending().into_iter().filter(has_all).collect();
+        rows.dedup_by(|a, b| both.instants[0][*a] == both.instants[0][*b]);
+        let telling = |own: &Compared| [own.since, own.worst, own.largest].map(|at| at.map(|at| at.row));
+        let kept: BTreeSet<usize> = channels.iter().flat_map(telling).flatten().collect();
+        let (mut place, step) = (0, rows.len().div_ceil(MOST));
+        rows.retain(|row| {
+            place += 1;
+            place % step == 0 || kept.contains(row)
+        });
+        if rows.len() < 4 || plain.is_empty() {
+            return Ok(None);
+        }
+        let [times, cranks] = both.places().map(|instants| rows.iter().map(|&row| instants[row]).collect::<Vec<f64>>());
+        let (mut names, mut columns, mut bounds) = (Vec::new(), Vec::new(), Vec::new());
+        for (own, values) in &plain {
+            let printed = &own.claim.channels[0].1;
+            if names.contains(&printed.channel) {
+                continue;
+            }
+            names.push(printed.channel.clone());
+            columns.push(rows.iter().map(|&row| printed.to_si(values[row].value)).collect::<Vec<f64>>());
+            // A cause is held against one bound: a tighter one, of numbers with more digits, would refuse right ones.
+            let largest = own.largest.map_or(0.0, |at| at.difference.abs());
+            let bound = if largest > own.loosest { own.loosest } else { own.worst.map_or(0.0, |worst| worst.bound) };
+            bounds.push((own.claim.text.clone(), printed.to_si(bound), own.since.is_none()));
+        }
+        let all: Vec<Channel> = scenario.case.all_channels();
+        let case = scenario.case.on(Grid { times: times.clone(), inputs: cranks.clone() })?.wanting_only(&all);
+        // What is compared was solved at these instants; channels beside it may not be.
+        let Ok(right) = AssurSolver.solve(&case) else { return Ok(None) };
+        for ((channel, column), (.., agrees)) in names.iter().zip(&mut columns).zip(&bounds) {
+            if let Some(right) = right.column(channel).filter(|_| channel.kind.periodic) {
+                unwrap(column, right, *agrees);
+            }
+        }
+        let found = Trajectory::new(times, cranks, names, columns)?.of_input(case.crank().input);
+        Ok(Some(Stage { case, right, found, bounds }))
+    }
+
+    /// A cause that explains some of the channels, but for what it leaves over.
+    fn examined(&self, of: &[&Compared], left: f64) -> Option<Explained> {
+        let mut diagnosis = self.diagnosis(of, left)?;
+        let causes = diagnosis.cause.take().into_iter().chain(std::mem::take(&mut diagnosis.also));
+        let mut causes = causes.filter(|cause| left == 0.0 || may_leave(cause));
+        (diagnosis.cause, diagnosis.also) = (Some(causes.next()?), causes.collect());
+        let is_left = |text: &str| diagnosis.left_over.iter().any(|channel| self.text(channel) == Some(text));
+        let explained: Vec<String> =
+            of.iter().map(|own| own.claim.text.clone()).filter(|text| !is_left(text)).collect();
+        (!explained.is_empty()).then_some(Explained { of: explained, diagnosis, terms: Vec::new(), left, but: None })
+    }
+
+    /// A cause that explains all of the channels but for a single row: the first, the last, or the one that stands out.
+    fn examined_but_one(&self, of: &[&Compared], left: f64) -> Option<Explained> {
+        let count = self.right.times().len();
+        if !(FEWEST..MOST_ROWS).contains(&count) || of.is_empty() {
+            return None;
+        }
+        let mut rows = vec![0, count - 1];
+        rows.extend(self.stands_out());
+        rows.into_iter().find_map(|row| {
+            let (stage, time) = (self.without(row)?, self.right.times()[row]);
+            let found = stage.examined(of, left).filter(|found| found.of.len() == of.len())?;
+            Some(Explained { but: Some(time), ..found })
+        })
+    }
+
+    /// The row whose difference is farthest from those of its neighbours.
+    fn stands_out(&self) -> Option<usize> {
+        let bend = |row: usize| {
+            let columns = self.found.iter().zip(&self.bounds).filter(|(_, (.., agrees))| !agrees);
+            columns.fold(0.0, |most: f64, ((channel, values), (_, bound, _))| {
+                let Some(right) = self.right.column(channel) else { return most };
+                let gap = |row: usize| values[row] - right[row];
+                most.larger((gap(row + 1) - 2.0 * gap(row) + gap(row - 1)).abs() / bound)
+            })
+        };
+        (1..self.right.times().len() - 1).max_by(|&a, &b| bend(a).total_cmp(&bend(b)))
+    }
+
+    /// The same without a row.
+    fn without(&self, row: usize) -> Option<Stage> {
+        let keep: Vec<bool> = (0..self.right.times().len()).map(|own| own != row).collect();
+        let [right, found] = [&self.right, &self.found].map(|own| own.at_rows(&keep));
+        let (times, cranks) = (right.times().to_vec(), right.inputs().to_vec());
+        let case = self.case.on(Grid { times, inputs: cranks }).ok()?;
+        let bounds = self.bounds.iter().zip(found.iter()).map(|((text, bound, agrees), (channel, values))| {
+            let gap = right.column(channel).map(|right| largest_difference(right, values, channel.kind.periodic));
+            (text.clone(), *bound, *agrees || gap.is_some_and(|gap| gap <= *bound))
+        });
+        let bounds = bounds.collect();
+        Some(Stage { case, right, found, bounds })
+    }
+
+    /// What can be said where no cause is simple: since when, and what the error looks like.
+    fn unexplained(&self, of: &[&Compared]) -> Option<Explained> {
+        let mut diagnosis = self.diagnosis(of, 0.0)?;
+        diagnosis.cause = None;
+        diagnosis.also.clear();
+        let of = of.iter().map(|own| own.claim.text.clone()).collect();
+        Some(Explained { of, diagnosis, terms: Vec::new(), left: 0.0, but: None })
+    }
+
+    /// What a channel lacks that the mechanism has, in the unit that it is printed in.
+    fn lacking(&self, own: &Compared) -> Option<Explained> {
+        let place = self.bounds.iter().position(|(text, ..)| *text == own.claim.text)?;
+        let channel = &self.found.channels()[place];
+        let right = self.right.column(channel)?;
+        let (printed, turn) = (&own.claim.channels[0].1, own.claim.turn());
+        let gap = |(right, found): (&f64, &f64)| {
+            let gap = (right - found) / printed.to_si(1.0);
+            turn.map_or(gap, |turn| gap - turn * (gap / turn).round())
+        };
+        let differences: Vec<f64> = right.iter().zip(self.found.column(channel)?).map(gap).collect();
+        let rows: Vec<usize> = (0..differences.len()).collect();
+        let few: Vec<usize> = (0..FEW).map(|part| (2 * part + 1) * rows.len() / (2 * FEW)).collect();
+        let wrong = Wrong {
+            rows: &rows,
+            bounds: vec![self.bounds[place].1 / printed.to_si(1.0); rows.len()],
+            differences,
+            right: right.to_vec(),
+            few: &few,
+        };
+        let (terms, left) = missing_in_numbers(&KnownTrajectory::new(&self.case, &self.right, &|_, _| 0.0), &wrong)?;
+        // Some term resembles any smooth difference, and what goes with time is no term of a mechanism.
+        let drifts = terms.iter().any(|term| term.of == "t" || term.of == "phi");
+        (left == 0.0 && !drifts).then_some(())?;
+        let diagnosis = self.diagnosis(&[own], 0.0)?;
+        Some(Explained { of: vec![own.claim.text.clone()], diagnosis, terms, left, but: None })
+    }
+
+    fn text(&self, channel: &Channel) -> Option<&str> {
+        let place = self.found.channels().iter().position(|own| own == channel)?;
+        Some(&self.bounds[place].0)
+    }
+
+    /// The diagnosis of some channels; what a cause may leave over widens their bounds.
+    fn diagnosis(&self, of: &[&Compared], left: f64) -> Option<Diagnosis> {
+        let judged: Vec<SuspectChannel> = self
+            .found
+            .channels()
+            .iter()
+            .zip(&self.bounds)
+            .filter_map(|(channel, (text, bound, agrees))| {
+                if *agrees {
+                    // A cause must not spoil it.
+                    return Some(SuspectChannel { channel: channel.clone(), bound: *bound, disagrees: false });
+                }
+                let own = of.iter().find(|own| own.claim.text == *text)?;
+                let largest = own.largest.map_or(0.0, |at| own.claim.channels[0].1.to_si(at.difference.abs()));
+                Some(SuspectChannel { channel: channel.clone(), bound: bound.larger(left * largest), disagrees: true })
+            })
+            .collect();
+        let parties = [(sentences::THE_ANALYTIC_SIDES, &self.right), (sentences::THE_OTHER_PARTY, &self.found)].map(
+            |(name, trajectory)| {
+                let bounds = judged.iter().map(|judged| (judged.channel.clone(), judged.bound)).collect();
+                DiagnosedParty { name, trajectory, bounds }
+            },
+        );
+        let question = DiagnosisInput {
+            suspect: parties[1].name,
+            reference: &self.right,
+            suspicious: &self.found,
+            judged: &judged,
+            case: &self.case,
+            solver: &AssurSolver,
+            step: even(self.right.times()).map(|step| (step, "row")),
+        };
+        diagnose(&question, &parties)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Within half a turn of zero, as many programs print angles.
+    fn wrapped(values: &[f64]) -> Vec<f64> {
+        values.iter().map(|value| value - TAU * (value / TAU).round()).collect()
+    }
+
+    #[test]
+    fn angles_go_on_where_they_were() {
+        let right: Vec<f64> = (0..60).map(|row| 0.3 + 0.25 * f64::from(row)).collect();
+        let twice: Vec<f64> = right.iter().map(|angle| 2.0 * angle - 0.3).collect();
+        for (meant, is_right) in [(&right, true), (&twice, false)] {
+            let mut values = wrapped(meant);
+            unwrap(&mut values, &right, is_right);
+            assert!(values.iter().zip(meant).all(|(a, b)| (a - b).abs() < 1e-12), "{is_right}: {values:?}");
+        }
+        // What was not wrapped stays, unless it is right but for turns.
+        for (is_right, turns) in [(false, 2.0), (true, 0.0)] {
+            let mut values: Vec<f64> = right.iter().map(|angle| angle + 2.0 * TAU).collect();
+            unwrap(&mut values, &right, is_right);
+            assert!(values.iter().zip(&right).all(|(a, b)| (a - b - turns * TAU).abs() < 1e-12), "{is_right}");
+        }
+    }
+}

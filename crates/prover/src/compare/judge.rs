@@ -1,0 +1,182 @@
+//! Channel by channel: differences, bounds, verdicts.
+
+use crate::sentences;
+use std::ops::Deref;
+
+use super::allowed::{Allowances, ComparisonRule};
+use crate::bounds::Verdict;
+use crate::run::shifted::TELLING;
+use crate::tables::{Held, RowKey};
+use columns::{Beside, JudgedColumns, ScaleColumn, judge};
+use formula::{NodeShape, Rounded};
+use linkage::error::Advice;
+use linkage::input::Input;
+use linkage::math::statistics::half_range;
+use linkage::math::{KeepNan, largest_size};
+use linkage::trajectory::Unit;
+use scenario::Claim;
+
+pub use columns::RowPair;
+
+/// A channel, or an arithmetic of channels, of both parties.
+#[derive(Clone, Debug)]
+pub struct Compared {
+    /// The channel in its unit.
+    pub claim: Claim,
+    /// Half the range over the whole run of the scenario, at least a thousandth of what is natural for its quantity; in
+    /// the claim's unit. The same whatever else is compared.
+    pub scale: f64,
+    /// What the numbers of both come to, in the claim's unit.
+    pub found: JudgedColumns,
+    /// Whether the bound is what is known of both parties, and nothing is allowed besides.
+    pub is_derived: bool,
+    /// Agreement within the bounds of all instants.
+    pub verdict: Verdict,
+}
+
+impl Deref for Compared {
+    type Target = JudgedColumns;
+
+    fn deref(&self) -> &JudgedColumns {
+        &self.found
+    }
+}
+
+impl Compared {
+    /// Whether it is off because a number is expected and none stands there.
+    #[must_use]
+    pub fn has_no_number(&self) -> bool {
+        has_no_number(&self.found)
+    }
+}
+
+fn has_no_number(own: &JudgedColumns) -> bool {
+    own.since.is_some_and(|at| at.difference.is_nan())
+}
+
+/// One of two parties, by the order in which they were named.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Which {
+    First,
+    Second,
+}
+
+impl Which {
+    pub(super) fn other(self) -> Which {
+        if self == Which::First { Which::Second } else { Which::First }
+    }
+
+    /// Both in their order, `own` being of this party.
+    pub(super) fn beside<T>(self, own: T, other: T) -> [T; 2] {
+        if self == Which::First { [own, other] } else { [other, own] }
+    }
+}
+
+/// Both parties at the same rows.
+pub(super) struct Both<'a> {
+    pub parties: [&'a Held; 2],
+    pub at: &'a RowKey,
+    /// Times and crank angles of rows as far as somebody knows them.
+    pub instants: [Vec<f64>; 2],
+    /// What the digits of the instants leave open, claim by claim and row by row; an empty column for nothing.
+    pub drift: Vec<Vec<f64>>,
+    pub how: &'a ComparisonRule,
+}
+
+impl Both<'_> {
+    /// All claims that both parties have.
+    pub(super) fn judged(&self, claims: &[Claim]) -> Vec<Compared> {
+        let [one, other] = self.parties;
+        let allowances = self.how.allowances();
+        let of = |(index, claim): (usize, &Claim)| {
+            let values = [one.values_of(claim)?, other.values_of(claim)?];
+            Some(self.channel(claim, index, [&values[0], &values[1]], &allowances))
+        };
+        claims.iter().enumerate().filter_map(of).collect()
+    }
+
+    /// The party that is measured by.
+    pub(super) fn measure(&self) -> ScaleColumn {
+        ScaleColumn::among(self.parties.map(|party| party.is_analytic))
+    }
+
+    pub(super) fn places(&self) -> [&[f64]; 2] {
+        self.instants.each_ref().map(Vec::as_slice)
+    }
+
+    /// The scale of a channel: as a complete trajectory gives it, whatever else is compared. Of tables, and of an
+    /// arithmetic, by the numbers of its own alone: half their range, and at least a tenth of the largest, or of a
+    /// coordinate a thousandth.
+    fn scale(&self, claim: &Claim, values: &[Rounded]) -> f64 {
+        let measure = self.measure().party;
+        let complete = [measure, 1 - measure].into_iter().find_map(|party| self.parties[party].scale_of(claim));
+        complete.unwrap_or_else(|| {
+            let numbers: Vec<f64> = values.iter().map(|own| own.value).filter(|value| value.is_finite()).collect();
+            let is_coordinate = matches!(claim.tree.shape, NodeShape::Name(_))
+                && matches!(claim.channels[0].1.channel.kind.unit, Unit::Radian | Unit::Metre);
+            let share = match (numbers.len(), is_coordinate) {
+                // One instant has no range.
+                (1, _) => 1.0,
+                (_, true) => 1e-3,
+                (_, false) => 0.1,
+            };
+            half_range(&numbers).larger(share * largest_size(&numbers))
+        })
+    }
+
+    fn channel(&self, claim: &Claim, index: usize, values: [&[Rounded]; 2], allowances: &Allowances) -> Compared {
+        let measure = self.measure();
+        let scale = self.scale(claim, values[measure.party]);
+        let allowed = allowances.of(claim, scale);
+        let found = judge(&Beside {
+            values,
+            places: self.places(),
+            drift: self.drift.get(index).map_or(&[], Vec::as_slice),
+            turn: claim.turn(),
+            allowance: allowed.unwrap_or_default(),
+            measure,
+        });
+        let is_derived = allowed.is_none();
+        Compared { claim: claim.clone(), scale, is_derived, verdict: self.verdict(&found, scale, is_derived), found }
+    }
+
+    fn verdict(&self, own: &JudgedColumns, scale: f64, is_derived: bool) -> Verdict {
+        let Some(worst) = own.worst else {
+            return Verdict::open(sentences::AT_NO_INSTANT_DO_BOTH_HAVE_A_NUMBER);
+        };
+        let open = |reason: String, advice: &str| Verdict::Inconclusive {
+            reason,
+            advice: vec![Advice::Text(advice.to_string())],
+        };
+        let largest = own.largest.map_or(0.0, |largest| largest.difference.abs());
+        match own.since {
+            Some(_) if is_derived && !self.measure().is_analytic && !has_no_number(own) => open(
+                sentences::they_differ_by_up_to_and_neither(&format_args!("{largest:.3e}")),
+                sentences::SAY_WHAT_DIFFERENCE_IS_ALLOWED,
+            ),
+            Some(since) => Verdict::Disagree { place: place(&since) },
+            // Numbers that are as near as that prove it, whatever their digits leave open.
+            None if is_derived && own.widest > TELLING * scale && largest > TELLING * scale => open(
+                sentences::the_numbers_are_known_to_of_their(&format_args!("{:.1e}", own.widest / scale)),
+                sentences::GIVE_MORE_DIGITS_OR_CLOSER,
+            ),
+            None => Verdict::Agree { margin: 1.0 / worst.used() },
+        }
+    }
+}
+
+/// Where, and what stands there.
+pub(super) fn place(at: &RowPair) -> String {
+    let RowPair { time, crank, values: [one, other], .. } = at;
+    let when = match (time.is_nan(), crank.is_nan()) {
+        (false, false) => format!("t = {time:.6} s, {:.3}", Input::Angle.at(*crank)),
+        (false, true) => format!("t = {time:.6} s"),
+        (true, _) => format!("{:.3}", Input::Angle.at(*crank)),
+    };
+    let told = |value: &f64| if value.is_nan() { "no number".into() } else { format!("{value:.9e}") };
+    let way_out = match at.difference.is_nan() {
+        true => sentences::LEAVE_A_CELL_EMPTY_WHERE,
+        false => "",
+    };
+    sentences::first_at_against(&when, &told(one), &told(other), &way_out)
+}

@@ -1,0 +1,155 @@
+//! What is known of two sides after they were compared.
+
+use crate::sentences;
+use std::f64::consts::TAU;
+
+use super::cause::Explained;
+use super::judge::{Both, Compared, RowPair, Which, place};
+use crate::bounds::{Check, Verdict, overall};
+use crate::tables::Held;
+use crate::tolerance::{BoundBasis, Tolerance};
+use columns::{Beside, judge};
+use formula::Rounded;
+use linkage::math::statistics::half_range;
+use scenario::Claim;
+
+/// A side that is compared.
+pub(super) struct Side {
+    /// What it is called in a recording; empty for others.
+    pub name: String,
+    pub held: Held,
+}
+
+/// Two sides compared.
+#[derive(Default)]
+pub struct SidePair {
+    /// What they are called in the recordings; empty for others.
+    pub names: [String; 2],
+    /// Channel by channel, in the order of the second party.
+    pub channels: Vec<Compared>,
+    /// Checks of the analytic sides on each other, where a scenario was solved, and of the crank angle, where both have it.
+    pub checks: Vec<Check>,
+    /// Number of instants of the party that gives them.
+    pub instants: usize,
+    /// Number of those that the other does not have.
+    pub unshared: usize,
+    /// Channels that only one of the two has.
+    pub alone: [Vec<String>; 2],
+    /// The first row whose instant lies back, with the one before: see [`At::turns_back`](crate::tables::RowKey::turns_back).
+    pub turns_back: Option<(usize, [f64; 2])>,
+    /// Two rows of the party that gives the instants which hold at the same one and contradict each other. No cause is
+    /// sought then.
+    pub contradiction: Option<Contradiction>,
+    /// Whether the instants are crank angles.
+    pub by_crank: bool,
+    /// Why channels are off, where that is simple.
+    pub causes: Vec<Explained>,
+}
+
+impl SidePair {
+    /// What the claims of both come to; `party` gives the instants.
+    pub(super) fn of(both: &Both, party: Which, claims: &[Claim]) -> SidePair {
+        SidePair {
+            channels: both.judged(claims),
+            contradiction: contradiction(both, party, claims),
+            instants: both.at.values.len(),
+            by_crank: both.at.is_crank,
+            turns_back: both.at.turns_back(),
+            ..SidePair::default()
+        }
+    }
+
+    /// Number of values compared, and of those that there would be if none was missing.
+    #[must_use]
+    pub fn values(&self) -> [usize; 2] {
+        let judged = self.channels.iter().map(|own| own.judged).sum();
+        [judged, self.channels.len() * (self.instants - self.unshared)]
+    }
+
+    /// Whether the crank angles that both carry disagree.
+    #[must_use]
+    pub fn crank_is_off(&self) -> bool {
+        let is_off = |check: &Check| check.family == CRANK && matches!(check.verdict, Verdict::Disagree { .. });
+        self.checks.iter().any(is_off)
+    }
+
+    /// The first row at which one of some channels, by their texts, is beyond its bound.
+    #[must_use]
+    pub fn since(&self, channels: &[String]) -> Option<RowPair> {
+        let own = self.channels.iter().filter(|own| channels.contains(&own.claim.text));
+        own.filter_map(|own| own.since).min_by(|one, other| one.time.total_cmp(&other.time))
+    }
+
+    /// The verdict on all channels, and on the analytic sides that solved them.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let channels = self.channels.iter().map(|channel| &channel.verdict);
+        overall(channels.chain(self.checks.iter().map(|check| &check.verdict)))
+    }
+}
+
+/// Two rows of a table at one instant that contradict each other: of two runs one behind the other, or of a time that
+/// stands still.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contradiction {
+    /// Their numbers, from 0.
+    pub rows: [usize; 2],
+    /// The instant: a time (s) or a crank angle (rad).
+    pub at: f64,
+    /// The channel, as the table says it.
+    pub channel: String,
+    /// What stands there, in the unit of the channel.
+    pub values: [f64; 2],
+}
+
+/// The first two rows of a party at one instant whose numbers are farther apart than their digits, and those of the
+/// instant, allow.
+fn contradiction(both: &Both, party: Which, claims: &[Claim]) -> Option<Contradiction> {
+    let at = both.at;
+    let order = at.ascending();
+    let is_same = |pair: &[usize]| at.values[pair[0]].value == at.values[pair[1]].value;
+    let pairs: Vec<[usize; 2]> = order.windows(2).filter(|pair| is_same(pair)).map(|pair| [pair[0], pair[1]]).collect();
+    if pairs.is_empty() {
+        return None;
+    }
+    claims.iter().enumerate().find_map(|(index, claim)| {
+        let values = both.parties[party as usize].values_of(claim)?;
+        let drift = |row: usize| both.drift.get(index).and_then(|drift| drift.get(row)).copied().unwrap_or(0.0);
+        let differ = |[one, other]: &[usize; 2]| {
+            let gap = values[*other].value - values[*one].value;
+            let gap = claim.turn().map_or(gap, |turn| gap - turn * (gap / turn).round());
+            gap.abs() > values[*one].error + values[*other].error + drift(*one) + drift(*other)
+        };
+        let rows = *pairs.iter().find(|pair| differ(pair))?;
+        let values = rows.map(|row| values[row].value);
+        Some(Contradiction { rows, at: at.values[rows[0]].value, channel: claim.text.clone(), values })
+    })
+}
+
+/// What the check of the crank angle is called.
+const CRANK: &str = "crank angle";
+
+/// Compares the crank angles (rad, as the scenario states them) of both parties at the same rows, where they carry them
+/// beside the times by which they are brought together; `None` if nobody asks for it, or no row has both. `drift` is
+/// what the digits of the times leave open.
+pub(super) fn crank_check(both: &Both, cranks: [&[Rounded]; 2], drift: &[f64]) -> Option<Check> {
+    let measure = both.measure();
+    let values: Vec<f64> = cranks[measure.party].iter().map(|own| own.value).filter(|own| own.is_finite()).collect();
+    let allowed = both.how.allows_crank(half_range(&values));
+    let mut allowance = allowed.unwrap_or_default();
+    // Taking off whole turns rounds.
+    allowance.fixed += 4.0 * f64::EPSILON * TAU;
+    let found = judge(&Beside { values: cranks, places: both.places(), drift, turn: Some(TAU), allowance, measure });
+    let worst = found.worst.filter(|_| both.how.asks_for_crank())?;
+    let basis = BoundBasis::Wanted(sentences::BOTH_ARE_SAID_TO_COUNT_THE_CRANK);
+    let tolerance = Tolerance { bound: worst.bound, basis };
+    let mut check = Check::new(CRANK, worst.difference.abs(), tolerance, "rad");
+    check.verdict = match found.since {
+        Some(_) if !measure.is_analytic && allowed.is_none() => {
+            Verdict::open(sentences::THE_CRANK_ANGLES_DIFFER_AND_NEITHER)
+        }
+        Some(at) => Verdict::Disagree { place: place(&RowPair { values: at.values.map(f64::to_degrees), ..at }) },
+        None => Verdict::Agree { margin: 1.0 / worst.used() },
+    };
+    Some(check)
+}

@@ -1,0 +1,63 @@
+//! What differences in a channel are measured by.
+
+use std::collections::BTreeMap;
+
+use crate::bounds::scales;
+use crate::run::solved::{known_at_least, known_of_complete};
+use analytic::AssurSolver;
+use formula::NodeShape;
+use linkage::case::Grid;
+use linkage::math::KeepNan;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Trajectory};
+use scenario::{Claim, Scenario};
+
+/// Most instants that scales are found on.
+const MOST: usize = 20_000;
+
+/// The scales of all channels, by name, over a whole run, and how well they are known at best (both in SI), whatever of
+/// them is compared.
+pub(super) struct Scales(BTreeMap<String, (f64, f64)>);
+
+impl Scales {
+    /// Those of a scenario over its run; over `grid`, the instants of the other party, if it has none or cannot be
+    /// solved there.
+    pub(super) fn of(scenario: &Scenario, grid: &Grid) -> Self {
+        let all = scenario.case.all_channels();
+        let solved = |grid: &Grid| -> Option<Scales> {
+            let step = grid.len().div_ceil(MOST).max(1);
+            let few = |values: &[f64]| values.iter().copied().step_by(step).collect();
+            let grid = Grid { times: few(&grid.times), inputs: few(&grid.inputs) };
+            let case = scenario.case.on(grid).ok()?.wanting_only(&all);
+            let has_instants = !case.grid.is_empty();
+            let found = has_instants.then(|| AssurSolver.solve(&case).ok()).flatten()?;
+            Some(Scales::with(&found, known_of_complete(&case, &found)))
+        };
+        solved(&scenario.case.grid).or_else(|| solved(grid)).unwrap_or_else(|| Scales(BTreeMap::new()))
+    }
+
+    /// Those of a complete trajectory.
+    pub(super) fn of_trajectory(trajectory: &Trajectory) -> Self {
+        Scales::with(trajectory, known_at_least(trajectory))
+    }
+
+    fn with(trajectory: &Trajectory, known: Vec<f64>) -> Self {
+        let all = trajectory.channels().iter().zip(scales(trajectory)).zip(known);
+        Scales(all.map(|((channel, scale), known)| (channel.to_string(), (scale, known))).collect())
+    }
+
+    /// How well a channel is known at best, in its SI unit.
+    pub(super) fn known(&self, channel: &Channel) -> f64 {
+        self.0.get(&channel.to_string()).map_or(0.0, |(_, known)| *known)
+    }
+
+    /// The scale of a channel in the unit of its claim; `None` for an arithmetic.
+    pub(super) fn of_claim(&self, claim: &Claim) -> Option<f64> {
+        let (NodeShape::Name(_), Some((_, printed))) = (&claim.tree.shape, claim.channels.first()) else { return None };
+        let of = |channel: &Channel| self.0.get(&channel.to_string()).map(|(scale, _)| *scale);
+        let across = Channel::named(&format!("joint.{}.fy_N", printed.channel.of)).filter(|_| printed.magnitude);
+        let own = of(&printed.channel)?;
+        let scale = across.and_then(|across| of(&across)).map_or(own, |across| own.larger(across));
+        Some(scale / printed.to_si(1.0))
+    }
+}

@@ -1,0 +1,238 @@
+//! The proof: a scenario solved by both analytic sides and by engines, compared, checked, and judged.
+
+pub mod beside;
+mod checks;
+mod dependence;
+mod dial;
+mod doubt;
+mod each_side;
+mod engine_proof;
+mod engines;
+mod entrants;
+mod examined;
+mod figures;
+mod formulas;
+mod judge;
+mod known;
+mod ledger;
+pub mod memory;
+mod methods;
+mod need;
+mod observe;
+mod options;
+mod oracle;
+mod order;
+mod own_forces;
+mod parties;
+#[cfg(test)]
+mod planted;
+#[cfg(test)]
+mod planted_forces;
+mod problem;
+mod runs;
+mod sensitivity;
+mod settle;
+pub mod shifted;
+pub mod solved;
+
+use crate::sentences;
+pub use each_side::{EachSide, Reference};
+pub use engine_proof::{ChannelProof, EngineInfo, EngineProof, ForceFault, SearchEnd, SettingsSearch};
+pub use entrants::{EngineRole, Entrant, ObservedSides, TRUE_SIDES};
+pub use formulas::{Judgement, checks as formula_checks};
+pub use ledger::{Ledger, LedgerEntry};
+pub use options::Options;
+pub use parties::Dispute;
+pub use problem::Problem;
+pub use settle::BUDGET;
+
+use crate::bounds::{Check, Verdict, overall};
+use crate::diagnosis::Diagnosis;
+use analytic::range::explained;
+use linkage::case::{Case, Scene};
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::trajectory::Trajectory;
+use linkage::work::limited;
+use scenario::Scenario;
+
+/// Work of the analytic sides that is done whatever is allowed, a second or two: without them nothing can be told.
+pub const SIDES: f64 = 1e6;
+/// Work that a diagnosis may do once more, over that of the proof. With half of it, a free motion of two freedoms had none
+/// left to confirm what it had found.
+const DIAGNOSIS: f64 = 1.0;
+
+/// All results of one proof.
+///
+/// ```
+/// use linkproof::{Options, Scenario, prove};
+///
+/// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
+/// let scenario = Scenario::load("scenarios/pendulum.toml")?;
+/// let proof = prove(&scenario, &Options::default())?;
+/// println!("{}: {} by {}", proof.scenario, proof.verdict.word(), proof.engine().info.version);
+/// for channel in &proof.engine().channels {
+///     println!("{}: {:e} of {:e}", channel.residual.channel, channel.residual.max, channel.bound);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Proof {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Title of the scenario.
+    pub title: String,
+    /// Formula of structure.
+    pub formula: String,
+    /// Name of the reference solver.
+    pub reference: &'static str,
+    /// Checks on the analytic sides, published numbers among them.
+    pub checks: Vec<Check>,
+    /// The engines, in the order asked for.
+    pub engines: Vec<EngineProof>,
+    /// Channels in which reference and engines do not all agree; empty with a single engine, whose own verdicts state
+    /// it.
+    pub disputes: Vec<Dispute>,
+    /// Which party stands alone, since when, and why, if a channel disagrees.
+    pub diagnosis: Option<Diagnosis>,
+    /// Whether the search for the diagnosis ended at its limit of work, before all causes were tried.
+    pub diagnosis_is_cut: bool,
+    /// Verdict on the whole.
+    pub verdict: Verdict,
+    /// The reference's trajectory.
+    pub reference_trajectory: Trajectory,
+    /// How far the reference is known in each of its channels, over the whole run, in the channel's unit.
+    pub reference_bounds: Vec<f64>,
+    /// The part of the scenario's case that was solved, and what nothing wanted depends on.
+    pub scene: Scene,
+    /// What was done, part by part, and what was not needed.
+    pub work: Vec<LedgerEntry>,
+}
+
+impl Proof {
+    /// The first engine. Recordings and short reports are about this engine.
+    #[must_use]
+    pub fn engine(&self) -> &EngineProof {
+        &self.engines[0]
+    }
+
+    /// Checks on the analytic sides and on all engines.
+    pub fn all_checks(&self) -> impl Iterator<Item = &Check> {
+        self.checks.iter().chain(self.engines.iter().flat_map(|engine| &engine.checks))
+    }
+}
+
+/// Solves a scenario with both analytic sides and engines, each engine at three resolutions, and judges the results.
+///
+/// ```
+/// use linkproof::{Options, Scenario, Verdict, prove};
+///
+/// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
+/// let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
+/// let proof = prove(&scenario, &Options::default())?;
+/// assert!(matches!(proof.verdict, Verdict::Agree { .. }));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// If an analytic side cannot solve the case, with the crank angle. If a solver is not known. If the only engine cannot
+/// start. If the run would need more memory than is allowed. An engine that fails later, or that fails beside others, is part of the proof, with its trajectory up to the
+/// failure.
+pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
+    prove_with(scenario, options, &mut |_| {})
+}
+
+/// As [`prove`]; `progress` is called with the finished share of the work, from 0 to 1.
+///
+/// # Errors
+/// Those of [`prove`].
+pub fn prove_with(scenario: &Scenario, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
+    joined(scenario, &scenario.case, options, progress).map_err(|error| explained(&scenario.case, error))
+}
+
+/// As [`prove`], but the engines get a case of their own, on the scenario's instants. A fault planted in that case
+/// shows what a proof can find.
+///
+/// # Errors
+/// Those of [`prove`].
+pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options) -> Result<Proof> {
+    joined(scenario, engine_case, options, &mut |_| {}).map_err(|error| explained(&scenario.case, error))
+}
+
+/// Solves a case with side 1: all its wanted channels on its grid, accurate to rounding.
+///
+/// ```
+/// use linkproof::{Scenario, solve};
+///
+/// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
+/// let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
+/// let solution = solve(&scenario.case)?;
+/// let moment = solution.named("drive.torque_N_m").expect("every mechanism with a drive has it");
+/// assert_eq!(moment.len(), solution.times().len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+/// # Errors
+/// Any reason why the mechanism cannot stay on its branch, with the crank angle and the interval that can be reached.
+pub fn solve(case: &Case) -> Result<Trajectory> {
+    let case = &case.scene()?.case;
+    Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
+}
+
+/// The same, with the solvers' errors unchanged.
+fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
+    let scene = scenario.case.scene()?;
+    let (whole, case) = (&scenario.case, &scene.case);
+    let problem = Problem::of(scenario, case);
+    let main = options.reference.solver();
+    let engines = options.chosen(&scenario.engine, case)?;
+    memory::check(case, memory::of_proof(case, engines.len()), options.memory)?;
+    memory::check_input(sentences::WHAT_ORACLE_SAYS, memory::of_oracles(&scenario.oracles), options.memory)?;
+    let mut ledger = Ledger::default();
+    let budget = options.budget.unwrap_or(settle::BUDGET);
+    let (sides, _) =
+        limited(budget.larger(SIDES), || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut ledger));
+    let sides = sides?;
+    let engine_case = match &whole.only {
+        Some(only) => engine_case.wanting_only(only).scene()?.case,
+        None => engine_case.clone(),
+    };
+    let proofs = sides.engines(problem, &EngineRole::on(&engine_case), engines, &mut ledger, progress)?;
+    let own = sides.own();
+    let disputes = match proofs.len() {
+        1 => Vec::new(),
+        _ => parties::disputes(main.name(), &own.trajectory, &proofs),
+    };
+    let analytic = sides.verdict();
+    let verdict = overall([&analytic].into_iter().chain(proofs.iter().map(|proof| &proof.verdict)));
+    let (diagnosis, diagnosis_is_cut) = match verdict {
+        Verdict::Disagree { .. } => {
+            let examined = || examined::of(case, options.reference, &sides.observed, &sides.known, &proofs);
+            let (found, is_cut) =
+                limited(DIAGNOSIS * budget, || ledger.done("diagnosis", "something disagrees", examined));
+            if is_cut {
+                ledger.skipped(sentences::REST_OF_THE_DIAGNOSIS, sentences::ITS_SHARE_OF_THE_WORK_THAT_WAS_ALLOWED);
+            }
+            (found, is_cut)
+        }
+        Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. } => {
+            ledger.skipped("diagnosis", "nothing disagrees");
+            (None, false)
+        }
+    };
+    Ok(Proof {
+        scenario: scenario.name.clone(),
+        title: scenario.title.clone(),
+        formula: case.structure.formula(&case.mechanism),
+        reference: main.name(),
+        diagnosis,
+        diagnosis_is_cut,
+        reference_trajectory: own.trajectory.clone(),
+        reference_bounds: sides.bounds(),
+        checks: sides.checks,
+        engines: proofs,
+        disputes,
+        verdict,
+        scene,
+        work: ledger.0,
+    })
+}

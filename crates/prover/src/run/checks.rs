@@ -1,0 +1,226 @@
+//! Checks besides the comparison of the two sides: closure, side against side, powers.
+
+use super::each_side::{EachSide, Reference};
+use super::known::{Known, of_condition};
+use super::observe::Observed;
+use super::problem::Problem;
+use super::runs::Runs;
+use crate::bounds::{Check, Convergence, difference};
+use crate::sentences;
+use crate::tolerance::{BoundBasis, BoundOrigin, Tolerance};
+use linkage::case::Case;
+use linkage::engine::{Engine, Route};
+use linkage::math::statistics::{ascending, share};
+use linkage::math::{KeepNan, largest_size};
+use linkage::trajectory::{Channel, ChannelKind, Stage, Trajectory, Unit};
+
+/// Wanted of an analytic side: closure of the joints, relative to the mechanism's size or its distance from the origin.
+/// The shipped mechanisms have 5e-16 at most.
+const CLOSURE: f64 = 1e-13;
+/// Wanted of an analytic side: balancing moment computed in two ways, relative to the moments in its balance.
+const TWO_WAYS: f64 = 1e-11;
+
+/// The same for a side that passes change points: there forces are known less well.
+fn two_ways(side: &Observed) -> f64 {
+    TWO_WAYS.larger(of_condition(Stage::Reactions, side.passing))
+}
+
+pub(super) fn rounding(bound: f64, why: &'static str) -> Tolerance {
+    Tolerance { bound, basis: BoundBasis::Wanted(why) }
+}
+
+/// Checks on the two analytic sides.
+pub(super) fn of_sides(case: &Case, sides: EachSide<&Observed>, known: &Known) -> Vec<Check> {
+    let size = case.mechanism.size();
+    let check = |what: &str, side: Reference, value: f64, tolerance: Tolerance| {
+        Check::new(format!("{what} ({})", side.name()), value, tolerance, "")
+    };
+    let closure = |(side, own): (Reference, &&Observed)| {
+        let why = sentences::POSITIONS_ARE_GOOD_TO_A_FEW;
+        check(sentences::CLOSURE_OF_ALL_JOINTS_2, side, own.closure() / size.larger(own.reach), rounding(CLOSURE, why))
+    };
+    let powers = |(side, own): (Reference, &&Observed)| {
+        let tolerance = rounding(two_ways(own), sentences::SUMS_OF_A_FEW_FORCES_AND_POWERS);
+        let what = sentences::BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS;
+        (!own.power.is_empty()).then(|| check(what, side, own.two_ways(), tolerance))
+    };
+    let shaking = |(side, own): (Reference, &&Observed)| {
+        let tolerance = rounding(two_ways(own), sentences::SUMS_OF_AS_MANY_FORCES_AS_THERE);
+        let what = sentences::SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS;
+        own.unbalance.map(|share| check(what, side, share, tolerance))
+    };
+    let mut checks: Vec<Check> = sides.iter().map(closure).collect();
+    checks.extend(between_sides(sides, known));
+    checks.extend(sides.iter().filter_map(powers));
+    checks.extend(sides.iter().filter_map(shaking));
+    checks
+}
+
+/// One channel at the instant at which its difference uses the largest share of what is allowed.
+struct Worst<'a> {
+    channel: &'a Channel,
+    row: usize,
+    /// The difference over the size of the channel's numbers, and what is allowed.
+    relative: f64,
+    allowed: f64,
+}
+
+impl Worst<'_> {
+    fn used(&self) -> f64 {
+        let used = share(self.relative, self.allowed);
+        if used.is_nan() { f64::INFINITY } else { used }
+    }
+}
+
+/// Every channel of side 1 at its worst instant.
+fn worst_instants<'a>([reference, other]: [&'a Trajectory; 2], known: &Known) -> Vec<Worst<'a>> {
+    let errors = difference(reference, other).expect("both sides stand on one grid");
+    let of = |(index, channel): (usize, &'a Channel)| {
+        let values = errors.column_near(channel, index).expect("both sides have all channels");
+        let at = |(row, &value): (usize, &f64)| Worst {
+            channel,
+            row,
+            relative: share(value.abs(), known.magnitude(index)),
+            allowed: known.apart(channel.kind.stage, index, row),
+        };
+        values.iter().enumerate().map(at).max_by(|a, b| a.used().total_cmp(&b.used())).expect("there is an instant")
+    };
+    reference.channels().iter().enumerate().map(of).collect()
+}
+
+/// Where two trajectories leave what is allowed in one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beyond {
+    /// The channel.
+    pub channel: Channel,
+    /// First instant beyond what is allowed (s), and its crank angle (rad).
+    pub since: (f64, f64),
+    /// Largest difference over what is allowed.
+    pub margin: f64,
+}
+
+/// Every channel in which the two sides differ by more than what is allowed: since when, and by how much.
+pub(super) fn beyond(sides: EachSide<&Observed>, known: &Known) -> Vec<Beyond> {
+    let [reference, other] = sides.pair().map(|own| &own.trajectory);
+    let rows = ascending(reference.times());
+    let errors = difference(reference, other).expect("both sides stand on one grid");
+    let of = |(index, worst): (usize, Worst)| {
+        let values = errors.column_near(worst.channel, index)?;
+        // Written so that NaN counts as beyond.
+        let is_beyond = |row: &&usize| {
+            let relative = share(values[**row].abs(), known.magnitude(index));
+            !(relative <= known.apart(worst.channel.kind.stage, index, **row))
+        };
+        let first = *rows.iter().find(is_beyond)?;
+        let since = (reference.times()[first], reference.inputs()[first]);
+        Some(Beyond { channel: worst.channel.clone(), since, margin: worst.used() })
+    };
+    worst_instants([reference, other], known).into_iter().enumerate().filter_map(of).collect()
+}
+
+/// Whether the two sides differ by more than what is allowed.
+pub(super) fn sides_differ(sides: [&Trajectory; 2], known: &Known) -> bool {
+    worst_instants(sides, known).iter().any(|worst| !(worst.used() <= 1.0))
+}
+
+fn between_sides(sides: EachSide<&Observed>, known: &Known) -> Vec<Check> {
+    let [reference, other] = sides.pair().map(|own| &own.trajectory);
+    let all = worst_instants([reference, other], known);
+    let [first, second] = Reference::ALL;
+    let of_stage = |stage: Stage| {
+        let own = all.iter().filter(|worst| worst.channel.kind.stage == stage);
+        let worst = own.max_by(|a, b| a.used().total_cmp(&b.used()))?;
+        let why = sentences::TWO_SOLVERS_WITHOUT_A_COMMON;
+        let tolerance = rounding(worst.allowed, why);
+        let check = Check::new(format!("{} against {}", first.name(), second.name()), worst.relative, tolerance, "");
+        Some(check.of(stage.name()).located(|| sentences::in_at(&worst.channel, &reference.told(worst.row))))
+    };
+    Stage::ALL.into_iter().filter_map(of_stage).collect()
+}
+
+/// Checks on the engine, from its runs at double, single and half step.
+pub(super) fn of_engine(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Vec<Check> {
+    let mut checks = vec![closure(problem, engine, runs)];
+    if !runs.single().power.is_empty() {
+        checks.push(power_balance(problem, engine, runs));
+    }
+    checks
+}
+
+/// Opening of the engine's loops. In a closed loop it is zero, so the opening is itself an error. It must vanish with
+/// the step at the rate that the runs show.
+fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
+    let size = problem.case.mechanism.size();
+    let kind = Channel::named("point.A.x_m").expect("the table has positions of points").kind;
+    Vanishing {
+        family: sentences::closure_of_all_joints(&engine.name()),
+        of: &|run: &Observed| run.opening.iter().map(|opening| opening / size).collect(),
+        value: runs.single().closure() / size,
+        kind,
+        noise: 1.0 / size,
+        note: sentences::AN_OPENING_IS_ALL_ERROR_IT_MUST,
+    }
+    .check(problem, engine, runs)
+}
+
+/// The engine's driving moment against the balance of powers of its own motion. Both belong to one motion, so their
+/// difference must vanish with the step.
+fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
+    let kind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
+    // Where no moment is more than rounding, the mechanism could have one all the same.
+    let scale = problem.built().unless(runs.single().moment, Unit::NewtonMetre);
+    let gaps = |run: &Observed| run.moment_gap().collect::<Vec<f64>>();
+    let by_differences = engine.settings().route == Route::Differences;
+    Vanishing {
+        family: sentences::driving_moment_from_reactions_and_from_powers(&engine.name()),
+        of: &|run: &Observed| gaps(run).into_iter().map(|gap| share(gap, scale)).collect(),
+        value: share(largest_size(&gaps(runs.single())), scale),
+        kind,
+        // Each of the two may have this error.
+        noise: if scale == 0.0 { 0.0 } else { 2.0 / scale },
+        note: match by_differences {
+            true => sentences::BOTH_FROM_THE_SAME_ACCELERATIONS,
+            false => sentences::REACTIONS_AND_SPEEDS_COME_FROM_THE_ENGINE,
+        },
+    }
+    .check(problem, engine, runs)
+}
+
+/// A relative number of an engine's runs that would be zero for a perfect engine.
+struct Vanishing<'a> {
+    family: String,
+    /// The number at every instant of a run.
+    of: &'a dyn Fn(&Observed) -> Vec<f64>,
+    /// Its largest size in the run that is judged.
+    value: f64,
+    /// The channel that gives its order and its rounding.
+    kind: &'static ChannelKind,
+    /// Rounding of the number over that of the channel.
+    noise: f64,
+    /// Note on what the check shows.
+    note: &'static str,
+}
+
+impl Vanishing<'_> {
+    /// The number must not exceed the size that the runs predict for it. A part that does not vanish with the step is
+    /// found as soon as it exceeds the safety factor's share of the part that does.
+    fn check(self, problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
+        let (case, resolution) = (problem.case, engine.settings().resolution);
+        let noise = |engine: &dyn Engine| self.noise * engine.noise(case, self.kind);
+        let [double, single, half] = [0, 1, 2].map(|k| (self.of)(&runs.resolutions[k]));
+        let order = engine.formal_order(case, self.kind);
+        let found = Convergence::of(&double, &single, &half, false, order, noise(engine.at(resolution / 2.0).as_ref()));
+        let others = runs.other_sweeps.map(|run| (self.of)(run));
+        let found = found.with_other_sweeps(&single, &others.map(Vec::as_slice), noise(engine), false);
+        let found = found.extrapolated(engine.settings().extrapolated);
+        let parts = found.parts(noise(engine));
+        let basis = found.tolerance(resolution, parts, noise_origin(engine)).basis;
+        let basis = BoundBasis::Noted(Box::new(basis), self.note);
+        Check::estimated(self.family, self.value, &found, parts, basis, problem.engine_rel)
+    }
+}
+
+/// How the rounding of an engine is known.
+pub(super) fn noise_origin(engine: &dyn Engine) -> BoundOrigin {
+    if engine.is_noise_measured() { BoundOrigin::Measured } else { BoundOrigin::Wanted }
+}

@@ -1,0 +1,117 @@
+//! Which groups the number of a channel depends on: an error of another group does not reach it.
+//! See docs/numerics/bounds.md.
+
+use std::collections::BTreeMap;
+
+use linkage::case::{Case, Seat};
+use linkage::mechanism::{GroupId, LinkId, Mechanism, PerLink, Structure};
+use linkage::trajectory::{Channel, Stage};
+
+/// Sets of groups that channels depend on.
+pub(super) struct Dependence {
+    /// The different sets: indices of groups in ascending order.
+    pub(super) sets: Vec<Vec<GroupId>>,
+    /// The set of every channel, as an index.
+    pub(super) of: Vec<usize>,
+    /// Groups of every set from which all its others follow, because they are before them.
+    tops: Vec<Vec<GroupId>>,
+}
+
+impl Dependence {
+    /// A prescribed motion comes to a link through its own group and those before it. Forces, and a motion that they
+    /// decide, depend on all groups.
+    pub(super) fn of(case: &Case, channels: &[Channel]) -> Self {
+        let all: Vec<GroupId> = case.structure.groups.ids().collect();
+        let upstream = case.structure.upstream(&case.mechanism);
+        let mut found = Dependence { sets: Vec::new(), of: Vec::with_capacity(channels.len()), tops: Vec::new() };
+        let seats = case.seats();
+        // A set follows from the groups of its channel's links: each is found once.
+        let mut known: BTreeMap<Vec<GroupId>, usize> = BTreeMap::new();
+        for channel in channels {
+            // A link's own group is the last of those that it depends on.
+            let tops = match case.is_free() || channel.kind.stage >= Stage::Reactions {
+                true => all.clone(),
+                false => {
+                    let links = links_of(&case.mechanism, seats.of(channel));
+                    links.iter().filter_map(|&link| upstream[link].last().copied()).collect()
+                }
+            };
+            let index = *known.entry(tops).or_insert_with_key(|tops| {
+                let set = if *tops == all { all.clone() } else { joined(&case.structure, &upstream, tops) };
+                let same = found.sets.iter().position(|own| *own == set);
+                same.unwrap_or_else(|| {
+                    found.sets.push(set);
+                    found.tops.push(tops.clone());
+                    found.sets.len() - 1
+                })
+            });
+            found.of.push(index);
+        }
+        found
+    }
+
+    /// Whether all that set `from` depends on is also what set `to` depends on.
+    pub(super) fn feeds(&self, from: usize, to: usize) -> bool {
+        let (from, to) = (&self.tops[from], &self.sets[to]);
+        from.iter().all(|group| to.binary_search(group).is_ok())
+    }
+}
+
+/// The groups `tops` and all before them, in ascending order.
+fn joined(structure: &Structure, upstream: &PerLink<Vec<GroupId>>, tops: &[GroupId]) -> Vec<GroupId> {
+    let of = |&top: &GroupId| upstream[structure.groups[top].links[0]].iter().copied();
+    let mut set: Vec<GroupId> = tops.iter().flat_map(of).collect();
+    set.sort_unstable();
+    set.dedup();
+    set
+}
+
+/// The links whose motion a channel of motion tells: each belongs to a part of its mechanism.
+fn links_of(mechanism: &Mechanism, seat: Option<Seat>) -> Vec<LinkId> {
+    match seat {
+        Some(Seat::Link(link)) => vec![link],
+        Some(Seat::Point(side)) => vec![side.link],
+        Some(Seat::Joint(joint)) => {
+            let joint = &mechanism.joints()[joint];
+            vec![joint.first.link, joint.second.link]
+        }
+        // None of them tells a motion.
+        Some(Seat::Frame | Seat::Drive(_)) | None => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+
+    use super::*;
+    use crate::run::solve;
+    use scenario::of_repository;
+
+    #[test]
+    fn motions_depend_on_the_groups_before_and_forces_on_all() {
+        let case = of_repository("scenarios/ov7_base.toml").case;
+        let solved = solve(&case).unwrap();
+        let found = Dependence::of(&case, solved.channels());
+        let groups = case.structure.groups.len();
+        assert!(groups > 1);
+        let set = |name: &str| {
+            let index = solved.channels().iter().position(|own| own.to_string() == name);
+            found.sets[found.of[index.unwrap_or_else(|| panic!("{name}"))]].clone()
+        };
+        let (driving, _) = case.structure.drivers[0];
+        let name = |link: LinkId| &case.mechanism.links()[link].name;
+        assert!(set(&format!("link.{}.alpha_rad_s2", name(driving))).is_empty());
+        for (index, group) in case.structure.groups.entries() {
+            let own = set(&format!("link.{}.alpha_rad_s2", name(group.links[0])));
+            assert_eq!(own.last(), Some(&index), "{}", name(group.links[0]));
+        }
+        assert_eq!(set("drive.torque_N_m"), (0..groups).map(GroupId).collect::<Vec<_>>());
+        // What follows from the last groups of a set is what all of its groups say.
+        let (sets, count) = (&found.sets, found.sets.len());
+        assert!(count > 2);
+        for (from, to) in (0..count).flat_map(|from| (0..count).map(move |to| (from, to))) {
+            let all = sets[from].iter().all(|group| sets[to].contains(group));
+            assert_eq!(found.feeds(from, to), all, "{:?} {:?}", sets[from], sets[to]);
+        }
+    }
+}

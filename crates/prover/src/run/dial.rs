@@ -1,0 +1,83 @@
+//! One factor on every bound, to see how close a proof is to its bounds.
+
+use super::{EngineProof, Proof, parties};
+use crate::bounds::{Check, Verdict, overall};
+use crate::numbers::error;
+use crate::sentences;
+
+impl Proof {
+    /// The same proof, judged with every bound multiplied by `dial`. A value below 1 is stricter; at 0 only an exact
+    /// zero agrees.
+    ///
+    /// Residuals stay as they are. Inconclusive verdicts stay too: their bounds decide nothing, with any factor.
+    #[must_use]
+    pub fn with_bounds_scaled(mut self, dial: f64) -> Self {
+        self.engines.iter_mut().for_each(|engine| scale_engine(engine, dial));
+        self.checks.iter_mut().for_each(|check| scale(check, dial));
+        if self.engines.len() > 1 {
+            self.disputes = parties::disputes(self.reference, &self.reference_trajectory, &self.engines);
+        }
+        let analytic = overall(self.checks.iter().map(|check| &check.verdict));
+        self.verdict = overall([&analytic].into_iter().chain(self.engines.iter().map(|engine| &engine.verdict)));
+        // A diagnosis belongs to the bounds that it was made with.
+        self.diagnosis = self.diagnosis.filter(|_| dial == 1.0);
+        self.diagnosis_is_cut &= dial == 1.0;
+        self
+    }
+}
+
+fn scale_engine(engine: &mut EngineProof, dial: f64) {
+    for channel in &mut engine.channels {
+        judge(&mut channel.verdict, channel.residual.max, &mut channel.bound, dial);
+    }
+    engine.checks.iter_mut().for_each(|check| scale(check, dial));
+    engine.own_forces.iter_mut().for_each(|own| scale_engine(own, dial));
+    if engine.failure.is_none() {
+        engine.conclude();
+    }
+}
+
+fn scale(check: &mut Check, dial: f64) {
+    judge(&mut check.verdict, check.value, &mut check.bound, dial);
+}
+
+/// Judges again a verdict that came from a bound. A number that disagrees although it is within its bound disagrees for
+/// another reason: a finding calls it wrong.
+fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
+    let beyond = !(value <= *bound);
+    *bound *= dial;
+    let again = Verdict::of(value, *bound, || sentences::is_beyond_the_scaled_bound(&error(value), &error(*bound)));
+    match (&*verdict, &again) {
+        (Verdict::Agree { .. }, _) => *verdict = again,
+        (Verdict::Disagree { .. }, _) if beyond => *verdict = again,
+        // The corrected value of a printed number is no longer within its bound.
+        (Verdict::Expected { .. }, Verdict::Disagree { .. }) => *verdict = again,
+        (Verdict::Disagree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }, _) => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn judged(verdict: Verdict, value: f64, dial: f64) -> (&'static str, f64) {
+        let (mut verdict, mut bound) = (verdict, 2.0);
+        judge(&mut verdict, value, &mut bound, dial);
+        (verdict.word(), bound)
+    }
+
+    #[test]
+    fn bounds_follow_the_dial_and_what_was_not_judged_by_them_stays() {
+        let agree = || Verdict::Agree { margin: 2.0 };
+        let disagree = || Verdict::Disagree { place: String::new() };
+        assert_eq!(judged(agree(), 1.0, 0.5), ("agree", 1.0));
+        assert_eq!(judged(agree(), 1.0, 0.4), ("disagree", 0.8));
+        assert_eq!(judged(disagree(), 3.0, 2.0), ("agree", 4.0));
+        assert_eq!(judged(disagree(), f64::NAN, 2.0).0, "disagree");
+        assert_eq!(judged(disagree(), 1.0, 2.0).0, "disagree");
+        let expected = || Verdict::Expected { finding: String::new(), off: 5.0 };
+        assert_eq!(judged(expected(), 1.0, 0.5).0, "expected");
+        assert_eq!(judged(expected(), 1.0, 0.4).0, "disagree");
+        assert_eq!(judged(Verdict::open("why"), 1.0, 2.0).0, "inconclusive");
+    }
+}

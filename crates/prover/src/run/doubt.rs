@@ -1,0 +1,212 @@
+//! Instants at which channels jump, so that an engine's value depends on the smallest error of its motion.
+//!
+//! A load may jump where its link reverses; a load that vanishes there does not, and no instant is left out.
+//! At a change point an engine takes one of many solutions: its rates there say nothing about its branch, which the
+//! instants after it show. See docs/numerics/bounds.md.
+
+use linkage::case::Case;
+use linkage::drive::DriveMotion;
+use linkage::engine::{Route, Settings};
+use linkage::math::Vec2;
+use linkage::trajectory::Stage;
+
+use super::observe::{Observed, Senses};
+use super::runs::Runs;
+
+/// Number of steps around a jump in which an engine's values are doubtful.
+const STEPS: f64 = 8.0;
+/// The same for impulses of a free motion: they are read from six steps, one step late.
+const IMPULSES: f64 = 5.0;
+/// Share of a step by which runs of a prescribed motion, whose impulses are combined, have the jump of a load at
+/// different instants: their velocities differ by about a twelfth of its square.
+const APART: f64 = 0.25;
+
+/// Share of a drive's top speed that counts as standstill: the rounding of a law's formula, with room.
+const STANDSTILL: f64 = 1e-9;
+/// Number of instants that may be left out whatever the step: the two ends of a motion.
+const ENDS: usize = 2;
+
+/// What is doubtful in an engine's runs, by row of the grid.
+pub(super) struct Doubt(Vec<Doubtful>);
+
+/// What is doubtful at an instant.
+#[derive(Clone, Copy, Default)]
+struct Doubtful {
+    rates: bool,
+    accelerations: bool,
+    forces: bool,
+    /// Whether a finer step would help.
+    by_step: bool,
+}
+
+impl Doubt {
+    /// By what loads sense in the reference, and whether its pose is singular; `settings` are those of the run that is
+    /// judged.
+    pub(super) fn of(case: &Case, reference: &Observed, runs: &Runs, settings: Settings) -> Self {
+        let Observed { senses, singular, .. } = reference;
+        let Settings { resolution, route, extrapolated, .. } = settings;
+        let times = &case.grid.times;
+        let reach = STEPS * 2.0 * resolution;
+        let mut all = vec![Doubtful::default(); times.len()];
+        for (row, (&t, own)) in times.iter().zip(&mut all).enumerate() {
+            let (turns, is_singular) = (drive_turns(case, t, reach), singular.get(row) == Some(&true));
+            if turns || is_singular {
+                // In the very instant no step helps.
+                let by_step = turns && !drive_turns(case, t, 0.0);
+                *own = Doubtful { rates: true, accelerations: true, forces: true, by_step };
+            }
+            let against = |run: &Senses| {
+                let mut all = senses.of(row).iter().zip(run.of(row)).zip(senses.jumps(row));
+                all.any(|((a, b), jumps)| *jumps && against(*a, *b))
+            };
+            own.forces |= runs.resolutions.iter().any(|run| against(&run.senses));
+        }
+        let own = route != Route::Differences;
+        let jumps = match (case.is_free(), own && extrapolated > 0) {
+            (true, _) => Some(if own { IMPULSES * 2.0 * resolution } else { reach }),
+            (false, true) => Some(APART * 2.0 * resolution),
+            (false, false) => None,
+        };
+        if let Some(reach) = jumps {
+            for t in reversals(times, senses) {
+                for (_, own) in times.iter().zip(&mut all).filter(|(own, _)| (*own - t).abs() <= reach) {
+                    (own.forces, own.by_step) = (true, true);
+                    own.accelerations |= case.is_free();
+                }
+            }
+        }
+        Doubt(all)
+    }
+
+    /// Whether a channel of a stage is judged, by row.
+    pub(super) fn keeps(&self, stage: Stage) -> Vec<bool> {
+        let is_out = |own: &Doubtful| match stage {
+            Stage::Positions => false,
+            Stage::Velocities => own.rates,
+            Stage::Accelerations => own.accelerations,
+            Stage::Reactions | Stage::BalancingMoment => own.forces,
+        };
+        self.0.iter().map(|own| !is_out(own)).collect()
+    }
+
+    /// Share of instants that are left out and would not be with a finer step.
+    pub(super) fn too_coarse(&self) -> f64 {
+        let out = self.0.iter().filter(|own| own.by_step).count().saturating_sub(ENDS);
+        out as f64 / self.0.len().max(1) as f64
+    }
+}
+
+/// Whether two velocities are not of one sense. Standstill on both sides is one sense.
+fn against(a: Vec2, b: Vec2) -> bool {
+    a.dot(&b) <= 0.0 && (a != Vec2::zeros() || b != Vec2::zeros())
+}
+
+/// Whether a drive with a law reverses, or its acceleration jumps, within `reach` (s) of `t` (s).
+fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
+    case.drives.iter().any(|drive| match &drive.motion {
+        DriveMotion::Free { .. } => false,
+        DriveMotion::Prescribed { .. } => {
+            let jumps = drive.jump().is_some_and(|jump| (t - jump).abs() <= reach);
+            let least = STANDSTILL * drive.top_speed().abs();
+            let speeds = [t - reach, t, t + reach].map(|t| drive.at(t).rate);
+            jumps || speeds.iter().any(|speed| !(speed.abs() > least && speed * speeds[1] > 0.0))
+        }
+    })
+}
+
+/// Times at which a load jumps because what it senses reverses, by straight lines between the instants.
+fn reversals(times: &[f64], senses: &Senses) -> Vec<f64> {
+    let mut rows: Vec<usize> = (0..times.len()).collect();
+    rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
+    let mut found = Vec::new();
+    for pair in rows.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        let jumps = senses.jumps(from).iter().zip(senses.jumps(to)).map(|(before, after)| *before || *after);
+        for ((a, b), jumps) in senses.of(from).iter().zip(senses.of(to)).zip(jumps) {
+            if jumps && against(*a, *b) {
+                let (before, after) = (a.norm(), b.norm());
+                found.push(times[from] + (times[to] - times[from]) * (before / (before + after)));
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::bounds::OtherSweeps;
+    use crate::run::observe::{Watch, observe};
+    use analytic::AssurSolver;
+    use linkage::math::KeepNan;
+    use linkage::trajectory::Trajectory;
+    use scenario::Scenario;
+
+    /// The doubt of a run that is as right as the reference, at steps of 1.1 ms.
+    fn doubt(case: &Case, route: Route) -> (Doubt, Trajectory) {
+        let own = Arc::new(observe(case, &AssurSolver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| {
+            panic!("{}", stopped.error);
+        }));
+        let runs = Runs {
+            resolutions: [0; 3].map(|_| Arc::clone(&own)),
+            other_sweeps: OtherSweeps { runs: [None, None], factor: 1.0, growth: 0.0 },
+        };
+        let settings = Settings { resolution: 1.1e-3, sweeps: 16, substeps: 1, route, extrapolated: 0 };
+        (Doubt::of(case, &own, &runs, settings), own.trajectory.clone())
+    }
+
+    fn text(file: &str) -> String {
+        std::fs::read_to_string(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file)).unwrap()
+    }
+
+    fn parsed(text: &str) -> Case {
+        Scenario::parse(text, std::path::Path::new("x.toml")).unwrap_or_else(|error| panic!("{error}")).case
+    }
+
+    /// What is left out of velocities and of positions, and what a smaller step would bring back: steps of 1.1 ms reach
+    /// 17.6 ms far.
+    fn left_out(file: &str) -> ([usize; 2], f64) {
+        let case = parsed(&text(file));
+        let (doubt, _) = doubt(&case, Route::Differences);
+        let out = |stage: Stage| doubt.keeps(stage).iter().filter(|kept| !**kept).count();
+        let count = case.grid.times.len() as f64;
+        ([out(Stage::Velocities), out(Stage::Positions)], doubt.too_coarse() * count)
+    }
+
+    /// From rest to rest: the instants of rest, which no smaller step brings back.
+    #[test]
+    fn rates_at_the_ends_of_a_law_of_motion_are_left_out() {
+        assert_eq!(left_out("scenarios/cycloidal_start.toml"), ([2, 0], 0.0));
+    }
+
+    /// A ramp of 0.25 s, every 20 ms: the rest it begins with, and the instants to either side of its jump.
+    #[test]
+    fn rates_beside_a_jump_of_the_acceleration_are_left_out() {
+        assert_eq!(left_out("tests/outside/scenarios/ramped_arm.toml"), ([3, 0], 0.0));
+    }
+
+    /// A pendulum with friction, let go at rest, reverses twice in three seconds. Impulses are read from six steps, one
+    /// step late: five of the longest steps, 11 ms, are in doubt. Second differences are for 17.6 ms.
+    #[test]
+    fn forces_beside_a_reversal_of_a_free_motion_are_left_out_and_no_others() {
+        let text = text("scenarios/pendulum.toml").replace("step_s = 0.01", "step_s = 0.001");
+        let grid = text.split("[[oracle]]").next().unwrap();
+        let case = parsed(&format!("{grid}\n[[loads]]\ntype = \"resistance\"\nlink = \"rod\"\nmoment_N_m = 1\n"));
+        for (route, reach) in [(Route::Native, 11e-3), (Route::Probe, 11e-3), (Route::Differences, 17.6e-3)] {
+            let (doubt, found) = doubt(&case, route);
+            let (times, omega) = (found.times(), found.named("link.rod.omega_rad_s").unwrap());
+            let reverses = |row: &usize| omega[*row] * omega[*row + 1] < 0.0;
+            let reversals: Vec<f64> = (1..times.len() - 1).filter(reverses).map(|row| times[row]).collect();
+            assert_eq!(reversals.len(), 2, "{reversals:?}");
+            // At the beginning it rests.
+            for (row, kept) in doubt.keeps(Stage::Reactions).into_iter().enumerate().skip(30) {
+                let away = reversals.iter().map(|t| (times[row] - t - 5e-4).abs()).fold(f64::INFINITY, f64::smaller);
+                assert!(away > reach - 1e-3 || !kept, "{route:?}: {} s", times[row]);
+                assert!(away < reach + 1e-3 || kept, "{route:?}: {} s", times[row]);
+            }
+            assert_eq!(doubt.keeps(Stage::Accelerations), doubt.keeps(Stage::Reactions), "{route:?}");
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! One engine's part of a proof.
+
+use crate::sentences;
+use std::fmt::Write;
+
+use crate::bounds::{Check, Convergence, Residual, Verdict, overall};
+use crate::tolerance::{BoundBasis, Parts};
+use linkage::engine::{Engine, Settings};
+use linkage::error::{Advice, Error};
+use linkage::solver::Provision;
+use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
+
+/// What is known about an engine that was run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EngineInfo {
+    /// Name, as on the command line.
+    pub name: &'static str,
+    /// Software and version behind it.
+    pub version: String,
+    /// Settings of the engine.
+    pub settings: Settings,
+    /// Whether its resolution is an accuracy, not a step.
+    pub controls_error: bool,
+    /// Settings that influence the result, by name, as text.
+    pub told: Vec<(&'static str, String)>,
+    /// How it provides each sort of channel: stage and provision.
+    pub provides: Vec<(&'static str, Provision)>,
+}
+
+impl EngineInfo {
+    pub(super) fn of(engine: &dyn Engine) -> Self {
+        let provides = Stage::ALL.map(|stage| {
+            let kind = CHANNELS.iter().find(|kind| kind.stage == stage).expect("every stage has a channel");
+            (stage.name(), engine.provides(&Channel { of: String::new(), kind }))
+        });
+        EngineInfo {
+            name: engine.name(),
+            version: engine.version(),
+            settings: engine.settings(),
+            controls_error: engine.controls_error(),
+            told: engine.told(),
+            provides: provides.into(),
+        }
+    }
+}
+
+/// Comparison of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelProof {
+    /// Residual of the engine against the reference.
+    pub residual: Residual,
+    /// Bound, in the channel's unit.
+    pub bound: f64,
+    /// What the bound is made of, in the channel's unit.
+    pub parts: Parts,
+    /// Convergence of the engine in this channel.
+    pub convergence: Convergence,
+    /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` where
+    /// the runs have no limit that can be estimated.
+    pub limit: Option<f64>,
+    /// For a free motion: largest change over the run, as a share of the scale, per share of change in gravity and
+    /// motor torque.
+    pub sensitivity: Option<f64>,
+    /// Number of instants that are not judged: there a drive or a loaded link reverses, and the channel jumps, or a
+    /// free motion begins.
+    pub left_out: usize,
+    /// What the bound rests on.
+    pub basis: BoundBasis,
+    /// The outcome.
+    pub verdict: Verdict,
+}
+
+/// How the settings of an engine were found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SettingsSearch {
+    /// Number of runs that were made, each at another step or with other sweeps.
+    pub runs: usize,
+    /// Work done, in steps without sweeps; twenty sweeps count as one step more.
+    pub effort: f64,
+    /// Work that was allowed, in the same unit.
+    pub budget: f64,
+    /// Why the search ended.
+    pub end: SearchEnd,
+}
+
+/// Why a search of settings ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SearchEnd {
+    /// Every channel has the aimed accuracy, or is conclusive and the work for more is spent.
+    Decided,
+    /// A finer step would add more rounding than it takes away.
+    Rounding,
+    /// The work that was allowed is done.
+    Budget,
+    /// At the pace of its rounds the work that was allowed would not be enough.
+    Pace,
+    /// The settings that are left to choose have no better value.
+    Nothing,
+}
+
+impl SearchEnd {
+    /// Puts into an inconclusive verdict what the search has tried, in place of advice to try it.
+    pub(super) fn tell(self, verdict: &mut Verdict, budget: f64) {
+        let Verdict::Inconclusive { reason, advice } = verdict else { return };
+        if advice.is_empty() {
+            return;
+        }
+        let (why, way_out) = match self {
+            // The settings that are given decide, and its own advice holds.
+            SearchEnd::Decided | SearchEnd::Nothing => return,
+            SearchEnd::Rounding => (sentences::A_FINER_STEP_ADDS_MORE_ROUNDING, vec![Advice::OtherEngine]),
+            SearchEnd::Budget => (sentences::THE_WORK_THAT_WAS_ALLOWED, vec![Advice::MoreWork { to: 10.0 * budget }]),
+            SearchEnd::Pace => (sentences::AT_THE_PACE_OF_ITS_ROUNDS, vec![Advice::MoreWork { to: 10.0 * budget }]),
+        };
+        reason.push_str("; ");
+        reason.push_str(why);
+        *advice = way_out;
+    }
+}
+
+/// One engine's part of a proof, or the part that the forces have which the engine itself exerts.
+#[derive(Clone, Debug)]
+pub struct EngineProof {
+    /// The engine.
+    pub info: EngineInfo,
+    /// How its settings were found; `None` if all were given, or if the engine failed.
+    pub search: Option<SettingsSearch>,
+    /// Channels, in the order of columns; none if the engine failed.
+    pub channels: Vec<ChannelProof>,
+    /// Checks on the engine alone; none on its own forces.
+    pub checks: Vec<Check>,
+    /// Forces as the engine itself exerts them, where the others follow from its motion.
+    pub own_forces: Option<Box<EngineProof>>,
+    /// Verdict on channels, checks and own forces together.
+    pub verdict: Verdict,
+    /// Its trajectory: all instants, or those before it failed; of own forces, forces only.
+    pub trajectory: Option<Trajectory>,
+    /// Engine minus reference; `None` if the engine failed, and of own forces.
+    pub errors: Option<Trajectory>,
+    /// Whether all channels are judged at an instant, by row of the grid; empty if the engine failed.
+    pub kept: Vec<bool>,
+    /// Why there is no comparison.
+    pub failure: Option<Error>,
+}
+
+/// Which of the two judgements of an engine's forces is against them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceFault {
+    /// Those that follow from its motion, which agrees: the fault is in the equations that make forces of it.
+    Reading,
+    /// Those that the engine itself exerts: its motion is right, and so are the forces that belong to it.
+    Exerted,
+    /// Both.
+    Both,
+}
+
+impl EngineProof {
+    /// An engine with a verdict, and nothing that it rests on.
+    pub(super) fn bare(info: EngineInfo, verdict: Verdict) -> Self {
+        EngineProof {
+            info,
+            search: None,
+            channels: Vec::new(),
+            checks: Vec::new(),
+            own_forces: None,
+            verdict,
+            trajectory: None,
+            errors: None,
+            kept: Vec::new(),
+            failure: None,
+        }
+    }
+
+    /// What own forces add to the engine's verdict. Where they stay open, they are told and take nothing back: the
+    /// motion and its forces are judged all the same, and impulses are of a lower order and need the true masses, with
+    /// many sweeps.
+    #[must_use]
+    pub fn added(&self) -> Option<&Verdict> {
+        let own = self.own_forces.as_ref().map(|own| &own.verdict);
+        own.filter(|verdict| !matches!(verdict, Verdict::Inconclusive { .. }))
+    }
+
+    /// Which of the two judgements of the forces disagrees; `None` if neither does, or if there is only one, or if the
+    /// other one is open or the motion itself disagrees, so that nothing follows.
+    #[must_use]
+    pub fn force_fault(&self) -> Option<ForceFault> {
+        let own = &self.own_forces.as_ref()?.channels;
+        let disagrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Disagree { .. });
+        let agrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Agree { .. });
+        let is_force = |channel: &&ChannelProof| channel.residual.channel.kind.stage >= Stage::Reactions;
+        let (forces, motion): (Vec<&ChannelProof>, Vec<&ChannelProof>) = self.channels.iter().partition(is_force);
+        if motion.into_iter().any(disagrees) {
+            return None;
+        }
+        match [forces.iter().copied().any(disagrees), own.iter().any(disagrees)] {
+            [true, true] => Some(ForceFault::Both),
+            [true, false] if own.iter().all(agrees) => Some(ForceFault::Reading),
+            [false, true] if forces.into_iter().all(agrees) => Some(ForceFault::Exerted),
+            [_, _] => None,
+        }
+    }
+
+    /// Names of the channels and checks that disagree.
+    pub(super) fn against(&self) -> Vec<String> {
+        let disagrees = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. });
+        let channels = self.channels.iter().filter(|own| disagrees(&own.verdict));
+        let checks = self.checks.iter().filter(|own| disagrees(&own.verdict));
+        channels.map(|own| own.residual.channel.to_string()).chain(checks.map(Check::name)).collect()
+    }
+
+    /// Leaves all disagreements open, with a reason and a way out.
+    pub(super) fn doubt(&mut self, why: &str, way_out: &Advice) {
+        for verdict in self.verdicts_mut() {
+            if let Verdict::Disagree { place } = verdict {
+                *verdict =
+                    Verdict::Inconclusive { reason: format!("{place}, but {why}"), advice: vec![way_out.clone()] };
+            }
+        }
+        self.conclude();
+    }
+
+    /// Takes the verdict again from those of all channels and checks, and of own forces.
+    pub(super) fn conclude(&mut self) {
+        let channels = self.channels.iter().map(|own| &own.verdict);
+        self.verdict = overall(channels.chain(self.added()).chain(self.checks.iter().map(|own| &own.verdict)));
+    }
+
+    /// The verdicts on channels and checks, and that on all of them.
+    pub(super) fn verdicts_mut(&mut self) -> impl Iterator<Item = &mut Verdict> {
+        let channels = self.channels.iter_mut().map(|channel| &mut channel.verdict);
+        channels.chain(self.checks.iter_mut().map(|check| &mut check.verdict)).chain([&mut self.verdict])
+    }
+
+    /// Adds to an inconclusive verdict how strongly the motion depends on the forces that cause it: `sensitivity`, channel
+    /// by channel of the reference.
+    pub(super) fn tell_sensitivity(&mut self, reference: &Trajectory, sensitivity: &[f64]) {
+        for (channel, &change) in reference.channels().iter().zip(sensitivity) {
+            let own = self.channels.iter_mut().find(|own| own.residual.channel == *channel);
+            if let Some(own) = own
+                && own.residual.scale > 0.0
+            {
+                let share = change / own.residual.scale;
+                own.sensitivity = Some(share);
+                if let Verdict::Inconclusive { reason, .. } = &mut own.verdict {
+                    let _ = write!(reason, "{}", sentences::a_millionth_more_of_gravity(&share));
+                }
+            }
+        }
+    }
+}

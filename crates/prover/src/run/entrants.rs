@@ -1,0 +1,275 @@
+//! Who takes part in a proof, and the two halves of a proof: the analytic sides, and the engines against one of them.
+
+use crate::sentences;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::checks::{self, Beyond};
+use super::each_side::{EachSide, Reference};
+use super::engine_proof::EngineProof;
+use super::formulas::Judgement;
+use super::judge::Judge;
+use super::known::Known;
+use super::ledger::Ledger;
+use super::observe::{Observed, Watch, observe};
+use super::options::Chosen;
+use super::problem::Problem;
+use super::{engines, figures, formulas, methods, oracle};
+use crate::bounds::{Check, Verdict, overall};
+use crate::check::{self, FormulaOutcome, JudgedFormula, KnownTrajectory};
+use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
+use formula::Rounded;
+use linkage::case::Case;
+use linkage::engine::Engine;
+use linkage::error::Result;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Trajectory};
+use scenario::{Formulas, MechanismFigure};
+
+/// Share of the progress that the analytic sides are given.
+const SIDES: f64 = 0.1;
+
+/// Most operations of the search for the causes of all wrong formulas of a file.
+const MOST_WORK: u64 = 100_000_000;
+
+/// An analytic side: its solver, and the same with a tighter tolerance where it integrates.
+#[derive(Clone, Copy)]
+pub struct Entrant<'a> {
+    /// The side. It has the name of one of [`analytic::all`].
+    pub solver: &'a dyn Solver,
+    /// The side with a tighter tolerance.
+    pub tight: &'a dyn Solver,
+}
+
+/// Side 1 and side 2 as they are.
+pub const TRUE_SIDES: EachSide<Entrant<'static>> = EachSide::new(
+    Entrant { solver: &AssurSolver, tight: &TIGHT_ASSUR },
+    Entrant { solver: &NewtonSolver, tight: &TIGHT_NEWTON },
+);
+
+/// How engines take part.
+pub struct EngineRole<'a> {
+    /// What they solve, on the scenario's instants.
+    pub case: &'a Case,
+    /// Puts something around each of them.
+    pub around: &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>,
+    /// Whether the forces that they exert are judged besides.
+    pub own_forces: bool,
+}
+
+impl<'a> EngineRole<'a> {
+    /// Engines as they are, on a case.
+    pub(crate) fn on(case: &'a Case) -> Self {
+        EngineRole { case, around: &|engine| engine, own_forces: true }
+    }
+}
+
+/// The two analytic sides of a proof, observed and checked.
+pub struct ObservedSides {
+    reference: Reference,
+    pub(super) observed: EachSide<Observed>,
+    pub(super) known: Known,
+    /// Checks on both, published numbers among them.
+    pub checks: Vec<Check>,
+    /// Figures that formulas claim.
+    figures: EachSide<Vec<(MechanismFigure, Rounded)>>,
+    /// What formulas come to, if any claims something.
+    pub(super) judgement: Option<Judgement>,
+}
+
+impl ObservedSides {
+    /// Both sides on a problem, whose case may be the scene of the `whole`.
+    ///
+    /// # Errors
+    /// Those of the sides.
+    pub fn of(
+        problem: Problem,
+        whole: &Case,
+        entrants: EachSide<Entrant>,
+        reference: Reference,
+        ledger: &mut Ledger,
+    ) -> Result<Self> {
+        let Problem { case, oracles, formulas: own_formulas, .. } = problem;
+        let sides = EachSide::tried(|side| {
+            let why = if side == reference { "the reference" } else { sentences::CHECKS_THE_REFERENCE };
+            ledger.done(side.name(), why, || observe(case, entrants[side].solver, Watch::Side, &mut |_| {}))
+        })?;
+        let main = entrants[reference].solver;
+        let beside = EachSide::of(|side| (entrants[side].tight, &sides[side].trajectory));
+        let tighter = || Known::beside(case, reference, main, beside);
+        let mut known = match case.is_free() {
+            true => ledger.done("tighter integration", sentences::SHOWS_THE_ERROR_THAT_BOTH, tighter)?,
+            false => {
+                ledger.skipped("integration", sentences::THE_MOTION_IS_PRESCRIBED);
+                tighter()?
+            }
+        };
+        match checks::sides_differ(sides.pair().map(|own| &own.trajectory), &known) {
+            true => ledger.done(sentences::CONDITION_OF_EVERY_POSE, sentences::THE_SIDES_DIFFER_BY_MORE, || {
+                known.measure(case, entrants[Reference::Assur].solver)
+            })?,
+            false => ledger.skipped(sentences::CONDITION_OF_EVERY_POSE, sentences::THE_SIDES_DIFFER_BY_USUAL),
+        }
+        let mut checks = checks::of_sides(case, sides.each_ref(), &known);
+        match methods::apply(case) {
+            true => {
+                checks.extend(ledger.done("published methods", sentences::OTHERS_THAN_OURS_FOR_ITS_TRIAD, || {
+                    methods::checks(case, main)
+                })?)
+            }
+            false => ledger.skipped("published methods", sentences::THERE_IS_NO_TRIAD_OF_CLASS),
+        }
+        match oracles.is_empty() {
+            true => ledger.skipped("published numbers", sentences::THERE_ARE_NONE_OF_WANTED),
+            false => {
+                let channels = sides[reference].trajectory.channels();
+                let integration = |side: Reference, channel: &Channel| {
+                    let index = channels.iter().position(|own| own == channel);
+                    index.map_or(0.0, |index| known.integration(side, index))
+                };
+                let solvers = EachSide::of(|side| entrants[side].solver);
+                let numbers = || oracle::checks(problem, whole, solvers, &integration);
+                checks.extend(ledger.done("published numbers", sentences::SOLVED_AT_THEIR_OWN_INSTANTS, numbers)?);
+            }
+        }
+        let figures = EachSide::default();
+        let mut own = ObservedSides { reference, observed: sides, known, checks, figures, judgement: None };
+        match own_formulas.claims().next() {
+            None => ledger.skipped("formulas", sentences::NONE_CLAIMS_A_WANTED_CHANNEL),
+            Some(_) => {
+                let judged = ledger.done("formulas", sentences::BY_VALUE_AND_BY_DERIVATIVE, || {
+                    // As with published figures: means over a turn belong to the nominal motion.
+                    let solvers = EachSide::of(|side| entrants[side].solver);
+                    own.figures = figures::claimed(own_formulas, &whole.nominal(), solvers)?;
+                    own.judged(case, own_formulas)
+                })?;
+                own.checks.extend(formulas::checks(&judged));
+                own.judgement = Some(judged);
+            }
+        }
+        Ok(own)
+    }
+
+    /// Formulas against both sides, every claim that they have the channels for.
+    ///
+    /// # Errors
+    /// Those of [`check::judge`].
+    pub(crate) fn judged(&self, case: &Case, formulas: &Formulas) -> Result<Judgement> {
+        let sides = self.claimed(case, formulas)?;
+        let (mut causes, mut undefined) = (Vec::new(), BTreeMap::new());
+        let (mut unsought, mut work) = (BTreeSet::new(), 0);
+        let is_wrong = |all: &&Vec<JudgedFormula>| all.iter().any(|judged| judged.outcome() == FormulaOutcome::Wrong);
+        for index in 0..sides[Reference::Assur].len() {
+            // The side that it contradicts, or both: the first of them.
+            let all = EachSide::of(|side| &sides[side][index]);
+            let Some((side, wrong)) = all.iter().find(|(_, own)| is_wrong(own)) else { continue };
+            let name = &wrong[0].name;
+            let limit = check::MOST_WORK.min(MOST_WORK.saturating_sub(work));
+            if wrong[0].without > 0 && limit > 0 {
+                let (found, took) = self.on_course(case, side, |course| check::undefined(formulas, name, course))?;
+                work += took;
+                let is_lost = found.as_ref().is_some_and(|own| own.is_all);
+                undefined.extend(found.map(|own| (name.clone(), own)));
+                if is_lost {
+                    causes.push((name.clone(), None));
+                    continue;
+                }
+            }
+            let found = self.on_course(case, side, |course| check::cause(formulas, name, course, limit))?;
+            work += found.work;
+            if found.is_cut {
+                unsought.insert(name.clone());
+            }
+            causes.push((name.clone(), found.cause));
+        }
+        Ok(Judgement { causes, undefined, unsought, work, ..Judgement::of(sides) })
+    }
+
+    /// What both sides say of every claim that they have the channels for; why one is wrong is not sought.
+    ///
+    /// # Errors
+    /// Those of [`check::judge`].
+    pub fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<EachSide<Vec<Vec<JudgedFormula>>>> {
+        EachSide::tried(|side| self.on_course(case, side, |course| check::judge(formulas, course)))
+    }
+
+    /// What one side found on a case, with how well it knows it.
+    pub fn on_course<T>(
+        &self,
+        case: &Case,
+        side: Reference,
+        then: impl FnOnce(&KnownTrajectory) -> Result<T>,
+    ) -> Result<T> {
+        let trajectory = &self.observed[side].trajectory;
+        let error = |column: usize, row: usize| {
+            // Both sides have the same channels in the same order.
+            self.known.at(side, trajectory.channels()[column].kind.stage, column, row)
+        };
+        then(&KnownTrajectory::new(case, trajectory, &error).with_figures(&self.figures[side]))
+    }
+
+    /// What formulas come to, if any claims something.
+    pub fn judgement(&self) -> Option<&Judgement> {
+        self.judgement.as_ref()
+    }
+
+    /// What was observed of the reference.
+    pub(super) fn own(&self) -> &Observed {
+        &self.observed[self.reference]
+    }
+
+    /// The reference's trajectory.
+    pub fn trajectory(&self) -> &Trajectory {
+        &self.own().trajectory
+    }
+
+    /// Error of the reference's integration, channel by channel, in their units; zeros in a prescribed motion.
+    pub fn integration(&self) -> Vec<f64> {
+        (0..self.trajectory().channels().len()).map(|channel| self.known.integration(self.reference, channel)).collect()
+    }
+
+    /// Largest error allowed to the reference over the run, channel by channel, in their units.
+    pub(super) fn bounds(&self) -> Vec<f64> {
+        let channels = self.trajectory().channels().iter().enumerate();
+        channels.map(|(index, channel)| self.known.error(channel.kind.stage, index)).collect()
+    }
+
+    /// The verdict on all checks.
+    pub fn verdict(&self) -> Verdict {
+        overall(self.checks.iter().map(|check| &check.verdict))
+    }
+
+    /// Every channel in which the two sides differ by more than is allowed.
+    pub fn beyond(&self) -> Vec<Beyond> {
+        checks::beyond(self.observed.each_ref(), &self.known)
+    }
+
+    /// Proofs of the engines against the reference.
+    ///
+    /// # Errors
+    /// Those of a case that does not fit the instants, and of an only engine that cannot start.
+    pub fn engines(
+        &self,
+        problem: Problem,
+        how: &EngineRole,
+        engines: Vec<Chosen>,
+        ledger: &mut Ledger,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Vec<EngineProof>> {
+        let case = how.case.on(problem.case.grid.clone())?;
+        let count = engines.len() as f64;
+        let mut proofs = Vec::with_capacity(engines.len());
+        for (index, chosen) in engines.into_iter().enumerate() {
+            let chosen = chosen.with_engine(how.around);
+            let chosen = if how.own_forces { chosen } else { chosen.by_motion_alone() };
+            let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / count);
+            let judge = Judge::new(problem, self.own(), &self.known, chosen.engine.settings());
+            let mut proof = engines::prove(&judge, &case, &chosen, ledger, &mut part)?;
+            proof.tell_sensitivity(self.trajectory(), &self.known.sensitivity);
+            proofs.push(proof);
+        }
+        if let [EngineProof { failure: Some(error), trajectory: None, .. }] = proofs.as_slice() {
+            return Err(error.clone());
+        }
+        Ok(proofs)
+    }
+}

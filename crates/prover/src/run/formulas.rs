@@ -1,0 +1,127 @@
+//! Formulas as checks of a proof.
+
+use crate::sentences;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::each_side::{EachSide, Reference};
+use crate::bounds::{Check, Verdict};
+use crate::check::{CUT, FormulaAtInstant, FormulaCause, FormulaOutcome, JudgedFormula, Undefined, WORDS};
+use crate::numbers::{fixed, significant};
+use crate::tolerance::{BoundBasis, Tolerance};
+
+/// What formulas come to.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// What the sides say of every claim: by value, then by derivative.
+    pub sides: EachSide<Vec<Vec<JudgedFormula>>>,
+    /// The formulas that are wrong by name, each with the cause if it is a simple one.
+    pub causes: Vec<(String, Option<FormulaCause>)>,
+    /// Those of them that somewhere have no value by name, each with the operation that has none.
+    pub undefined: BTreeMap<String, Undefined>,
+    /// Names of those whose search for a cause ended because its work was used up.
+    pub unsought: BTreeSet<String>,
+    /// Operations that all searches took.
+    pub work: u64,
+}
+
+impl Judgement {
+    /// What both sides say; why a formula is wrong is not sought.
+    pub fn of(sides: EachSide<Vec<Vec<JudgedFormula>>>) -> Self {
+        Judgement { sides, causes: Vec::new(), undefined: BTreeMap::new(), unsought: BTreeSet::new(), work: 0 }
+    }
+
+    /// The operation that leaves a formula without a value, if there is one.
+    #[must_use]
+    pub fn undefined(&self, name: &str) -> Option<&Undefined> {
+        self.undefined.get(name)
+    }
+}
+
+/// A check for every claim, and for every derivative that could be judged, of both sides.
+pub fn checks(judgement: &Judgement) -> Vec<Check> {
+    let causes: BTreeMap<&str, String> = judgement
+        .causes
+        .iter()
+        .filter_map(|(name, cause)| {
+            let words = match cause {
+                Some(cause) if judgement.unsought.contains(name) => sentences::cause_perhaps_another(&cause, &CUT),
+                Some(cause) => format!("cause: {cause}"),
+                None if judgement.unsought.contains(name) => sentences::cause_not_found(&CUT),
+                None => return None,
+            };
+            Some((name.as_str(), words))
+        })
+        .collect();
+    let of_side = |(side, all): (Reference, &Vec<Vec<JudgedFormula>>)| -> Vec<Check> {
+        let words = |judged: &JudgedFormula| {
+            let undefined = judgement.undefined(&judged.name).filter(|_| judged.order == 0).map(ToString::to_string);
+            let all: Vec<String> = undefined.into_iter().chain(causes.get(judged.name.as_str()).cloned()).collect();
+            all.join("; ")
+        };
+        all.iter().flatten().map(|judged| check(side, judged, &words(judged))).collect()
+    };
+    judgement.sides.iter().flat_map(of_side).collect()
+}
+
+/// The check of a judged formula; `why` says why it is wrong, where that is known.
+fn check(side: Reference, judged: &JudgedFormula, why: &str) -> Check {
+    let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
+    let tolerance = Tolerance { bound, basis: BoundBasis::Formula { claimed: judged.claimed } };
+    let mut check = Check::new(format!("formulas ({side})"), value, tolerance, judged.unit).of(name(judged));
+    if let FormulaOutcome::Open { reason, advice } = judged.outcome() {
+        check.verdict = Verdict::Inconclusive { reason, advice };
+    }
+    check.located(|| {
+        let place = judged.since.map_or_else(String::new, |since| place(&since));
+        if why.is_empty() { place } else { format!("{place}; {why}") }
+    })
+}
+
+/// A formula with its claim, and which derivative.
+fn name(judged: &JudgedFormula) -> String {
+    let of = match judged.order {
+        0 => String::new(),
+        order => format!("{} of ", WORDS[order]),
+    };
+    format!("{of}{} as {}", judged.name, judged.claim)
+}
+
+/// Since when, in words.
+fn place(since: &FormulaAtInstant) -> String {
+    let FormulaAtInstant { time, crank, formula, mechanism, .. } = since;
+    let found = if formula.is_nan() {
+        sentences::IT_HAS_NO_VALUE.to_string()
+    } else {
+        sentences::it_gives(&significant(*formula, 9))
+    };
+    sentences::first_at_crank_angle_deg(
+        &fixed(*time, 6),
+        &fixed(crank.to_degrees(), 3),
+        &found,
+        &significant(*mechanism, 9),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::solved::judge;
+    use scenario::{Claim, of_repository};
+
+    /// Below 0.5 rad the formula has no value, but its rates have one, and are wrong by something else.
+    #[test]
+    fn only_the_value_is_said_to_be_undefined() {
+        let mut scenario = of_repository("scenarios/crank_rocker.toml");
+        let claim = Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
+        scenario.formulas.add("late", "phi*180/pi + 0.001*ln(phi - 0.5)").unwrap().claim = Some(claim);
+        let judgement = judge(&scenario).unwrap().judgement;
+        let judged: Vec<&JudgedFormula> = judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten()).collect();
+        let checks = checks(&judgement);
+        assert_eq!((judged.len(), checks.len()), (6, 6));
+        for (judged, check) in judged.into_iter().zip(checks) {
+            let Verdict::Disagree { place } = &check.verdict else { panic!("{} {:?}", check.name(), check.verdict) };
+            assert_eq!(place.contains("is undefined"), judged.order == 0, "{}: {place}", check.name());
+            assert_eq!(place.contains("it has no value"), judged.order == 0, "{}: {place}", check.name());
+        }
+    }
+}

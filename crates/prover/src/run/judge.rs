@@ -1,0 +1,284 @@
+//! Judgement of one engine at some settings, by its runs: the estimate of their error, and the verdict channel by
+//! channel.
+
+use crate::sentences;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use super::checks;
+use super::doubt::Doubt;
+use super::engine_proof::{ChannelProof, EngineInfo, EngineProof};
+use super::known::Known;
+use super::observe::Observed;
+use super::problem::Problem;
+use super::runs::Runs;
+use crate::bounds::{Convergence, Ladder, Residual, Verdict, largest_difference, overall, residuals_on, scales_beyond};
+use crate::tolerance::Parts;
+use linkage::case::{Case, Grid};
+use linkage::engine::{Engine, Settings};
+use linkage::error::{Advice, Result};
+use linkage::math::statistics::half_range;
+use linkage::math::{KeepNan, largest_size};
+use linkage::trajectory::{Channel, ChannelKind, ChannelSubject, Stage, Trajectory, Unit};
+
+/// Steps at the beginning of a free motion whose second differences come from later ones.
+const BEGINNING: f64 = 5.0;
+/// Share of the widest conclusive bound that rounding may take before the beginning is left out.
+const MOST_ROUNDING: f64 = 0.1;
+
+/// Values of one run that are copied for a comparison at a time.
+const COPIED: usize = 1_000_000;
+/// Channels that are compared at a time: each is looked for among them.
+const AT_A_TIME: usize = 256;
+
+/// Share of the widest conclusive bound from which a difference between sweeps counts.
+const COUNTS: f64 = 0.01;
+
+/// Speed that a link would gain in a step, over the range of its speed, from which the step says nothing about it.
+const OUTRUN: f64 = 10.0;
+
+/// What a judgement is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Asks {
+    /// All channels, and the checks besides them.
+    All,
+    /// Reactions and balancing moment as the engine itself exerts them. Shaking force and moment are sums of them.
+    OwnForces,
+}
+
+impl Asks {
+    fn has(self, kind: &ChannelKind) -> bool {
+        match self {
+            Asks::All => true,
+            Asks::OwnForces => kind.stage >= Stage::Reactions && kind.subject != ChannelSubject::Frame,
+        }
+    }
+}
+
+/// What an engine's runs are judged by.
+pub(super) struct Judge<'a> {
+    pub(super) problem: Problem<'a>,
+    pub(super) reference: &'a Observed,
+    /// Scales of its channels.
+    scales: Vec<f64>,
+    /// How well it is known.
+    known: &'a Known,
+    /// Settings asked for; the search begins with them.
+    pub(super) asked: Settings,
+    /// What is judged.
+    pub(super) asks: Asks,
+}
+
+/// An engine at some settings, judged.
+pub(super) struct Judged {
+    pub(super) proof: EngineProof,
+    /// The run that is judged.
+    pub(super) run: Arc<Observed>,
+    /// Share of instants left out because the step is too coarse for them.
+    pub(super) too_coarse: f64,
+}
+
+/// An engine's runs at the instants at which the channels of one stage are judged.
+struct Stand<'a> {
+    engine: &'a dyn Engine,
+    /// The same engine in its finest run.
+    finest: &'a dyn Engine,
+    /// The case on these instants.
+    case: &'a Case,
+    ladder: Ladder<'a>,
+    reference: &'a Trajectory,
+    left_out: usize,
+    /// Rounding of the single and of the finest run, by kind of channel.
+    noise: Vec<(&'static ChannelKind, [f64; 2])>,
+}
+
+impl Stand<'_> {
+    fn noise(&mut self, kind: &'static ChannelKind) -> [f64; 2] {
+        if let Some((_, found)) = self.noise.iter().find(|(own, _)| std::ptr::eq(*own, kind)) {
+            return *found;
+        }
+        let found = [self.engine, self.finest].map(|engine| engine.noise(self.case, kind));
+        self.noise.push((kind, found));
+        found
+    }
+}
+
+impl<'a> Judge<'a> {
+    pub(super) fn new(problem: Problem<'a>, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
+        let channels = reference.trajectory.channels().iter().enumerate();
+        let errors: Vec<f64> = channels.map(|(index, channel)| known.error(channel.kind.stage, index)).collect();
+        let scales = scales_beyond(&errors, &reference.trajectory, &problem.built());
+        Judge { problem, reference, scales, known, asked, asks: Asks::All }
+    }
+
+    /// The same for a search that begins with other settings.
+    pub(super) fn asking(&self, asked: Settings) -> Self {
+        Judge { asked, scales: self.scales.clone(), ..*self }
+    }
+
+    /// The same for the forces that an engine exerts.
+    pub(super) fn of_own_forces(self) -> Self {
+        Judge { asks: Asks::OwnForces, ..self }
+    }
+
+    /// Whether the reference has a channel that is judged.
+    pub(super) fn has_channels(&self) -> bool {
+        self.reference.trajectory.channels().iter().any(|channel| self.asks.has(channel.kind))
+    }
+
+    /// Judges an engine by its runs.
+    pub(super) fn judge(&self, engine: &dyn Engine, mut runs: Runs) -> Result<Judged> {
+        runs.other_sweeps.growth = self.growth(&runs);
+        let doubt = Doubt::of(self.problem.case, self.reference, &runs, engine.settings());
+        let late = self.after_the_beginning(engine)?;
+        let channels = self.channels(engine, &runs, &doubt, late.as_ref())?;
+        let checks = match self.asks {
+            Asks::All => checks::of_engine(self.problem, engine, &runs),
+            Asks::OwnForces => Vec::new(),
+        };
+        let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
+        let case = late.as_ref().unwrap_or(self.problem.case);
+        let (too_coarse, kept) = (doubt.too_coarse(), self.kept(&doubt, Stage::Reactions, case));
+        let [_, run, _] = runs.resolutions;
+        let mut proof = EngineProof { channels, checks, kept, ..EngineProof::bare(EngineInfo::of(engine), verdict) };
+        if !engine.controls_error() && self.outruns(engine.settings().resolution) {
+            let why = sentences::THE_MOTION_CHANGES_WITHIN_A_FRACTION;
+            proof.doubt(why, &Advice::SmallerStep { to: None });
+        }
+        Ok(Judged { proof, run, too_coarse })
+    }
+
+    /// Whether a link of a free motion would gain more speed in a step than it ever has, and many times so: as from a
+    /// motor that is much too strong for what it moves. Runs at several such steps agree on what they all miss.
+    fn outruns(&self, step: f64) -> bool {
+        let reference = &self.reference.trajectory;
+        let times = reference.times();
+        let span = 2.0 * half_range(times);
+        if !self.problem.case.is_free() || !(span > 0.0) {
+            return false;
+        }
+        let of = |unit: Unit| reference.iter().filter(move |(channel, _)| channel.kind.unit == unit);
+        of(Unit::RadianPerSecondSquared).any(|(gains, values)| {
+            let speeds = of(Unit::RadianPerSecond).find(|(speeds, _)| speeds.of == gains.of);
+            let gained = largest_size(values) * step.smaller(span);
+            speeds.is_some_and(|(_, speeds)| gained > OUTRUN * 2.0 * half_range(speeds))
+        })
+    }
+
+    /// Largest growth of the differences between runs with more and more sweeps, of any position whose differences
+    /// count; of any force, if forces are judged that come from other worlds than the motion.
+    fn growth(&self, runs: &Runs) -> f64 {
+        let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
+        let of = |(channel, scale): (&Channel, &f64)| {
+            let (own, others) = single.column(channel).zip(other_sweeps.column(channel))?;
+            Some(others.growth(own, COUNTS * self.problem.engine_rel * scale, channel.kind.periodic))
+        };
+        let all = self.reference.trajectory.channels().iter().zip(&self.scales);
+        let speaks = |channel: &Channel| match self.asks {
+            Asks::All => channel.kind.stage == Stage::Positions,
+            Asks::OwnForces => self.asks.has(channel.kind),
+        };
+        all.filter(|(channel, _)| speaks(channel)).filter_map(of).fold(0.0, f64::larger)
+    }
+
+    fn channels(
+        &self,
+        engine: &dyn Engine,
+        runs: &Runs,
+        doubt: &Doubt,
+        late: Option<&Case>,
+    ) -> Result<Vec<ChannelProof>> {
+        let finest = engine.at(engine.settings().resolution / 2.0);
+        let channels = self.reference.trajectory.channels();
+        let mut all = Vec::with_capacity(channels.len());
+        // Channels of one stage are judged at the same instants.
+        for stage in Stage::ALL {
+            let is_own = |channel: &Channel| channel.kind.stage == stage && self.asks.has(channel.kind);
+            let indices: Vec<usize> = (0..channels.len()).filter(|&index| is_own(&channels[index])).collect();
+            if indices.is_empty() {
+                continue;
+            }
+            let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(self.problem.case);
+            let keep = self.kept(doubt, stage, case);
+            let left_out = keep.iter().filter(|&&kept| !kept).count();
+            // The copies of many instants are made and dropped by few channels at a time.
+            for indices in indices.chunks((COPIED / keep.len().max(1)).clamp(1, AT_A_TIME)) {
+                let name = |channel: &'a Channel| (channel.of.as_str(), std::ptr::from_ref(channel.kind));
+                let asked: BTreeSet<_> = indices.iter().map(|&index| name(&channels[index])).collect();
+                let is_asked =
+                    |channel: &Channel| asked.contains(&(channel.of.as_str(), std::ptr::from_ref(channel.kind)));
+                let thin = |trajectory: &Trajectory| trajectory.part(&keep, &is_asked);
+                let ladder = runs.ladder();
+                let resolutions = ladder.resolutions.map(thin);
+                let others = ladder.other_sweeps.map(|run| thin(run));
+                let [double, single, half] = &resolutions;
+                let ladder = Ladder { resolutions: [double, single, half], other_sweeps: others.map(|run| run) };
+                let reference = &thin(&self.reference.trajectory);
+                let scales: Vec<f64> = indices.iter().map(|&index| self.scales[index]).collect();
+                let mut stand =
+                    Stand { engine, finest: finest.as_ref(), case, ladder, reference, left_out, noise: Vec::new() };
+                for (&index, residual) in indices.iter().zip(residuals_on(&scales, reference, single)?) {
+                    all.push((index, self.channel(&mut stand, residual, index)));
+                }
+            }
+        }
+        all.sort_by_key(|(index, _)| *index);
+        Ok(all.into_iter().map(|(_, proof)| proof).collect())
+    }
+
+    /// Whether the channels of a stage are judged, by row: where nothing jumps, from the first instant of `case` on.
+    fn kept(&self, doubt: &Doubt, stage: Stage, case: &Case) -> Vec<bool> {
+        let first = case.grid.times.iter().copied().fold(f64::INFINITY, f64::smaller);
+        doubt
+            .keeps(stage)
+            .into_iter()
+            .zip(self.reference.trajectory.times())
+            .map(|(kept, &t)| kept && t >= first)
+            .collect()
+    }
+
+    /// The case without the instants of a beginning free motion at which second differences are carried back over
+    /// several steps, if their rounding would leave accelerations or forces open; `None` if it does not.
+    fn after_the_beginning(&self, engine: &dyn Engine) -> Result<Option<Case>> {
+        let case = self.problem.case;
+        let last = case.grid.times.iter().copied().fold(0.0, f64::larger);
+        let begin = BEGINNING * 2.0 * engine.settings().resolution;
+        if !case.is_free() || begin >= last {
+            return Ok(None);
+        }
+        let wanted = self.problem.engine_rel;
+        let is_open = self.reference.trajectory.channels().iter().zip(&self.scales).any(|(channel, scale)| {
+            let noise = engine.noise(case, channel.kind);
+            let stage = channel.kind.stage;
+            stage >= Stage::Accelerations && self.asks.has(channel.kind) && noise > MOST_ROUNDING * wanted * scale
+        });
+        let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
+        // Impulses of the first steps are read from later ones, however small their rounding.
+        let impulses = self.asks == Asks::OwnForces;
+        (is_open || impulses).then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
+    }
+
+    fn channel(&self, stand: &mut Stand, residual: Residual, index: usize) -> ChannelProof {
+        let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
+        let [noise, finest] = stand.noise(kind);
+        let Stand { engine, case, ladder, reference, left_out, .. } = *stand;
+        let Settings { resolution, sweeps, extrapolated, .. } = engine.settings();
+        let convergence = Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), finest)
+            .expect("all runs of an engine have the same channels")
+            .extrapolated(extrapolated);
+        let parts = Parts { reference: self.known.error(kind.stage, index), ..convergence.parts(noise) };
+        let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
+        let verdict = match reference.times().is_empty() {
+            true => Verdict::open(sentences::A_DRIVE_OR_A_LOADED_LINK),
+            false => Verdict::of_engine(&residual, &convergence, parts, self.problem.engine_rel),
+        };
+        let verdict = verdict.from_settings(resolution, engine.controls_error(), sweeps);
+        let [_, single, half] = ladder.resolutions;
+        let [single, half, reference] =
+            [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
+        let limit = convergence.limit(single, half, kind.periodic);
+        let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
+        let bound = parts.sum();
+        ChannelProof { residual, bound, parts, convergence, limit, sensitivity: None, left_out, basis, verdict }
+    }
+}

@@ -1,0 +1,271 @@
+//! How far an engine's channels are from being conclusive, which part of its bounds dominates, and whether the remaining
+//! work suffices. See docs/numerics/settings.md.
+
+use linkage::math::KeepNan;
+use linkage::math::statistics::share;
+
+use super::judge::Judged;
+use crate::bounds::Verdict;
+use crate::tolerance::BoundPart;
+
+/// Share of instants that may be left out because they are too close to a reversal for the step.
+pub(super) const MOST_LEFT_OUT: f64 = 0.03;
+/// Need of a step that leaves out more, over what is wanted.
+const LEFT_OUT: f64 = 2.0;
+
+/// What is farthest from being conclusive.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub(super) enum Of {
+    /// The bound of a channel or check.
+    Bound,
+    /// The instants that a step leaves out.
+    Instants,
+}
+
+/// How far a trial is from being conclusive.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub(super) struct Need {
+    /// Whether the runs show no order, so that the bound means little.
+    pub(super) is_vague: bool,
+    /// Largest bound over what is wanted.
+    pub(super) share: f64,
+    /// What it is that needs it.
+    pub(super) of: Of,
+}
+
+impl Need {
+    /// Whether a bound that means something is at most `most` of what is wanted.
+    pub(super) fn is_within(self, most: f64) -> bool {
+        !self.is_vague && self.share <= most
+    }
+
+    /// Whether this is at most `part` of another need, or shows an order where that one does not.
+    pub(super) fn is_less(self, part: f64, other: Need) -> bool {
+        match (self.is_vague, other.is_vague) {
+            (false, true) => true,
+            (true, false) => false,
+            (true, true) | (false, false) => self.share <= part * other.share,
+        }
+    }
+
+    /// Whether all that is missing is a step that leaves out fewer instants.
+    pub(super) fn is_of_instants(self) -> bool {
+        !self.is_vague && self.of == Of::Instants
+    }
+}
+
+/// Part of a bound up to which the sweeps share the blame for it.
+const SHARED: f64 = 0.8;
+
+/// What is to blame for the largest bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Blame {
+    /// Its largest part.
+    pub(super) part: BoundPart,
+    /// Whether that is the sweeps, but the step leaves a good part too: half the step makes both smaller.
+    pub(super) is_shared: bool,
+}
+
+/// The largest bound of a channel or check over what is wanted, `wanted` of its scale, and what is to blame.
+/// Those whose runs show no order come first.
+pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
+    let channels =
+        judged.proof.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
+    let checks = judged.proof.checks.iter().filter_map(|check| {
+        let (parts, convergence) = check.estimate.as_ref()?;
+        Some((*parts, 1.0, convergence, &check.verdict))
+    });
+    // A step that leaves out many instants proves nothing about them.
+    let (least, of) = if judged.too_coarse > MOST_LEFT_OUT { (LEFT_OUT, Of::Instants) } else { (0.0, Of::Bound) };
+    let none = Blame { part: BoundPart::Discretisation, is_shared: false };
+    let mut worst = (Need { is_vague: false, share: least, of }, none);
+    for (parts, scale, convergence, verdict) in channels.chain(checks) {
+        let share = share(parts.sum(), wanted * scale);
+        let is_open = matches!(verdict, Verdict::Inconclusive { .. });
+        // Open for another reason than its bound: no setting changes that.
+        let is_vague = is_open && !convergence.is_trusted();
+        let share = if is_open && !is_vague && share <= 1.0 { 0.0 } else { share.larger(0.0) };
+        let own = Need { is_vague, share: if share.is_nan() { f64::INFINITY } else { share }, of: Of::Bound };
+        if own > worst.0 {
+            // Where no order is seen, the sweeps are to blame as soon as they leave a part that counts.
+            let sweeps = is_vague && 10.0 * parts.iteration > parts.discretisation;
+            let part = if sweeps { BoundPart::Iteration } else { parts.largest() };
+            worst = (
+                own,
+                Blame { part, is_shared: part == BoundPart::Iteration && parts.iteration <= SHARED * parts.sum() },
+            );
+        }
+    }
+    worst
+}
+
+/// Rounds before a pace is told: the first ones show whether the settings mean anything.
+const ROUNDS: usize = 4;
+/// Factor on the observed exponent: extrapolation may gain speed as the runs become smooth. Searches that end well
+/// gain twice as fast at the end as in their first rounds at most (all shipped scenarios).
+const OPTIMISM: f64 = 2.0;
+
+/// The rounds of a search: work so far, and the least need so far.
+#[derive(Default)]
+pub(super) struct Pace {
+    rounds: Vec<[f64; 2]>,
+}
+
+impl Pace {
+    /// Notes a round that ends with this work done. Returns whether `budget` is too little by far: the need falls with a
+    /// power of the work, and even with twice the power seen in the last rounds it stays above 1.
+    pub(super) fn is_too_slow(&mut self, effort: f64, need: Need, budget: f64) -> bool {
+        let least = self.rounds.last().map_or(f64::INFINITY, |[_, least]| *least).smaller(need.share);
+        self.rounds.push([effort, least]);
+        if self.rounds.len() < ROUNDS || need.is_within(1.0) {
+            return false;
+        }
+        // Rounds without any bound show no pace.
+        let last = &self.rounds[self.rounds.len() - ROUNDS..];
+        let Some([before, most]) = last.iter().find(|[_, least]| least.is_finite()) else { return false };
+        if *before >= effort {
+            return false;
+        }
+        let exponent = (most / least).ln() / (effort / before).ln();
+        least > (budget / effort).powf(OPTIMISM * exponent)
+    }
+}
+
+/// Rounds without an order of convergence after which more sweeps are tried instead of a smaller step.
+const MOST_VAGUE: usize = 2;
+/// Part of the bound down to which half the step must bring it, so that it is not the sweeps that are too few.
+const BRINGS: f64 = 0.7;
+/// Part of the bound down to which more sweeps must bring it to be worth their work.
+const HELPS: f64 = 0.5;
+/// Rounds with finer steps and wider bounds after which rounding is to blame, also where the engine's noise is thought
+/// to be less.
+const MOST_WIDER: usize = 2;
+/// Rounds that pass before more sweeps are tried again, where they have brought little.
+const PATIENCE: usize = 3;
+
+/// What a search has seen of steps that do not bring it on.
+#[derive(Default)]
+pub(super) struct Stall {
+    /// Need of the round before, with as many sweeps.
+    before: Option<Need>,
+    /// Rounds without an order of convergence, one after the other.
+    vague: usize,
+    /// Rounds in which half the step has made the bound wider, one after the other.
+    wider: usize,
+    /// Sweeps of the round before, and its need, if more sweeps are just tried.
+    tried: Option<(usize, Need)>,
+    /// Rounds until more sweeps may be tried again.
+    wait: usize,
+}
+
+/// What a search does next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Next {
+    /// It changes what this part depends on.
+    Blames(BoundPart),
+    /// It goes back to as many sweeps, and takes a smaller step.
+    Returns(usize),
+}
+
+impl Stall {
+    /// What to do after a round with `sweeps`, by its need and the part that is to blame. Too few sweeps may hide the
+    /// order of the step, and what they leave does not always show: where a smaller step brings little, more sweeps are
+    /// tried, if they are `free`, and are given up where they bring little too.
+    pub(super) fn look_closer(&mut self, need: Need, blame: BoundPart, sweeps: usize, free: bool) -> Next {
+        self.vague = if need.is_vague { self.vague + 1 } else { 0 };
+        let before = self.before.replace(need);
+        let tried = self.tried.take();
+        self.wait = self.wait.saturating_sub(1);
+        if blame != BoundPart::Discretisation || need.is_of_instants() {
+            return Next::Blames(blame);
+        }
+        if let Some((fewer, before)) = tried {
+            if need.is_less(HELPS, before) {
+                return Next::Blames(blame);
+            }
+            (self.wait, self.before) = (PATIENCE, Some(before));
+            return Next::Returns(fewer);
+        }
+        self.wider = if before.is_some_and(|before| before.is_less(0.5, need)) { self.wider + 1 } else { 0 };
+        if self.wider >= MOST_WIDER {
+            return Next::Blames(BoundPart::Rounding);
+        }
+        let is_stalled = self.vague >= MOST_VAGUE || before.is_some_and(|before| !need.is_less(BRINGS, before));
+        if !is_stalled || self.wait > 0 || !free || need.is_within(1.0) {
+            return Next::Blames(blame);
+        }
+        self.tried = Some((sweeps, need));
+        Next::Blames(BoundPart::Iteration)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a search is given up in its last round, of rounds with work and need.
+    fn given_up(rounds: &[(f64, f64)], budget: f64) -> bool {
+        let mut pace = Pace::default();
+        let told = rounds
+            .iter()
+            .map(|&(effort, share)| pace.is_too_slow(effort, Need { is_vague: false, share, of: Of::Bound }, budget));
+        let told: Vec<bool> = told.collect();
+        let (last, before) = told.split_last().expect("there are rounds");
+        assert!(!before.contains(&true), "{told:?}");
+        *last
+    }
+
+    #[test]
+    fn impulses_that_no_step_makes_better_are_given_up_in_the_fourth_round() {
+        // The first rounds of a parallelogram that swings through its change points.
+        let flat = [(3.4e3, 1942.0), (7.4e3, 1893.0), (1.7e4, 1885.0), (2.5e4, 1917.0)];
+        assert!(given_up(&flat, 1e6) && !given_up(&flat[..3], 1e6));
+    }
+
+    #[test]
+    fn a_search_that_gets_on_is_not_given_up() {
+        assert!(!given_up(&[(1.8e3, 67.3), (3.7e3, 20.3), (7.4e3, 5.7), (1.6e4, 1.9)], 1e6));
+        // Nor one that has just begun to show a bound, or that has one that decides.
+        let infinite = f64::INFINITY;
+        assert!(!given_up(&[(1e3, infinite), (2e3, infinite), (4e3, infinite), (8e3, 3e4)], 1e6));
+        assert!(!given_up(&[(1e3, 0.9), (2e3, 0.9), (4e3, 0.9), (8e3, 0.9)], 1e6));
+    }
+
+    #[test]
+    fn the_same_rounds_may_do_with_more_work() {
+        // The need falls as the work grows: a hundredth of it is missing.
+        let rounds = [(1e3, 8e4), (2e3, 4e4), (4e3, 2e4), (8e3, 1e4)];
+        assert!(given_up(&rounds, 1e5) && !given_up(&rounds, 1e7));
+    }
+
+    fn need(share: f64) -> Need {
+        Need { is_vague: false, share, of: Of::Bound }
+    }
+
+    /// The rounds of a search: need, blame and sweeps, and what it does next.
+    fn follow(rounds: &[(f64, usize)]) -> Vec<Next> {
+        let mut stall = Stall::default();
+        let next =
+            |&(share, sweeps): &(f64, usize)| stall.look_closer(need(share), BoundPart::Discretisation, sweeps, true);
+        rounds.iter().map(next).collect()
+    }
+
+    #[test]
+    fn a_step_that_brings_little_asks_for_sweeps_and_they_stay_if_they_help() {
+        let [step, sweeps] = [BoundPart::Discretisation, BoundPart::Iteration].map(Next::Blames);
+        assert_eq!(
+            follow(&[(100.0, 16), (50.0, 16), (45.0, 16), (10.0, 64), (5.0, 64)]),
+            [step, step, sweeps, step, step]
+        );
+        let given_up = follow(&[(100.0, 16), (90.0, 16), (89.0, 64), (80.0, 16), (75.0, 16), (70.0, 16)]);
+        assert_eq!(given_up, [step, sweeps, Next::Returns(16), step, step, sweeps]);
+    }
+
+    #[test]
+    fn bounds_that_grow_with_finer_steps_are_rounding() {
+        let [step, rounding] = [BoundPart::Discretisation, BoundPart::Rounding].map(Next::Blames);
+        let mut stall = Stall::default();
+        let mut of = |share: f64| stall.look_closer(need(share), BoundPart::Discretisation, 16, false);
+        assert_eq!([of(10.0), of(3.0), of(7.0), of(30.0)], [step, step, step, rounding]);
+    }
+}

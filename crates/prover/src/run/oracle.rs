@@ -1,0 +1,348 @@
+//! Numbers of other sources against both analytic sides.
+//! See docs/numerics/bounds.md.
+
+use super::each_side::{EachSide, Reference};
+use super::figures::Measured;
+use super::problem::Problem;
+use super::shifted::{Along, RoundedInstants, TELLING};
+use crate::bounds::{Check, Verdict, magnitudes, scales};
+use crate::sentences;
+use crate::tolerance::{BoundBasis, BoundOrigin, Tolerance};
+use linkage::case::{Case, Wanted};
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use linkage::math::angle::wrapped;
+use linkage::math::statistics::share;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Stage, Trajectory};
+use scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, When};
+
+/// One check for every series and figure of an oracle and for each analytic side.
+/// Series are those of channels of the problem's case, figures those of the `whole` mechanism.
+/// `integration` is the error of a side's integration in a channel, in its unit, for numbers of a motion under forces.
+pub(super) fn checks(
+    problem: Problem,
+    whole: &Case,
+    sides: EachSide<&dyn Solver>,
+    integration: &dyn Fn(Reference, &Channel) -> f64,
+) -> Result<Vec<Check>> {
+    let mut checks = of_series(problem, sides, integration)?;
+    // Where forces decide the true motion, means over a turn belong to the nominal motion.
+    checks.extend(of_figures(problem.oracles, &whole.nominal(), sides)?);
+    Ok(checks)
+}
+
+/// Rounding of an analytic side's number, in units in the last place of the largest number of its quantity. A printed
+/// number may have more digits than that.
+const ULPS: f64 = 16.0;
+
+/// Most instants that all channels of a stage are solved at.
+const MOST: usize = 20_000;
+
+/// A side's trajectory, and the largest number of the quantity and the scale of every channel.
+type Side = (Trajectory, Vec<(Channel, [f64; 2])>);
+
+/// What both sides have found.
+struct Solved {
+    sides: EachSide<Side>,
+    rounded: RoundedInstants,
+}
+
+/// What both sides answer where an oracle's numbers hold.
+struct Answers<'a> {
+    /// In the nominal motion, in the order of crank angles; `None` if no number holds at one.
+    nominal: Option<Solved>,
+    /// In the motion itself, in the order of times; `None` if no number holds at one.
+    timed: Option<Solved>,
+    /// Error of a side's integration in a channel of the motion itself.
+    integration: &'a dyn Fn(Reference, &Channel) -> f64,
+}
+
+impl<'a> Answers<'a> {
+    fn of(
+        case: &Case,
+        series: &[&OracleSeries],
+        solvers: EachSide<&'a dyn Solver>,
+        integration: &'a dyn Fn(Reference, &Channel) -> f64,
+    ) -> Result<Self> {
+        let channels: Vec<Channel> = series.iter().flat_map(|series| channels_of(series)).collect();
+        let stages: Vec<Stage> = series.iter().map(|series| series.channel.kind.stage).collect();
+        let solved = |case: &Case, along: Along| -> Result<Option<Solved>> {
+            let all = series.iter().flat_map(|series| series.instants());
+            let mut instants: Vec<f64> = all.filter_map(|when| along.of(when)).collect();
+            if instants.is_empty() {
+                return Ok(None);
+            }
+            instants.sort_unstable_by(f64::total_cmp);
+            instants.dedup();
+            // Of many instants, what is asked is solved at all, and what its numbers are measured by at some.
+            let step = instants.len().div_ceil(MOST);
+            let few = instants.iter().copied().step_by(step).collect();
+            let whole = case.on(along.grid(case.crank(), few))?.wanting(Wanted::of(&stages));
+            let many = (step > 1).then(|| case.on(along.grid(case.crank(), instants))).transpose()?;
+            let many = many.map(|many| many.wanting_only(&channels));
+            let of = |solver: &dyn Solver| -> Result<Side> {
+                let found = solver.solve(&whole)?;
+                let sizes = magnitudes(&found).into_iter().zip(scales(&found)).map(|(size, scale)| [size, scale]);
+                let sizes = found.channels().iter().cloned().zip(sizes).collect();
+                Ok((many.as_ref().map_or(Ok(found), |many| solver.solve(many))?, sizes))
+            };
+            let points = series.iter().flat_map(|series| series.all());
+            let rounded = RoundedInstants::of(case, points, along, &channels, solvers[Reference::Assur])?;
+            Ok(Some(Solved { sides: EachSide::tried(|side| of(solvers[side]))?, rounded }))
+        };
+        // Where forces decide the true motion, numbers at crank angles belong to the nominal motion.
+        let nominal = solved(&case.nominal(), Along::Crank)?;
+        Ok(Answers { nominal, timed: solved(case, Along::Time)?, integration })
+    }
+
+    /// What a side answers for a series, in the nominal motion and in the motion itself.
+    fn of_series<'b>(
+        &'b self,
+        oracle: &Oracle,
+        series: &OracleSeries,
+        side: Reference,
+    ) -> Result<[Option<Told<'b>>; 2]> {
+        let told = |solved: &'b Option<Solved>, integration: f64| -> Result<Option<Told<'b>>> {
+            let Some(Solved { sides, rounded }) = solved else { return Ok(None) };
+            let values = EachSide::tried(|side| values(oracle, series, &sides[side].0))?;
+            let (trajectory, sizes) = &sides[side];
+            let sizes = sizes.iter().find(|(own, _)| *own == series.channel);
+            let [size, scale] = sizes.map_or([0.0; 2], |(_, sizes)| *sizes);
+            let known = ULPS * f64::EPSILON * size + integration;
+            Ok(Some(Told { side, trajectory, values, known, scale, rounded, channels: channels_of(series).collect() }))
+        };
+        // Channel by channel: a magnitude has the errors of both.
+        let integration: f64 = channels_of(series).map(|channel| (self.integration)(side, &channel)).sum();
+        Ok([told(&self.nominal, 0.0)?, told(&self.timed, integration)?])
+    }
+}
+
+/// A series as both sides have solved it, and how far the number of one, `side`, is known besides their difference.
+struct Told<'a> {
+    side: Reference,
+    trajectory: &'a Trajectory,
+    values: EachSide<Vec<f64>>,
+    known: f64,
+    /// Scale of the channel where the numbers hold.
+    scale: f64,
+    rounded: &'a RoundedInstants,
+    /// The channel, and the other component of a magnitude.
+    channels: Vec<Channel>,
+}
+
+/// What a side answers for one printed number.
+struct Found {
+    /// Its distance from the printed number.
+    deviation: f64,
+    bound: f64,
+    /// The part of the bound that comes of the rounding of the instant.
+    instant: f64,
+    scale: f64,
+}
+
+impl Found {
+    /// Share of the bound that is used; NaN uses all of it.
+    fn used(&self) -> f64 {
+        let used = share(self.deviation, self.bound);
+        if used.is_nan() { f64::INFINITY } else { used }
+    }
+
+    /// Whether it is off by something that tells, and within the bound only because its instant is rounded.
+    fn is_open(&self) -> bool {
+        self.used() <= 1.0 && self.deviation.smaller(self.instant) > TELLING * self.scale
+    }
+}
+
+impl Told<'_> {
+    /// What is found for a printed number of a series.
+    fn of(&self, series: &OracleSeries, point: &OraclePoint) -> Found {
+        let (instants, at) = match point.at {
+            When::Crank(crank) => (self.trajectory.inputs(), crank),
+            When::Time(time) => (self.trajectory.times(), time),
+        };
+        let row = instants.binary_search_by(|other| other.total_cmp(&at)).expect("solved at this instant");
+        let [value, other] = [self.side, self.side.other()].map(|side| self.values[side][row]);
+        // No number is known better than both sides agree on it.
+        let known = self.known + 2.0 * (value - other).abs();
+        let difference = value - point.value;
+        let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
+        // A magnitude changes by no more than its vector.
+        let drift = self.channels.iter().map(|own| self.rounded.of_point(own, at, point.at_error));
+        let instant = drift.fold(0.0, f64::hypot);
+        // What a side knows is no rounding of the printed number: it adds to that.
+        let bound = point.bound + known + instant;
+        Found { deviation, bound, instant, scale: self.scale }
+    }
+}
+
+fn of_series(
+    problem: Problem,
+    solvers: EachSide<&dyn Solver>,
+    integration: &dyn Fn(Reference, &Channel) -> f64,
+) -> Result<Vec<Check>> {
+    let all = || problem.oracles.iter().flat_map(|oracle| oracle.series.iter().map(move |series| (oracle, series)));
+    let series: Vec<&OracleSeries> = all().map(|(_, series)| series).collect();
+    let answers = Answers::of(problem.case, &series, solvers, integration)?;
+    let mut checks = Vec::new();
+    for side in Reference::ALL {
+        for (oracle, series) in all() {
+            checks.extend(of_one(oracle, series, &answers, side)?);
+        }
+    }
+    Ok(checks)
+}
+
+/// The checks of one series: one for all correct values together, and one for each value that is known to be wrong. If
+/// all values are known to be wrong, they have one check together.
+fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Reference) -> Result<Vec<Check>> {
+    let [nominal, timed] = answers.of_series(oracle, series, side)?;
+    let found = |point: &OraclePoint| {
+        let told = if matches!(point.at, When::Crank(_)) { &nominal } else { &timed };
+        told.as_ref().expect("solved at every instant").of(series, point)
+    };
+    let against = |family: &str, point: &OraclePoint, origin: BoundOrigin| -> Check {
+        let Found { deviation, bound, instant, .. } = found(point);
+        let tolerance = tolerance(oracle, origin, bound, instant, point.digits);
+        let check = Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol());
+        check.located(|| format!("at {}", point.at))
+    };
+    let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, side.name()));
+    let corrected = |cell: &ExpectedCell| -> Check {
+        let printed = against(&wrong, &cell.point, origin(oracle));
+        against(&wrong, &cell.right, BoundOrigin::Recomputed).expected(&cell.finding, &printed)
+    };
+    // Each cell has its own bound: the worst cell is the one that uses the largest share of it. NaN is the worst.
+    let (mut worst, mut open): (Option<(f64, &OraclePoint)>, Option<&OraclePoint>) = (None, None);
+    for point in &series.points {
+        let found = found(point);
+        if worst.is_none_or(|(most, _)| found.used() >= most) {
+            worst = Some((found.used(), point));
+        }
+        open = open.or(found.is_open().then_some(point));
+    }
+    let checked = |point: &OraclePoint| against(&family, point, origin(oracle)).of(&series.name);
+    let mut checks: Vec<Check> = worst.iter().map(|(_, point)| checked(point)).collect();
+    if let (Some(point), Some((..=1.0, _))) = (open, worst) {
+        checks = vec![Check { verdict: unproven(point), ..checked(point) }];
+    }
+    for cell in &series.expected {
+        checks.push(corrected(cell).of(format!("{} at {}", series.name, shortly(cell.point.at))));
+    }
+    if let Some((_, cells)) = &series.wrong {
+        checks.extend(worst_of(cells.iter().map(corrected)).map(|check| check.of(&series.name)));
+    }
+    Ok(checks)
+}
+
+/// The verdict on a number that may be wrong by as much as its instant is rounded.
+fn unproven(point: &OraclePoint) -> Verdict {
+    let reason = sentences::at_the_rounding_of_the_instant(&point.at);
+    let advice = vec![Advice::Text(sentences::PRINT_THE_INSTANTS_WITH_MORE.into())];
+    Verdict::Inconclusive { reason, advice }
+}
+
+fn shortly(at: When) -> String {
+    match at {
+        When::Crank(crank) => format!("{:.1} deg", crank.to_degrees()),
+        When::Time(_) => at.to_string(),
+    }
+}
+
+/// The worst check of printed numbers that are all known to be wrong: the first that is not as expected, else the one
+/// that uses the largest share of its bound.
+fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
+    let rank = |check: &Check| (!matches!(check.verdict, Verdict::Expected { .. }), check.used());
+    checks.reduce(|worst, check| {
+        let ((wrong, used), (other_wrong, other_used)) = (rank(&worst), rank(&check));
+        if (other_wrong && !wrong) || (other_wrong == wrong && other_used > used) { check } else { worst }
+    })
+}
+
+/// Bound of a number: half a unit of its last digit, plus the known error of the number, but never less than what the
+/// analytic sides know; and the part of it that the rounding of its instant leaves open.
+fn tolerance(oracle: &Oracle, origin: BoundOrigin, bound: f64, instant: f64, digits: i32) -> Tolerance {
+    Tolerance { bound, basis: BoundBasis::Digits { origin, digits, source: oracle.source.clone(), instant } }
+}
+
+/// How the numbers of an oracle are known.
+fn origin(oracle: &Oracle) -> BoundOrigin {
+    match oracle.basis {
+        OracleBasis::Published => BoundOrigin::Published,
+        OracleBasis::Recomputed => BoundOrigin::Recomputed,
+        OracleBasis::Derived => BoundOrigin::Derived,
+    }
+}
+
+/// The channels of a series: one, or both components of the vector whose magnitude it is.
+fn channels_of(series: &OracleSeries) -> impl Iterator<Item = Channel> {
+    [Some(series.channel.clone()), series.y()].into_iter().flatten()
+}
+
+/// What was solved for a series, by row.
+fn values(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory) -> Result<Vec<f64>> {
+    let named = |channel: Channel| {
+        solved.column(&channel).ok_or_else(|| {
+            Error::new(ErrorKind::Input, sentences::oracle_there_is_no_channel(&oracle.name, &channel))
+                .help(sentences::NAME_A_LINK_POINT_OR_JOINT)
+        })
+    };
+    let components = channels_of(series).map(named).collect::<Result<Vec<&[f64]>>>()?;
+    Ok(match components.as_slice() {
+        [x, y] => x.iter().zip(*y).map(|(x, y)| x.hypot(*y)).collect(),
+        own => own.concat(),
+    })
+}
+
+fn of_figures(oracles: &[Oracle], case: &Case, solvers: EachSide<&dyn Solver>) -> Result<Vec<Check>> {
+    let all = || oracles.iter().flat_map(|oracle| oracle.figures.iter().map(move |figure| (oracle, figure)));
+    let values: EachSide<Vec<f64>> = EachSide::tried(|side| -> Result<_> {
+        let mut measured = Measured::of(case, solvers[side]);
+        all().map(|(_, figure)| measured.value(figure.figure)).collect()
+    })?;
+    let mut checks = Vec::new();
+    for side in Reference::ALL {
+        for (index, (oracle, figure)) in all().enumerate() {
+            let [value, other] = [values[side][index], values[side.other()][index]];
+            let known = ULPS * f64::EPSILON * value.abs() + 2.0 * (value - other).abs();
+            let (family, unit) = (family(oracle, figure.wrong.is_some(), side.name()), figure.figure.unit());
+            let against = |number: &FigureValue, origin: BoundOrigin| {
+                let tolerance = tolerance(oracle, origin, number.bound.larger(known), 0.0, number.digits);
+                Check::new(family.as_str(), (value - number.value).abs(), tolerance, unit)
+                    .of(&figure.name)
+                    .located(|| sentences::given_found(&number.value, &unit, &value))
+            };
+            let printed = against(&figure.printed, origin(oracle));
+            checks.push(match &figure.wrong {
+                Some((finding, right)) => against(right, BoundOrigin::Recomputed).expected(finding, &printed),
+                None => printed,
+            });
+        }
+    }
+    Ok(checks)
+}
+
+/// Heading of the checks of an oracle.
+fn family(oracle: &Oracle, wrong: bool, side: &str) -> String {
+    let known = if wrong { sentences::KNOWN_TO_BE_WRONG } else { "" };
+    format!("{} {}{known} ({side})", origin(oracle).word(), oracle.name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_as_expected_comes_before_what_uses_most() {
+        let check = |value: f64, verdict: Verdict| {
+            let tolerance = Tolerance { bound: 1.0, basis: BoundBasis::Wanted("test") };
+            Check { verdict, ..Check::new("f", value, tolerance, "") }
+        };
+        let expected = |value: f64| check(value, Verdict::Expected { finding: "why".into(), off: 1.0 });
+        let wrong = check(0.1, Verdict::Disagree { place: String::new() });
+        let worst = |all: Vec<Check>| worst_of(all.into_iter()).map(|check| check.value);
+        assert_eq!(worst(vec![expected(0.9), wrong, expected(0.95)]), Some(0.1));
+        assert_eq!(worst(vec![expected(0.5), expected(0.9), expected(0.7)]), Some(0.9));
+        assert_eq!(worst(Vec::new()), None);
+    }
+}

@@ -1,0 +1,145 @@
+//! An engine that converges with a lower order than that of its method.
+//!
+//! A reading is half a step late, or a weight is wrong. A bound from the engine's runs follows such an error down to any
+//! step, so that the size of the error never shows it. Five runs show the order three times, always the same whole
+//! number. See docs/numerics/bounds.md.
+
+use crate::sentences;
+use linkage::engine::Settings;
+use linkage::error::ErrorKind;
+use linkage::math::KeepNan;
+use linkage::trajectory::Stage;
+
+use super::engine_proof::{ChannelProof, EngineProof};
+use super::judge::Judge;
+use super::observe::Stopped;
+use super::runs::{Bank, FEWER, other_sweeps};
+use crate::bounds::{Convergence, Verdict};
+use crate::numbers::error;
+use crate::tolerance::Parts;
+
+/// Share of the formal order below which an order is looked at again.
+const LOW: f64 = 0.75;
+/// Largest distance of steady orders from a whole number.
+const STEADY: f64 = 0.1;
+/// Factor by which an error must exceed rounding and what the sweeps leave, so that its order is that of the step.
+const CLEAR: f64 = 5.0;
+/// Share of the widest conclusive bound below which it does not matter.
+const NEGLIGIBLE: f64 = 0.01;
+
+/// Finds channels that converge steadily at too low an order. They disagree. Returns whether there are any.
+///
+/// # Errors
+/// Those of a run that is not numeric.
+pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> Result<bool, Stopped> {
+    let wanted = judge.problem.engine_rel;
+    // Second differences across a knot of a law of motion, where its third derivative jumps, have order 1 by
+    // themselves.
+    let is_smooth = bank.case.is_steady();
+    let is_low = |own: &ChannelProof| {
+        let Convergence { observed, formal, .. } = own.convergence;
+        let has_order = is_smooth || own.residual.channel.kind.stage < Stage::Accelerations;
+        has_order && observed > 0.0 && observed < LOW * formal && own.bound > NEGLIGIBLE * wanted * own.residual.scale
+    };
+    if !proof.channels.iter().any(is_low) {
+        return Ok(false);
+    }
+    let found = proof.info.settings;
+    let finest = found.resolution * 0.5f64.powi(found.extrapolated as i32);
+    let mut rung = |times: f64, asks_sweeps: bool| {
+        let plain = Settings { resolution: times * finest, extrapolated: 0, ..found };
+        let own = bank.engine(plain);
+        let mut others = other_sweeps(bank.case, own.as_ref(), plain.sweeps, FEWER);
+        others.truncate(usize::from(asks_sweeps));
+        match bank.runs(plain, &others, &mut |_| {}).and_then(|runs| Ok(judge.judge(own.as_ref(), runs)?)) {
+            Ok(own) => Ok(Some(own.proof)),
+            // Too coarse a run shows nothing.
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(None),
+            Err(stopped) => Err(stopped),
+        }
+    };
+    let mut rungs = Vec::new();
+    for times in [4.0, 2.0, 1.0] {
+        let Some(own) = rung(times, false)? else { return Ok(false) };
+        rungs.push(own);
+    }
+    // What the sweeps leave takes one more run, as long as half of the longest. Few orders are so steady that it is
+    // asked.
+    let may_be = |index: usize| {
+        is_low(&proof.channels[index]) && is_steady([0, 1, 2].map(|k| rungs[k].channels[index].convergence))
+    };
+    if !(0..proof.channels.len()).any(may_be) {
+        return Ok(false);
+    }
+    let Some(fine) = rung(1.0, true)? else { return Ok(false) };
+    let [coarse, middle, fine] = [&rungs[0], &rungs[1], &fine];
+    let mut is_found = false;
+    for index in 0..proof.channels.len() {
+        if is_low(&proof.channels[index]) {
+            let rungs = [coarse, middle, fine].map(|rung| &rung.channels[index]);
+            let (convergences, parts) = (rungs.map(|own| own.convergence), rungs[2].parts);
+            if let Some(order) = steady(convergences, parts) {
+                let steps = [8.0, 0.5].map(|times| times * finest);
+                let place = sentences::the_runs_converge_with_order(
+                    &order,
+                    &error(steps[0]),
+                    &error(steps[1]),
+                    &convergences[2].formal,
+                );
+                proof.channels[index].verdict = Verdict::Disagree { place };
+                is_found = true;
+            }
+        }
+    }
+    proof.conclude();
+    Ok(is_found)
+}
+
+/// Whether three estimates, the finest last, have the same low whole number as their order.
+fn is_steady(rungs: [Convergence; 3]) -> bool {
+    let Convergence { observed, formal, .. } = rungs[2];
+    let whole = observed.round();
+    let is_same = rungs.iter().all(|own| (own.observed - whole).abs() <= STEADY);
+    is_same && whole >= 1.0 && whole <= LOW * formal
+}
+
+/// The order of three estimates, the finest last, if it is steady and not that of what else is in the finest one.
+fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
+    let other = finest.iteration.larger(finest.rounding).larger(finest.reference);
+    let is_clear = rungs[2].error > CLEAR * other;
+    (is_steady(rungs) && is_clear).then_some(rungs[2].observed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Halved steps halve an error of 8: its order is 1, and that of a method of order 2 is lost. Where sweeps,
+    /// rounding or the reference leave a fourth of the finest error, the order may be theirs.
+    #[test]
+    fn an_order_counts_only_where_nothing_else_is_nearly_as_large() {
+        let rungs = |orders: [f64; 3], formal: f64| {
+            let error = |k: usize| 8.0 * 0.5f64.powi(k as i32);
+            [0, 1, 2].map(|k| Convergence {
+                observed: orders[k],
+                formal,
+                error: error(k),
+                safety: 1.25,
+                iteration: 0.0,
+            })
+        };
+        let first = rungs([1.02, 0.98, 1.01], 2.0);
+        let none = Parts::default();
+        for (size, found) in [(0.0, Some(1.01)), (0.1, Some(1.01)), (0.5, None), (5.0, None)] {
+            for other in
+                [Parts { iteration: size, ..none }, Parts { rounding: size, ..none }, Parts { reference: size, ..none }]
+            {
+                assert_eq!(steady(first, other), found, "{other:?}");
+            }
+        }
+        // Orders that change, an order of nothing, and the order that the method has.
+        for (orders, formal) in [([1.3, 1.1, 1.0], 2.0), ([0.0; 3], 2.0), ([2.0; 3], 2.0), ([1.0; 3], 1.0)] {
+            assert_eq!(steady(rungs(orders, formal), none), None, "{orders:?} {formal}");
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Forces that an engine exerts, judged besides those that follow from its motion by Newton-Euler equations: a second
+//! search, by the engine's routes. See docs/numerics/forces.md.
+
+use crate::sentences;
+use std::sync::Arc;
+
+use super::engine_proof::{EngineInfo, EngineProof};
+use super::judge::{Judge, Judged};
+use super::observe::{Stopped, Watch};
+use super::options::Chosen;
+use super::runs::Bank;
+use super::settle::Settling;
+use crate::bounds::Verdict;
+use crate::engines::coarse_step;
+use crate::numbers::error;
+use linkage::case::Case;
+use linkage::engine::{Engine, Route, Settings};
+use linkage::error::{Advice, Error, ErrorKind};
+use linkage::trajectory::Stage;
+use scenario::EngineSetting;
+
+/// Sweeps to begin with at the most, if the motion has needed as many.
+const ENOUGH: usize = 32;
+/// Share of the work allowed for an engine's settings that its own forces may take once more.
+const SHARE: f64 = 0.05;
+
+/// Whether there is anything to judge: not where no force is wanted, where the route is given, and for an engine
+/// whose usual route is its own.
+pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
+    chosen.given.route.is_free() && judge.asking(judge.asked).of_own_forces().has_channels()
+}
+
+/// Judges the forces that the engine exerts, where they are [asked](are_asked), beside its `motion`; `None` if it has no
+/// route for them. The first route that is conclusive counts.
+pub(super) fn judged(
+    judge: &Judge,
+    case: &Case,
+    chosen: &Chosen,
+    motion: &EngineProof,
+    progress: &mut dyn FnMut(f64),
+) -> Option<EngineProof> {
+    let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
+    // Impulses are of a lower order than the motion, and need as many sweeps with the true masses.
+    if effort > SHARE * chosen.budget {
+        let told = sentences::the_motion_has_taken_the_work(&error(effort), &error(SHARE * chosen.budget));
+        let failure = Error::new(ErrorKind::Unsupported, told);
+        return Some(failed(chosen.engine.as_ref(), failure, Some(effort)));
+    }
+    // Nothing else of these runs is looked at.
+    let mut forces = case.channels();
+    forces.retain(|channel| channel.kind.stage >= Stage::Reactions);
+    let case = &case.wanting_only(&forces);
+    let sweeps = motion.info.settings.sweeps.min(ENOUGH);
+    let mut found: Option<EngineProof> = None;
+    for &route in chosen.engine.own_routes(case) {
+        let own = by_route(judge, case, chosen, route, sweeps, progress);
+        let is_open = matches!(own.verdict, Verdict::Inconclusive { .. });
+        // Of several open results, one with numbers tells more.
+        let better = found.as_ref().is_none_or(|found| !is_open || found.failure.is_some());
+        if better {
+            found = Some(own);
+        }
+        if !is_open {
+            break;
+        }
+    }
+    found
+}
+
+/// No comparison. Where nothing but work was missing, `work` that was not enough says how much would be.
+fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> EngineProof {
+    // A round number that is surely enough for the next round.
+    let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });
+    let reason = failure.message().to_string();
+    let verdict = Verdict::Inconclusive { reason, advice: advice.into_iter().collect() };
+    EngineProof { failure: Some(failure), ..EngineProof::bare(EngineInfo::of(engine), verdict) }
+}
+
+fn by_route(
+    judge: &Judge,
+    case: &Case,
+    chosen: &Chosen,
+    route: Route,
+    sweeps: usize,
+    progress: &mut dyn FnMut(f64),
+) -> EngineProof {
+    let given = chosen.engine.settings();
+    // A number of extrapolations that is given belongs to the given step.
+    let (step, finest) = match (chosen.given.step.is_free(), chosen.given.extrapolated.is_free()) {
+        (true, _) => (coarse_step(case), 0.0),
+        (false, true) => (coarser(given.resolution, coarse_step(case)), 0.5 * given.resolution),
+        (false, false) => (given.resolution, 0.0),
+    };
+    let mut asked = chosen.given.clone();
+    let extrapolated = match asked.extrapolated.is_free() {
+        true => {
+            asked.step = EngineSetting::Free;
+            0
+        }
+        false => given.extrapolated,
+    };
+    let engine = chosen.engine.with(Settings { resolution: step, route, extrapolated, ..given });
+    let judge = judge.asking(engine.settings()).of_own_forces();
+    let mut bank = Bank::new(case, engine.as_ref(), Watch::Senses);
+    let search =
+        Settling::new(&judge, &mut bank, engine.as_ref(), &asked, SHARE * chosen.budget).conclusive(finest, sweeps);
+    match search.run(progress) {
+        Ok(Judged { mut proof, run, .. }) => {
+            drop(bank);
+            if let Some(end) = proof.search.as_ref().map(|search| search.end) {
+                proof.verdicts_mut().for_each(|verdict| end.tell(verdict, chosen.budget));
+            }
+            EngineProof { trajectory: Some(Arc::unwrap_or_clone(run).trajectory), ..proof }
+        }
+        Err(Stopped { error, spent, .. }) => failed(engine.as_ref(), error, spent),
+    }
+}
+
+/// The largest step of `step`, twice, four times `step`, ... up to `most`; `step` if that is larger.
+fn coarser(step: f64, most: f64) -> f64 {
+    let times = (most / step).log2().floor();
+    if times > 0.0 { step * 2f64.powf(times) } else { step }
+}

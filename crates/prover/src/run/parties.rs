@@ -1,0 +1,108 @@
+//! Reference and engines as equals: which one disagrees with all others.
+
+use super::engine_proof::EngineProof;
+use crate::bounds::largest_difference;
+use linkage::trajectory::{Channel, Trajectory};
+
+/// A channel in which not all sides agree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dispute {
+    /// The channel.
+    pub channel: String,
+    /// Pairs that differ by more than the bounds of both.
+    pub pairs: Vec<[&'static str; 2]>,
+    /// The side without which all others agree; `None` if there is no single one, or if there are only two sides.
+    pub odd: Option<&'static str>,
+}
+
+/// One side: its values and the bound on their error.
+struct Party<'a> {
+    name: &'static str,
+    values: &'a [f64],
+    bound: f64,
+}
+
+/// Every channel in which two sides differ by more than the sum of their bounds. The reference's own error is rounding.
+/// An engine without a trusted bound takes no part.
+#[must_use]
+pub fn disputes(name: &'static str, reference: &Trajectory, engines: &[EngineProof]) -> Vec<Dispute> {
+    reference.iter().filter_map(|(channel, values)| dispute(name, channel, values, engines)).collect()
+}
+
+fn dispute(name: &'static str, channel: &Channel, values: &[f64], engines: &[EngineProof]) -> Option<Dispute> {
+    let mut parties = vec![Party { name, values, bound: 0.0 }];
+    for engine in engines {
+        let judged = engine.channels.iter().find(|judged| judged.residual.channel == *channel);
+        let trusted = judged.filter(|judged| judged.verdict.word() != "inconclusive");
+        let column = engine.trajectory.as_ref().and_then(|trajectory| trajectory.column(channel));
+        if let (Some(judged), Some(values)) = (trusted, column) {
+            parties.push(Party { name: engine.info.name, values, bound: judged.bound });
+        }
+    }
+    let (pairs, odd) = apart(&parties, channel.kind.periodic)?;
+    Some(Dispute { channel: channel.to_string(), pairs, odd })
+}
+
+/// Pairs that differ by more than the sum of their bounds, and the single side that differs from all others; `None` if
+/// there are no such pairs.
+fn apart(parties: &[Party], periodic: bool) -> Option<(Vec<[&'static str; 2]>, Option<&'static str>)> {
+    let differ = |a: &Party, b: &Party| {
+        let largest = largest_difference(a.values, b.values, periodic);
+        // Written so that NaN counts as a difference.
+        !(largest <= a.bound + b.bound)
+    };
+    let mut pairs = Vec::new();
+    for (index, a) in parties.iter().enumerate() {
+        pairs.extend(parties[index + 1..].iter().filter(|b| differ(a, b)).map(|b| [a.name, b.name]));
+    }
+    if pairs.is_empty() {
+        return None;
+    }
+    let mut alone = parties.iter().map(|party| party.name).filter(|name| pairs.iter().all(|pair| pair.contains(name)));
+    let odd = match (parties.len(), alone.next(), alone.next()) {
+        (3.., Some(one), None) => Some(one),
+        _ => None,
+    };
+    Some((pairs, odd))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn party(name: &'static str, values: &'static [f64], bound: f64) -> Party<'static> {
+        Party { name, values, bound }
+    }
+
+    #[test]
+    fn the_one_that_all_others_contradict_stands_alone() {
+        let reference = party("assur", &[1.0, 2.0], 0.0);
+        let close = party("rapier", &[1.001, 2.0], 0.01);
+        let wrong = party("impulse", &[1.0, 2.5], 0.01);
+        let (pairs, odd) = apart(&[reference, close, wrong], false).unwrap();
+        assert_eq!((pairs, odd), (vec![["assur", "impulse"], ["rapier", "impulse"]], Some("impulse")));
+    }
+
+    #[test]
+    fn the_reference_is_a_party_like_any_other() {
+        let wrong = party("assur", &[1.5], 0.0);
+        let found = apart(&[wrong, party("rapier", &[1.0], 0.01), party("simbody", &[1.0], 1e-9)], false);
+        assert_eq!(found.unwrap().1, Some("assur"));
+    }
+
+    #[test]
+    fn of_two_nobody_stands_alone_nor_where_all_differ() {
+        let two = [party("assur", &[1.0], 0.0), party("rapier", &[2.0], 0.01)];
+        assert_eq!(apart(&two, false), Some((vec![["assur", "rapier"]], None)));
+        let three = [party("assur", &[1.0], 0.0), party("rapier", &[2.0], 0.01), party("simbody", &[3.0], 0.01)];
+        assert_eq!(apart(&three, false).unwrap().1, None);
+        let agreed = [party("assur", &[1.0], 0.0), party("rapier", &[1.005], 0.01)];
+        assert_eq!(apart(&agreed, false), None);
+    }
+
+    #[test]
+    fn what_is_not_a_number_differs_from_everything() {
+        let parties = [party("a", &[1.0], 0.0), party("b", &[1.0], 0.1), party("c", &[f64::NAN], 0.1)];
+        assert_eq!(apart(&parties, false).unwrap().1, Some("c"));
+    }
+}

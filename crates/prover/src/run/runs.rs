@@ -1,0 +1,217 @@
+//! An engine's runs, from which its error is estimated, and the room that they need.
+//! See docs/numerics/settings.md.
+
+use crate::sentences;
+use std::sync::Arc;
+
+use super::observe::{Observed, Stopped, Watch, observe};
+use crate::bounds::{Ladder, OtherSweeps};
+use crate::numbers::significant;
+use analytic::range::{ASIDE, Extent, reachable};
+use linkage::case::Case;
+use linkage::engine::{CachedEngine, Engine, Settings, plain_runs, size_of_step};
+use linkage::error::Advice;
+use linkage::math::KeepNan;
+use linkage::work::limited;
+
+/// The runs that judge an engine at some settings.
+pub(super) struct Runs {
+    /// Runs at double, single and half the resolution.
+    pub(super) resolutions: [Arc<Observed>; 3],
+    /// Runs at the single resolution with other numbers of sweeps.
+    pub(super) other_sweeps: OtherSweeps<Arc<Observed>>,
+}
+
+impl Runs {
+    pub(super) fn single(&self) -> &Observed {
+        &self.resolutions[1]
+    }
+
+    pub(super) fn ladder(&self) -> Ladder<'_> {
+        Ladder {
+            resolutions: [0, 1, 2].map(|k| &self.resolutions[k].trajectory),
+            other_sweeps: self.other_sweeps.map(|run| &run.trajectory),
+        }
+    }
+}
+
+/// Sweeps of the runs that a run with `sweeps` is compared with: a `share`-th of them, and of these again; two where
+/// there is no less. None where the iteration leaves nothing.
+pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, share: usize) -> Vec<usize> {
+    match (sweeps, engine.sweeps(case)) {
+        (_, None) | (1, Some([_, 1])) => Vec::new(),
+        (1, Some(_)) => vec![2],
+        (sweeps, Some(_)) => {
+            let share = share.min(sweeps);
+            [sweeps / share, sweeps / share / share].into_iter().filter(|&fewer| fewer > 0).collect()
+        }
+    }
+}
+
+/// Number of sweeps of a run over that of the one that it is compared with, where the sweeps are given.
+pub(super) const FEWER: usize = 2;
+
+/// Values of one trajectory up to which all of a search are held.
+pub(super) const FEW: usize = 1_000_000;
+
+/// All runs of one engine on one case. Each is made and observed once, those of many instants as often as needed.
+pub(super) struct Bank<'a> {
+    pub(super) case: &'a Case,
+    kept: CachedEngine,
+    seen: Vec<(Settings, Arc<Observed>)>,
+    watch: Watch,
+    /// Number of plain runs made so far.
+    pub(super) count: usize,
+    /// Their work, in steps without sweeps.
+    pub(super) effort: f64,
+}
+
+impl<'a> Bank<'a> {
+    pub(super) fn new(case: &'a Case, engine: &dyn Engine, watch: Watch) -> Self {
+        Bank { case, kept: CachedEngine::new(engine), seen: Vec::new(), watch, count: 0, effort: 0.0 }
+    }
+
+    /// The engine at `settings`. Its runs are those of the bank.
+    pub(super) fn engine(&self, settings: Settings) -> Box<dyn Engine> {
+        self.kept.with(settings)
+    }
+
+    /// Makes the runs that are missing for all `settings`, side by side.
+    pub(super) fn prepare(&mut self, settings: &[Settings], progress: &mut dyn FnMut(f64)) {
+        let missing = self.kept.missing(self.case, settings);
+        self.count += missing.len();
+        self.effort += self.work(&missing);
+        self.kept.prepare(self.case, missing, progress);
+    }
+
+    /// Work that [`Bank::prepare`] would do.
+    pub(super) fn missing(&self, settings: &[Settings]) -> f64 {
+        self.work(&self.kept.missing(self.case, settings))
+    }
+
+    /// Work of plain runs over the case's grid. It is counted, so that the same input gives the same work.
+    fn work(&self, runs: &[Settings]) -> f64 {
+        let [first, last] = ends(self.case);
+        size_of_step(self.case) * runs.iter().map(|run| (last - first) * run.work()).sum::<f64>()
+    }
+
+    /// Forgets all runs with other numbers of sweeps.
+    pub(super) fn keep_sweeps(&mut self, sweeps: &[usize]) {
+        self.kept.retain(|settings| sweeps.contains(&settings.sweeps));
+        self.seen.retain(|(settings, _)| sweeps.contains(&settings.sweeps));
+    }
+
+    /// Drops the runs that `settings` do not need, where they are large.
+    pub(super) fn keep_needed(&mut self, settings: &[Settings]) {
+        if self.is_large() {
+            let needed: Vec<Settings> = settings.iter().copied().flat_map(plain_runs).collect();
+            self.kept.retain(|own| needed.contains(own));
+            self.keep_few(settings);
+        }
+    }
+
+    /// Whether the case has so many instants that its trajectories are a matter of memory.
+    fn is_large(&self) -> bool {
+        self.case.grid.len() * self.case.channels().len() > FEW
+    }
+
+    /// Drops the observations that `settings` do not need, where they are so large that it is better to make them once
+    /// more from the runs that are kept.
+    fn keep_few(&mut self, settings: &[Settings]) {
+        if self.is_large() {
+            self.seen.retain(|(own, _)| settings.contains(own));
+        }
+    }
+
+    /// The run at `settings`, observed.
+    fn observed(&mut self, settings: Settings) -> Result<Arc<Observed>, Stopped> {
+        if let Some((_, seen)) = self.seen.iter().find(|(own, _)| *own == settings) {
+            return Ok(Arc::clone(seen));
+        }
+        let seen = Arc::new(observe(self.case, self.engine(settings).as_ref(), self.watch, &mut |_| {})?);
+        self.seen.push((settings, Arc::clone(&seen)));
+        Ok(seen)
+    }
+
+    /// The runs that judge the engine at `settings`: those at double, single and half the resolution, and those with
+    /// `others` sweeps, at most two.
+    pub(super) fn runs(
+        &mut self,
+        settings: Settings,
+        others: &[usize],
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Runs, Stopped> {
+        let rungs = rungs(settings, others);
+        self.keep_few(&rungs);
+        self.prepare(&rungs, progress);
+        // The single step comes first: if it fails, its message is the useful one.
+        let single = self.observed(settings)?;
+        let controls_error = self.kept.controls_error();
+        let unit = if controls_error { "" } else { " s" };
+        let mut auxiliary = |rung: Settings| {
+            let what = match rung.sweeps == settings.sweeps {
+                true => format!("at {}{unit}", significant(rung.resolution, 5)),
+                false => sentences::with_sweeps(&rung.sweeps),
+            };
+            let failed = |stopped| in_ladder(stopped, &what, settings, controls_error);
+            self.observed(rung).map_err(failed)
+        };
+        let half = auxiliary(rungs[1])?;
+        let double = auxiliary(rungs[2])?;
+        let mut fewer = rungs[3..].iter().map(|&rung| auxiliary(rung));
+        let other_sweeps = [fewer.next().transpose()?, fewer.next().transpose()?];
+        drop(fewer);
+        let factor = others.first().map_or(1.0, |&fewer| settings.sweeps as f64 / fewer as f64);
+        let other_sweeps = OtherSweeps { runs: other_sweeps, factor, growth: 0.0 };
+        Ok(Runs { resolutions: [double, single, half], other_sweeps })
+    }
+}
+
+/// Settings of the runs that judge an engine at `settings`, the single resolution first, then half and double.
+pub(super) fn rungs(settings: Settings, others: &[usize]) -> Vec<Settings> {
+    let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
+    let other = others.iter().map(|&sweeps| Settings { sweeps, ..settings });
+    [settings, at(0.5), at(2.0)].into_iter().chain(other).collect()
+}
+
+/// The same failure, with a message that says which auxiliary run failed: the user did not ask for that run.
+fn in_ladder(stopped: Stopped, what: &str, asked: Settings, controls_error: bool) -> Stopped {
+    let told = |message: &str| sentences::the_run_from_which_the_error(&what, &message);
+    // Values to try start from the settings that the user asked for.
+    let advised = |advice: Advice| advice.from_settings(asked.resolution, controls_error, asked.sweeps);
+    Stopped { error: stopped.error.map_message(told).map_advice(advised), kept: None, spent: None }
+}
+
+/// The first and the last time (s) that a run over a case comes to. It begins at zero.
+fn ends(case: &Case) -> [f64; 2] {
+    case.grid.times.iter().fold([0.0; 2], |[first, last], &t| [first.smaller(t), last.larger(t)])
+}
+
+/// The largest step (s) for which a run of this engine stays within the crank angles that can be reached. One of a
+/// prescribed motion begins some steps before the first instant and ends some after the last one: near a limit of
+/// rotation only a small step leaves room for them. It is infinite for a full turn, and where forces decide the motion.
+pub(super) fn room(case: &Case, engine: &dyn Engine) -> f64 {
+    let steps = engine.overrun();
+    let Some([from, to]) = limits(case).filter(|_| steps > 0.0) else { return f64::INFINITY };
+    let drive = case.crank();
+    let at = |t: f64| {
+        let own = drive.at(t);
+        // To the limit that lies ahead, in either sense of time.
+        let distance = (own.value - from).abs().smaller((to - own.value).abs());
+        distance / own.rate.abs() / steps
+    };
+    // Of a drive at rest there is no speed to judge by.
+    ends(case).map(at).into_iter().filter(|step| step.is_finite()).fold(f64::INFINITY, f64::smaller)
+}
+
+/// Crank angles (rad) between which a prescribed motion of one drive stays; `None` if nothing limits it, and
+/// where that is not known after some work: the engine then says itself where it cannot go on.
+fn limits(case: &Case) -> Option<[f64; 2]> {
+    if case.is_free() || case.drives.len() > 1 {
+        return None;
+    }
+    match limited(ASIDE, || reachable(case)).0 {
+        Ok(Extent::Limited(ends)) => Some(ends.map(|end| end.crank)),
+        Ok(Extent::FullTurn(_)) | Err(_) => None,
+    }
+}

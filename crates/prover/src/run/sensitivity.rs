@@ -1,0 +1,64 @@
+//! How strongly a free motion depends on the forces that cause it. This is the condition of the problem, whatever the
+//! solver.
+//! See docs/numerics/bounds.md.
+
+use crate::bounds::largest_difference;
+use linkage::case::Case;
+use linkage::drive::Motor;
+use linkage::error::Result;
+use linkage::solver::Solver;
+use linkage::trajectory::Trajectory;
+
+/// Share by which gravity and the motor's torque are changed: small compared with the motion, large compared with
+/// rounding.
+const CHANGE: f64 = 1e-6;
+
+/// For every channel of `reference`, in its order: the largest change of its values over the run, per share of change
+/// in gravity and motor torque, in the channel's unit. Empty for a motion that does not depend on forces.
+///
+/// # Errors
+/// Those of the solver.
+pub(super) fn of(case: &Case, solver: &dyn Solver, reference: &Trajectory) -> Result<Vec<f64>> {
+    if !case.is_free() {
+        return Ok(Vec::new());
+    }
+    let share = 1.0 + CHANGE;
+    let stronger = |motor: &Motor| Motor { law: motor.law.scaled(share), ..motor.clone() };
+    let drives = case.drives.map(|drive| drive.with_motor(drive.motor().map(stronger)));
+    let changed = case.with(|parts| (parts.gravity, parts.drives) = (case.gravity * share, drives))?;
+    let other = solver.solve(&changed)?;
+    let of = |((channel, ours), (_, theirs)): ((&linkage::trajectory::Channel, &[f64]), (_, &[f64]))| {
+        largest_difference(ours, theirs, channel.kind.periodic) / CHANGE
+    };
+    Ok(reference.iter().zip(other.iter()).map(of).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use analytic::AssurSolver;
+    use linkage::math::KeepNan;
+    use scenario::of_repository;
+
+    /// A pendulum let go at rest goes through the same places in stronger gravity, in a time that is shorter by the
+    /// root of it: theta(t; (1 + e) g) = theta(t sqrt(1 + e); g). Its rates follow, each with one root more.
+    #[test]
+    fn a_pendulum_depends_on_gravity_as_its_own_time_does() {
+        let case = of_repository("scenarios/pendulum.toml").case;
+        let found = AssurSolver.solve(&case).unwrap();
+        let sensitivity = of(&case, &AssurSolver, &found).unwrap();
+        let own = |name: &str| found.named(&format!("link.rod.{name}")).unwrap();
+        let (omega, alpha) = (own("omega_rad_s"), own("alpha_rad_s2"));
+        let largest = |of: &dyn Fn(usize) -> f64| (0..omega.len()).map(|row| of(row).abs()).fold(0.0, f64::larger);
+        let time = |row: usize| found.times()[row] / 2.0;
+        let wanted = [
+            ("angle_rad", largest(&|row| omega[row] * time(row))),
+            ("omega_rad_s", largest(&|row| omega[row] / 2.0 + alpha[row] * time(row))),
+        ];
+        for (name, wanted) in wanted {
+            let channel = found.channels().iter().position(|own| own.to_string() == format!("link.rod.{name}"));
+            let found = sensitivity[channel.unwrap()];
+            assert!((found / wanted - 1.0).abs() < 1e-4, "{name}: {found} {wanted}");
+        }
+    }
+}

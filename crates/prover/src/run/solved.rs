@@ -1,0 +1,164 @@
+//! A scenario solved by both analytic sides without engines: at instants of somebody else, or for what formulas claim.
+
+use super::dependence::Dependence;
+use super::each_side::Reference;
+use super::entrants::{ObservedSides, TRUE_SIDES};
+use super::formulas::Judgement;
+use super::known::usual;
+use super::ledger::Ledger;
+use super::problem::Problem;
+use crate::bounds::{Check, Verdict, magnitudes, magnitudes_by};
+use crate::check::{FormulaCause, KnownTrajectory, MOST_WORK, needed, telling};
+use crate::sentences;
+use crate::tolerance::BoundBasis;
+use analytic::range::explained;
+use linkage::case::{Case, Grid};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::{Channel, Trajectory};
+use scenario::{Claim, Formulas, Scenario};
+
+/// How far the numbers of an analytic side's trajectory are known where nothing was measured: what rounding leaves in
+/// well conditioned poses, channel by channel, in their units.
+#[must_use]
+pub fn known_at_least(trajectory: &Trajectory) -> Vec<f64> {
+    let sizes = magnitudes(trajectory).into_iter().zip(trajectory.channels());
+    sizes.map(|(size, channel)| usual(channel.kind.stage) * size).collect()
+}
+
+/// The same for a trajectory of all channels of a case: every channel by the numbers of the groups that it depends on.
+#[must_use]
+pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
+    let depends = Dependence::of(case, trajectory.channels());
+    let sizes = magnitudes_by(trajectory, &depends.of, &|from, to| depends.feeds(from, to));
+    sizes.into_iter().zip(trajectory.channels()).map(|(size, channel)| usual(channel.kind.stage) * size).collect()
+}
+
+/// The channels that are solved for a claim: what judging it needs, and the other channels of what it is about. A
+/// component that is zero but for rounding is known as well as these.
+#[must_use]
+pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
+    let is_beside = |channel: &Channel| {
+        claim.channels.iter().any(|(_, own)| {
+            let own = &own.channel;
+            own.of == channel.of && own.kind.subject == channel.kind.subject && own.kind.stage >= channel.kind.stage
+        })
+    };
+    let mut asked = needed(claim, case);
+    asked.extend(case.all_channels().into_iter().filter(is_beside));
+    asked
+}
+
+/// The part of a case that is needed for some channels, and both sides on it, with what formulas claim.
+fn of_asked(
+    scenario: &Scenario,
+    whole: &Case,
+    asked: &[Channel],
+    formulas: &Formulas,
+) -> Result<(Case, ObservedSides)> {
+    let case = whole.wanting_only(asked).scene()?.case;
+    let problem = Problem { oracles: &[], formulas, ..Problem::of(scenario, &case) };
+    let sides = ObservedSides::of(problem, whole, TRUE_SIDES, Reference::Assur, &mut Ledger::default());
+    let sides = sides.map_err(|error| explained(&case, error))?;
+    Ok((case, sides))
+}
+
+/// What both sides find, and how well they know it.
+pub struct Solved {
+    /// What was solved: the part of the mechanism that the claims need, at the instants.
+    pub case: Case,
+    sides: ObservedSides,
+    /// How well every channel is known at best, whatever else is solved.
+    least: Vec<f64>,
+}
+
+impl Solved {
+    /// Solves what some claims of a scenario need at the instants of a grid.
+    ///
+    /// # Errors
+    /// Those of the sides, with the crank angle, and of a grid to which the drive does not come.
+    pub fn of<'a>(scenario: &Scenario, grid: Grid, claims: impl IntoIterator<Item = &'a Claim>) -> Result<Self> {
+        let asked: Vec<Channel> = claims.into_iter().flat_map(|claim| asked(claim, &scenario.case)).collect();
+        let (case, sides) = of_asked(scenario, &scenario.case.on(grid)?, &asked, &Formulas::over(Vec::new()))?;
+        let least = vec![0.0; sides.trajectory().channels().len()];
+        Ok(Solved { case, sides, least })
+    }
+
+    /// The same, where no channel is known better than all channels of the mechanism say: a few channels may be those
+    /// that are zero but for rounding, which is that of the others.
+    #[must_use]
+    pub fn known_at_least(mut self, of: &dyn Fn(&Channel) -> f64) -> Self {
+        self.least = self.sides.trajectory().channels().iter().map(of).collect();
+        self
+    }
+
+    /// What the reference finds, with how well it knows it.
+    ///
+    /// # Errors
+    /// Those of `then`.
+    pub fn on_course<T>(&self, then: impl FnOnce(&KnownTrajectory) -> Result<T>) -> Result<T> {
+        self.sides.on_course(&self.case, Reference::Assur, |course| then(&course.known_at_least(&self.least)))
+    }
+
+    /// The reference's numbers.
+    #[must_use]
+    pub fn trajectory(&self) -> &Trajectory {
+        self.sides.trajectory()
+    }
+
+    /// The checks of the sides on each other.
+    #[must_use]
+    pub fn checks(&self) -> &[Check] {
+        &self.sides.checks
+    }
+}
+
+/// What formulas come to on both sides.
+#[derive(Clone, Debug)]
+pub struct Claimed {
+    /// What both sides say of every claim.
+    pub judgement: Judgement,
+    /// The checks of the sides themselves.
+    pub checks: Vec<Check>,
+    /// The verdict on all of it.
+    pub verdict: Verdict,
+}
+
+/// Judges the formulas of a scenario. Only what they claim is solved, and what their derivatives need.
+///
+/// # Errors
+/// [`ErrorKind::Input`] if no formula claims anything, and those of the sides, with the crank angle.
+pub fn judge(scenario: &Scenario) -> Result<Claimed> {
+    let mut asked = Vec::new();
+    for (_, claim) in scenario.formulas.claims() {
+        asked.extend(needed(claim, &scenario.case));
+    }
+    if asked.is_empty() {
+        let message = sentences::no_formula_of_the_scenario(&scenario.name);
+        return Err(Error::new(ErrorKind::Input, message).key("formula").help(sentences::ADD_CHANNEL_TO_A_FORMULA));
+    }
+    let (_, mut sides) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
+    let is_open = |own: &Judgement| {
+        let mut causes = own.causes.iter();
+        // A search that was long is not done once more with more channels.
+        own.work <= MOST_WORK
+            && causes.any(|(name, cause)| {
+                !cause.as_ref().is_some_and(FormulaCause::is_whole) && !own.unsought.contains(name)
+            })
+    };
+    if let Some(own) = sides.judgement.as_mut().filter(|own| is_open(own)) {
+        // What is wrong may be a term that the mechanism has and nobody asked for.
+        asked.extend(telling(&scenario.case, scenario.formulas.claims().map(|(_, claim)| claim)));
+        let (_, all) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
+        if let Some(again) = all.judgement {
+            (own.causes, own.unsought, own.work) = (again.causes, again.unsought, own.work + again.work);
+        }
+    }
+    let verdict = sides.verdict();
+    let judgement = sides.judgement.ok_or_else(|| {
+        Error::new(ErrorKind::Input, sentences::NO_CLAIMED_CHANNEL_WAS_SOLVED)
+            .key("formula")
+            .help(sentences::CLAIM_A_CHANNEL_OF_THE_SCENARIO)
+    })?;
+    let is_own = |check: &Check| !matches!(check.basis, BoundBasis::Formula { .. });
+    Ok(Claimed { judgement, verdict, checks: sides.checks.into_iter().filter(is_own).collect() })
+}

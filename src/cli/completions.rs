@@ -1,0 +1,21 @@
+//! `linkproof completions`: the completions of a shell, from the arguments of the command line.
+
+use clap::CommandFactory;
+use clap_complete::Shell;
+
+use super::{Cli, output};
+use linkage::error::Result;
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = include_str!("help/completions.txt").trim_ascii_end())]
+pub(super) struct Args {
+    /// Shell that completes
+    shell: Shell,
+}
+
+/// Writes the completions of a shell to standard output.
+pub(super) fn run(args: &Args) -> Result<()> {
+    let mut text = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), "linkproof", &mut text);
+    output::print(&String::from_utf8_lossy(&text))
+}

@@ -1,0 +1,279 @@
+//! Comparisons of two parties as text and JSON.
+
+use crate::sentences;
+use std::path::Path;
+
+use serde_json::json;
+
+use super::json::DiagnosisRow;
+use super::pretty::{list, pretty};
+use crate::plain::cells::{counted, flush, some, trimmed};
+use crate::plain::judged::{Grade, counts, grade};
+use crate::plain::style::{self, Detail};
+use crate::plain::{Tell, diagnosis};
+use linkage::math::KeepNan;
+use prover::bounds::Check;
+use prover::check::FormulaCause;
+use prover::compare::{Compared, Contradiction, Explained, PartyComparison, RowPair, SidePair};
+use prover::numbers;
+
+/// Channels of agreeing pairs that a short report shows.
+const SHOWN: usize = 3;
+/// Share of the other number below which one is nothing.
+const NOTHING: f64 = 1e-4;
+/// Names that are listed; the others are counted.
+const NAMED: usize = 3;
+
+/// The report in lines of at most `width` columns: the verdict, the channels that use most of their bounds, and why
+/// others are off.
+#[must_use]
+pub fn text(paths: [&Path; 2], comparison: &PartyComparison, detail: Detail, tell: Tell, width: usize) -> String {
+    let mut text = String::new();
+    for pair in &comparison.pairs {
+        if !text.is_empty() && detail != Detail::Verdict {
+            text.push('\n');
+        }
+        say!(text, "{}", style::wrapped(&sentence(paths, pair), Some(width), 2));
+        if detail != Detail::Verdict {
+            put!(text, "{}", of_pair(pair, detail == Detail::Whole, tell, width));
+        }
+    }
+    text
+}
+
+fn of_pair(pair: &SidePair, all: bool, tell: Tell, width: usize) -> String {
+    let mut text = String::new();
+    let mut order: Vec<&Compared> = pair.channels.iter().collect();
+    order.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+    let shown = if all { order.len() } else { SHOWN.min(order.len()) };
+    let at = if pair.by_crank { "at deg" } else { "at s" };
+    let header = format!("channel | {at}> | first> | second> | difference> | bound> |");
+    let rows = order[..shown].iter().map(|own| row(own, pair.by_crank));
+    let mut told = trimmed(flush(&header, Some(width)).add_rows(rows));
+    let more = order.len() - shown;
+    if more > 0 {
+        let is_fine = order[shown..].iter().all(|own| rank(own) <= 1.0);
+        put!(told, sentences::and_more_6(&more, &(if is_fine { sentences::ALL_WITHIN_THEIR_BOUNDS } else { "" })));
+    }
+    told += &notes(pair);
+    say!(text, "\n{told}");
+    let paragraph = |text: &mut String, told: &str| {
+        say!(text, "\n{}", style::wrapped(told, Some(width), 2));
+    };
+    for own in order.iter().filter(|own| grade(&own.verdict) == Grade::Open).take(SHOWN) {
+        paragraph(&mut text, &format!("{}: {}", own.claim.text, own.verdict.reason(tell).unwrap_or_default()));
+    }
+    for explained in &pair.causes {
+        say!(text, "\n{}", cause(pair, explained, width));
+    }
+    if pair.channels.iter().any(|own| looks_like_a_simulation(pair, own)) {
+        paragraph(&mut text, SIMULATION);
+    }
+    for check in &pair.checks {
+        if let Some(reason) = check.verdict.reason(tell) {
+            paragraph(&mut text, &format!("{}: {reason}", check.name()));
+        }
+    }
+    text
+}
+
+fn row(own: &Compared, by_crank: bool) -> [String; 7] {
+    let [at, first, second, difference, bound] = own.worst.map_or_else(Default::default, |at| {
+        let when = if by_crank { numbers::fixed(at.crank.to_degrees(), 2) } else { numbers::fixed(at.time, 6) };
+        // An angle may differ by whole turns, which nobody counts as a difference. What is allowed hides no digits: only
+        // what is known to be rounding, and is nothing beside the other, is zero.
+        let values = [at.values[0], if at.difference.is_nan() { at.values[1] } else { at.values[0] + at.difference }];
+        let largest = values[0].abs().larger_number(values[1].abs());
+        let [first, second] = numbers::beside(values, at.known.smaller_number(NOTHING * largest));
+        [when, first, second, numbers::error(at.difference), numbers::error(at.bound)]
+    });
+    let word = match grade(&own.verdict) {
+        Grade::Agree => "",
+        Grade::Open => "open",
+        Grade::Disagree => "OFF",
+    };
+    [own.claim.text.clone(), at, first, second, difference, bound, word.into()]
+}
+
+const SIMULATION: &str = sentences::THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH;
+
+/// Whether a channel is off by as little as a simulation is wrong, and no cause was found.
+fn looks_like_a_simulation(pair: &SidePair, own: &Compared) -> bool {
+    let is_explained = pair.causes.iter().any(|cause| cause.of.contains(&own.claim.text));
+    own.is_derived && own.since.is_some() && !own.is_gross() && !is_explained
+}
+
+/// Which two are compared.
+pub(super) fn who(paths: [&Path; 2], pair: &SidePair) -> String {
+    let [first, second] = [0, 1].map(|side: usize| match pair.names[side].as_str() {
+        "" => paths[side].display().to_string(),
+        own => format!("{} ({own})", paths[side].display()),
+    });
+    format!("{second} against {first}")
+}
+
+fn sentence(paths: [&Path; 2], pair: &SidePair) -> String {
+    let [agree, _, disagree, open] = counts(pair.channels.iter().map(|own| &own.verdict));
+    let all = pair.channels.len();
+    let told = match (disagree, open, pair.crank_is_off()) {
+        (0, 0, false) => sentences::all_channels(&agree),
+        (0, 0, true) => sentences::the_crank_angle_and_none(&all),
+        (0, open, false) => sentences::of_channels(&open, &all),
+        (disagree, _, true) => sentences::the_crank_angle_and_of_channels(&disagree, &all),
+        (disagree, _, false) => sentences::of_channels(&disagree, &all),
+    };
+    let by = counted(pair.instants - pair.unshared, if pair.by_crank { "crank angle" } else { "time" });
+    let values = match pair.values() {
+        [judged, of] if judged == of => counted(judged, "value"),
+        [judged, of] => sentences::of_values(&judged, &of),
+    };
+    format!("{}: {told} at {by}, {values}: {}", style::verdict(&pair.verdict()), who(paths, pair))
+}
+
+fn rank(own: &Compared) -> f64 {
+    let used = own.worst.map_or(0.0, |at| at.used());
+    match grade(&own.verdict) {
+        Grade::Agree => used.smaller(1.0),
+        Grade::Open => 2.0,
+        // The gravest first: beyond its bound by most, measured by its own scale.
+        Grade::Disagree => 3.0 + own.largest.map_or(0.0, |at| at.difference.abs() / own.scale),
+    }
+}
+
+/// What was not compared.
+fn notes(pair: &SidePair) -> String {
+    let mut text = String::new();
+    if pair.unshared > 0 {
+        put!(text, sentences::left_out_instants_of_the_second(&pair.unshared));
+    }
+    let missing: usize = pair.channels.iter().map(|own| own.missing).max().unwrap_or(0);
+    if missing > pair.unshared {
+        let count = missing - pair.unshared;
+        put!(text, sentences::left_out_up_to_instants_of_a_channel(&count));
+    }
+    let (what, factor, unit) = if pair.by_crank { ("angle", 1f64.to_degrees(), "deg") } else { ("time", 1.0, "s") };
+    if let Some(Contradiction { rows: [one, other], at, channel, values }) = &pair.contradiction {
+        let at = numbers::significant(factor * at, 6);
+        let [first, second] = numbers::beside(*values, 0.0);
+        put!(
+            text,
+            sentences::rows_and_hold_at_the_same(
+                &(one + 1),
+                &(other + 1),
+                &what,
+                &at,
+                &unit,
+                &channel,
+                &first,
+                &second
+            )
+        );
+    }
+    if let Some((row, [from, to])) = pair.turns_back {
+        let [from, to] = [from, to].map(|at| numbers::significant(factor * at, 6));
+        put!(text, sentences::the_jumps_back_in_row_from_to_has_it_begun(&what, &(row + 1), &from, &to, &unit));
+    }
+    for (side, which) in ["first", "second"].into_iter().enumerate() {
+        if !pair.alone[side].is_empty() {
+            put!(text, sentences::only_in_the(&which, &some(&pair.alone[side], NAMED)));
+        }
+    }
+    text
+}
+
+fn cause(pair: &SidePair, explained: &Explained, width: usize) -> String {
+    let Explained { of, diagnosis: found, left, .. } = explained;
+    let mut text = style::wrapped(&format!("{}:", some(of, NAMED)), Some(width), 2);
+    let mut line = |what: &str, told: &str| {
+        put!(text, "\n{}", style::wrapped(&format!("  {what:<8}{told}"), Some(width), 10));
+    };
+    if let Some(since) = pair.since(of) {
+        let [time, crank] = [numbers::fixed(since.time, 6), numbers::fixed(since.crank.to_degrees(), 3)];
+        line("since", &sentences::crank_angle_deg(&time, &crank));
+    }
+    let Some(cause) = cause_of(explained) else {
+        line("cause", "nothing simple");
+        if let Some(own) = found.nature {
+            line("error", &diagnosis::nature(own));
+        }
+        return text;
+    };
+    let most = if *left > 0.0 { sentences::FOR_THE_MOST_PART_2 } else { "" };
+    line("cause", &format!("{most}{cause}"));
+    for one in found.also.iter().filter(|_| explained.terms.is_empty()) {
+        line("or", &sentences::which_explains_as_much(&diagnosis::cause(one)));
+    }
+    let but = explained
+        .but
+        .map_or(String::new(), |time| sentences::but_for_the_row_at_which_is_off(&numbers::fixed(time, 6)));
+    line(
+        "left",
+        &match *left {
+            0.0 => sentences::nothing_beyond_the_bounds(&but),
+            left => sentences::at_most_of_the_difference(&numbers::percent(left), &but),
+        },
+    );
+    text
+}
+
+/// The cause in words, if one was found.
+fn cause_of(explained: &Explained) -> Option<String> {
+    let terms = (!explained.terms.is_empty()).then(|| FormulaCause::Terms(explained.terms.clone()).to_string());
+    terms.or_else(|| explained.diagnosis.cause.as_ref().map(diagnosis::cause))
+}
+
+/// The cause in words, or what the error looks like, where that can be told.
+#[must_use]
+pub fn why(explained: &Explained) -> Option<String> {
+    cause_of(explained).or_else(|| explained.diagnosis.nature.map(diagnosis::nature))
+}
+
+/// The comparison as JSON, schema 1.
+#[must_use]
+pub fn json(paths: [&Path; 2], comparison: &PartyComparison, tell: Tell) -> String {
+    // What is no number is `null`.
+    let instant = |at: &RowPair| {
+        json!({
+            "t_s": at.time, "crank_deg": at.crank.to_degrees(), "first": at.values[0], "second": at.values[1],
+            "difference": at.difference, "bound": at.bound, "known": at.known,
+        })
+    };
+    let channel = |own: &Compared| {
+        json!({
+            "channel": own.claim.text, "unit": own.claim.unit(),
+            "verdict": own.verdict.word(), "reason": own.verdict.reason(tell),
+            "instants": own.judged, "missing": own.missing, "scale": own.scale, "rms": own.rms,
+            "bound_is": if own.is_derived { "derived" } else { "allowed" },
+            "largest": own.largest.as_ref().map(instant), "worst": own.worst.as_ref().map(instant),
+            "since": own.since.as_ref().map(instant),
+        })
+    };
+    let cause = |own: &Explained| {
+        json!({
+            "channels": own.of, "cause": cause_of(own), "left_over_share": own.left, "but_for_t_s": own.but,
+            "diagnosis": DiagnosisRow::of(&own.diagnosis),
+        })
+    };
+    let check = |check: &Check| {
+        json!({
+            "name": check.name(), "value": check.value, "bound": check.bound, "verdict": check.verdict.word(),
+            "reason": check.verdict.reason(tell),
+        })
+    };
+    let pair = |pair: &SidePair| {
+        json!({
+            "first": pair.names[0], "second": pair.names[1], "by": if pair.by_crank { "crank angle" } else { "time" },
+            "instants": pair.instants, "unshared": pair.unshared, "values": pair.values()[0],
+            "jumps_back_in_row": pair.turns_back.map(|(row, _)| row + 1),
+            "rows_that_contradict": pair.contradiction.as_ref().map(|own| own.rows.map(|row| row + 1)),
+            "only_in_first": pair.alone[0], "only_in_second": pair.alone[1],
+            "channels": list(&pair.channels, channel), "causes": list(&pair.causes, cause),
+            "checks": list(&pair.checks, check),
+        })
+    };
+    let [first, second] = paths.map(|path| path.display().to_string());
+    pretty(&json!({
+        "schema": 1, "first": first, "second": second, "verdict": comparison.verdict.word(),
+        "reason": comparison.verdict.reason(tell), "pairs": list(&comparison.pairs, pair),
+    }))
+}
