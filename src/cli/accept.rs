@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::engine_args::EngineArgs;
 use super::exit_code::graver;
 use super::output::End;
+use super::outputs::{Outputs, results};
 use super::progress::Bar;
 use super::{advice, exit_code, output};
 use crate::plain::brief;
@@ -30,10 +31,13 @@ pub(super) struct Args {
     unproven: bool,
     #[command(flatten)]
     engine: EngineArgs,
-    /// Write the results as JSON to a file, or to standard output instead of the report with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<AcceptResults>,
 }
+
+results! { AcceptResults {
+    Json = "the results",
+} }
 
 /// Goes through all files. A bad one does not stop the others.
 pub(super) fn run(args: &Args) -> u8 {
@@ -47,10 +51,7 @@ pub(super) fn run(args: &Args) -> u8 {
         });
         worst = graver(worst, code);
     }
-    match &args.json {
-        Some(to) => graver(worst, output::write(&document.text(), to).code()),
-        None => worst,
-    }
+    graver(worst, args.outputs.write(|_| Ok(document.text())).code())
 }
 
 /// Accepts or judges the figures of one file, and returns the exit code.
@@ -80,7 +81,7 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
     }
     let item = Item { proof: &proof, found: &found, comparison: comparison.as_ref(), deed, file: &place };
     document.add(&item);
-    if !output::is_said(&args.json) {
+    if !args.outputs.take_standard() {
         output::print(&text(&item))?;
         let proofs = comparison.as_ref().and_then(|comparison| comparison.proof.as_ref());
         let is_worse = proofs.is_some_and(|[_, found]| found != "agree");

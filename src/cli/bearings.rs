@@ -4,7 +4,8 @@ use crate::sentences;
 use std::path::PathBuf;
 
 use super::load::plain;
-use super::{number, output};
+use super::number;
+use super::outputs::{Outputs, results};
 use crate::report::bearings::{self as report, Journals};
 use analytic::range::explained;
 use design::bearings;
@@ -22,10 +23,13 @@ pub(super) struct Args {
     /// Bending stress that the journals may carry, in MPa
     #[arg(long, value_name = "MPA", default_value = "200", allow_hyphen_values = true, value_parser = number::finite)]
     stress_mpa: f64,
-    /// Write the result as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<BearingResults>,
 }
+
+results! { BearingResults {
+    Json = "reactions and journals",
+} }
 
 pub(super) fn bearings(args: &Args) -> Result<()> {
     for (name, value) in [("--lever-mm", args.lever_mm), ("--stress-mpa", args.stress_mpa)] {
@@ -38,6 +42,6 @@ pub(super) fn bearings(args: &Args) -> Result<()> {
     let scenario = plain(&args.file)?.nominal();
     let peaks = bearings::over_range(&scenario.case).map_err(|error| explained(&scenario.case, error))?;
     let journals = Journals { lever_mm: args.lever_mm, stress_mpa: args.stress_mpa };
-    let json = || report::json(journals, &scenario, &peaks);
-    output::either(&args.json, json, || report::text(journals, &scenario, &peaks))
+    let json = |_| Ok(report::json(journals, &scenario, &peaks));
+    args.outputs.deliver(json, || report::text(journals, &scenario, &peaks))
 }

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use super::engine_args::{engine_names, word};
 use super::load::{only, plain};
+use super::outputs::{Outputs, results};
 use super::progress::Bar;
 use super::{number, output};
 use crate::report::{bench as report, bench_page, bench_plot, case_json};
@@ -23,6 +24,8 @@ use scenario::{Scenario, files_in};
 
 /// Name of the file with the numbers of all scenarios.
 const TOTAL: &str = "bench.json";
+/// Directory without `-o`.
+const NAME: &str = "bench";
 /// Longest time of one call of a peer (s).
 const LIMIT: f64 = 60.0;
 
@@ -32,9 +35,8 @@ pub(super) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// Directory for diagrams and numbers; it is made if it is missing
-    #[arg(long, value_name = "DIR", value_parser = output::directory)]
-    out: PathBuf,
+    #[command(flatten)]
+    outputs: Outputs<Benches>,
     /// Fewer settings and one round of timing
     #[arg(long)]
     quick: bool,
@@ -56,10 +58,12 @@ pub(super) struct Args {
     /// Rounds of timing, of which the shortest counts [default: 3, with `--quick` 1]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
     rounds: Option<usize>,
-    /// Write a page of Markdown with the results of all scenarios
-    #[arg(long, value_name = "FILE", value_parser = output::page)]
-    page: Option<PathBuf>,
 }
+
+results! { Benches {
+    Results = "diagrams and numbers [default: bench]",
+    Markdown = "a page with the results of all scenarios",
+} }
 
 /// Reads a peer's name and command.
 fn peer(text: &str) -> std::result::Result<(String, String), String> {
@@ -85,10 +89,11 @@ pub(super) fn run(args: &Args) -> Result<()> {
     for engine in &options.engines {
         with_step(*engine, 1.0)?;
     }
-    output::make_directory(&args.out, "--out", sentences::GIVE_A_DIRECTORY_THAT_MAY)?;
+    let out = args.outputs.first(Benches::Results).unwrap_or(Path::new(NAME));
+    output::make_directory(out, "--output", sentences::GIVE_A_DIRECTORY_THAT_MAY)?;
     let endings = || CostAxis::ALL.map(|axis| format!("{}.svg", axis.name())).into_iter().chain(["csv".into()]);
-    let places = scenarios.iter().flat_map(|own| endings().map(|ending| place(args, &own.name, &ending)));
-    output::may_make(&places.chain([args.out.join(TOTAL)]).collect::<Vec<_>>())?;
+    let places = scenarios.iter().flat_map(|own| endings().map(|ending| place(out, &own.name, &ending)));
+    output::may_make(&places.chain([out.join(TOTAL)]).collect::<Vec<_>>())?;
     let since = Instant::now();
     let wall = move || since.elapsed().as_secs_f64();
     let used = move || used(since);
@@ -96,17 +101,13 @@ pub(super) fn run(args: &Args) -> Result<()> {
     for scenario in &scenarios {
         let found = one(args, scenario, &options, &used, &wall)?;
         output::print(&format!("{}\n", report::text(&found)))?;
-        put(args, &found, &machine)?;
+        put(out, &found, &machine)?;
         benches.push(found);
     }
-    output::make(&report::json(&benches, &machine), &args.out.join(TOTAL))?;
-    match &args.page {
-        Some(page) => {
-            let text = bench_page::page(&benches, &machine, &command(args), &seen_from(page, &args.out));
-            output::write(&text, page)
-        }
-        None => Ok(()),
-    }
+    output::make(&report::json(&benches, &machine), &out.join(TOTAL))?;
+    let page =
+        |page: &Path| output::write(&bench_page::page(&benches, &machine, &command(args), &seen_from(page, out)), page);
+    args.outputs.of(Benches::Markdown).try_for_each(page)
 }
 
 /// Processor time (s) that this thread has used; where Linux does not tell, time on the clock. Other work on the machine
@@ -144,13 +145,13 @@ fn one(args: &Args, scenario: &Scenario, options: &BenchOptions, used: Clock, wa
 }
 
 /// A file of a scenario in the directory.
-fn place(args: &Args, name: &str, ending: &str) -> PathBuf {
-    args.out.join(format!("{name}.{ending}"))
+fn place(out: &Path, name: &str, ending: &str) -> PathBuf {
+    out.join(format!("{name}.{ending}"))
 }
 
 /// Diagrams and numbers of one scenario.
-fn put(args: &Args, found: &Bench, machine: &report::Machine) -> Result<()> {
-    let place = |end: &str| place(args, &found.scenario[0], end);
+fn put(out: &Path, found: &Bench, machine: &report::Machine) -> Result<()> {
+    let place = |end: &str| place(out, &found.scenario[0], end);
     output::make(&report::rows(found, machine)?, &place("csv"))?;
     for axis in CostAxis::ALL {
         if let Some(text) = bench_plot::drawing(found, axis) {

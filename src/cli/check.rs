@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use super::grid::GridArgs;
 use super::load::StartArgs;
+use super::outputs::{Outputs, results};
 use super::{advice, exit_code, number, output};
 use crate::check::{FormulaQuestion, Words, check as judged};
 use crate::plain::style::Detail;
@@ -47,10 +48,13 @@ pub(super) struct Args {
     /// Show only the verdict, in one line
     #[arg(short, long)]
     quiet: bool,
-    /// Write the judgement as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<Judgements>,
 }
+
+results! { Judgements {
+    Json = "the judgement",
+} }
 
 /// Reads `NAME=EXPR`.
 fn step(text: &str) -> std::result::Result<(String, String), String> {
@@ -62,10 +66,8 @@ fn step(text: &str) -> std::result::Result<(String, String), String> {
 pub(super) fn check(args: &Args) -> Result<u8> {
     let scenario = asked(args)?;
     let found = judged(&scenario)?;
-    if let Some(to) = &args.json {
-        output::write(&report::json(&scenario, &found, advice::told), to)?;
-    }
-    if !output::is_said(&args.json) {
+    args.outputs.write(|_| Ok(report::json(&scenario, &found, advice::told)))?;
+    if !args.outputs.take_standard() {
         let width = output::columns();
         output::report(&match Detail::asked(args.quiet, args.verbose) {
             Detail::Verdict => format!("{}\n", report::verdict_line(&scenario, &found)),

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::exit_code::graver;
 use super::load::plain;
+use super::outputs::{Outputs, results};
 use super::progress::Bar;
 use super::{exit_code, load, output};
 use crate::report::clearance::{self as report, Standing};
@@ -21,22 +22,19 @@ pub(super) struct Args {
     /// Scenario files with a section `[clearance]`; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Draw outlines, housing, swept areas and nearest points to a file, or to standard output instead of the text with
-    /// `-`; of one scenario only
-    #[arg(long, value_name = "FILE", value_parser = output::target, conflicts_with_all = ["json", "csv"])]
-    svg: Option<PathBuf>,
-    /// Write the distance of every pair at the instants of the grid as CSV to a file, or to standard output instead of
-    /// the text with `-`; of one scenario only
-    #[arg(long, value_name = "FILE", value_parser = output::target, conflicts_with = "json")]
-    csv: Option<PathBuf>,
-    /// Write the results as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<ClearanceResults>,
 }
+
+results! { ClearanceResults {
+    Json = "the results",
+    Svg = "outlines, housing, swept areas and nearest points of one scenario",
+    Csv = "distance of every pair at the instants of the grid, of one scenario",
+} }
 
 /// Answers for every file. A bad file does not stop the others.
 pub(super) fn clearance(args: &Args) -> Result<u8> {
-    if (args.svg.is_some() || args.csv.is_some()) && args.files.len() > 1 {
+    if args.outputs.each().any(|(form, _)| form != ClearanceResults::Json) && args.files.len() > 1 {
         let message = sentences::scenarios_are_given_but_a_drawing(&args.files.len());
         return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_ONE_SCENARIO_OR_WRITE));
     }
@@ -60,8 +58,8 @@ pub(super) fn clearance(args: &Args) -> Result<u8> {
             }
         }
     }
-    if let Some(to) = &args.json {
-        output::write(&report::json(documents), to)?;
+    for to in args.outputs.of(ClearanceResults::Json) {
+        output::write(&report::json(documents.clone()), to)?;
     }
     Ok(worst)
 }
@@ -82,14 +80,14 @@ fn answer(args: &Args, file: &Path) -> Result<(Scenario, ClearanceResult)> {
     let found =
         find(&scenario.case, asked, &mut |part| bar.at(part)).map_err(|error| explained(&scenario.case, error))?;
     drop(bar);
-    if let Some(to) = &args.svg {
+    for to in args.outputs.of(ClearanceResults::Svg) {
         output::write(&draw::clearance(&scenario.case, &scenario.name, asked, &found)?, to)?;
     }
-    if let Some(to) = &args.csv {
+    for to in args.outputs.of(ClearanceResults::Csv) {
         let course = course(&scenario.case, asked)?;
         output::write(&report::distances(asked, &scenario.case.grid.times, &course)?, to)?;
     }
-    if ![&args.svg, &args.csv, &args.json].into_iter().any(output::is_said) {
+    if !args.outputs.take_standard() {
         output::print(&report::text(&scenario, asked, &found))?;
     }
     Ok((scenario, found))

@@ -8,11 +8,12 @@ use super::exit_code::graver;
 use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::number::not_negative;
-use super::reports::Reports;
+use super::output::End;
+use super::outputs::{Outputs, results};
 use super::{advice, exit_code, load, output};
 use crate::plain::style::Detail;
-use crate::report::compare as report;
 use crate::report::outcomes::Outcomes;
+use crate::report::{compare as report, junit, markdown};
 use linkage::error::Result;
 use prover::compare::{ComparedParty, ComparisonRule, compare as compared};
 use prover::run::memory;
@@ -71,8 +72,14 @@ pub(super) struct Args {
     #[arg(long, short, conflicts_with = "verbose")]
     quiet: bool,
     #[command(flatten)]
-    reports: Reports,
+    outputs: Outputs<Comparisons>,
 }
+
+results! { Comparisons {
+    Json = "the results",
+    Junit = "JUnit: a suite a comparison, a case a channel",
+    Markdown = "a comment for a pull request",
+} }
 
 fn by(word: &str) -> Option<By> {
     match word {
@@ -112,8 +119,11 @@ fn size(text: &str) -> std::result::Result<Allowed, String> {
 
 /// Compares, reports, and says how it ended.
 pub(super) fn compare(args: &Args) -> Result<u8> {
-    let [first, second] = [&args.first, &args.second].map(|path| Some(path.clone()));
-    args.reports.check(&[("A", &first), ("B", &second), ("--write-map", &args.write_map)])?;
+    let given = [("A", Some(&args.first)), ("B", Some(&args.second)), ("--write-map", args.write_map.as_ref())];
+    for (name, path) in given {
+        let path = path.map(|path| (name, path.as_path()));
+        output::apart(&args.outputs.named().into_iter().chain(path).collect::<Vec<_>>())?;
+    }
     check_parties(args)?;
     let mut mapping = mapping(&args.map, "--map")?;
     mapping.allowed.extend(args.rel.iter().chain(&args.rel_value).chain(&args.abs).cloned());
@@ -134,12 +144,18 @@ pub(super) fn compare(args: &Args) -> Result<u8> {
     let paths = [args.first.as_path(), args.second.as_path()];
     let found = compared([first, second], &how)?;
     let outcomes = Outcomes::of_comparison(paths, &found, advice::told);
-    if !args.reports.takes_output() {
+    if !args.outputs.take_standard() {
         let detail = Detail::asked(args.quiet, args.verbose);
         output::report(&report::text(paths, &found, detail, advice::told, output::columns()))?;
     }
-    let written = args.reports.write(|| report::json(paths, &found, advice::told), &outcomes);
-    Ok(graver(exit_code::of(&found.verdict), written))
+    let written = args.outputs.write(|result| {
+        Ok(match result {
+            Comparisons::Json => report::json(paths, &found, advice::told),
+            Comparisons::Junit => junit::xml(&outcomes),
+            Comparisons::Markdown => markdown::text(&outcomes),
+        })
+    });
+    Ok(graver(exit_code::of(&found.verdict), written.code()))
 }
 
 /// Refuses options that mean nothing for these parties.

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use super::engine_args::side;
 use super::load::plain;
-use super::{number, output};
+use super::number;
+use super::outputs::{Outputs, results};
 use crate::report::diagram as report;
 use analytic::range::explained;
 use design::diagram::{MotionCurve, MotionDiagram};
@@ -27,16 +28,15 @@ pub(super) struct Args {
     /// Analytic solver
     #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = side())]
     with: Reference,
-    /// Draw the three diagrams to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target, conflicts_with_all = ["json", "csv"])]
-    svg: Option<PathBuf>,
-    /// Write errors and points as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target, conflicts_with = "csv")]
-    json: Option<PathBuf>,
-    /// Write the points as CSV to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    csv: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<DiagramResults>,
 }
+
+results! { DiagramResults {
+    Json = "errors and points",
+    Svg = "the three diagrams",
+    Csv = "the points",
+} }
 
 pub(super) fn diagram(args: &Args) -> Result<()> {
     let scenario = plain(&args.file)?.nominal();
@@ -44,11 +44,12 @@ pub(super) fn diagram(args: &Args) -> Result<()> {
     let course = MotionCurve::named(&scenario.case, &args.channel)?;
     let diagram = MotionDiagram::of(&scenario.case, solver, &course, args.divisions)
         .map_err(|error| explained(&scenario.case, error))?;
-    if let Some(to) = &args.svg {
-        return output::write(&draw::motion(&diagram, &scenario.name), to);
-    }
-    if let Some(to) = &args.csv {
-        return output::write(&report::points(&diagram), to);
-    }
-    output::either(&args.json, || report::json(&scenario, &diagram), || report::text(&scenario, &diagram))
+    let result = |form| {
+        Ok(match form {
+            DiagramResults::Svg => draw::motion(&diagram, &scenario.name),
+            DiagramResults::Csv => report::points(&diagram),
+            DiagramResults::Json => report::json(&scenario, &diagram),
+        })
+    };
+    args.outputs.deliver(result, || report::text(&scenario, &diagram))
 }

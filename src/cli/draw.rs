@@ -1,11 +1,11 @@
 //! `linkproof draw`.
 
 use crate::sentences;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::engine_args::side;
 use super::output::{self, refused};
-use super::{exit_code, load, number};
+use super::{load, number};
 use crate::draw::{Drawn, Medium, Note, PictureOptions, picture};
 use linkage::error::{Error, ErrorKind, Result};
 use prover::run::Reference;
@@ -18,8 +18,9 @@ pub(super) struct Args {
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Picture to write: .svg, .png, or one turn of the crank as .gif or .webp; `-` for SVG on standard output
+    /// [default: FILE.svg, for several files mechanisms.svg, in this directory]
     #[arg(long, short, value_name = "PICTURE", value_parser = target)]
-    output: PathBuf,
+    output: Option<PathBuf>,
     /// Crank angle in degrees, as the scenario states it [default: that of the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     crank_deg: Option<f64>,
@@ -83,9 +84,10 @@ fn fits(args: &Args, medium: Medium) -> Result<()> {
     }
 }
 
-/// Draws and writes. What could not be assembled is told on standard error, and by the exit code.
-pub(super) fn draw(args: &Args) -> Result<u8> {
-    let medium = Medium::of(&args.output).map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
+/// Draws and writes. What cannot be assembled is drawn as far as possible, with a warning on standard error.
+pub(super) fn draw(args: &Args) -> Result<()> {
+    let medium = args.output.as_ref().map_or(Ok(Medium::Svg), Medium::of);
+    let medium = medium.map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
     fits(args, medium)?;
     let wish = PictureOptions {
         crank: args.crank_deg.map(f64::to_radians),
@@ -107,9 +109,20 @@ pub(super) fn draw(args: &Args) -> Result<u8> {
         Err(error) => Drawn::of_draft(load::draft(file, &asked)?, &wish, error),
     };
     let all = args.files.iter().map(drawn).collect::<Result<Vec<_>>>()?;
-    output::write_bytes(&picture(&all, &wish, medium)?, &args.output)?;
-    let faults: Vec<&Error> = all.iter().filter_map(|own| own.fault.as_ref()).collect();
-    faults.iter().for_each(|error| output::show(error));
+    let bytes = picture(&all, &wish, medium)?;
+    match &args.output {
+        Some(to) => output::write_bytes(&bytes, to)?,
+        None => {
+            let stem = match args.files.as_slice() {
+                [one] if !load::is_standard_input(one) => one.file_stem().unwrap_or_default().to_string_lossy(),
+                _ => "mechanisms".into(),
+            };
+            let name = format!("{stem}.svg");
+            output::make(&String::from_utf8_lossy(&bytes), Path::new(&name))?;
+            output::print(&format!("{name}\n"))?;
+        }
+    }
+    all.iter().filter_map(|own| own.fault.as_ref()).for_each(output::warn);
     for own in &all {
         match &own.note {
             Some(Note::Said(note)) => output::note(note),
@@ -119,5 +132,5 @@ pub(super) fn draw(args: &Args) -> Result<u8> {
             None => {}
         }
     }
-    Ok(if faults.is_empty() { exit_code::AGREE } else { exit_code::BAD_INPUT })
+    Ok(())
 }

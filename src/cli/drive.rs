@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use super::load::load;
+use super::outputs::{Outputs, results};
 use super::{number, output};
 use crate::report::drive::{self as report, Found};
 use crate::report::drive_graphs::{self, Curves};
@@ -50,22 +51,22 @@ pub(super) struct Args {
     /// Speed of the crank at the start of the run-up, in turns per minute, counter-clockwise positive
     #[arg(long, value_name = "RPM", default_value = "0", allow_hyphen_values = true, requires = "run_up", value_parser = number::finite)]
     from_rpm: f64,
-    /// Draw the reduced quantities and the steady motion over the crank angle to a file, or to standard output instead
-    /// of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    svg: Option<PathBuf>,
-    /// Write everything as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<DriveResults>,
     #[command(flatten)]
     choice: Choosing,
 }
+
+results! { DriveResults {
+    Json = "everything",
+    Svg = "reduced quantities and steady motion over the crank angle",
+} }
 
 /// A motor for the mechanism.
 #[derive(Debug, clap::Args)]
 struct Choosing {
     /// Only choose a motor from this catalogue, by the peak of the resistance and the scenario's speed
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["non_uniformity", "run_up", "svg", "table"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["non_uniformity", "run_up", "table"])]
     catalogue: Option<PathBuf>,
     /// Efficiency between motor and crank, for the choice [default: that of the scenario's motor, else 1]
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, requires = "catalogue", value_parser = number::efficiency)]
@@ -89,29 +90,28 @@ pub(super) fn drive(args: &Args) -> Result<()> {
 
 fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     if let Some(file) = &args.choice.catalogue {
-        return choose(&args.choice, file, scenario, &args.json);
+        return choose(args, file, scenario);
     }
     let model = ReducedModel::of(&scenario.case)?;
-    let targets = [&args.run_up, &args.json, &args.svg];
-    let told_there = targets.into_iter().any(output::is_said);
+    let is_said = args.run_up.as_deref().is_some_and(output::is_standard);
     if let Some(to) = &args.run_up {
         let motion = run_up(args, &model)?;
         output::stream(to, |out| table_csv::run_up(&motion, out))?;
-        if told_there && targets[1..].iter().all(|to| to.is_none()) {
+        if is_said && args.outputs.is_empty() {
             return Ok(());
         }
-        if !told_there {
+        if !is_said && !args.outputs.take_standard() {
             output::print(&report::run_up(&motion))?;
         }
     }
     let found = find(scenario, &model, args.step_deg, args.non_uniformity)?;
-    if let Some(to) = &args.svg {
-        output::write(&drive_graphs::draw(scenario, &found, &curves(scenario, &model, &found)?), to)?;
-    }
-    match &args.json {
-        Some(to) => output::write(&report::json(scenario, &found), to),
-        None if told_there => Ok(()),
-        None => output::print(&report::text(scenario, &found, args.table)),
+    let result = |form| match form {
+        DriveResults::Svg => Ok(drive_graphs::draw(scenario, &found, &curves(scenario, &model, &found)?)),
+        DriveResults::Json => Ok(report::json(scenario, &found)),
+    };
+    match is_said {
+        true => args.outputs.write(result),
+        false => args.outputs.deliver(result, || report::text(scenario, &found, args.table)),
     }
 }
 
@@ -123,7 +123,8 @@ fn check(args: &Args) -> Result<()> {
     if args.points as f64 > MOST_ROWS {
         return wrong(sentences::points_is(&args.points), sentences::GIVE_A_NUMBER_FROM_TO);
     }
-    output::apart(&[("--run-up", &args.run_up), ("--svg", &args.svg), ("--json", &args.json)])
+    let run_up = args.run_up.as_deref().map(|to| ("--run-up", to));
+    output::apart(&args.outputs.named().into_iter().chain(run_up).collect::<Vec<_>>())
 }
 
 /// The reduced quantities every `step_deg` of the crank, the steady motion, and the flywheel for a wanted non-uniformity.
@@ -178,9 +179,10 @@ fn run_up(args: &Args, model: &ReducedModel) -> Result<RunUp> {
 }
 
 /// Chooses a motor and reports it.
-fn choose(args: &Choosing, file: &Path, scenario: &Scenario, json_to: &Option<PathBuf>) -> Result<()> {
+fn choose(args: &Args, file: &Path, scenario: &Scenario) -> Result<()> {
+    let Choosing { efficiency, synchronous_rpm, .. } = args.choice;
     let mut motors = catalogue::load(file)?;
-    if let Some(rpm) = args.synchronous_rpm {
+    if let Some(rpm) = synchronous_rpm {
         motors.retain(|motor| (motor.synchronous_speed * 60.0 / TAU - rpm).abs() < 0.5);
         if motors.is_empty() {
             let message = sentences::the_catalogue_has_no_motor(&rpm);
@@ -188,6 +190,10 @@ fn choose(args: &Choosing, file: &Path, scenario: &Scenario, json_to: &Option<Pa
         }
     }
     let own = scenario.case.crank().motor().map_or(1.0, |motor| motor.efficiency);
-    let choice = MotorChoice::of(&scenario.case, &motors, args.efficiency.unwrap_or(own))?;
-    output::either(json_to, || motor_choice::json(scenario, &choice), || motor_choice::text(scenario, &choice))
+    let choice = MotorChoice::of(&scenario.case, &motors, efficiency.unwrap_or(own))?;
+    let result = |form| match form {
+        DriveResults::Svg => output::refused("--output", sentences::NO_GRAPHS_OF_A_CHOICE, sentences::WRITE_JSON),
+        DriveResults::Json => Ok(motor_choice::json(scenario, &choice)),
+    };
+    args.outputs.deliver(result, || motor_choice::text(scenario, &choice))
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::load::load;
+use super::outputs::{Outputs, Results, results};
 use super::{number, output};
 use crate::report::case_json;
 use analytic::AssurSolver;
@@ -17,14 +18,8 @@ pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Write MJCF to a file, to standard output with `-`, to NAME.xml in this directory without a value; NAME is the
-    /// scenario's
-    #[arg(long, value_name = "PATH", required_unless_present = "json", num_args = 0..=1, value_parser = output::target)]
-    mjcf: Option<Option<PathBuf>>,
-    /// Write the case as JSON, in SI units and with its state at t = 0, to a file, to standard output with `-`, to
-    /// NAME.json in this directory without a value
-    #[arg(long, value_name = "PATH", num_args = 0..=1, value_parser = output::target)]
-    json: Option<Option<PathBuf>>,
+    #[command(flatten)]
+    outputs: Outputs<Exports>,
     /// Time step in seconds that the file starts with [default: the scenario's, else a quarter of a degree of the
     /// fastest driving link]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = number::positive)]
@@ -35,29 +30,31 @@ pub(super) struct Args {
     mode: Vec<String>,
 }
 
+results! { Exports {
+    Mjcf = "a model for MuJoCo",
+    Json = "the case in SI units, with its state at t = 0",
+} }
+
 pub(super) fn export(args: &Args) -> Result<()> {
-    output::apart(&[("--mjcf", &args.mjcf.clone().flatten()), ("--json", &args.json.clone().flatten())])?;
     let scenario = load(&args.file, &args.mode)?;
     let (case, dt) =
         (&scenario.case, args.dt.or(scenario.engine.step.get()).unwrap_or_else(|| usual_step(&scenario.case)));
-    if let Some(to) = &args.mjcf {
-        let text = mjcf::mjcf(case, &AssurSolver, &scenario.name, dt).map_err(|error| explained(case, error))?;
-        put(&text, to.as_deref(), &format!("{}.xml", scenario.name))?;
-    }
-    if let Some(to) = &args.json {
-        let start = first_state(case, &AssurSolver).map_err(|error| explained(case, error))?;
-        put(&case_json::text(&scenario.name, case, &start), to.as_deref(), &format!("{}.json", scenario.name))?;
+    let text = |form| match form {
+        Exports::Json => first_state(case, &AssurSolver).map(|start| case_json::text(&scenario.name, case, &start)),
+        Exports::Mjcf => mjcf::mjcf(case, &AssurSolver, &scenario.name, dt),
+    };
+    let all: Vec<(Exports, &Path)> = args.outputs.each().collect();
+    let all = if all.is_empty() { vec![(Exports::Mjcf, Path::new(""))] } else { all };
+    for (form, to) in all {
+        let text = text(form).map_err(|error| explained(case, error))?;
+        if to != Path::new("") {
+            output::write(&text, to)?;
+            continue;
+        }
+        // The user did not choose this name, so it is printed.
+        let name = format!("{}{}", scenario.name, form.form().sign());
+        output::make(&text, Path::new(&name))?;
+        output::print(&format!("{name}\n"))?;
     }
     Ok(())
-}
-
-fn put(text: &str, to: Option<&Path>, name: &str) -> Result<()> {
-    match to {
-        Some(to) => output::write(text, to),
-        None => {
-            // The user did not choose this name, so it is printed.
-            output::make(text, Path::new(name))?;
-            output::print(&format!("{name}\n"))
-        }
-    }
 }

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::{load, number, output};
+use super::outputs::{Outputs, results};
+use super::{load, number};
 use crate::report::{inspect as report, modes, range};
 use analytic::range::explained;
 use linkage::case::Grid;
@@ -33,10 +34,13 @@ pub(super) struct Args {
     /// Start a group in another assembly mode than the file states, as in `linkproof run`
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
-    /// Write the structure as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<Inspected>,
 }
+
+results! { Inspected {
+    Json = "structure, configurations or range",
+} }
 
 pub(super) fn inspect(args: &Args) -> Result<()> {
     let asked = StartRequest { modes: args.mode.clone(), ..StartRequest::default() };
@@ -67,5 +71,5 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
         (None, Some(range)) => range::text(&scenario, range),
         (None, None) => report::text(&scenario),
     };
-    output::either(&args.json, || report::json(&scenario, modes, &undecided, range.as_ref()), text)
+    args.outputs.deliver(|_| Ok(report::json(&scenario, modes, &undecided, range.as_ref())), text)
 }

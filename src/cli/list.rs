@@ -12,7 +12,7 @@ use scenario::{self, Scenario};
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/list.txt").trim_ascii_end())]
 pub(super) struct Args {
-    /// Directory of scenario files [default: scenarios]; with --channels a scenario file
+    /// Directory of scenario files [default: scenarios, or else this directory]; with --channels a scenario file
     #[arg(value_name = "DIR")]
     place: Option<PathBuf>,
     /// List the channels instead: those of a scenario, with a file
@@ -34,7 +34,8 @@ pub(super) fn list(args: &Args) -> Result<()> {
         let engines = engines.iter().map(|engine| (engine.name(), engine.version()));
         lists::solvers(solvers.iter().map(|solver| solver.name()), engines)
     } else {
-        let directory = args.place.as_deref().unwrap_or(Path::new("scenarios"));
+        let usual = Path::new("scenarios");
+        let directory = args.place.as_deref().unwrap_or(if usual.is_dir() { usual } else { Path::new(".") });
         let files =
             scenario::files_in(directory).map_err(|error| error.help(sentences::NAME_THE_DIRECTORY_THAT_HOLDS))?;
         let all: Vec<_> = files.into_iter().map(|file| (Scenario::load(&file), file)).collect();

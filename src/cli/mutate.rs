@@ -7,6 +7,7 @@ use clap::builder::PossibleValuesParser;
 
 use super::engine_args::EngineArgs;
 use super::load::plain;
+use super::outputs::{Outputs, results};
 use super::progress::Bar;
 use super::{advice, exit_code, load, output};
 use crate::plain::errors;
@@ -38,20 +39,20 @@ pub(super) struct Args {
     list: bool,
     #[command(flatten)]
     engine: EngineArgs,
-    /// Write the results as JSON to a file, or to standard output instead of the report with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
-    /// Write figures and tables as Markdown to a file
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    markdown: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<Mutations>,
 }
+
+results! { Mutations {
+    Json = "the results",
+    Markdown = "figures and tables",
+} }
 
 /// Plants faults in every file's proof. A bad file does not stop the others.
 pub(super) fn run(args: &Args) -> Result<u8> {
     if args.list {
         return output::print(&report::all_kinds()).map(|()| exit_code::AGREE);
     }
-    output::apart(&[("--json", &args.json), ("--markdown", &args.markdown)])?;
     let options = args.engine.options(Reference::Assur);
     if options.engine_count() > 1 {
         let message = sentences::found_engines_but_faults_are_planted(&options.engine_count());
@@ -74,15 +75,11 @@ pub(super) fn run(args: &Args) -> Result<u8> {
             }
         }
     }
-    if !output::is_said(&args.json) {
-        output::print(&report::text(&found))?;
-    }
-    if let Some(to) = &args.json {
-        output::write(&report::json(&found, &failures), to)?;
-    }
-    if let Some(to) = &args.markdown {
-        output::write(&report::markdown(&found), to)?;
-    }
+    let result = |form| match form {
+        Mutations::Markdown => Ok(report::markdown(&found)),
+        Mutations::Json => Ok(report::json(&found, &failures)),
+    };
+    args.outputs.deliver(result, || report::text(&found))?;
     Ok(match tally(&found).end() {
         _ if !failures.is_empty() => exit_code::BAD_INPUT,
         FaultTally::AllFound => exit_code::AGREE,

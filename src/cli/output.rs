@@ -36,21 +36,19 @@ pub(super) fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Whether a result is asked for, and goes to standard output.
-pub(super) fn is_said(to: &Option<PathBuf>) -> bool {
-    to.as_deref().is_some_and(is_standard)
-}
-
 /// Refuses two options that name one file: the second result would take the place of the first.
-pub(super) fn apart(targets: &[(&str, &Option<PathBuf>)]) -> Result<()> {
-    let place = |path: &PathBuf| match path.starts_with("/dev") || is_standard(path) {
-        true => path.clone(),
-        false => fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or_else(|_| path.clone()),
+pub(super) fn apart(targets: &[(&str, &Path)]) -> Result<()> {
+    let place = |path: &Path| match path.starts_with("/dev") || is_standard(path) {
+        true => path.to_path_buf(),
+        false => fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or_else(|_| path.to_path_buf()),
     };
-    let named: Vec<_> = targets.iter().filter_map(|(option, to)| Some((option, place(to.as_ref()?)))).collect();
-    for (k, (one, to)) in named.iter().enumerate() {
-        if let Some((other, _)) = named[k + 1..].iter().find(|(_, other)| to == other && to != Path::new("/dev/null")) {
-            let message = sentences::and_both_name(&one, &other, &to.display());
+    let is_file = |to: &Path| to != Path::new("/dev/null") && to != Path::new("");
+    for (k, (one, to)) in targets.iter().enumerate().filter(|(_, (_, to))| is_file(to)) {
+        if let Some((other, _)) = targets[k + 1..].iter().find(|(_, other)| place(to) == place(other)) {
+            let message = match one == other {
+                true => sentences::two_results_go_to(&to.display()),
+                false => sentences::and_both_name(one, other, &to.display()),
+            };
             return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_TWO_FILES_OR_LEAVE_ONE_OF_THE_TWO));
         }
     }
@@ -196,18 +194,6 @@ impl<T: End> End for Result<T> {
     }
 }
 
-/// Writes one of two forms: the first to a file that is asked for, else the second to standard output.
-pub(super) fn either(
-    to: &Option<PathBuf>,
-    first: impl FnOnce() -> String,
-    second: impl FnOnce() -> String,
-) -> Result<()> {
-    match to {
-        Some(to) => write(&first(), to),
-        None => print(&second()),
-    }
-}
-
 /// Makes a directory for results; `option` names it.
 pub(super) fn make_directory(path: &Path, option: &str, help: &str) -> Result<()> {
     fs::create_dir_all(path).map_err(|error| {
@@ -224,6 +210,12 @@ pub(super) fn refused<T>(option: &str, message: impl Into<String>, help: &str) -
 pub(super) fn note(text: &str) {
     // If standard error is closed, nothing can be done.
     let _ = writeln!(io::stderr(), "note: {text}");
+}
+
+/// Shows on standard error what kept a result from being complete.
+pub(super) fn warn(error: &Error) {
+    // If standard error is closed, nothing can be done.
+    let _ = writeln!(io::stderr(), "{}", errors::warning(error, advice::told));
 }
 
 /// Shows an error on standard error: the line of the file concerned, what was found there, and the way out.

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use super::engine_args::side;
 use super::load::plain;
-use super::{advice, number, output};
+use super::outputs::{Outputs, results};
+use super::{advice, number};
 use crate::report::plan as report;
 use analytic::range::explained;
 use design::draw;
@@ -29,14 +30,14 @@ pub(super) struct Args {
     /// Analytic solver
     #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = side())]
     with: Reference,
-    /// Draw kinematic diagram, velocity and acceleration plan to a file, or to standard output instead of the text with
-    /// `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target, conflicts_with = "json")]
-    svg: Option<PathBuf>,
-    /// Write the plans as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<PlanResults>,
 }
+
+results! { PlanResults {
+    Json = "all vectors",
+    Svg = "kinematic diagram and both plans, to scale",
+} }
 
 /// Most points of a link: their relative vectors grow with the square of their number.
 const POINTS: usize = 100;
@@ -63,9 +64,11 @@ pub(super) fn plan(args: &Args) -> Result<()> {
         .iter()
         .filter_map(|group| SingularPoint::of(case, group, &state.motions).transpose())
         .collect();
-    if let Some(to) = &args.svg {
-        return output::write(&draw::plans(&plans, &scenario.name, &scenario.title), to);
-    }
-    let json = || report::json(&scenario, &plans, &singular, advice::told);
-    output::either(&args.json, json, || report::text(&scenario, is_free, &plans, &singular, advice::told))
+    let result = |form| {
+        Ok(match form {
+            PlanResults::Svg => draw::plans(&plans, &scenario.name, &scenario.title),
+            PlanResults::Json => report::json(&scenario, &plans, &singular, advice::told),
+        })
+    };
+    args.outputs.deliver(result, || report::text(&scenario, is_free, &plans, &singular, advice::told))
 }

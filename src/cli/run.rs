@@ -28,9 +28,8 @@ pub(super) fn run(args: &Args) -> Result<u8> {
         args.record.refuse_idle()?;
     }
     args.record.target()?;
-    args.reports.check(&[("--html", &args.html)])?;
     let live = args.live.start(&args.files)?;
-    let pages = args.html.as_deref().map(|to| Pages::of(to, args.files.len())).transpose()?;
+    let pages = args.outputs.first(args::RunResults::Html).map(|to| Pages::of(to, args.files.len())).transpose()?;
     let mut session = Session::of(args, pages, live.as_ref());
     let what = match args.files.as_slice() {
         [only] => only.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned()),

@@ -1,7 +1,7 @@
 //! `linkproof solve`.
 
 use crate::sentences;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::TypedValueParser;
 
@@ -9,6 +9,7 @@ use super::engine_args::{MemoryArgs, SettingArgs, engine_names, word};
 use super::grid::GridArgs;
 use super::load::{StartArgs, only};
 use super::output;
+use super::outputs::{Outputs, results};
 use super::progress::Bar;
 use crate::report::table_csv;
 use analytic::range::explained;
@@ -24,7 +25,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Solver: an analytic one or an engine
-    #[arg(long, value_name = "SOLVER", value_parser = With::parser())]
+    #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = With::parser())]
     with: With,
     #[command(flatten)]
     grid: GridArgs,
@@ -37,10 +38,13 @@ pub(super) struct Args {
     /// Ask for these channels only, as in `run`: what they do not depend on is not computed. May be given several times
     #[arg(long, value_name = "WORD")]
     only: Vec<String>,
-    /// File to write to, `-` for standard output
-    #[arg(long, value_name = "FILE", default_value = "-", value_parser = output::target)]
-    csv: PathBuf,
+    #[command(flatten)]
+    outputs: Outputs<Solutions>,
 }
+
+results! { Solutions {
+    Csv = "one row an instant",
+} }
 
 /// Who solves.
 #[derive(Clone, Copy, Debug)]
@@ -77,7 +81,8 @@ pub(super) fn solve(args: &Args) -> Result<()> {
         (With::Engine(_), _) => engine.expect("it was made above").solve_with(case, &mut progress)?,
     };
     drop(bar);
-    output::stream(&args.csv, |out| table_csv::solution(&trajectory, out))
+    let to = args.outputs.first(Solutions::Csv).unwrap_or(Path::new("-"));
+    output::stream(to, |out| table_csv::solution(&trajectory, out))
 }
 
 /// The error for an engine's setting given to an analytic solver: it shows a misunderstanding, so it is not ignored.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 
+use super::outputs::{Outputs, results};
 use super::progress::Bar;
 use super::{exit_code, number, output};
 use crate::report::stress as report;
@@ -12,6 +13,8 @@ use lab::stress::{FAMILIES, Job, StressFamily, StressOutcome, jobs, run_all};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::threads::cores;
 
+/// Directory without `-o`.
+const NAME: &str = "stress";
 /// Seed of random mechanisms by default.
 const SEED: u64 = 1;
 
@@ -21,9 +24,8 @@ pub(super) struct Args {
     /// Families; all if none is given
     #[arg(value_name = "FAMILY", value_parser = PossibleValuesParser::new(FAMILIES.iter().map(|family| family.name)))]
     families: Vec<String>,
-    /// Directory that results are written to, and taken from if they are there already
-    #[arg(long, value_name = "DIR", value_parser = output::directory)]
-    out: PathBuf,
+    #[command(flatten)]
+    outputs: Outputs<Stresses>,
     /// A few points of every family
     #[arg(long)]
     quick: bool,
@@ -33,39 +35,42 @@ pub(super) struct Args {
     /// Points that are run side by side [default: as many as there are cores]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
     jobs: Option<usize>,
-    /// Write a page in Markdown, with the maps beside it in a directory of its name
-    #[arg(long, value_name = "FILE", value_parser = output::page)]
-    page: Option<PathBuf>,
 }
+
+results! { Stresses {
+    Results = "tables and maps; points in it are not run again [default: stress]",
+    Markdown = "a page, with the maps in a directory of its name beside it",
+} }
 
 /// Runs what is open, writes everything, and returns the exit code.
 pub(super) fn run(args: &Args) -> Result<u8> {
     let chosen =
         |family: &&StressFamily| args.families.is_empty() || args.families.iter().any(|name| name == family.name);
     let families: Vec<&'static StressFamily> = FAMILIES.iter().filter(chosen).collect();
-    output::make_directory(&args.out, "--out", sentences::NAME_A_DIRECTORY_OR_A_PLACE)?;
+    let out = args.outputs.first(Stresses::Results).unwrap_or(Path::new(NAME));
+    output::make_directory(out, "--output", sentences::NAME_A_DIRECTORY_OR_A_PLACE)?;
     let mut all: Vec<Job> = Vec::new();
     for &family in &families {
-        let kept = files::text(&json_of(&args.out, family)).map_err(|error| {
-            let place = json_of(&args.out, family);
+        let kept = files::text(&json_of(out, family)).map_err(|error| {
+            let place = json_of(out, family);
             Error::new(ErrorKind::Io, sentences::cannot_be_read(&place.display(), &error))
-                .key("--out")
+                .key("--output")
                 .help(sentences::NAME_ANOTHER_DIRECTORY_OR_REMOVE)
         })?;
         all.extend(jobs(family, args.quick, args.seed, &kept.map_or_else(Vec::new, |text| report::outcomes(&text))));
     }
     // What cannot be written is found before minutes are spent.
-    let pictures = families.iter().map(|family| args.out.join(format!("{}.svg", family.name)));
-    output::may_make(&pictures.chain([args.out.join("report.txt")]).collect::<Vec<_>>())?;
+    let pictures = families.iter().map(|family| out.join(format!("{}.svg", family.name)));
+    output::may_make(&pictures.chain([out.join("report.txt")]).collect::<Vec<_>>())?;
     for &family in &families {
-        write_json(args, family, &all)?;
+        write_json(args.seed, out, family, &all)?;
     }
     let (total, open) = (all.len(), all.iter().filter(|job| job.outcome.is_none()).count());
     let mut bar = Bar::new("stress");
     let done = |jobs: &[Job], index: usize, finished: usize| -> Result<()> {
         let began = total - open;
         bar.at((finished - began) as f64 / open.max(1) as f64);
-        write_json(args, jobs[index].family, jobs)
+        write_json(args.seed, out, jobs[index].family, jobs)
     };
     let threads = args.jobs.unwrap_or_else(cores);
     let all = run_all(all, args.seed, threads, done)?;
@@ -73,23 +78,17 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     let found: Vec<(&StressFamily, Vec<&StressOutcome>)> =
         families.iter().map(|&family| (family, of(family, &all).collect())).collect();
     for (family, outcomes) in &found {
-        let place = |extension: &str| args.out.join(format!("{}.{extension}", family.name));
+        let place = |extension: &str| out.join(format!("{}.{extension}", family.name));
         let rows = report::rows(family, outcomes.iter().copied())?;
         output::make_by(rows.as_bytes(), &place("csv"), &|old| first_line(old) == first_line(rows.as_bytes()))?;
         output::make(&report::map(family, outcomes), &place("svg"))?;
     }
-    if let Some(to) = &args.page {
+    for to in args.outputs.of(Stresses::Markdown) {
         write_page(args, to, &found)?;
     }
     let text = report::text(&found);
-    output::make(&text, &args.out.join("report.txt"))?;
-    output::print(&sentences::seed_of_points_were_run_the_others(
-        &text,
-        &args.seed,
-        &open,
-        &total,
-        &args.out.display(),
-    ))?;
+    output::make(&text, &out.join("report.txt"))?;
+    output::print(&sentences::seed_of_points_were_run_the_others(&text, &args.seed, &open, &total, &out.display()))?;
     let tally = report::Tally::of(found.iter().flat_map(|(_, all)| all.iter().copied()));
     Ok(if tally.silent == 0 && tally.panics == 0 { exit_code::AGREE } else { exit_code::DISAGREE })
 }
@@ -108,16 +107,16 @@ fn of<'a>(family: &'static StressFamily, jobs: &'a [Job]) -> impl Iterator<Item 
 }
 
 /// Writes what is finished of a family.
-fn write_json(args: &Args, family: &'static StressFamily, jobs: &[Job]) -> Result<()> {
-    let text = report::json(family, args.seed, of(family, jobs));
-    output::make_by(text.as_bytes(), &json_of(&args.out, family), &|old| report::is_kept(old, family))
+fn write_json(seed: u64, out: &Path, family: &'static StressFamily, jobs: &[Job]) -> Result<()> {
+    let text = report::json(family, seed, of(family, jobs));
+    output::make_by(text.as_bytes(), &json_of(out, family), &|old| report::is_kept(old, family))
 }
 
 /// The page, and the maps in a directory of its name.
 fn write_page(args: &Args, to: &Path, found: &[(&StressFamily, Vec<&StressOutcome>)]) -> Result<()> {
     let stem = to.file_stem().and_then(|stem| stem.to_str()).unwrap_or("stress");
     let maps = to.with_file_name(stem);
-    output::make_directory(&maps, "--page", sentences::NAME_A_FILE_IN_A_DIRECTORY)?;
+    output::make_directory(&maps, "--output", sentences::NAME_A_FILE_IN_A_DIRECTORY)?;
     for (family, outcomes) in found {
         output::make(&report::map(family, outcomes), &maps.join(format!("{}.svg", family.name)))?;
     }

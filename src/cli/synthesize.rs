@@ -2,7 +2,6 @@
 
 mod closed_form;
 mod search;
-mod target;
 
 use linkage::error::Result;
 

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use super::engine_args::EngineArgs;
 use super::engine_section::{self, keys};
+use super::outputs::{Outputs, results};
 use super::progress::Bar;
-use super::{load, number, output};
+use super::{load, number};
 use crate::report::tune as report;
 use lab::tune::{Candidate, WantedAccuracy, by_work, tune};
 use linkage::engine::Engine;
@@ -31,10 +32,13 @@ pub(super) struct Args {
     /// Write the settings found to the scenario's `[engine]` section
     #[arg(long)]
     write: bool,
-    /// Write the result as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<Tuned>,
 }
+
+results! { Tuned {
+    Json = "the result",
+} }
 
 pub(super) fn run(args: &Args) -> Result<()> {
     if args.write {
@@ -53,15 +57,15 @@ pub(super) fn run(args: &Args) -> Result<()> {
     if args.write {
         engine_section::write(&args.file, &scenario, best_keys(&scenario, &found.best))?;
     }
-    match &args.json {
-        Some(to) => output::write(&report::json(&scenario, &found, args.within), to),
-        None => {
+    args.outputs.deliver(
+        |_| Ok(report::json(&scenario, &found, args.within)),
+        || {
             let section = edit::engine_section(best_keys(&scenario, &found.best));
             let place = report::Section { text: &section, file: load::named(&args.file), is_written: args.write };
             let hints = report::Hints { why: &|engine| format!("`linkproof run --engine {engine}`"), write: "--write" };
-            output::print(&report::text(&scenario, &found, args.within, &place, hints))
-        }
-    }
+            report::text(&scenario, &found, args.within, &place, hints)
+        },
+    )
 }
 
 /// Names the argument that asked for an unknown channel.

@@ -27,11 +27,20 @@ fn of_same_length(text: &str) -> Cow<'_, str> {
 
 /// An error, and those that were found with it, as text without a newline at its end; advice is worded by `tell`.
 pub fn text(error: &Error, tell: Tell) -> String {
-    let each = error.each().map(|error| one(error, tell));
-    each.chain(error.rest().map(|rest| format!("error: {rest}"))).collect::<Vec<_>>().join("\n\n")
+    all(error, tell, ("error", Level::ERROR))
 }
 
-fn one(error: &Error, tell: Tell) -> String {
+/// The same as a warning: the command has done what it could.
+pub(crate) fn warning(error: &Error, tell: Tell) -> String {
+    all(error, tell, ("warning", Level::WARNING))
+}
+
+fn all(error: &Error, tell: Tell, level: (&str, Level<'static>)) -> String {
+    let each = error.each().map(|error| one(error, tell, &level));
+    each.chain(error.rest().map(|rest| format!("{}: {rest}", level.0))).collect::<Vec<_>>().join("\n\n")
+}
+
+fn one(error: &Error, tell: Tell, (word, level): &(&str, Level<'static>)) -> String {
     let title = match error.scenario_key() {
         Some(key) => format!("`{key}`: {}", error.message()),
         None => error.message().to_string(),
@@ -41,7 +50,7 @@ fn one(error: &Error, tell: Tell) -> String {
     let Some(place) = error.place() else {
         // The renderer would draw a margin for lines that do not exist.
         let help = help.map(|help| format!("\n  = help: {help}")).unwrap_or_default();
-        return format!("error: {title}{help}");
+        return format!("{word}: {title}{help}");
     };
     let path = visible(&place.file.display().to_string());
     let source = of_same_length(&place.text);
@@ -50,7 +59,7 @@ fn one(error: &Error, tell: Tell) -> String {
     let end = (place.span.end.clamp(start, source.len())..=source.len()).find(|&at| source.is_char_boundary(at));
     let annotation = AnnotationKind::Primary.span(start..end.unwrap_or(source.len()));
     let snippet = Snippet::source(&*source).path(path.as_str()).annotation(annotation);
-    let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str())).element(snippet);
+    let mut group = Group::with_title(level.clone().primary_title(title.as_str())).element(snippet);
     if let Some(help) = help {
         group = group.element(Level::HELP.message(help));
     }

@@ -66,6 +66,8 @@ linkage::sentences! {
     LEAVE_IT_OUT_OR_WRITE_A_GIF = "leave it out, or write a .gif or a .webp";
     THE_PICTURE_DOES_NOT_MOVE = "the picture does not move";
     // cli/drive.rs
+    NO_GRAPHS_OF_A_CHOICE = "the choice of a motor has no graphs";
+    WRITE_JSON = "write it as .json, or leave out --catalogue";
     GIVE_OR_OR_LEAVE_IT_OUT = "give 3000 or 1500, or leave it out";
     the_catalogue_has_no_motor(rpm) = "the catalogue has no motor of {rpm} rpm";
     GIVE_A_NUMBER_FROM_TO = "give a number from 1 to 1000000";
@@ -146,8 +148,14 @@ linkage::sentences! {
     CHECK_WHERE_IT_GOES_TO = "check where it goes to";
     CHECK_THAT_THE_DIRECTORY_EXISTS = "check that the directory exists, may be written to and has room";
     GIVE_TWO_FILES_OR_LEAVE_ONE_OF_THE_TWO = "give two files, or leave one of the two out";
+    two_results_go_to(to) = "two results go to {to}";
     and_both_name(one, other, to) = "{one} and {other} both name {to}";
     THIS_IS_A_SCENARIO_FILE_AND_WOULD = "this is a scenario file and would be overwritten; expected a file for the results, or `-`";
+    // cli/outputs.rs
+    NO_ENDING = "no ending";
+    expected_a_file_that_ends_in_found(expected, found) = "expected a file that ends in {expected}; found {found}";
+    is_standard_output_as(form) = " `-` is standard output, as {form}; `-.ENDING` another form.";
+    write_to_a_file_by_its_ending(contents, standard) = "Write results to a file, by its ending: {contents}.{standard} May be given several times";
     // cli/plan.rs
     LEAVE_OUT_POINTS_THAT_THE_PLAN = "leave out points that the plan does not need; `linkproof solve` has the numbers of all";
     has_points_and_a_plan_has_a_vector(name, count, points) = "{name} has {count} points, and a plan has a vector for every two of them: at most {points}";

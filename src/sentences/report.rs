@@ -292,7 +292,7 @@ linkage::sentences! {
     on_the_frame(quantity) = "{quantity} on the frame";
     in_on(quantity, of, joint, joint_2) = "{quantity} in {of}, {joint} on {joint_2}";
     of_link(quantity, of) = "{quantity} of link {of}";
-    no_scenario_files_toml_in(directory) = "no scenario files (*.toml) in {directory}";
+    no_scenario_files_toml_in(directory) = "no scenario files (.toml) in {directory}; `linkproof new` writes one, `linkproof new --shipped` the examples";
     cannot_be_read_3(error) = "cannot be read: {error}";
     // report/live.rs
     times_slower_than_the_mechanism(slow, lasts) = "{slow} times slower than the mechanism, anew every {lasts} s";

@@ -43,8 +43,8 @@ impl Solver for AssurSolver {
     }
 }
 
-/// Side 1 at another accuracy of the integration of motions under forces, allowed in every step. A prescribed motion is
-/// not integrated.
+/// Side 1 with another error allowed per step in the integration of motions under forces.
+/// A prescribed motion is not integrated.
 #[derive(Clone, Copy, Debug)]
 pub struct AssurAt(pub f64);
 
@@ -65,13 +65,14 @@ impl Solver for AssurAt {
     }
 }
 
-/// Side 1 with a tighter integration of motions under forces. Its difference from [`AssurSolver`] is the error that the
-/// integration leaves there, which both sides share. A prescribed motion is not integrated.
+/// Side 1 with a tighter integration of motions under forces.
+/// Its difference from [`AssurSolver`] is the integration error of that solver, which both sides share.
+/// A prescribed motion is not integrated.
 pub const TIGHT_ASSUR: AssurAt = AssurAt(TIGHTER * ACCURACY);
 
-/// Motion under forces. One degree of freedom: its reduced equation of motion, if the crank angle alone gives its
-/// terms.
-/// Otherwise, and for several freedoms: the transfer functions.
+/// Motion under forces.
+/// With one degree of freedom, the reduced equation of motion is solved if the crank angle alone gives its terms.
+/// Otherwise, and with several degrees of freedom, the transfer functions are used.
 fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     let share = if accuracy < ACCURACY { NARROWER } else { 1.0 };
     if !case.drives.further().is_empty() || case.loads.iter().any(Load::is_viscous) {
@@ -82,15 +83,15 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
     let mut times: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     times.dedup();
     let model = match ReducedModel::of(case) {
-        // Loads that are no functions of the crank angle over some whole turns, or a branch that is not known all the
-        // way round.
+        // The loads are not functions of the crank angle over whole turns, or the branch is not known over the full
+        // turn.
         Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::Numeric) => {
             return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
         }
         model => model?,
     };
     if model.kinks().meets {
-        // Beyond a change point, by momentum.
+        // The transfer functions carry the motion over the change point, by its momentum.
         return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
     }
     let (motion, end) =

@@ -34,7 +34,8 @@ pub struct Modes {
     pub unknown: Option<String>,
 }
 
-/// Goes to a crank angle (rad), or to the same pose of the crank by the other way round if a dead point lies on the way.
+/// Moves to a crank angle (rad).
+/// If a dead point lies on the way, moves in the other direction to the same pose of the crank.
 /// Returns the angle reached.
 fn reached(case: &Case, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
     let mut poses = PoseSolver::counting_turns(case)?;
@@ -51,7 +52,7 @@ fn reached(case: &Case, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
 
 /// The real configurations of every group (in the order of the structure) at the crank angle `crank` (rad, as the
 /// scenario states it).
-/// For each group the links before it have the pose that the case follows.
+/// The links before a group have the pose that the case follows.
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the case's branch.

@@ -1,4 +1,4 @@
-//! The integration of equations of motion that both sides share, whatever the equations are.
+//! The integrator that both sides share, for any equations of motion.
 //! See docs/numerics/forces.md.
 
 pub(crate) mod flow;

@@ -1,12 +1,13 @@
-//! The crank angles over which a mechanism can be followed on its branch, what limits them, and the condition numbers
-//! along the way.
+//! The crank angles over which a mechanism can be followed on its branch, their limits, and the condition numbers along
+//! the way.
 //!
-//! The drive is released, and the curve of all poses is followed by its length, both ways from the start pose.
-//! It ends where the mechanism is back at the start, or at a singular pose.
-//! At a *limit of rotation* (dead point of the crank) the determinant of one group is zero. The two branches that meet
-//! there are one smooth curve, and along it the crank reverses.
-//! At a *change point* two such curves cross. The determinant changes its sign while the crank goes on; geometry does
-//! not decide which way the mechanism takes.
+//! The drive is released. The curve of all poses is followed by arc length, in both directions from the start pose.
+//! The curve ends at the start pose or at a singular pose.
+//! At a *limit of rotation* (dead point of the crank) the determinant of one group is zero.
+//! Two branches meet there and form one smooth curve, along which the crank reverses.
+//! At a *change point* two such curves cross.
+//! The determinant changes its sign while the crank goes on. Geometry does not decide which curve the mechanism
+//! follows.
 
 mod constraints;
 mod extremes;
@@ -29,23 +30,24 @@ use linkage::mechanism::{Group, GroupId, Mechanism, PerGroup, Pose};
 use linkage::work::limited;
 use tracking::{End, Point, Tracker};
 
-/// Below this, a determinant that is not zero is reported as [`SingularityKind::BranchContact`].
-/// It is a transmission angle of 0.06 deg, at which accelerations have lost six digits.
+/// A nonzero determinant below this is reported as [`SingularityKind::BranchContact`].
+/// It corresponds to a transmission angle of 0.06 deg, at which accelerations have lost six digits.
 const CONTACT: f64 = 1e-3;
-/// Below this, a pose counts as singular. Rounding separates configurations that meet by its square root, 1e-8 to 1e-7.
+/// Below this, a pose counts as singular.
+/// Rounding separates coinciding configurations by the square root of the rounding error, 1e-8 to 1e-7.
 const SINGULAR: f64 = 1e-6;
 
-/// Work that the crank angles which can be reached are worth where something else is asked, as in the message of an
-/// error, in the unit of budgets: a twentieth of what a proof is allowed.
+/// Work allowed for finding the reachable crank angles as a by-product, for example for an error message.
+/// It is in the unit of budgets: a twentieth of the work allowed for a proof.
 pub const ASIDE: f64 = 1e6;
 
 /// Crank angles over which a mechanism can be followed on its branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extent {
-    /// All of them. The mechanism is back at its first pose after this number of turns (one, except with some higher
-    /// groups).
+    /// All crank angles.
+    /// The mechanism returns to its first pose after this number of turns (one, except with some higher groups).
     FullTurn(i32),
-    /// From one singular pose to another, with the start between them. It may be more than a turn.
+    /// From one singular pose to another, with the start between them. The range may exceed one turn.
     Limited([Singularity; 2]),
 }
 
@@ -65,7 +67,8 @@ pub struct GroupMeasures {
     pub crank: f64,
     /// Determinant and condition number of each group, in the order of the structure.
     /// The determinant of a dyad is positive in the mode
-    /// [`AssemblyMode::Left`](linkage::mechanism::AssemblyMode::Left), that of a higher group at the start.
+    /// [`AssemblyMode::Left`](linkage::mechanism::AssemblyMode::Left).
+    /// The determinant of a higher group is positive at the start.
     pub groups: Vec<GroupCondition>,
 }
 
@@ -123,10 +126,11 @@ pub fn reachable(case: &Case) -> Result<Extent> {
     Ok(both_ways(&tracker, &start)?.1)
 }
 
-/// Explains an error of a solver on this case, for code that joins solvers and range of motion.
-/// If it [is that of a pose out of reach](Error::is_out_of_reach), the message gets the crank angles that can be
-/// reached, or why they are not known. Any other error stays unchanged.
-/// The solvers do not call the range analysis themselves, because they must not share it.
+/// Explains an error of a solver on this case, for code that combines solvers and range analysis.
+/// If the error [reports a pose out of reach](Error::is_out_of_reach), the message gains the reachable crank angles, or
+/// the reason why they are unknown.
+/// Any other error stays unchanged.
+/// The solvers must not share the range analysis, so they do not call it themselves.
 #[must_use]
 pub fn explained(case: &Case, error: Error) -> Error {
     if !error.is_out_of_reach() {
@@ -151,7 +155,8 @@ fn interval([from, to]: [Singularity; 2]) -> String {
     sentences::from_to_deg_on_this_branch(&from, &to)
 }
 
-/// Whether two configurations of a group coincide in this pose to rounding, so that velocities are not determined.
+/// Whether two configurations of a group coincide in this pose within rounding error.
+/// Velocities are then undetermined.
 #[must_use]
 pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
     let constraints = Constraints::of(mechanism, Vec2::zeros(), Vec::new());
@@ -159,8 +164,9 @@ pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
     !(measure::of(&constraints.block(&jacobian, group), mechanism, group, pose).determinant.abs() > SINGULAR)
 }
 
-/// Condition number of every group at a pose, in order of solution. Errors pass from group to group, so that those of
-/// a link grow with the product over its own group and those before it.
+/// Condition number of every group at a pose, in order of solution.
+/// Errors propagate from group to group.
+/// The error of a link grows with the product of the condition numbers of its group and the groups before it.
 #[must_use]
 pub fn conditions(mechanism: &Mechanism, groups: &[Group], pose: &Pose) -> Vec<f64> {
     let constraints = Constraints::of(mechanism, Vec2::zeros(), Vec::new());

@@ -1,51 +1,51 @@
-//! What the digits of a column say: how far its numbers may be from those that were printed.
+//! Accuracy of a column, from its printed digits: how far its numbers may be from the numbers before printing.
 
 use crate::instants::chosen;
 use formula::Rounded;
 use linkage::math::KeepNan;
 
-/// A cell as it was read.
+/// A cell with the properties of its printed number.
 #[derive(Clone, Copy, Debug)]
 pub struct TableCell {
-    /// The number; NaN where the cell has no number.
+    /// The number; NaN if the cell has no number.
     value: f64,
-    /// Decimals printed, less the exponent.
+    /// Number of printed decimals minus the exponent.
     decimals: i32,
-    /// Digits from the first that is not zero.
+    /// Number of digits, counted from the first nonzero one.
     significant: u16,
-    /// Those of a whole number without the zeros at its end, which may stand for digits that were rounded off.
+    /// The same without the trailing zeros of a whole number, which may replace digits lost in rounding.
     telling: u16,
     is_missing: bool,
 }
 
-/// No number stands in a cell, and none is claimed: nothing was measured.
+/// Value of an empty cell: nothing was measured, so no number is claimed.
 pub const MISSING: Rounded = Rounded::exact(f64::NAN);
 
-/// A program wrote that its number is none.
+/// Value of a cell in which a program wrote NaN or infinity.
 pub const UNDEFINED: Rounded = Rounded { value: f64::NAN, error: f64::INFINITY };
 
-/// Words for a cell in which nothing stands.
+/// Words that mean an empty cell.
 const EMPTY: [&str; 6] = ["-", "na", "n/a", "<na>", "null", "none"];
 
-/// Words for a number that is none, after the sign.
+/// Words for NaN and infinity, after the sign.
 const NO_NUMBER: [&str; 6] = ["nan", "nan(ind)", "inf", "infinity", "1.#ind", "1.#qnan"];
 
-/// Whether nothing was measured there. A NaN that a program computed is no such cell.
+/// Whether nothing was measured in the cell. A NaN that a program computed does not count as missing.
 #[must_use]
 pub fn is_missing(number: &Rounded) -> bool {
     number.value.is_nan() && number.error == 0.0
 }
 
 impl TableCell {
-    /// Reads a cell; `None` if it is neither a number nor a word for a missing one.
+    /// Reads a cell; `None` if it is neither a number nor a word for a missing or undefined one.
     #[must_use]
     pub fn parse(text: &str) -> Option<TableCell> {
         let Some(decimal) = TableCell::decimal(text) else { return TableCell::word(text) };
-        // Python ends whole numbers with a point and a zero, whatever digits they have.
+        // Python appends `.0` to whole numbers, whatever number of digits they have.
         Some(text.strip_suffix(".0").and_then(TableCell::decimal).unwrap_or(decimal))
     }
 
-    /// A number with a point and an exponent, or without.
+    /// A number, with or without point and exponent.
     fn decimal(text: &str) -> Option<TableCell> {
         let (mut decimals, mut significant, mut telling, mut point, mut exponent) = (0i32, 0u16, 0u16, false, 0i32);
         for (at, byte) in text.bytes().enumerate() {
@@ -76,19 +76,19 @@ impl TableCell {
         is_word.then_some(TableCell { value: f64::NAN, decimals: 0, significant: 0, telling: 0, is_missing })
     }
 
-    /// The number; NaN where there is none.
+    /// The number; NaN if there is none.
     #[must_use]
     pub fn value(&self) -> f64 {
         self.value
     }
 
-    /// Decimals printed, less the exponent.
+    /// Number of printed decimals minus the exponent.
     #[must_use]
     pub fn decimals(&self) -> i32 {
         self.decimals
     }
 
-    /// Digits printed from the first that is not zero.
+    /// Number of printed digits, counted from the first nonzero one.
     pub(crate) fn significant(&self) -> u16 {
         self.significant
     }
@@ -98,8 +98,8 @@ impl TableCell {
         self.significant > 0 && !self.value.is_nan()
     }
 
-    /// The same number with the zeros at its end that were not printed: as many as neither so many decimals nor so many
-    /// significant digits forbid.
+    /// The same number with the trailing zeros that its format left out.
+    /// Zeros are added up to so many decimals, but not beyond so many significant digits.
     pub(crate) fn with_zeros(mut self, decimals: i32, significant: u16) -> TableCell {
         let mut zeros = decimals.saturating_sub(self.decimals).max(0);
         if self.has_digits() {
@@ -111,21 +111,25 @@ impl TableCell {
         self
     }
 
-    /// Power of ten of its first digit that is not zero.
+    /// Power of ten of the first nonzero digit.
     fn first_place(&self) -> i32 {
         i32::from(self.significant) - 1 - self.decimals
     }
 }
 
-/// The numbers of a column, each with what its digits leave open.
+/// The numbers of a column, each with the uncertainty left by its printed digits.
 ///
-/// A column is printed with so many decimals or with so many significant digits, and programs leave out zeros at the
-/// end. Its longest cell shows how many there are. Both are tried, and the larger half unit counts: it is that of the
-/// format in which the column was printed, because with decimals the largest number has most significant digits, and
-/// with significant digits the smallest has most decimals. Where several whole numbers have more digits than any other
-/// cell only by zeros at their end, these stand for what was rounded off, unless all numbers are steps that were chosen.
-/// Numbers in single precision, which are printed with up to nine digits, hold less than these; the shortest text that
-/// tells one from its neighbours may lie half way to these, so that it is read in single precision again.
+/// A column is printed with a fixed number of decimals or of significant digits, and programs omit trailing zeros.
+/// The longest cell shows that number. Both formats are tried, and the larger half unit counts.
+/// It is that of the actual format: with decimals the largest number has most significant digits, with significant
+/// digits the smallest number has most decimals.
+///
+/// Several whole numbers may have more digits than any other cell only by trailing zeros.
+/// These zeros then count as rounded-off digits, unless all numbers are multiples of a chosen step.
+///
+/// Numbers in single precision are printed with up to nine digits but hold fewer.
+/// The shortest text that distinguishes such a number may lie half way to its neighbour, so it is read in single
+/// precision again.
 #[must_use]
 pub fn numbers(cells: &[TableCell]) -> Vec<Rounded> {
     numbers_as(cells, Precision::of(cells))
@@ -147,7 +151,7 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
                 0 => -decimals,
                 _ => (-decimals).max(cell.first_place() + 1 - significant),
             };
-            // The decimal is rounded once more to binary; the excess covers only that rounding.
+            // Converting the decimal to binary rounds once more. The excess covers only that rounding error.
             let half = 0.5 * 10f64.powi(place) * (1.0 + 1e-9);
             let value = if is_single { f64::from(cell.value as f32) } else { cell.value };
             Rounded { value, error: half.larger(binary * value.abs()) }
@@ -159,17 +163,18 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
     if are_rounded && !chosen(&found) { with(telling) } else { found }
 }
 
-/// Whole numbers that end with zeros by chance: one of ten does, and so many do hardly ever.
+/// Number of whole numbers with trailing zeros that is unlikely by chance. One whole number in ten ends with zero.
 const FEW: usize = 2;
 
-/// Cells with so many digits that single precision may be behind them, and of which each must be the shortest text of
-/// a number in single precision: one of some eight decimals with eight digits is, by chance.
+/// Number of cells with at least eight digits from which single precision is considered.
+/// Each of them must be the shortest text of a number in single precision.
+/// By chance, about one in eight decimals with eight digits is such a text.
 const TELLING: usize = 8;
 
-/// What the numbers of a column were before they were printed; the coarser comes first.
+/// Precision of the numbers of a column before they were printed, the coarser one first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Precision {
-    /// Each has as many digits as tell it from its neighbours.
+    /// Single: each number has just enough digits to be distinguished from its neighbours.
     Single,
     Double,
 }
@@ -199,9 +204,9 @@ mod tests {
     fn a_number_has_the_digits_of_its_column() {
         for (cells, halves) in [
             (["1", "1.25"], [0.005, 0.005]),
-            // 2 may have one digit only, as .5 has.
+            // 2 may have only one significant digit, like .5.
             ([".5", "2."], [0.05, 0.5]),
-            // With %g and an exponent: so many significant digits.
+            // With %g and an exponent: a fixed number of significant digits.
             (["1e3", "1.25e3"], [5.0, 5.0]),
             (["0.000277777778", "0.0155555556"], [5e-13, 5e-11]),
             (["1.00001e-05", "123"], [5e-11, 5e-4]),
@@ -214,7 +219,7 @@ mod tests {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);
             }
         }
-        // With three digits, as Python prints what it has rounded, and as others do.
+        // With three significant digits: as Python prints rounded numbers, and as other programs do.
         for cells in [["-2450.0", "1260.0", "301.0", "0.354"], ["2450", "1260", "301", "0.354"]] {
             for (error, half) in errors(&cells).iter().zip([5.0, 5.0, 0.5, 0.0005]) {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);
@@ -253,7 +258,7 @@ mod tests {
             let exact = 0.1f32 + ((row + 1) as f32).sqrt();
             assert!(value == f64::from(exact) && error > 5.9e-8 * value, "{row}: {value} {error}");
         }
-        // Doubles with eight digits are none.
+        // Doubles printed with eight digits do not count as single precision.
         let printed: Vec<String> = (1..40).map(|row| format!("{:.7}", f64::from(row).sqrt())).collect();
         let texts: Vec<&str> = printed.iter().map(String::as_str).collect();
         assert!(errors(&texts).iter().all(|error| *error < 6e-8));

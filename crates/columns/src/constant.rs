@@ -1,21 +1,23 @@
-//! Columns of one number throughout: a moment that is zero, a constant speed.
+//! Columns with the same number in every row: a zero moment, a constant speed.
 
 use crate::cell::{Precision, TableCell, numbers, numbers_as};
 use crate::instants::chosen;
 use formula::Rounded;
 
-/// Digits that a number in single precision has for certain.
+/// Number of digits that single precision is certain to hold.
 const SINGLE: u16 = 7;
 
-/// The numbers of a column of a file with the `others` beside it, each with what its digits leave open: [`numbers`],
-/// but for a column of one number throughout.
+/// The numbers of a column of a file, each with the uncertainty left by its printed digits.
+/// The result is that of [`numbers`], except for a column of zeros, which is judged by the `others` of the file.
 ///
-/// Such a column does not show its own format: `0` is an exact zero as `%g`, Python and the like print it, and
-/// anything below a half as `%.0f` does. A file is written by one format as a rule, and a format that leaves out zeros
-/// at the end shows in its other columns: their cells differ in decimals and in significant digits. Where all do, a
-/// constant has at least the decimals and the digits of the coarsest of them. With decimals of one count anywhere, as
-/// `%.6f` prints, or whole numbers that are no steps, each column may have its own format, and a constant be rounded to
-/// it.
+/// A constant column does not show its format.
+/// `0` is an exact zero as printed by `%g`, Python and similar formats, but anything below a half as printed by `%.0f`.
+/// A file usually has one format. If it omits trailing zeros, the cells of its other columns differ in decimals and in
+/// significant digits.
+/// If all other columns show this, the constant has at least the decimals and digits of the coarsest of them.
+/// A column with a fixed number of decimals, as from `%.6f`, or with whole numbers that are not steps, shows that each
+/// column may have a separate format.
+/// A constant may then be rounded to its format.
 #[must_use]
 pub fn numbers_beside<Others>(cells: &[TableCell], others: impl FnOnce() -> Others) -> Vec<Rounded>
 where
@@ -30,7 +32,7 @@ where
     }
 }
 
-/// What other columns vouch for: the fewest decimals and digits of them, and the coarsest precision.
+/// Evidence of other columns: their fewest decimals and digits, and their coarsest precision.
 #[derive(Clone, Copy)]
 struct Vouched {
     decimals: i32,
@@ -38,7 +40,7 @@ struct Vouched {
     precision: Precision,
 }
 
-/// What other columns vouch for; `None` if they say nothing.
+/// Evidence of the other columns; `None` if they give none.
 fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouched> {
     let mut coarsest: Option<Vouched> = None;
     for column in others {
@@ -67,8 +69,9 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouche
     coarsest
 }
 
-/// Whether all numbers of a column are zero: of a format by significant digits that is exact, however few they are. Any
-/// other constant may have been rounded to fewer digits than the other columns have.
+/// Whether all numbers of a column are zero.
+/// In a format with significant digits a zero is exact, however few digits there are.
+/// Any other constant may have been rounded to fewer digits than the other columns have.
 fn is_zero(cells: &[TableCell]) -> bool {
     is_constant(cells) && cells.iter().any(|cell| cell.value() == 0.0)
 }
@@ -97,7 +100,7 @@ mod tests {
         texts.iter().map(|text| TableCell::parse(text).unwrap()).collect()
     }
 
-    /// What the digits of the first number of a column leave open beside others.
+    /// Error of the first number of a column beside other columns.
     fn error(column: &[&str], others: &[&[&str]]) -> f64 {
         let others: Vec<Vec<TableCell>> = others.iter().map(|texts| cells(texts)).collect();
         numbers_beside(&cells(column), || others)[0].error
@@ -112,7 +115,7 @@ mod tests {
         for zero in [["0", "0", "-0"], ["0.0", "0.0", "0"]] {
             approx::assert_relative_eq!(error(&zero, &[STEPS, GENERAL, FORCES]), 5e-6, max_relative = 1e-6);
         }
-        // Another constant may have more digits: 13.6 may have been 13.63 with three, 1.36e1 too.
+        // Another constant may have had more digits: with three digits, 13.6 and 1.36e1 may both have been 13.63.
         approx::assert_relative_eq!(error(&["13.6", "13.6", ""], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
         approx::assert_relative_eq!(error(&["1.36e1", "1.36e1"], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
         let three: &[&str] = &["0.123", "1.5", "12.3"];
@@ -121,7 +124,7 @@ mod tests {
 
     #[test]
     fn a_format_of_its_own_may_have_rounded_a_constant() {
-        // With decimals, with an exponent, without either; steps and other constants say nothing.
+        // With decimals, with an exponent, with neither. Steps and other constants give no evidence.
         for fixed in [["0.125000", "1.500000", "12.345679"], ["1.25e-1", "1.50e0", "1.23e1"], ["2450", "-13", "301"]] {
             approx::assert_relative_eq!(error(&["0", "0", "0"], &[GENERAL, &fixed]), 0.5, max_relative = 1e-6);
         }
@@ -130,7 +133,7 @@ mod tests {
             0.5,
             max_relative = 1e-6
         );
-        // A column that varies shows its own digits.
+        // A column with different numbers shows its digits itself.
         approx::assert_relative_eq!(error(&["0", "1", "0"], &[GENERAL, FORCES]), 0.5, max_relative = 1e-6);
     }
 }

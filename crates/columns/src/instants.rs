@@ -1,21 +1,23 @@
-//! What rounded instants leave open.
+//! Uncertainty left by rounded instants.
 
 use formula::Rounded;
 use linkage::math::KeepNan;
 
-/// A step that was not chosen shows as the same over n steps in two of n cases, and with so many zeros behind its last
-/// digit in one of ten for each. Instants are taken as exact where such a chance is one of so many or less.
+/// Instants count as exact if such a pattern has at most a chance of one in this number.
+/// A step that was not chosen looks constant over n steps in two of n cases.
+/// It has trailing zeros in one of ten cases for each zero.
 const EVIDENCE: f64 = 50.0;
 
-/// Whether instants were chosen as they are printed, and not rounded: whole multiples of one step, which are so many,
-/// or of a step so round, that no other step would look like that.
+/// Whether instants were chosen as printed, not rounded.
+/// They must be multiples of one step, so many or with so round a step that no other step would look the same.
 #[must_use]
 pub fn chosen(values: &[Rounded]) -> bool {
     chosen_as(values, Sort::Any)
 }
 
-/// The same of degrees. Whole ones at equal steps always are chosen, and at others where they have a divisor that whole
-/// numbers rarely share, such as 0, 30, 45, 60, 90.
+/// The same for degrees.
+/// Whole degrees at equal steps always count as chosen.
+/// At unequal steps they must have a common divisor that whole numbers rarely share, such as 0, 30, 45, 60, 90.
 #[must_use]
 pub fn degrees_chosen(values: &[Rounded]) -> bool {
     let are_whole = values.iter().all(|at| at.value.fract() == 0.0);
@@ -34,7 +36,7 @@ fn chosen_as(values: &[Rounded], sort: Sort) -> bool {
     let step = values.get(1).map_or(first.value, |second| second.value - first.value);
     let is_step = |pair: &[Rounded]| (pair[1].value - pair[0].value - step).abs() <= 8.0 * f64::EPSILON * size;
     let is_first_one = first.value == 0.0 || is_multiple(first.value, step);
-    // Half a unit has an excess for its rounding.
+    // Half a unit has an excess for its rounding error.
     let unit = 2.0 * values.iter().map(|at| at.error).fold(0.0, f64::larger) / (1.0 + 1e-9);
     if !is_first_one || !values.windows(2).all(is_step) {
         return are_multiples(values, unit, sort);
@@ -47,11 +49,11 @@ fn is_multiple(value: f64, of: f64) -> bool {
     (value / of - (value / of).round()).abs() <= 1e-6 * (value / of).abs()
 }
 
-/// What so many multiples of a step of `round` units tell: as many cases as they are, times two or five for every such
-/// factor of the step.
+/// Evidence given by multiples of a step of `round` units: their number, times two or five for every such factor of the
+/// step.
 fn evidence(multiples: f64, mut round: f64) -> f64 {
     let mut evidence = if multiples < 1.0 { 1.0 } else { multiples };
-    // Larger ones are no whole numbers any more.
+    // Larger doubles are no longer reliable whole numbers.
     if !(round < 1e15) {
         return 0.0;
     }
@@ -63,11 +65,11 @@ fn evidence(multiples: f64, mut round: f64) -> f64 {
     evidence
 }
 
-/// Independent numbers that rows may have at most for a divisor: those of one hidden step depend on each other.
+/// Largest number of rows that count as independent for a common divisor. Rows of one hidden step depend on each other.
 const INDEPENDENT: i32 = 3;
 
-/// The same at unequal steps: a divisor of all tells as much as its roundness, such as zeros at all ends. Whole degrees
-/// that have nothing to do with each other share a divisor in as few cases as its power says.
+/// The same at unequal steps. A common divisor is evidence by its roundness, such as trailing zeros in all rows.
+/// Independent whole degrees share a divisor only with a probability of one over its power.
 fn are_multiples(values: &[Rounded], unit: f64, sort: Sort) -> bool {
     let (mut divisor, mut count) = (0u64, 0i32);
     for at in values.iter().filter(|at| at.value != 0.0) {
@@ -78,7 +80,7 @@ fn are_multiples(values: &[Rounded], unit: f64, sort: Sort) -> bool {
         divisor = common(divisor, units.round() as u64);
         count = count.saturating_add(1);
     }
-    // One number is a multiple of itself.
+    // A single number is always a multiple of itself.
     if count < 2 {
         return false;
     }
@@ -95,12 +97,12 @@ fn common(mut one: u64, mut other: u64) -> u64 {
     one
 }
 
-/// Near an inflection a course is steeper than both secants: with eight rows in a period by a ninth.
+/// Near an inflection a curve is steeper than both secants: by a ninth with eight rows per period.
 const STEEPER: f64 = 1.2;
 
-/// What the digits of instants leave open in a column, by its own course: the steeper of both secants at a row, times
-/// `slack`, how far its instant may be off. `order` are the rows in ascending order of the instants `at`; angles may
-/// jump by a `turn`.
+/// Uncertainty that rounded instants cause in a column, from the slope of the column.
+/// For each row it is the steeper of the two secants times `slack`, the uncertainty of the row's instant.
+/// `order` has the rows in ascending order of the instants `at`. Angles may jump by a `turn`.
 #[must_use]
 pub fn drift(values: &[Rounded], at: &[f64], slack: &[f64], order: &[usize], turn: Option<f64>) -> Vec<f64> {
     let mut drift = vec![0.0; values.len()];
@@ -132,7 +134,7 @@ mod tests {
             (361, &(|row: f64| format!("{}", (row * 10.0).round() / 1e3)) as &dyn Fn(f64) -> String, true),
             (4, &|row| format!("{:.6}", 0.01 * row), true),
             (100, &|row| format!("{row}"), true),
-            // 2.777... ms: three steps look alike.
+            // A step of 2.777... ms: the three rounded steps look equal.
             (3, &|row| format!("{:.0}", 2.7777 * row), false),
             (9, &|row| format!("{:.6}", row / 780.0), false),
             (73, &|row| format!("{:.6}", row / 780.0), false),
@@ -147,26 +149,26 @@ mod tests {
         assert!(degrees_chosen(&of(&["70".into()])));
         assert!(degrees_chosen(&of(&list(4, &|row| format!("{}", 15.0 * row)))));
         assert!(!degrees_chosen(&of(&["0".into(), "2".into(), "3".into(), "5".into()])));
-        // Parts of degrees say no more than parts of seconds.
+        // Fractions of degrees are no more evidence than fractions of seconds.
         assert!(!degrees_chosen(&of(&["0".into(), "2.7".into(), "5.4".into()])));
         let (degrees, any) = (degrees_chosen as fn(&[Rounded]) -> bool, chosen as fn(&[Rounded]) -> bool);
         for (texts, chosen, expected) in [
-            // As tables in books have them, and what a program has rounded.
+            // As in printed tables, and as a program may have rounded them.
             (["0", "30", "45", "60", "90"], degrees, true),
             (["0", "30", "45", "60", "90"], any, false),
             (["0", "3", "5", "8", "10"], degrees, false),
-            // With the zeros that say so.
+            // With trailing zeros, which are evidence.
             (["0.000", "17.000", "46.000", "63.000", "90.000"], degrees, true),
             (["0.000", "0.200", "0.500", "0.600", "1.000"], any, true),
             (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], any, false),
-            // A step that is hidden is even by chance.
+            // A hidden step is even by chance.
             (["2.068378", "9.362942", "16.657506", "23.952070", "31.246634"], degrees, false),
         ] {
             assert_eq!(chosen(&of(&texts.map(Into::into))), expected, "{texts:?}");
         }
     }
 
-    /// Rows in descending order; an angle goes on by 0.2 where it jumps by a turn.
+    /// Rows in descending order. Where the angle jumps by a turn, it actually changes by 0.2.
     #[test]
     fn a_column_drifts_by_its_own_slope() {
         let values: Vec<Rounded> = [0.5, 0.3, 6.3, 6.1].map(Rounded::exact).to_vec();
@@ -179,7 +181,7 @@ mod tests {
                 .all(|((own, slope), slack)| (slope * slack * (1.0 - 1e-9)..=1.5 * slope * slack).contains(own))
         };
         assert!(near(&of(Some(6.2)), [0.2; 4]), "{:?}", of(Some(6.2)));
-        // Without a turn the jump is a slope.
+        // Without a turn the jump counts as a slope.
         assert!(near(&of(None), [0.2, 6.0, 6.0, 0.2]), "{:?}", of(None));
     }
 }

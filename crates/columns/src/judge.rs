@@ -1,4 +1,4 @@
-//! Two columns side by side.
+//! Comparison of two columns.
 
 use crate::cell::is_missing;
 use formula::Rounded;
@@ -7,24 +7,24 @@ use linkage::math::KeepNan;
 /// One row of both columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowPair {
-    /// Its number in the party that gives the instants.
+    /// Number of the row in the party that defines the instants.
     pub row: usize,
-    /// Time (s); NaN where none is known.
+    /// Time (s); NaN if unknown.
     pub time: f64,
-    /// Crank angle (rad, as the scenario states it); NaN where none is known.
+    /// Crank angle (rad, as the scenario states it); NaN if unknown.
     pub crank: f64,
-    /// What the first and the second party say, in the unit of the claim; NaN for no number.
+    /// Values of the first and the second party, in the unit of the claim; NaN if there is no number.
     pub values: [f64; 2],
-    /// Second less first; for angles without whole turns.
+    /// Second value minus first; for angles without whole turns.
     pub difference: f64,
     /// Largest difference allowed.
     pub bound: f64,
-    /// The part of the bound that is known: digits of the numbers and instants, rounding, and what a side knows.
+    /// Known part of the bound: from the digits of numbers and instants, rounding, and the error bounds of the parties.
     pub known: f64,
 }
 
 impl RowPair {
-    /// Share of the bound that is used; infinite for no number.
+    /// Difference as a fraction of the bound; infinite if there is no number.
     #[must_use]
     pub fn used(&self) -> f64 {
         let used = if self.difference == 0.0 { 0.0 } else { self.difference.abs() / self.bound };
@@ -32,12 +32,12 @@ impl RowPair {
     }
 }
 
-/// A difference that is allowed besides what is known: the larger of two.
+/// A difference that is allowed in addition to the known part of the bound: the larger of two.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Allowance {
-    /// The same at every row, in the unit of the columns.
+    /// Allowance that is the same in every row, in the unit of the columns.
     pub fixed: f64,
-    /// Share of the value that is measured by.
+    /// Allowance as a fraction of the reference value.
     pub of_value: f64,
 }
 
@@ -46,58 +46,58 @@ pub struct Allowance {
 pub struct Beside<'a> {
     /// What both say.
     pub values: [&'a [Rounded]; 2],
-    /// Times (s) and crank angles (rad) of the rows, as far as somebody knows them, else NaN.
+    /// Times (s) and crank angles (rad) of the rows; NaN if unknown.
     pub places: [&'a [f64]; 2],
-    /// What the digits of the instants leave open, row by row; empty for nothing.
+    /// Uncertainty caused by the digits of the instants, row by row; empty if there is none.
     pub drift: &'a [f64],
-    /// Values so far apart mean the same.
+    /// Difference between values that mean the same, such as a whole turn.
     pub turn: Option<f64>,
     /// What is allowed.
     pub allowance: Allowance,
-    /// Which of the two is measured by.
+    /// Which of the two is the reference.
     pub measure: ScaleColumn,
 }
 
-/// Which of two columns is measured by: the first, unless the second alone is of an analytic side.
+/// Which of two columns is the reference: the first, unless only the second comes from an analytic side.
 #[derive(Clone, Copy, Debug)]
 pub struct ScaleColumn {
     /// Its number, from 0.
     pub party: usize,
-    /// Whether its numbers are those of an analytic side: where that has none, nothing is expected.
+    /// Whether the reference comes from an analytic side. Where an analytic side has no number, none is expected.
     pub is_analytic: bool,
 }
 
 impl ScaleColumn {
-    /// By whether each of the two is of an analytic side.
+    /// Selects the reference. Each flag tells whether a column comes from an analytic side.
     #[must_use]
     pub fn among([one, other]: [bool; 2]) -> Self {
         ScaleColumn { party: usize::from(!one && other), is_analytic: one || other }
     }
 }
 
-/// What two columns come to.
+/// Result of the comparison of two columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JudgedColumns {
     /// Number of rows compared.
     pub judged: usize,
-    /// Number of rows at which nothing was measured, or nothing is defined.
+    /// Number of rows without a measurement, or without a defined value.
     pub missing: usize,
-    /// Root of the mean square of the differences between numbers.
+    /// Root mean square of the differences between numbers.
     pub rms: f64,
-    /// The widest part of a bound that is known.
+    /// The largest known part of a bound.
     pub widest: f64,
     /// The widest bound.
     pub loosest: f64,
     /// The largest difference between numbers.
     pub largest: Option<RowPair>,
-    /// The row that uses most of its bound.
+    /// The row whose difference is the largest fraction of its bound.
     pub worst: Option<RowPair>,
     /// The first row beyond its bound.
     pub since: Option<RowPair>,
 }
 
-/// Judges row by row. Where only one of the two has a number although the other says that it has computed one, they
-/// differ: such a NaN is beyond every bound.
+/// Judges row by row.
+/// If one value is a number and the other a computed NaN, they differ: such a NaN exceeds every bound.
 #[must_use]
 pub fn judge(both: &Beside) -> JudgedColumns {
     let Beside { values, places, drift, turn, allowance, measure } = *both;
@@ -151,7 +151,7 @@ mod tests {
         judge(&Beside { values: [first, second], places, drift: &[], turn: None, allowance, measure })
     }
 
-    /// Rows in descending order of their instants: by time where there is one, else by crank angle.
+    /// Rows in descending order of their instants: by time if known, else by crank angle.
     #[test]
     fn every_number_of_a_judgement_is_that_of_its_row() {
         let of = |value: f64, error: f64| Rounded { value, error };
@@ -163,17 +163,17 @@ mod tests {
             let measure = ScaleColumn { party: 0, is_analytic: true };
             let both = Beside { values: [&first, &second], places, drift: &drift, turn: None, allowance, measure };
             let found = judge(&both);
-            // Differences 0, 1, -4 and none; bounds 0.8 + 1, 2, 3 and 4.
+            // Differences 0, 1, -4 and NaN; bounds 0.8 + 1, 2, 3 and 4.
             assert_eq!((found.judged, found.missing, found.widest), (4, 1, 0.1 + 0.2 + 0.5));
             assert_eq!(found.rms, (17.0f64 / 3.0).sqrt());
             let largest = found.largest.unwrap();
             assert_eq!((largest.row, largest.difference, largest.bound), (2, -4.0, 3.0));
-            // What is no number uses most, and is beyond its bound at the earliest instant.
+            // The NaN is the worst row and, at the earliest instant, the first one beyond its bound.
             assert_eq!([found.worst, found.since].map(|own| own.unwrap().row), [4, 4]);
-            // By the second party, whose numbers are other ones.
+            // With the second party as reference, whose numbers differ.
             let by_other = judge(&Beside { measure: ScaleColumn { party: 1, is_analytic: false }, ..both });
             assert_eq!(by_other.largest.unwrap().bound, 0.1 * 26.0);
-            // An angle of 4 turned by 5 is one of -1.
+            // With a turn of 5, a difference of 4 is one of -1.
             let turned = judge(&Beside { turn: Some(5.0), ..both });
             assert_eq!((turned.largest.unwrap().row, turned.largest.unwrap().difference.abs()), (1, 1.0));
         }
@@ -190,10 +190,10 @@ mod tests {
         let found = of(UNDEFINED);
         assert_eq!((found.judged, found.missing, found.since.map(|at| at.row)), (4, 0, Some(1)));
         assert!(found.largest.unwrap().difference == 0.0 && found.worst.unwrap().used().is_infinite());
-        // Where the analytic side has no number, none is expected.
+        // If the analytic side has no number, none is expected.
         let found = judged(&[right[0], UNDEFINED], &right[..2], [true, false]);
         assert_eq!((found.judged, found.missing, found.since), (1, 1, None));
-        // Of two tables one has no number.
+        // One of two tables has no number.
         assert!(judged(&[right[0], UNDEFINED], &right[..2], [false; 2]).since.is_some());
         assert_eq!(judged(&[UNDEFINED], &[UNDEFINED], [false; 2]).missing, 1);
     }

@@ -1,25 +1,25 @@
-//! The rows of a table with a header, whose cells are separated by commas and are not all numbers.
+//! Rows of a table with a header. Cells are separated by commas and are not all numbers.
 
 use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::text::divide;
 
-/// A table in a text: its header and the places of its rows. A cell is read when it is asked for.
+/// A table in a text: its header and the positions of its rows. A cell is read on request.
 #[derive(Clone, Debug)]
 pub struct Records<'a> {
     text: &'a str,
     /// Names of the columns.
     pub header: Vec<String>,
-    /// First bytes of the rows.
+    /// Position of the first byte of each row.
     rows: Vec<u32>,
 }
 
 impl<'a> Records<'a> {
-    /// The rows of a text of 4 GiB at most; blank lines are none.
+    /// The rows of a text of at most 4 GiB. Blank lines do not count.
     ///
     /// # Errors
-    /// The bytes of the first line that has another number of cells than the header, and that number.
+    /// The byte range of the first line whose number of cells differs from that of the header, and that number.
     pub fn of(text: &'a str) -> Result<Self, (Range<usize>, usize)> {
         let mut records = Records { text, header: Vec::new(), rows: Vec::new() };
         let mut start = 0;
@@ -50,13 +50,13 @@ impl<'a> Records<'a> {
         self.rows.len()
     }
 
-    /// Whether there is no row.
+    /// Whether there are no rows.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// Bytes of the line of a row.
+    /// Byte range of a row's line.
     #[must_use]
     pub fn line(&self, row: usize) -> Range<usize> {
         let start = self.rows[row] as usize;
@@ -64,7 +64,7 @@ impl<'a> Records<'a> {
         start..start + length
     }
 
-    /// A cell, without quotes and the blanks around it.
+    /// A cell, without its quotes and the spaces around it.
     #[must_use]
     pub fn cell(&self, row: usize, column: usize) -> Cow<'a, str> {
         let line = &self.text[self.line(row)];

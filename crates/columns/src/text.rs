@@ -1,5 +1,5 @@
-//! Text with separated columns, as programs write it: with commas, semicolons, tabs or blanks, with or without a
-//! header, with lines of comment.
+//! Text with separated columns, as programs write it.
+//! Columns are separated by commas, semicolons, tabs or spaces. A header and comment lines are optional.
 
 use crate::sentences;
 use std::borrow::Cow;
@@ -11,17 +11,17 @@ use super::cell::TableCell;
 use super::constant::numbers_beside;
 use formula::Rounded;
 
-/// Signs that begin a line of comment.
+/// Characters that begin a comment line.
 const COMMENTS: [char; 3] = ['#', '%', ';'];
 
-/// A table as it stands in a file, whatever its columns mean. All have the same length.
+/// A table as read from a file, whatever its columns mean. All columns have the same length.
 #[derive(Clone, Debug, Default)]
 pub struct TextTable {
-    /// Names of the columns; `c1`, `c2`, ... where the text has none.
+    /// Names of the columns; `c1`, `c2`, ... if the text has no names.
     pub names: Vec<String>,
-    /// Their numbers, each with what its digits leave open.
+    /// Numbers of the columns, each with the uncertainty left by its printed digits.
     pub columns: Vec<Vec<Rounded>>,
-    /// Number of the line of every row, from 1; empty where the file has no lines.
+    /// Line number of every row, from 1; empty if the file has no lines.
     pub lines: Vec<u32>,
 }
 
@@ -32,7 +32,7 @@ impl TextTable {
         self.columns.first().map_or(0, Vec::len)
     }
 
-    /// A row in words, from its number from 0: by its line, if there are lines.
+    /// A row in words, given its index from 0: its line number, if there are lines, otherwise its row number.
     #[must_use]
     pub fn place(&self, row: usize) -> String {
         match self.lines.get(row) {
@@ -41,14 +41,14 @@ impl TextTable {
         }
     }
 
-    /// Whether there is no row.
+    /// Whether there are no rows.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
-/// Why a text is no table.
+/// Why a text is not a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableFault {
     /// Bytes of the line.
@@ -59,7 +59,7 @@ pub struct TableFault {
     pub help: String,
 }
 
-/// Two columns of one name. It displays as a message.
+/// Two columns with the same name. It displays as a message.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Twice {
     /// The name.
@@ -72,7 +72,7 @@ impl Twice {
     /// The way out.
     pub const HELP: &str = sentences::GIVE_EVERY_COLUMN_A_NAME;
 
-    /// The first name that stands twice. Columns without a name are nobody's: nothing can ask for them.
+    /// The first name that occurs twice. Columns without a name do not count, because no request can refer to them.
     pub fn of<T: AsRef<str>>(names: impl IntoIterator<Item = T>) -> Option<Twice> {
         let mut seen = BTreeMap::new();
         for (index, name) in names.into_iter().enumerate() {
@@ -95,17 +95,18 @@ impl fmt::Display for Twice {
     }
 }
 
-/// Memory (bytes) that the numbers of a text take, at most.
+/// Largest memory (bytes) that the numbers of a text take.
 #[must_use]
 pub fn bytes(text: &str) -> f64 {
     let cells = text.bytes().filter(|byte| matches!(byte, b',' | b';' | b'\t' | b' ' | b'\n')).count() + 1;
     (cells * (size_of::<TableCell>() + size_of::<Rounded>())) as f64
 }
 
-/// Reads a table. The last line shows which sign separates the columns.
+/// Reads a table. The last line shows which character separates the columns.
 ///
 /// # Errors
-/// A line with another number of cells than the header, a cell that is no number, two columns of one name, no line.
+/// A line whose number of cells differs from that of the header, a cell that is not a number, two columns with the same
+/// name, or no line at all.
 pub fn read(text: &str) -> Result<TextTable, TableFault> {
     let wrong = |start: usize, message: String, help: &str| {
         let length = text[start..].find(['\r', '\n']).unwrap_or(text.len() - start);
@@ -160,13 +161,14 @@ pub fn read(text: &str) -> Result<TextTable, TableFault> {
     Ok(TextTable { names, columns, lines: places })
 }
 
-/// A cell; decimal commas are taken where cells are not separated by commas.
+/// A cell. Decimal commas are accepted if commas do not separate the cells.
 fn number(cell: &str) -> Option<TableCell> {
     TableCell::parse(cell)
         .or_else(|| (cell.matches(',').count() == 1).then(|| TableCell::parse(&cell.replace(',', ".")))?)
 }
 
-/// The lines that are no comments, each with its first byte. Tabs at an end may separate empty cells.
+/// The lines that are not comments, each with the position of its first byte.
+/// Trailing tabs are kept, because they may separate empty cells.
 fn lines(text: &str) -> impl DoubleEndedIterator<Item = (usize, &str)> {
     let begin = text.as_ptr() as usize;
     let all = text.strip_prefix('\u{feff}').unwrap_or(text).split('\n');
@@ -174,7 +176,7 @@ fn lines(text: &str) -> impl DoubleEndedIterator<Item = (usize, &str)> {
         .filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with(COMMENTS))
 }
 
-/// Gives the cells of a line, without the blanks around them and without quotes.
+/// Passes the cells of a line to `give`, without the spaces around them and without quotes.
 pub(crate) fn divide(line: &str, separator: Option<char>, give: &mut dyn FnMut(&str)) {
     let Some(separator) = separator else { return line.split_whitespace().for_each(give) };
     if !line.contains('"') {
@@ -191,7 +193,8 @@ pub(crate) fn divide(line: &str, separator: Option<char>, give: &mut dyn FnMut(&
     }
 }
 
-/// The first cell of a line, and what comes behind its separator. Quotes hold separators; two of them are a sign.
+/// The first cell of a line, and the rest after its separator.
+/// A quoted cell may contain separators. Two quotes stand for a quote character.
 fn cell(line: &str, separator: char) -> (Cow<'_, str>, Option<&str>) {
     let own = line.trim_start();
     let Some(quoted) = own.strip_prefix('"') else {

@@ -15,7 +15,7 @@ use linkage::trajectory::Stage;
 /// Largest crank angle between two samples (rad); a reaction has only a few maxima per turn.
 const SAMPLE_STEP: f64 = PI / 360.0;
 
-/// Largest value of a quantity over a range of crank angles, with its place.
+/// Largest value of a quantity over a range of crank angles, with the crank angle where it occurs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
     /// Largest magnitude (N; N m for a moment).
@@ -48,7 +48,7 @@ pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
 /// Computes the peaks over the range of crank angles that the case's grid spans.
 ///
 /// # Errors
-/// Those of [`PoseSolver::solve`], for crank angles of the range that the mechanism cannot reach.
+/// Those of [`PoseSolver::solve`], for crank angles that the mechanism cannot reach.
 pub fn over_range(case: &Case) -> Result<Peaks> {
     if case.grid.inputs.iter().any(|&crank| case.crank().time_of(crank).is_nan()) {
         let message = sentences::PEAKS_ARE_LOOKED_FOR_OVER;
@@ -95,7 +95,7 @@ fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p Stat
     poses.solve(crank, drive.rate, drive.acceleration, Stage::BalancingMoment)
 }
 
-/// Returns the largest sample, refined by golden section between its neighbours.
+/// Returns the largest sample, refined by golden-section search between its neighbours.
 fn refined(case: &Case, poses: &mut PoseSolver, quantity: &Quantity, cranks: &[f64], samples: &[f64]) -> Result<Peak> {
     let mut value = |crank: f64| -> Result<f64> { Ok(quantity(at(case, poses, crank)?)) };
     let (crank, value) = extremum::greatest(cranks, samples, &mut value)?;

@@ -1,6 +1,5 @@
-//! Clearance: smallest distances between links and from a housing, first collision and swept areas, proven over the
-//! whole
-//! range of the grid, between its instants too.
+//! Clearance: smallest distances between links and from a housing, first collision, and swept areas.
+//! All results are proven over the whole range of the grid, including the crank angles between its instants.
 
 mod gap;
 mod search;
@@ -34,8 +33,8 @@ use tube::Tubes;
 const TOLERANCE: f64 = 1e-6;
 /// Distance that counts as contact where nothing finer can be proven, as a share of the mechanism's size.
 const TOUCH: f64 = 1e-9;
-/// Largest number of pairs of convex parts examined in one run, over all parts of the range; also the largest number of
-/// tests for one swept area.
+/// Largest number of pairs of convex parts that one run examines, over all parts of the range.
+/// It is also the largest number of tests for one swept area.
 const BUDGET: usize = 5_000_000;
 const AREA_BUDGET: usize = 8_000_000;
 
@@ -48,7 +47,7 @@ pub struct PairClearance {
     pub smallest: Smallest,
     /// First contact; `None` if the two never meet.
     pub collision: Option<Meeting>,
-    /// First place where the required clearance is missed; `None` also if no clearance is required.
+    /// First pose that violates the required clearance; `None` if there is no such pose or no required clearance.
     pub too_near: Option<Meeting>,
 }
 
@@ -83,13 +82,14 @@ pub struct ClearanceResult {
 }
 
 impl ClearanceResult {
-    /// Returns the pair that collides first, and where; of pairs that touch at the start, the first of the question.
+    /// Returns the pair that collides first, with its first contact.
+    /// If several pairs touch at the start, the first one of the question is returned.
     #[must_use]
     pub fn first_collision(&self) -> Option<(&PairClearance, Meeting)> {
         self.first(|pair| pair.collision)
     }
 
-    /// Returns the pair that first misses the required clearance, and where.
+    /// Returns the pair that first violates the required clearance, with the pose where it does.
     #[must_use]
     pub fn first_too_near(&self) -> Option<(&PairClearance, Meeting)> {
         self.first(|pair| pair.too_near)
@@ -108,12 +108,11 @@ impl ClearanceResult {
     }
 }
 
-/// Answers a clearance question about a case over the crank angles that its grid spans. `progress` receives the
-/// finished
-/// share, from 0 to 1.
+/// Answers a clearance question about a case over the crank angles that its grid spans.
+/// `progress` receives the finished share, from 0 to 1.
 ///
 /// A mechanism whose groups are all dyads repeats its poses after a turn, so one turn of a longer range is examined.
-/// For a free motion with one degree of freedom the range is that of the crank angles at the instants of the grid.
+/// For a free motion with one degree of freedom, the range comes from the crank angles at the instants of the grid.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a free motion with several degrees of freedom.
@@ -207,7 +206,7 @@ pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
     cranks.iter().map(&mut at).collect()
 }
 
-/// Returns the crank angles at the instants of the grid (rad); for a motion under forces those of its solution.
+/// Returns the crank angles at the instants of the grid (rad). For a motion under forces they come from its solution.
 fn cranks(case: &Case) -> Result<Vec<f64>> {
     if !case.is_free() {
         return Ok(case.grid.inputs.clone());

@@ -1,4 +1,4 @@
-//! What loads and gravity do at one state of a case.
+//! Effects of loads and gravity at one state of a case.
 
 use linkage::case::Case;
 use linkage::drive::{Load, On};
@@ -10,7 +10,7 @@ use linkage::mechanism::JointSide;
 pub struct Acting {
     /// Number of the load in its case.
     pub load: usize,
-    /// World place at which it is drawn (m).
+    /// World position at which it is drawn (m).
     pub at: Vec2,
     /// The force (N, world axes).
     pub force: Vec2,
@@ -18,7 +18,8 @@ pub struct Acting {
     pub moment: f64,
 }
 
-/// Forces and moments of all loads but springs and dampers. `motions` and `angles` (rad, turns kept) are those of all links.
+/// Forces and moments of all loads except springs and dampers.
+/// `motions` and `angles` (rad, including full turns) are those of all links.
 #[must_use]
 pub fn acting(case: &Case, sketch: &super::Sketch, motions: &[Motion], angles: &[f64]) -> Vec<Acting> {
     let one = |sign: &super::LoadSign| {
@@ -33,7 +34,7 @@ pub fn acting(case: &Case, sketch: &super::Sketch, motions: &[Motion], angles: &
     sketch.loads.iter().map(one).collect()
 }
 
-/// What a spring or damper does between its two points or links, at one state.
+/// Force or moment of a spring or damper between its two points or links, at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tension {
     /// Number of the load in its case.
@@ -74,7 +75,7 @@ pub struct Weight {
     pub force: Vec2,
 }
 
-/// The weights of all links that have one.
+/// The weights of all links that have a weight.
 #[must_use]
 pub fn weights(case: &Case) -> Vec<Weight> {
     let links = case.mechanism.links().entries().skip(1);

@@ -1,5 +1,5 @@
-//! Figures as bitmaps: PNG, and animated GIF and WebP. The same figure gives the same bytes on every machine: letters
-//! come from a font of our own.
+//! Figures as bitmaps: PNG, and animated GIF and WebP.
+//! The same figure gives the same bytes on every machine, because letters come from a bundled font.
 
 mod canvas;
 mod encode;

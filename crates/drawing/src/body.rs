@@ -6,18 +6,19 @@ use super::mark::{Mark, MarkRole};
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
-/// Radius of the half disc that says that a bar goes on, of a mass centre, and half the width of a traced point's cross.
+/// Radius of the half disc that marks a bar as continuous, radius of a mass centre, and half the width of a traced
+/// point's cross.
 const WELD: f64 = 2.0;
 const MASS: f64 = 1.7;
 const TRACER: f64 = 1.1;
 /// Corners of a quarter of a circle.
 const QUARTER: usize = 6;
 
-/// Places of a link (m, its frame): its points, then its joints that have no named point.
+/// Positions on a link (m, in its frame): its points, then its joints without a named point.
 pub fn places(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     let points = mechanism.links()[link].points.iter().map(|point| point.local);
     let all = points.chain(mechanism.joints().iter().filter_map(|joint| joint.on(link)));
-    // Both zeros are one place.
+    // Positive and negative zero are the same position.
     let mut seen = BTreeSet::new();
     all.filter(|place| seen.insert([place.x, place.y].map(|own| (own + 0.0).to_bits()))).collect()
 }
@@ -27,8 +28,8 @@ pub fn corners(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     hull(places(mechanism, link))
 }
 
-/// A place of a link on which a sign hides no joint: the middle of a plate, or of the longest piece of a bar. `None` if
-/// that is shorter than `least` (m).
+/// A position on a link where a symbol hides no joint: the middle of a plate, or of the longest piece of a bar.
+/// `None` if that piece or plate is shorter than `least` (m).
 pub fn free(mechanism: &Mechanism, link: LinkId, least: f64) -> Option<Vec2> {
     let (mut places, corners) = (places(mechanism, link), corners(mechanism, link));
     if let [first, _] = corners[..] {
@@ -72,7 +73,7 @@ pub fn marks(mechanism: &Mechanism, link: LinkId, unit: f64) -> Vec<Mark> {
     marks
 }
 
-/// Named points of a link that are no joints.
+/// Named points of a link that are not joints.
 pub fn traced(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     let is_joint = |at: Vec2| mechanism.joints().iter().any(|joint| joint.on(link) == Some(at));
     let points = mechanism.links()[link].points.iter().map(|point| point.local);
@@ -92,7 +93,7 @@ fn sector(centre: Vec2, radius: f64, from: Vec2, steps: usize) -> Vec<Vec2> {
     (0..=steps).map(|k| centre + unit(start + step * k as f64) * radius).collect()
 }
 
-/// Largest distance of two places of a link (m); of the ground more than of any other.
+/// Largest distance between two points of a link (m); infinite for the ground.
 pub fn size(mechanism: &Mechanism, link: LinkId) -> f64 {
     if link == GROUND {
         return f64::INFINITY;
@@ -101,7 +102,7 @@ pub fn size(mechanism: &Mechanism, link: LinkId) -> f64 {
     places.iter().flat_map(|a| places.iter().map(move |b| (a - b).norm())).fold(0.0, f64::larger)
 }
 
-/// Convex hull, counter-clockwise; both ends if all places are on one line (Andrew 1979).
+/// Convex hull, counter-clockwise; both ends if all points are on one line (Andrew 1979).
 fn hull(mut places: Vec<Vec2>) -> Vec<Vec2> {
     places.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let far = places.iter().map(|at| (at - places[0]).norm_squared()).fold(0.0, f64::larger);
@@ -133,7 +134,7 @@ mod tests {
         assert_eq!(at(&[(0.0, 0.0), (2.0, 2.0), (1.0, 1.0)]), 2);
         assert_eq!(at(&[(0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (1.0, 0.2)]), 3);
         assert_eq!((at(&[(0.0, 0.0)]), at(&[])), (1, 0));
-        // Far from its frame's origin too.
+        // The same far from the frame's origin.
         assert_eq!(at(&[(1e4, 0.0), (1e4 + 1.0, 0.0), (1e4, 1.0)]), 3);
     }
 }

@@ -7,34 +7,34 @@ use super::travel::Travels;
 use linkage::math::{KeepNan, Vec2, cross, turned};
 use linkage::mechanism::{GROUND, Guise, Joint, JointId, JointSide, LinkId, Mechanism};
 
-/// Half length and half width of a block in a fixed guide, and on a moving one. They differ so that both are visible if
-/// they sit on the same joint.
+/// Half length and half width of a block in a fixed guide, and on a moving one.
+/// They differ so that both blocks are visible at the same joint.
 const FIXED: [f64; 2] = [5.0, 3.2];
 const MOVING: [f64; 2] = [3.8, 2.0];
 /// Clearance between a block and the wall beside it.
 const PLAY: f64 = 0.5;
-/// Room between a piston and the head of its cylinder.
+/// Gap between a piston and the head of its cylinder.
 const HEAD: f64 = 2.5;
 /// Length of hatching lines, and their spacing along the rail.
 const HATCH: f64 = 1.6;
 const PITCH: f64 = 2.0;
-/// Longest extension of a centre line beyond the rail towards the ground point that it goes through.
+/// Longest extension of a centre line beyond the rail, towards the ground point on its line.
 const AXIS: f64 = 150.0;
 /// Box that a pivot keeps free of rails: its centre below the pin, and its half size.
 const BELOW: f64 = 2.0;
 const BOX: [f64; 2] = [5.2, 5.0];
-/// Words in the names of a joint and its links that make the pair a piston in a cylinder.
+/// Words that mark a pair as piston and cylinder if they occur in the names of the joint or its links.
 const CYLINDERS: [&str; 4] = ["bore", "cylinder", "piston", "plunger"];
-/// Distance from an axis, as a share of the link's size, below which a place lies on it.
+/// Distance from an axis, as a share of the link's size, below which a point lies on it.
 const ON_AXIS: f64 = 1e-6;
 
-/// The guide of a joint and what slides on it.
+/// The guide of a joint and the block that slides on it.
 struct Guide {
     guide: JointSide,
     block: JointSide,
     /// Unit vectors along the guide, in the frame of its link and in that of the block.
     axes: [Vec2; 2],
-    /// Travel of the block from the guide's place (m).
+    /// Travel of the block from the guide's point (m).
     travel: [f64; 2],
     /// Half length and half width of the block (m).
     half: [f64; 2],
@@ -64,8 +64,9 @@ pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(LinkId
     marks
 }
 
-/// Whether a prismatic pair is a piston in a cylinder: the joint says so, or its names do, or the rod is pinned farther
-/// along the axis and guide and block both move.
+/// Whether a prismatic pair is drawn as a piston in a cylinder.
+/// It is if the joint says so, or if the names say so.
+/// It also is if guide and block both move and the rod is pinned farther along the axis.
 fn is_cylinder(mechanism: &Mechanism, joint: &Joint, guide: JointSide, block: JointSide, axis: Vec2) -> bool {
     if let Some(guise) = joint.drawn {
         return guise == Guise::Cylinder;
@@ -84,7 +85,7 @@ impl Guide {
         self.half[1] + PLAY * self.unit
     }
 
-    /// Distances from the guide's place to both ends of what the block itself covers (m).
+    /// Distances from the guide's point to both ends of the range that the block covers (m).
     fn covered(&self) -> [f64; 2] {
         [self.travel[0] - self.half[0], self.travel[1] + self.half[0]]
     }
@@ -113,19 +114,19 @@ impl Guide {
         marks
     }
 
-    /// The end of a cylinder that is closed: 1 in the direction of the axis, -1 against it. It is farther from the
-    /// guide's place, where the crank is.
+    /// The closed end of a cylinder: 1 in the direction of the axis, -1 against it.
+    /// It is the end farther from the guide's point, where the crank is.
     fn head(&self) -> f64 {
         if self.travel[1] + self.travel[0] >= 0.0 { 1.0 } else { -1.0 }
     }
 
-    /// Ends of a cylinder: beyond the piston, with room at its head.
+    /// Ends of a cylinder: beyond the piston, with a gap at its head.
     fn barrel(&self) -> [f64; 2] {
         let [from, to] = self.covered();
         if self.head() > 0.0 { [from, to + HEAD * self.unit] } else { [from - HEAD * self.unit, to] }
     }
 
-    /// A slot of a moving link, or a cylinder that is open where its piston comes from, and the bar that leads to it.
+    /// A slot of a moving link, or a cylinder that is open opposite its head, and the bar that leads to it.
     fn moving(&self) -> Vec<Mark> {
         let ([from, to], play) = (self.covered(), PLAY * self.unit);
         let ends = if self.is_cylinder { self.barrel() } else { [from - play, to + play] };
@@ -142,15 +143,16 @@ impl Guide {
         if self.head() > 0.0 { [a, d, c, b] } else { [d, a, b, c] }
     }
 
-    /// The bar from the guide's place to a slot or cylinder that does not reach it.
+    /// The bar from the guide's point to a slot or cylinder that does not reach it.
     fn lead(&self, [from, to]: [f64; 2]) -> Option<Mark> {
         let near = 0.0_f64.clamp(from, to);
         let ends = [0.0, near].map(|way| self.guide.local + self.axes[0] * way);
         (near != 0.0).then(|| Mark::line(MarkRole::Bar, ends))
     }
 
-    /// Rails or bore of a fixed guide, hatched, and its centre line. Rails leave the pivots free; hatching of two guides
-    /// on one axis would fill each other's gaps.
+    /// Rails or bore of a fixed guide, hatched, and its centre line.
+    /// Rails leave the pivots free.
+    /// A rail on the line of an earlier one is not hatched again there, because its hatching would fill the gaps.
     fn fixed(&self, pivots: &[Vec2], drawn: &mut Vec<[Vec2; 2]>) -> Vec<Mark> {
         let u = self.unit;
         let (role, ends) =
@@ -159,7 +161,7 @@ impl Guide {
         let centre = [ends[0].smaller(near) - 2.0 * u, ends[1].larger(near) + 2.0 * u];
         let mut marks = vec![Mark::line(MarkRole::Axis, centre.map(|way| self.guide.local + self.axes[0] * way))];
         let [a, b, c, d] = self.open(self.strip(ends, self.gap()));
-        // Their outer sides: on the left of the way from the open end over the head and back, or on the right.
+        // The outer side of a wall is to the left or to the right of the path from the open end over the head and back.
         let walls = if self.is_cylinder { vec![[a, b], [b, c], [c, d]] } else { vec![[a, b], [c, d]] };
         let middle = (a + b + c + d) / 4.0;
         for wall in walls {

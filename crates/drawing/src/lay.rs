@@ -1,4 +1,5 @@
-//! A mechanism as far as it can be laid: every group that can be placed, and the rest as near to closed as it goes.
+//! A mechanism assembled as far as possible: every group that can be placed, and the other links as near to closed as
+//! possible.
 
 mod nearest;
 
@@ -12,7 +13,7 @@ use linkage::mechanism::{
 
 /// Share of the mechanism's size above which a joint is open.
 const OPEN: f64 = 1e-6;
-/// Share of the largest gap below which a gap only comes from sharing it out.
+/// Share of the largest gap below which other gaps are ignored: they only come from distributing it over the joints.
 const SEEN: f64 = 1e-2;
 
 /// A mechanism at one instant, whole or in part.
@@ -22,11 +23,11 @@ pub struct Laid {
     pub places: Vec<LinkPlacement>,
     /// Joints that stay open: number, and the two world points (m) that should be one.
     pub gaps: Vec<(JointId, [Vec2; 2])>,
-    /// Circles that points of links reach and that do not meet: centres and radii (m).
+    /// Circles that points of links reach and that do not intersect: centres and radii (m).
     pub reaches: Vec<(Vec2, f64)>,
     /// What is missing, group by group.
     pub faults: Vec<Error>,
-    /// How each group that is placed stands.
+    /// Assembly mode of each group that is placed.
     pub modes: Vec<GroupPlacement>,
 }
 
@@ -37,12 +38,12 @@ pub struct GroupPlacement {
     pub group: GroupId,
     /// Its mode.
     pub mode: AssemblyMode,
-    /// Number of its configuration, from 1 on; 0 where it is not known.
+    /// Number of its configuration, counted from 1; 0 if unknown.
     pub number: usize,
 }
 
 impl Laid {
-    /// A pose that is known.
+    /// A mechanism in a known pose.
     #[must_use]
     pub fn whole(pose: impl IntoIterator<Item = LinkPose>) -> Laid {
         let places = pose.into_iter().map(LinkPlacement::Here).collect();
@@ -69,7 +70,7 @@ impl Laid {
         laid
     }
 
-    /// The poses of all links; those that have none are at the origin.
+    /// The poses of all links; links without a pose are at the origin.
     fn pose(&self) -> Pose {
         Pose(self.places.iter().map(|place| place.pose().copied().unwrap_or(LinkPose::GROUND)).collect())
     }
@@ -83,7 +84,8 @@ impl Laid {
     }
 }
 
-/// Lays a mechanism with this structure: driving links at their world angles (rad), every group as `starts` wants it.
+/// Assembles a mechanism with this structure.
+/// Driving links have these world angles (rad), and `starts` selects the mode of every group.
 #[must_use]
 pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts: &[StartGroup]) -> Laid {
     let mut laid = Laid::start(mechanism, &structure.drivers, angles);
@@ -111,7 +113,7 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
                 done = tried;
             }
             Err(error) => {
-                // A group that only leaves its mode open reaches.
+                // A group whose only fault is an unspecified mode can be closed.
                 if configurations(mechanism, group, &laid.pose()).is_err() {
                     laid.reaches.extend(reaches(mechanism, group, &laid));
                 }
@@ -122,7 +124,8 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
     close(mechanism, laid)
 }
 
-/// Lays a mechanism that has no structure, because links or joints are missing or too many: what dyads can be found.
+/// Assembles a mechanism without a structure, because links or joints are missing or too many.
+/// Dyads are placed as far as they can be found.
 #[must_use]
 pub fn lay_loose(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], angles: &[f64], fault: Error) -> Laid {
     let mut laid = Laid::start(mechanism, drivers, angles);
@@ -137,7 +140,7 @@ pub fn lay_loose(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], angles: &
     close(mechanism, laid)
 }
 
-/// A dyad of links without a place, between links that have one.
+/// A dyad of links without a pose, between links with a pose.
 fn dyad(mechanism: &Mechanism, laid: &Laid) -> Option<Group> {
     let is_placed = |link: LinkId| laid.places[link].pose().is_some();
     let joints = mechanism.joints();
@@ -165,7 +168,7 @@ fn dyad(mechanism: &Mechanism, laid: &Laid) -> Option<Group> {
     })
 }
 
-/// Puts all links without a place as near to their neighbours as it goes, and tells which joints stay open.
+/// Places all remaining links as near to their neighbours as possible, and lists the joints that stay open.
 fn close(mechanism: &Mechanism, mut laid: Laid) -> Laid {
     let missing: Vec<LinkId> = mechanism.links().ids().filter(|&link| laid.places[link].pose().is_none()).collect();
     if !missing.is_empty() {
@@ -208,8 +211,9 @@ fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)
     group.links.iter().zip(&group.outer).filter_map(of_link).collect()
 }
 
-/// All configurations of a mechanism with the driving links at these world angles (rad), at most `most` of them, each
-/// laid as far as it goes. A group whose configurations are not all known is placed as `starts` wants it.
+/// All configurations of a mechanism with the driving links at these world angles (rad), at most `most` of them.
+/// Each is assembled as far as possible.
+/// A group whose configurations are not all known is placed in the mode that `starts` selects.
 #[must_use]
 pub fn all_modes(
     mechanism: &Mechanism,

@@ -1,7 +1,7 @@
-//! What a mechanism looks like: marks in the frames of its links, by the rules of ISO 3952.
+//! Drawings of mechanisms: marks in the frames of the links, by the rules of ISO 3952.
 //!
-//! A [`Sketch`] is made once. Whoever shows it puts every [`LinkMarks`] where its link is, and every [`Stretched`] between
-//! its ends:
+//! A [`Sketch`] is made once.
+//! The caller then draws every [`LinkMarks`] at the pose of its link, and every [`Stretched`] between its ends:
 //!
 //! ```
 //! # use linkage::fixtures::four_bar;

@@ -1,4 +1,4 @@
-//! Marks: shapes in the frame of a link, and what each of them stands for.
+//! Marks: shapes in the frame of a link, and the meaning of each.
 
 use std::f64::consts::TAU;
 
@@ -38,7 +38,7 @@ pub enum MarkShape {
 }
 
 impl MarkShape {
-    /// The shape as a line through points, for whoever draws lines only: [closed](MarkShape::is_closed) or not.
+    /// The shape as a line through points, for output that has only lines. It may be [closed](MarkShape::is_closed).
     #[must_use]
     pub fn points(&self) -> Vec<Vec2> {
         let arc = |centre: Vec2, radius: f64, from: f64, sweep: f64, count: usize| {
@@ -63,11 +63,11 @@ impl MarkShape {
     }
 }
 
-/// The roles with their names and looks in one table: ink, fill, width of the line, layer.
+/// The roles in one table: names, ink, fill, line width, layer.
 macro_rules! roles {
     ($($(#[$meaning:meta])* $role:ident = $name:literal: $ink:ident, $fill:ident, $width:literal, $layer:ident;)*) => {
         linkage::words! {
-            /// What a mark stands for.
+            /// Meaning of a mark.
             #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
             pub enum MarkRole: name { $($(#[$meaning])* $role = $name,)* }
         }
@@ -95,13 +95,13 @@ roles! {
     Bore = "bore": Text, None, 0.5, Ground;
     /// Pivot on the ground: its triangle, the line that it stands on, and the hatching below.
     Pivot = "pivot": Text, Tint, 0.35, Blocks;
-    /// Stroke across a guide at a point of the ground that is no pivot.
+    /// Stroke across a guide at a ground point that is not a pivot.
     Stop = "stop": Text, None, 0.4, Ground;
-    /// A link of three and more places that are not on a line.
+    /// A link with three or more points that are not on a line.
     Plate = "plate": Link, Tint, 0.9, Links;
-    /// A link of two places, or of several on a line.
+    /// A link with two points, or with several on a line.
     Bar = "bar": Link, None, 1.1, Links;
-    /// Says that a bar does not end at the pin in its middle.
+    /// Shows that a bar continues past the pin in its middle.
     Weld = "weld": Link, Ink, 0.2, Links;
     /// Slot of a moving link, in which a block slides.
     Slot = "slot": Link, Paper, 0.6, Links;
@@ -121,17 +121,17 @@ roles! {
     TorsionDamper = "torsion-damper": Load, None, 0.4, Stretched;
     /// Revolute pair.
     Pin = "pin": Text, Paper, 0.5, Joints;
-    /// Ring around a pin that joins one link more; two rings, two links more.
+    /// Ring around a pin that joins one more link; two rings mean two more links.
     CoincidentPin = "coincident-pin": Text, None, 0.35, Joints;
     /// Mass centre: its circle.
     MassCentre = "mass-centre": Quiet, Paper, 0.3, Stretched;
     /// Mass centre: two of its quarters.
     MassQuarter = "mass-quarter": Quiet, Ink, 0.1, Stretched;
-    /// Named point of a link that is no joint.
+    /// Named point of a link that is not a joint.
     Tracer = "tracer": Link, None, 0.5, Joints;
-    /// Arrow in the sense in which a drive turns its link: the arc.
+    /// Arrow in the direction in which a drive turns its link: the arc.
     Drive = "drive": Text, None, 0.4, Signs;
-    /// Arrow in the sense in which a drive turns its link: the head.
+    /// Arrow in the direction in which a drive turns its link: the head.
     DriveHead = "drive-head": Text, Ink, 0.1, Signs;
     /// A motor: a circle, with the letter M beside it as [`Lettering::Motor`](crate::Lettering::Motor).
     Motor = "motor": Text, None, 0.4, Signs;
@@ -148,16 +148,16 @@ pub enum Ink {
     Link,
     /// That of text.
     Text,
-    /// A quiet one, for what is in the background.
+    /// A pale colour for the background.
     Quiet,
     /// That of loads.
     Load,
 }
 
-/// What a closed line encloses.
+/// Fill of a closed line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fill {
-    /// Nothing: what lies beneath is seen.
+    /// No fill: what lies beneath is visible.
     None,
     /// The colour of the paper: what lies beneath is covered.
     Paper,
@@ -167,20 +167,20 @@ pub enum Fill {
     Ink,
 }
 
-/// What covers what, lowest first. Within a layer, larger links lie below smaller ones, so that none hides another.
+/// Drawing layers, lowest first. Within a layer, larger links lie below smaller ones, so that no link hides another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
     /// What stands still.
     Ground,
     /// Links.
     Links,
-    /// What slides on them, and the pivots that they turn about.
+    /// Blocks that slide on links, and the pivots about which links turn.
     Blocks,
     /// Mass centres, springs and dampers.
     Stretched,
     /// Joints.
     Joints,
-    /// What is said about them.
+    /// Arrows and motors.
     Signs,
 }
 
@@ -197,7 +197,7 @@ pub struct Look {
     pub layer: Layer,
 }
 
-/// A shape and what it stands for.
+/// A shape and its meaning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
     /// The shape, in the frame of its link (m).

@@ -1,10 +1,10 @@
 //! Colours of links, the same in every picture.
 //!
-//! Colour is never the only sign: links have numbers, and plates are hatched at an angle of their own.
+//! Colour is never the only distinction: links have numbers, and plates are hatched at different angles.
 
 use linkage::mechanism::LinkId;
 
-/// A colour on light and on dark paper, and what replaces it where there is none.
+/// A colour on light and on dark paper, and the hatching that replaces it where there is no colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaletteColour {
     /// On light paper, `#rrggbb`: at least 3 : 1 against white.
@@ -26,7 +26,7 @@ pub const LINKS: [PaletteColour; 7] = [
     PaletteColour { light: "#3b8ea5", dark: "#7fd1e6", hatch_deg: 0.0 },
 ];
 
-/// Colour of text and of what stands still.
+/// Colour of text and of fixed parts.
 pub const TEXT: PaletteColour = PaletteColour { light: "#1a1a1a", dark: "#eceff4", hatch_deg: 45.0 };
 /// Colour of the background's lines.
 pub const QUIET: PaletteColour = PaletteColour { light: "#767676", dark: "#9aa0aa", hatch_deg: 45.0 };

@@ -1,5 +1,5 @@
-//! Pictures on paper: lines, shapes and letters in millimetres, as SVG. Printed at full size they have the scale factors
-//! written on them.
+//! Pictures on paper: lines, shapes and letters in millimetres, as SVG.
+//! Printed at full size they have the scale factors stated on them.
 
 pub mod document;
 pub mod figure;

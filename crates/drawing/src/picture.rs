@@ -1,4 +1,4 @@
-//! The picture of a sketch on paper: links in their places, names, arrows, dimensions and gaps.
+//! The picture of a sketch on paper: links at their poses, names, arrows, dimensions and gaps.
 
 use super::acting::Acting;
 use super::mark::{Fill, Ink, Layer, Look, Mark, MarkRole, MarkShape};
@@ -12,27 +12,28 @@ use super::stretched::Stretched;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, LinkId, LinkPose, Mechanism};
 
-/// Radius (mm) of the disc around a link's number, and of what a pin covers.
+/// Radius (mm) of the disc around a link's number, and of the area covered by a pin.
 const NUMBER: f64 = 2.3;
 const CLEAR: f64 = 1.4;
 /// Points closer to each other on paper than this (mm) share one label.
 const ONE: f64 = 0.7;
-/// Length (mm) of the arrow of the largest force, of that of gravity, and radius of the arrows of moments.
+/// Length (mm) of the arrow of the largest force, length of the arrow of gravity, and radius of the arrows of moments.
 const FORCE: f64 = 22.0;
 const GRAVITY: f64 = 12.0;
 const MOMENT: f64 = 6.5;
-/// Share of the largest force or moment from which on an arrow is drawn, and the least (N, N m): below it is rounding.
+/// Smallest force or moment that is drawn: as a share of the largest one, and as a value (N, N m).
+/// Smaller ones are rounding errors.
 const LEAST: f64 = 1e-6;
 const NOTHING: f64 = 1e-9;
-/// Dashes of what has no certain place, of traces, and of construction lines.
+/// Dash patterns of links without a certain pose, and of construction lines.
 const LOOSE: &str = "2 1.4";
 const CONSTRUCTION: &str = "4 1 0.5 1";
-/// Angle to either side over which a circle of what can be reached is drawn (rad).
+/// Half the angle over which a circle of reachable points is drawn (rad).
 const REACH: f64 = 0.7;
 /// Opacity of tints.
 const TINT: f64 = 0.14;
 
-/// A colour that is used for what is wrong.
+/// Colour of faults.
 pub const ALARM: &str = "#d11149";
 
 /// Where a link is.
@@ -40,7 +41,7 @@ pub const ALARM: &str = "#d11149";
 pub enum LinkPlacement {
     /// Here.
     Here(LinkPose),
-    /// Here, for want of a better place: it is drawn with dashes.
+    /// Here, but only approximately: it is drawn with dashes.
     Loose(LinkPose),
     /// Nowhere: it is not drawn.
     Nowhere,
@@ -65,7 +66,7 @@ pub struct Picture<'a> {
     scale: f64,
     /// What is drawn.
     pub figure: DrawnFigure,
-    /// What labels must not touch.
+    /// Elements that labels must not touch.
     pub obstacles: Obstacles,
     written: Vec<Written>,
 }
@@ -78,7 +79,7 @@ struct Written {
     paint: &'static str,
 }
 
-/// What a text is. Numbers are placed first.
+/// Kind of a text. Numbers are placed first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Sort {
     Number,
@@ -86,7 +87,7 @@ enum Sort {
 }
 
 impl<'a> Picture<'a> {
-    /// The links of a sketch in their places, at a scale (m/mm).
+    /// The links of a sketch at their poses, at a scale (m/mm).
     #[must_use]
     pub fn of(sketch: &'a Sketch, places: &'a [LinkPlacement], scale: f64) -> Picture<'a> {
         let (figure, obstacles) = (DrawnFigure::default(), Obstacles::default());
@@ -123,7 +124,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Draws a mark of a link: `at` tells where its points are on paper.
+    /// Draws a mark of a link: `at` maps its points to paper.
     fn put(&mut self, mark: &Mark, link: LinkId, at: impl Fn(Vec2) -> Vec2) {
         let (style, fill) = style(mark.role.look(), link, &self.places[link]);
         if let MarkShape::Circle { centre, radius } = mark.shape {
@@ -146,7 +147,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Places on paper and texts of the labels for which `wanted` holds, for [`Picture::name`].
+    /// Positions on paper and texts of the labels for which `wanted` holds, for [`Picture::name`].
     #[must_use]
     pub fn names(&self, wanted: impl Fn(Lettering) -> bool) -> Vec<(Vec2, String)> {
         let labels = self.sketch.labels.iter().filter(|label| wanted(label.names));
@@ -160,7 +161,7 @@ impl<'a> Picture<'a> {
         labels.filter_map(one).collect()
     }
 
-    /// Writes names at their places on paper. Those of one place are written together.
+    /// Writes names at their positions on paper. Names at the same position are written together.
     pub fn name(&mut self, names: Vec<(Vec2, String)>) {
         let mut named: Vec<(Vec2, String)> = Vec::new();
         for (at, text) in names {
@@ -186,21 +187,21 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Writes the number of a link on it, at this place of its frame (m): there it stays while the link moves.
+    /// Writes the number of a link at this point of its frame (m). The number stays there while the link moves.
     pub fn number_on(&mut self, link: LinkId, local: Vec2) {
         if let Some(at) = self.at(link, local) {
             draw_number(&mut self.figure, at, link.to_string(), colour(link));
         }
     }
 
-    /// A text at a point on paper, in a preferred direction from it, or any.
+    /// A text at a point on paper, in a preferred direction from it. A zero direction leaves the choice open.
     pub fn letters(&mut self, anchor: Vec2, away: Vec2, clear: f64, text: String, paint: &'static str) {
         let label = labels::PlacedLabel { anchor, away, size: label_size(&text), clear };
         self.written.push(Written { sort: Sort::Letters, label, text, paint });
     }
 
-    /// Arrows of forces and moments, the largest force 22 mm long, and the sizes of all. They begin at the points on
-    /// which they act.
+    /// Arrows of forces and moments, each with its value. The largest force is 22 mm long.
+    /// The arrows begin at the points on which the loads act.
     pub fn draw_loads(&mut self, all: &[Acting]) {
         let largest = all.iter().map(|own| own.force.norm()).fold(0.0, f64::larger);
         let moments = all.iter().map(|own| own.moment.abs()).fold(0.0, f64::larger);
@@ -219,7 +220,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// An arrow in the direction of gravity, above on the left of all that is drawn.
+    /// An arrow in the direction of gravity, to the left of the drawing at its top.
     pub fn draw_gravity(&mut self, gravity: Vec2) {
         if !(gravity.norm() > 0.0) {
             return;
@@ -235,7 +236,7 @@ impl<'a> Picture<'a> {
         marks.iter().for_each(|mark| self.put(mark, GROUND, |own| own + at));
     }
 
-    /// The path of a point in the world (m), beneath what is drawn later.
+    /// The path of a point in the world (m), beneath later drawings.
     pub fn draw_trace(&mut self, path: &[Vec2], link: LinkId) {
         let points: Vec<Vec2> = path.iter().map(|at| at / self.scale).collect();
         if points.len() > 1 {
@@ -243,7 +244,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// The lengths of all links between their places, in mm.
+    /// The lengths of all links between their corners, in mm.
     pub fn draw_lengths(&mut self, mechanism: &Mechanism) {
         for link in mechanism.links().ids().skip(1) {
             let places = super::body::corners(mechanism, link);
@@ -257,7 +258,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// The part of the circle that a point can reach (world, m) in the direction `toward`, as a construction line.
+    /// Part of the circle that a point can reach (world, m), around the direction `toward`, as a construction line.
     pub fn draw_reach(&mut self, centre: Vec2, radius: f64, toward: Vec2) {
         let from = toward.y.atan2(toward.x) - REACH;
         let (centre, radius) = (centre / self.scale, radius / self.scale);
@@ -278,8 +279,8 @@ impl<'a> Picture<'a> {
         self.letters((ends[0] + ends[1]) / 2.0, Vec2::zeros(), 1.0, text, ALARM);
     }
 
-    /// Places all letters and returns the figure, one of so many that are made together: they share the work for
-    /// letters.
+    /// Places all letters and returns the figure.
+    /// `drawings` is the number of figures made together: they share the work for placing letters.
     #[must_use]
     pub fn finish(mut self, drawings: usize) -> DrawnFigure {
         self.written.sort_by_key(|own| own.sort);
@@ -301,13 +302,13 @@ fn draw_number(figure: &mut DrawnFigure, at: Vec2, text: String, paint: &'static
     figure.text(at - Vec2::new(0.0, 1.15), text, set);
 }
 
-/// A length (m) in mm, with as many digits as are seen on a drawing.
+/// A length (m) in mm, with four significant digits.
 #[must_use]
 pub fn millimetres(length: f64) -> String {
     format!("{} mm", short(length * 1e3))
 }
 
-/// Four digits, without zeros at the end.
+/// Four significant digits, without trailing zeros.
 fn short(value: f64) -> String {
     let digits = significant(value);
     match digits.contains('.') && !digits.contains('e') {
@@ -316,7 +317,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// Line and fill of a look of a link in its place.
+/// Line and fill for the look of a link at its pose.
 fn style(look: Look, link: LinkId, place: &LinkPlacement) -> (Style, Option<Tint>) {
     let paint = match look.ink {
         Ink::Link => colour(link),
@@ -335,5 +336,5 @@ fn style(look: Look, link: LinkId, place: &LinkPlacement) -> (Style, Option<Tint
     (Style { colour: paint, width: look.width, dash }, fill)
 }
 
-/// Room that letters and symbols take around a mechanism (mm), on each side.
+/// Space that letters and symbols need around a mechanism (mm), on each side.
 pub const AROUND: f64 = 3.0 * LETTER;

@@ -1,20 +1,20 @@
-//! Revolute pairs: pins, pivots on the ground, and several pins in one place.
+//! Revolute pairs: pins, pivots on the ground, and several pins at one point.
 
 use super::mark::{Mark, MarkRole};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 
-/// Radius of a pin, and distance of the rings around it.
+/// Radius of a pin, and spacing of the rings around it.
 pub const PIN: f64 = 1.2;
 const RING: f64 = 0.9;
 
-/// Revolute joints in one place: every link with its place there, and the number of joints.
+/// Revolute joints at one point: the point in the frame of every link there, and the number of joints.
 struct Place {
     sides: Vec<JointSide>,
     joints: usize,
 }
 
-/// Places of revolute pairs. Joints that share a place of one link are in one place in every pose.
+/// Common points of revolute pairs. Joints that share a point of one link coincide in every pose.
 fn shared(mechanism: &Mechanism) -> Vec<Place> {
     let mut all: Vec<Place> = Vec::new();
     for joint in mechanism.joints().iter().filter(|joint| joint.is_pin()) {
@@ -30,7 +30,7 @@ fn shared(mechanism: &Mechanism) -> Vec<Place> {
     all
 }
 
-/// Places on the ground of all revolute pairs with it (m).
+/// Positions on the ground of all revolute pairs with it (m).
 pub fn pivots(mechanism: &Mechanism) -> Vec<Vec2> {
     let on_ground = |place: &Place| place.sides.iter().find(|side| side.link == GROUND).map(|side| side.local);
     shared(mechanism).iter().filter_map(on_ground).collect()

@@ -14,7 +14,7 @@ const TITLE: f64 = 5.2;
 const HEADING: f64 = 4.2;
 const NOTE: f64 = 3.4;
 const LINE: f64 = 1.45;
-/// Room for the scale below a picture (mm), and the longest it is.
+/// Height for the scale below a picture (mm), and the greatest length of the scale.
 const SCALE: f64 = 9.0;
 const LONGEST: f64 = 40.0;
 
@@ -25,15 +25,15 @@ pub struct SheetCell {
     pub heading: Vec<String>,
     /// The picture.
     pub figure: DrawnFigure,
-    /// Corners of what it may cover (mm): the same for all frames of an animation.
+    /// Corners of the area that it may cover (mm): the same for all frames of an animation.
     pub bounds: [Vec2; 2],
     /// Length in the world of a millimetre on paper (m).
     pub scale: f64,
-    /// What is wrong, below it.
+    /// Faults, written below it.
     pub faults: Vec<String>,
 }
 
-/// Scale (m/mm), of two digits, at which what extends so far (m) has room (mm).
+/// Scale (m/mm), of two digits, at which an extent (m) fits into the available size (mm).
 #[must_use]
 pub fn fit(extent: Vec2, room: Vec2) -> f64 {
     let least = (extent.x / room.x).larger(extent.y / room.y);
@@ -46,7 +46,7 @@ pub fn fit(extent: Vec2, room: Vec2) -> f64 {
     format!("{rounded:.1e}").parse().unwrap_or(rounded)
 }
 
-/// Columns in which so many cells stand.
+/// Number of columns for so many cells.
 #[must_use]
 pub fn columns(cells: usize) -> usize {
     cells.clamp(1, 2)
@@ -102,7 +102,7 @@ pub fn sheet(title: &str, subtitle: &str, cells: &[SheetCell], least: f64) -> (D
     (sheet, [(whole + 2.0 * MARGIN).ceil(), (MARGIN - GAP - top).ceil()])
 }
 
-/// A bar of a round length, and that length.
+/// A scale bar of a round length, labelled with that length.
 fn scale(sheet: &mut DrawnFigure, at: Vec2, scale: f64) {
     let long = round_up(LONGEST * scale / 2.0);
     let end = at + Vec2::new(long / scale, 0.0);

@@ -6,7 +6,7 @@ use linkage::math::{KeepNan, Vec2, turned, unit};
 use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 use std::f64::consts::{PI, TAU};
 
-/// Radius of the arrow that shows a drive's sense, its angle (rad), and that from its link to its begin.
+/// Arrow of a drive's direction: its radius, its angle (rad), and the angle from its link to its start.
 const DRIVE: f64 = 8.0;
 const SWEEP: f64 = 1.7;
 const AHEAD: f64 = 0.35;
@@ -32,7 +32,7 @@ pub struct LoadSign {
     pub at: JointSide,
 }
 
-/// The place at which moments on a link are drawn: its pin on the ground, any pin, any point, or its mass centre.
+/// The point at which moments on a link are drawn: its pin on the ground, any pin, any point, or its mass centre.
 fn place_of(mechanism: &Mechanism, link: LinkId) -> Vec2 {
     let pins = || mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(link).is_some());
     let on_ground = pins().find(|joint| joint.other(link).link == GROUND);
@@ -41,7 +41,7 @@ fn place_of(mechanism: &Mechanism, link: LinkId) -> Vec2 {
     pin.or_else(point).unwrap_or(mechanism.links()[link].mass_centre)
 }
 
-/// The place of two links at which springs and dampers between their angles are drawn.
+/// The point at which torsional springs and dampers between two links are drawn.
 fn place_between(mechanism: &Mechanism, links: [LinkId; 2]) -> JointSide {
     let common = mechanism.joints().iter().find(|joint| links.iter().all(|&link| joint.on(link).is_some()));
     match common.and_then(|joint| joint.on(links[0])) {
@@ -53,7 +53,7 @@ fn place_between(mechanism: &Mechanism, links: [LinkId; 2]) -> JointSide {
     }
 }
 
-/// The arrow of a load; `None` for springs and dampers, which have symbols of their own.
+/// The arrow of a load; `None` for springs and dampers, which have other symbols.
 pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<LoadSign> {
     match load.nature().on {
         On::Link(link) => Some(LoadSign { load: number, at: JointSide { link, local: place_of(mechanism, link) } }),
@@ -83,7 +83,7 @@ pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(LinkId, Ve
     Some((link, vec![drum, Mark::line(MarkRole::TorsionDamper, vane), first, last]))
 }
 
-/// The arrow in the sense of a drive, in the frame of the driven link, and the circle of its motor.
+/// The arrow in the direction of a drive, in the frame of the driven link, and the circle of its motor.
 pub fn of_drive(mechanism: &Mechanism, drive: &Drive, u: f64) -> Vec<Mark> {
     let Some(pin) = mechanism.joints()[drive.joint].on(drive.link) else { return Vec::new() };
     let places = super::body::places(mechanism, drive.link);
@@ -112,7 +112,7 @@ fn moved(mark: Mark, role: MarkRole, by: Vec2) -> Mark {
     Mark { shape, role }
 }
 
-/// An arrow from the origin to `tip` (m), its line and its head, for a sketch of this unit (m). Nothing for no length.
+/// An arrow from the origin to `tip` (m), its line and its head, for a sketch of this unit (m).
 #[must_use]
 pub fn arrow(tip: Vec2, unit: f64) -> Vec<Mark> {
     let length = tip.norm();

@@ -10,22 +10,22 @@ use linkage::drive::{Drive, Load};
 use linkage::math::{Vec2, turned};
 use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 
-/// Units in the size of a mechanism, where the size of the picture is not known.
+/// Units in the size of a mechanism, if the size of the picture is unknown.
 const UNITS: f64 = 60.0;
 /// Half length of the stroke at a ground point on a guide.
 const STOP: f64 = 1.4;
 
-/// The unit (m) of a sketch where the size of its picture is not known: a pin is 2.4 units wide, a block 10 units long. A
-/// picture about 150 units wide reads well.
+/// The unit (m) of a sketch if the size of its picture is unknown: a pin is 2.4 units wide, a block 10 units long.
+/// A picture about 150 units wide reads well.
 #[must_use]
 pub fn unit(mechanism: &Mechanism) -> f64 {
     mechanism.size() / UNITS
 }
 
-/// What a mechanism looks like.
+/// The drawing of a mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sketch {
-    /// The length (m) that symbols and line widths are multiples of.
+    /// Unit length (m) of symbols and line widths.
     pub unit: f64,
     /// Every link, in the order of the mechanism; the first is the ground, in world coordinates.
     pub bodies: Vec<LinkMarks>,
@@ -33,7 +33,7 @@ pub struct Sketch {
     pub stretched: Vec<Stretched>,
     /// Forces and moments, drawn as arrows once a state is known.
     pub loads: Vec<LoadSign>,
-    /// Names, each with the place that it names.
+    /// Names, each with the point that it names.
     pub labels: Vec<SketchLabel>,
 }
 
@@ -44,7 +44,7 @@ pub struct LinkMarks {
     pub link: LinkId,
     /// Its marks.
     pub marks: Vec<Mark>,
-    /// Largest distance of two of its places (m); infinite for the ground.
+    /// Largest distance between two of its points (m); infinite for the ground.
     pub size: f64,
 }
 
@@ -61,7 +61,7 @@ pub enum Lettering {
     Motor,
 }
 
-/// A text and the place that it names. Where the text stands is left to whoever draws it.
+/// A text and the point that it names. The caller chooses the position of the text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SketchLabel {
     /// The text.
@@ -95,7 +95,7 @@ impl Sketch {
         sketch.with_drives(&case.mechanism, &case.drives).with_loads(&case.mechanism, &case.loads)
     }
 
-    /// The same with the senses of drives, and with motors.
+    /// The same with the directions of drives, and with motors.
     #[must_use]
     pub fn with_drives(mut self, mechanism: &Mechanism, drives: &[Drive]) -> Sketch {
         for drive in drives {
@@ -108,7 +108,7 @@ impl Sketch {
         self
     }
 
-    /// The same with loads. Points of the ground on which springs and dampers hang are drawn as pivots.
+    /// The same with loads. Ground points with springs and dampers are drawn as pivots.
     #[must_use]
     pub fn with_loads(mut self, mechanism: &Mechanism, loads: &[Load]) -> Sketch {
         self.stretched = stretched::of_loads(loads, self.unit);
@@ -153,7 +153,7 @@ impl Sketch {
     }
 }
 
-/// What is on the ground besides guides and pivots: traced points, and strokes across guides at their points.
+/// Marks on the ground besides guides and pivots: traced points, and strokes across guides at their points.
 fn ground(mechanism: &Mechanism, unit: f64) -> Vec<Mark> {
     let mut marks: Vec<Mark> =
         body::traced(mechanism, GROUND).into_iter().flat_map(|at| body::tracer(at, unit)).collect();
@@ -176,7 +176,7 @@ fn labels(mechanism: &Mechanism) -> Vec<SketchLabel> {
     let mut labels: Vec<SketchLabel> = fixed.chain(mechanism.moving_points()).map(point).collect();
     for (link, body) in mechanism.links().entries().skip(1) {
         let places = body::places(mechanism, link);
-        // Nothing is seen of a link without places.
+        // A link without points is invisible.
         if places.is_empty() {
             continue;
         }

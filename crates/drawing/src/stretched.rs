@@ -7,13 +7,13 @@ use linkage::mechanism::JointSide;
 
 /// Width of springs and dampers.
 const WIDTH: f64 = 4.0;
-/// Distance of the middle lines of several between the same points, in widths.
+/// Distance between the middle lines of parallel springs and dampers, in widths.
 const APART: f64 = 1.25;
 /// Teeth of a spring's zigzag, and the shares of its length at which they begin and end.
 const TEETH: usize = 8;
 const COIL: [f64; 2] = [0.18, 0.82];
 
-/// What reaches from a point of one link to a point of another.
+/// A spring or damper from a point of one link to a point of another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretched {
     /// [`MarkRole::Spring`] or [`MarkRole::Damper`].
@@ -22,14 +22,14 @@ pub struct Stretched {
     pub load: usize,
     /// End points.
     pub ends: [JointSide; 2],
-    /// Width (m). Multiply the y of the marks with it, and the x with the distance of the ends.
+    /// Width (m). Multiply the y of the marks by it, and the x by the distance between the ends.
     pub width: f64,
     /// The drawing from (0, 0) to (1, 0); lines only.
     pub marks: Vec<Mark>,
 }
 
 impl Stretched {
-    /// World place of a point of the drawing (m), for the world places of the ends (m).
+    /// World position of a point of the drawing (m), given the world positions of the ends (m).
     #[must_use]
     pub fn at(&self, local: Vec2, [start, end]: [Vec2; 2]) -> Vec2 {
         let span = end - start;
@@ -60,7 +60,7 @@ pub fn of_loads(loads: &[Load], unit: f64) -> Vec<Stretched> {
     all
 }
 
-/// A zigzag between two straight ends, `aside` of the middle line.
+/// A zigzag between two straight ends, at the distance `aside` from the middle line.
 fn spring(aside: f64) -> Vec<Mark> {
     let tooth = |k: usize| {
         let x = COIL[0] + (COIL[1] - COIL[0]) * (k as f64 + 0.5) / TEETH as f64;
@@ -72,7 +72,7 @@ fn spring(aside: f64) -> Vec<Mark> {
     vec![Mark::line(MarkRole::Spring, points)]
 }
 
-/// A cup, open at its end, and a piston with its rod in it.
+/// A cup, open at its end, and a piston with its rod in the cup.
 fn damper(aside: f64) -> Vec<Mark> {
     let at = |x: f64, y: f64| Vec2::new(x, y + aside);
     let cup = [at(0.68, 0.5), at(0.36, 0.5), at(0.36, -0.5), at(0.68, -0.5)];

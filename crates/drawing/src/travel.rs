@@ -1,10 +1,11 @@
-//! How far blocks travel on their guides: guides are drawn as long as that.
+//! Travel of blocks on their guides, which sets the drawn length of the guides.
 
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{JointId, LinkId, Mechanism};
 
-/// Least and largest distance of the block's place from the guide's place along the axis of the guide's link (m), for
-/// every joint; `None` for joints that do not slide, and before any pose is known.
+/// Smallest and largest distance of the block's point from the guide's point along the guide's axis (m), for every
+/// joint.
+/// `None` for joints that do not slide, and before any pose is known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Travels(Vec<Option<[f64; 2]>>);
 
@@ -15,8 +16,8 @@ impl Travels {
         Travels(vec![None; mechanism.joints().len()])
     }
 
-    /// Takes in one pose: `point` gives the world place (m) of a point of a link, in the frame of that link. `None`, or
-    /// NaN, says that the link has no place.
+    /// Includes one pose: `point` gives the world position (m) of a point of a link, in the frame of that link.
+    /// `None` or NaN means that the link has no pose.
     pub fn take_in(&mut self, mechanism: &Mechanism, point: impl Fn(LinkId, Vec2) -> Option<Vec2>) {
         for (joint, travel) in mechanism.joints().iter().zip(&mut self.0) {
             let way = || {
@@ -32,7 +33,7 @@ impl Travels {
         }
     }
 
-    /// Takes in other travels of the same mechanism.
+    /// Includes other travels of the same mechanism.
     pub fn widen(&mut self, others: &Travels) {
         for (own, other) in self.0.iter_mut().zip(&others.0) {
             *own = match (*own, *other) {

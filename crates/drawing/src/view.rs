@@ -12,7 +12,7 @@ use linkage::drive::{Drive, Load};
 use linkage::math::{KeepNan, Vec2, corners};
 use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
-/// Least length of a link between two joints on which its number has room (mm).
+/// Smallest length of a link between two joints that has space for its number (mm).
 const FREE: f64 = 11.0;
 
 /// What is drawn.
@@ -35,7 +35,8 @@ pub struct Extras {
     pub loads: bool,
     /// Lengths of the links.
     pub dimensions: bool,
-    /// Only the names of the ground's points, and numbers on the links that have room: nothing jumps from frame to frame.
+    /// Draws only the names of ground points, and numbers on the links that have space, so that nothing jumps between
+    /// frames.
     pub is_moving: bool,
 }
 
@@ -48,10 +49,10 @@ pub struct Shot {
     pub acting: Vec<Acting>,
 }
 
-/// The path of a point: its link, and its places in the world (m).
+/// The path of a point: its link, and its positions in the world (m).
 pub type Trace = (LinkId, Vec<Vec2>);
 
-/// The shots as figures at one scale, in a room of this size (mm), without headings.
+/// The shots as figures at one scale, within this size (mm), without headings.
 #[must_use]
 pub fn cells(
     subject: &DrawnSubject,
@@ -89,7 +90,7 @@ fn figure(
         picture.draw_trace(path, *link);
     }
     for (index, (centre, radius)) in laid.reaches.iter().enumerate() {
-        // The other circle of the same dyad, or straight on.
+        // Towards the other circle of the same dyad, or along x without one.
         let other = laid.reaches.get(index ^ 1).map_or(Vec2::new(1.0, 0.0), |other| other.0 - centre);
         picture.draw_reach(*centre, *radius, other);
     }
@@ -128,7 +129,7 @@ fn figure(
     picture.finish(drawings)
 }
 
-/// All places that the picture must hold (m).
+/// All points that the picture must contain (m).
 fn extent(subject: &DrawnSubject, shots: &[Shot], travels: &Travels, traces: &[Trace]) -> Vec<Vec2> {
     let mechanism = subject.mechanism;
     let mut points: Vec<Vec2> = traces.iter().flat_map(|(_, path)| path.iter().copied()).collect();

@@ -1,7 +1,9 @@
-//! Files that appear whole or not at all, and replace nothing that is not this program's or that nobody named.
+//! Writes files whole or not at all.
+//! It replaces a file only if the caller named it or this program wrote it.
 //!
-//! The content goes to a temporary file in the same directory, created new and locked, which then takes the place of
-//! the file. So a run that fails or is killed leaves an older file alone, and two runs to one path do not mix.
+//! The content goes to a new, locked temporary file in the same directory, which then replaces the file.
+//! A run that fails or is killed therefore leaves an older file unchanged.
+//! Two runs that write to one path do not mix.
 
 mod seal;
 mod sentences;
@@ -19,12 +21,13 @@ pub use text::{LARGEST, read_named, read_text, text, text_from, visible, visible
 use target::Place;
 use temporary::{clear, create, directory_of};
 
-/// Lets `fill` write the file of a target, which is replaced when all is written. What is no regular file, such as a
-/// pipe, and what is open already, such as `/dev/stdout`, is written to as it is, if the caller named it.
+/// Lets `fill` write the file of a target. The file is replaced when everything is written.
+/// If the caller named a path that is not a regular file, such as a pipe, or is already open, such as `/dev/stdout`,
+/// the content is written to it directly.
 ///
 /// # Errors
-/// Those of `fill` and of the file system; [`io::ErrorKind::AlreadyExists`] for what may not be replaced. What is there
-/// is then what it was.
+/// Those of `fill` and of the file system; [`io::ErrorKind::AlreadyExists`] if an existing file may not be replaced.
+/// The existing file is then unchanged.
 pub fn replace<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&File) -> Result<(), E>) -> Result<(), E> {
     let (place, old) = match target.place()? {
         Place::Open(path) => return fill(&File::options().write(true).open(path)?),
@@ -38,7 +41,7 @@ pub fn replace<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&Fil
     }
     fill(temporary.as_file())?;
     temporary.as_file().sync_all()?;
-    // What has appeared meanwhile may not be replaced either.
+    // A file that has appeared meanwhile may not be replaced either.
     target.place()?;
     temporary.persist(&place).map_err(|error| error.error)?;
     Ok(())

@@ -1,15 +1,16 @@
-//! A mark in a file that tells whether this program wrote it, and whether anybody has changed it since.
+//! A seal in a file. It shows whether this program wrote the file, and whether anybody has changed it since.
 
 use crate::sentences;
 use std::path::Path;
 
-/// What stands before the seal's digits.
+/// Text before the digits of the seal.
 const MARK: &str = sentences::MADE_BY_LINKPROOF_SEAL;
 /// Hexadecimal digits of a seal.
 const DIGITS: usize = 16;
 
-/// A text with its seal, as a comment or a key that the format of the file allows: JSON, HTML, SVG, other XML, pages of
-/// a manual, and tables that begin with lines of `#`. Any other text has it in its last line.
+/// Returns a text with its seal, in a comment or key that the file format allows.
+/// These formats are JSON, HTML, SVG, other XML, manual pages, and tables that begin with lines of `#`.
+/// Any other text has the seal in its last line.
 pub fn sealed(text: &str, place: &Path) -> String {
     let blank = format!("{MARK}{}", "0".repeat(DIGITS));
     let open = match place.extension().and_then(|ending| ending.to_str()).unwrap_or_default() {
@@ -26,10 +27,10 @@ pub fn sealed(text: &str, place: &Path) -> String {
     open.replacen(&blank, &format!("{MARK}{:016x}", hash(open.as_bytes())), 1)
 }
 
-/// Whether a file has its seal, unbroken: this program wrote it, and it is as it was then.
+/// Whether a file has an unbroken seal: this program wrote it, and nobody has changed it since.
 pub fn is_sealed(bytes: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(bytes) else { return false };
-    // It stands at the beginning or at the end; the text between may quote another.
+    // The seal is at the beginning or at the end. The text between may quote another seal.
     [text.find(MARK), text.rfind(MARK)].into_iter().flatten().any(|found| {
         let digits = found + MARK.len()..found + MARK.len() + DIGITS;
         let Some(told) = text.get(digits.clone()) else { return false };
@@ -39,13 +40,14 @@ pub fn is_sealed(bytes: &[u8]) -> bool {
     })
 }
 
-/// FNV-1a, which stays what it is in every version of the language. Ends of lines do not count: tools change them.
+/// FNV-1a hash, which is the same in every version of the language.
+/// Carriage returns do not count, because tools change line endings.
 fn hash(bytes: &[u8]) -> u64 {
     let letters = bytes.iter().filter(|&&byte| byte != b'\r');
     letters.fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
-/// A word's own check digits, by which [`super::temporary`] knows its names.
+/// Check digits of a word. [`super::temporary`] uses them to recognise its file names.
 pub(super) fn check(word: &str) -> String {
     format!("{:08x}", hash(word.as_bytes()) >> 32)
 }

@@ -1,4 +1,4 @@
-//! Where files may be written, what they may replace, and what is said if not.
+//! Where files may be written, which files they may replace, and the errors if they may not.
 
 use crate::sentences;
 use std::fs::{self, File};
@@ -8,25 +8,27 @@ use std::path::{Path, PathBuf};
 use super::temporary::{create, directory_of};
 use linkage::error::{Error, ErrorKind};
 
-/// Most symbolic links from a name to its file.
+/// Largest number of symbolic links from a name to its file.
 const LINKS: usize = 40;
-/// Most of an older file that is looked into (bytes).
+/// Largest part of an older file that is read (bytes).
 const SEEN: u64 = 64 << 20;
 
-/// A file to be written, and what may be replaced there. This is the one place for the rule: a file is replaced only if
-/// the caller named it or this program wrote it, and a symbolic link is followed only where the caller named it.
+/// A file to be written, and the rule for replacing an existing file. The rule is implemented only here.
+/// A file is replaced only if the caller named it or this program wrote it.
+/// A symbolic link is followed only if the caller named it.
 pub enum OutputTarget<'a> {
-    /// The caller named this very file.
+    /// The caller named exactly this file.
     Named(&'a Path),
-    /// The program made the name up, or a part of it; an older file is replaced if `is_ours` says so of its beginning.
+    /// The program generated the name, or a part of it.
+    /// An older file is replaced if `is_ours` accepts its beginning.
     Made(&'a Path, &'a dyn Fn(&[u8]) -> bool),
 }
 
 /// Where the content of a target goes.
 pub(super) enum Place {
-    /// To what is open already, or is no regular file.
+    /// To a path that is already open or is not a regular file.
     Open(PathBuf),
-    /// In place of this file, of which this is known if it is there.
+    /// In place of this file, with its metadata if it exists.
     File(PathBuf, Option<fs::Metadata>),
 }
 
@@ -34,7 +36,7 @@ impl OutputTarget<'_> {
     /// Where the content goes.
     ///
     /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`] for what may not be replaced, and those of the file system.
+    /// [`io::ErrorKind::AlreadyExists`] if an existing file may not be replaced, and those of the file system.
     pub(super) fn place(&self) -> io::Result<Place> {
         match *self {
             OutputTarget::Named(path) => {
@@ -67,36 +69,36 @@ impl OutputTarget<'_> {
         }
     }
 
-    /// Why this may not be written, if what is there may not be replaced.
+    /// Why the target may not be written, if an existing file may not be replaced.
     pub fn in_the_way(&self) -> Option<String> {
         self.place().err().filter(|error| error.kind() == io::ErrorKind::AlreadyExists).map(|error| error.to_string())
     }
 }
 
-/// Whether a path is another word for something that this process, or the system, has open.
+/// Whether a path is a name for a file that this process or the system has already open.
 fn is_open_already(path: &Path) -> bool {
     let open = ["/dev/stdout", "/dev/stderr", "/dev/stdin"].map(Path::new);
     open.contains(&path) || path.starts_with("/dev/fd") || path.starts_with("/proc/self/fd")
 }
 
-/// The file that a path names at the end of all symbolic links, whether or not it is there.
+/// The file to which a path leads through all symbolic links, whether or not it exists.
 fn followed(path: &Path) -> io::Result<PathBuf> {
     let mut place = path.to_path_buf();
     for _ in 0..LINKS {
         match fs::read_link(&place) {
             Ok(next) => place = directory_of(&place).join(next),
-            // What is no link is the end.
+            // The first path that is not a link is the result.
             Err(_) => return Ok(place),
         }
     }
     Err(io::Error::other(sentences::more_than_symbolic_links_lead(&LINKS)))
 }
 
-/// Tries whether a file can be written at `path`, which the caller named, before any work is done. Nothing is left
-/// there, and nothing that is there is touched.
+/// Tests, before any work is done, whether a file can be written at `path`, which the caller named.
+/// It leaves no file behind and touches no existing file.
 ///
 /// # Errors
-/// What is in the way.
+/// The obstacle, in words.
 pub fn may_write(path: &Path) -> Result<(), String> {
     if fs::metadata(path).is_ok_and(|old| old.is_dir()) || path.as_os_str().to_string_lossy().ends_with('/') {
         return Err(sentences::THIS_IS_A_DIRECTORY_EXPECTED.into());
@@ -118,10 +120,10 @@ pub fn may_write(path: &Path) -> Result<(), String> {
     }
 }
 
-/// The same for a directory that is made with all that it lies in.
+/// The same for a directory that is created together with its parents.
 ///
 /// # Errors
-/// What is in the way.
+/// The obstacle, in words.
 pub fn may_fill(directory: &Path) -> Result<(), String> {
     let mut there: PathBuf = directory.to_path_buf();
     loop {
@@ -141,7 +143,7 @@ fn try_directory(directory: &Path) -> Result<(), String> {
     }
 }
 
-/// Why something could not be written, in words.
+/// Why an output could not be written, in words.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
 fn why(error: &io::Error) -> String {
     match error.kind() {
@@ -152,8 +154,9 @@ fn why(error: &io::Error) -> String {
     }
 }
 
-/// The error of an output that could not be written: `what` it is, and how many bytes it `needs`, if that is known.
-/// `usual` is the way out where there is room.
+/// The error of an output that could not be written.
+/// `what` names the output. `needs` is its size in bytes, if known.
+/// `usual` is the remedy unless the cause is missing space, an existing file or a size limit.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
 pub fn unwritten(what: &str, error: &io::Error, needs: Option<u64>, usual: &str) -> Error {
     let way_out = match error.kind() {

@@ -1,4 +1,4 @@
-//! Temporary files beside the file that they are to become.
+//! Temporary files in the directory of the file that they will replace.
 
 use std::fs::{self, File, TryLockError};
 use std::hash::{BuildHasher, RandomState};
@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 use super::seal::check;
 use tempfile::{Builder, NamedTempFile};
 
-/// Beginning and end of the names of temporary files. Between them stand random digits and their check digits, so that
-/// a file that somebody else calls so is not taken for one of them.
+/// Beginning and end of the names of temporary files.
+/// Between them are random digits and their check digits, so that other files with a similar name are not mistaken for
+/// temporary ones.
 const TEMPORARY: [&str; 2] = [".linkproof-", ".partial"];
 
 /// A name that no other run has.
@@ -18,13 +19,13 @@ fn name() -> String {
     format!("{}{random}-{}{}", TEMPORARY[0], check(&random), TEMPORARY[1])
 }
 
-/// Whether a file was called so by [`name`].
+/// Whether [`name`] generated a file's name.
 fn is_own(name: &str) -> bool {
     let inner = name.strip_prefix(TEMPORARY[0]).and_then(|rest| rest.strip_suffix(TEMPORARY[1]));
     inner.and_then(|inner| inner.split_once('-')).is_some_and(|(random, digits)| check(random) == digits)
 }
 
-/// The directory that a path lies in.
+/// The directory that contains a path.
 pub(super) fn directory_of(path: &Path) -> &Path {
     path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."))
 }
@@ -38,27 +39,27 @@ pub(super) fn create(directory: &Path) -> io::Result<NamedTempFile> {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let temporary = builder.tempfile_in(directory)?;
-        // Where a file system has no locks, nothing is cleared either.
+        // On a file system without locks, nothing is cleared either.
         let _ = temporary.as_file().lock();
-        // Another run may have taken it for a stale one before it was locked.
+        // Before the lock, another run may have taken the file for a stale one and removed it.
         if temporary.path().exists() {
             return Ok(temporary);
         }
     }
 }
 
-/// Removes the temporary files of runs that were killed: nobody holds their locks.
+/// Removes the temporary files of killed runs, recognised by their free locks.
 pub(super) fn clear(directory: &Path) {
     let Ok(entries) = fs::read_dir(directory) else { return };
     let is_temporary = |path: &PathBuf| path.file_name().and_then(|name| name.to_str()).is_some_and(is_own);
     for path in entries.flatten().map(|entry| entry.path()).filter(is_temporary) {
-        // A link is no file of ours, and is not followed.
+        // A symbolic link is not one of these files, and is not followed.
         if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_file()) {
             continue;
         }
         let Ok(file) = File::open(&path) else { continue };
         match file.try_lock() {
-            // What cannot be removed stays.
+            // A file that cannot be removed stays.
             Ok(()) => drop(fs::remove_file(&path)),
             Err(TryLockError::WouldBlock | TryLockError::Error(_)) => {}
         }

@@ -1,4 +1,4 @@
-//! Files that are read as text, and what is said about those that are none.
+//! Reading text files, and the errors for files that are not text.
 
 use crate::sentences;
 use std::fmt;
@@ -10,17 +10,17 @@ use linkage::mechanism::is_unseen;
 
 /// Largest file that is read as text (bytes).
 pub const LARGEST: u64 = 64 << 20;
-/// Longest part of a message that is shown (letters).
+/// Longest part of a message that is shown (characters).
 const LONGEST: usize = 2000;
 
-/// A text with every letter that is not seen written out, so that no name from a file forges a line or commands a
-/// terminal, and of bounded length.
+/// A text of bounded length with every invisible character escaped.
+/// A name from a file can then neither forge a line nor control a terminal.
 #[must_use]
 pub fn visible(text: &str) -> String {
     shown(text, is_unseen)
 }
 
-/// The same of a text that may have several lines, such as help with a section to add.
+/// The same for a text of several lines, such as help with a section to add.
 #[must_use]
 pub fn visible_lines(text: &str) -> String {
     shown(text, |letter| letter != '\n' && is_unseen(letter))
@@ -40,15 +40,15 @@ fn shown(text: &str, is_escaped: impl Fn(char) -> bool) -> String {
     shown
 }
 
-/// Text of the file at `path`, of 64 MiB at most.
+/// Text of the file at `path`, at most 64 MiB.
 ///
 /// # Errors
-/// Those of the file system; also if the file is larger, or no text. [`way_out`] tells what to do.
+/// Those of the file system; also if the file is larger or not text. [`way_out`] gives the remedy.
 pub fn read_text(path: &Path) -> io::Result<String> {
     text_from(File::open(path)?)
 }
 
-/// Text of 64 MiB at most from whatever is open.
+/// Text from an open source, at most 64 MiB.
 ///
 /// # Errors
 /// Those of [`read_text`].
@@ -61,10 +61,11 @@ pub fn text_from(from: impl Read) -> io::Result<String> {
     decoded(bytes).map_err(|other| io::Error::new(io::ErrorKind::InvalidData, other))
 }
 
-/// The same for a file that another file names: what is no regular file, such as a terminal, might never end.
+/// The same as [`read_text`], for a file that another file names.
+/// It must be a regular file, because reading anything else, such as a terminal, might never end.
 ///
 /// # Errors
-/// Those of [`read_text`]; also if it is no regular file.
+/// Those of [`read_text`]; also if it is not a regular file.
 pub fn read_named(path: &Path) -> io::Result<String> {
     if fs::metadata(path)?.is_file() {
         read_text(path)
@@ -73,7 +74,7 @@ pub fn read_named(path: &Path) -> io::Result<String> {
     }
 }
 
-/// The text of a file whose name the program made up; `None` if there is no such file.
+/// Text of a file whose name the program generated; `None` if there is no such file.
 ///
 /// # Errors
 /// Those of [`read_named`].
@@ -84,7 +85,7 @@ pub fn text(path: &Path) -> io::Result<Option<String>> {
     }
 }
 
-/// What to do about a file that could not be read: `usual`, unless it is written in another encoding.
+/// Remedy for a file that could not be read: `usual`, unless the file has another encoding.
 pub fn way_out(error: &io::Error, usual: &str) -> String {
     match error.get_ref().and_then(|inner| inner.downcast_ref::<Encoding>()) {
         None => usual.into(),
@@ -93,11 +94,11 @@ pub fn way_out(error: &io::Error, usual: &str) -> String {
     }
 }
 
-/// What a file is written in, which is not UTF-8.
+/// Encoding of a file, if it is not UTF-8.
 #[derive(Debug)]
 struct Encoding {
     told: String,
-    /// Its name for `iconv`; `None` if it is no text.
+    /// Name of the encoding for `iconv`; `None` if the file is not text.
     name: Option<&'static str>,
 }
 
@@ -114,7 +115,7 @@ fn decoded(bytes: Vec<u8>) -> Result<String, Encoding> {
     match bytes.as_slice() {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => return Err(other("UTF-32")),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return Err(other("UTF-16")),
-        // Without a mark: every other byte of plain letters is zero.
+        // Without a byte order mark: every other byte of ASCII text is zero.
         [first, 0, second, 0, ..] if *first != 0 && *second != 0 => return Err(other("UTF-16LE")),
         [0, first, 0, second, ..] if *first != 0 && *second != 0 => return Err(other("UTF-16BE")),
         _ => {}

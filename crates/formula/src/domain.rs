@@ -1,4 +1,4 @@
-//! Operations outside their domain, in words.
+//! Operations outside their domain, as messages.
 
 use crate::sentences;
 use std::fmt::Write;
@@ -7,10 +7,10 @@ use crate::rounded::Rounded;
 use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 
 impl FormulaTree {
-    /// Its value, where `of` gives the values of names.
+    /// Value of the formula, where `of` gives the values of names.
     ///
     /// # Errors
-    /// The first operation that is outside its domain there, with its place.
+    /// The first operation outside its domain, with its position.
     pub fn evaluated(&self, of: &dyn Fn(&str) -> Rounded) -> Result<Rounded, FormulaFault> {
         let mut lower: Option<Rounded> = None;
         for tree in self.left_parts().into_iter().rev() {
@@ -61,7 +61,7 @@ pub(crate) fn undefined(tree: &FormulaTree, arguments: &[Rounded]) -> FormulaFau
     FormulaFault::new(sentences::is_undefined(&what), tree.at.clone(), rule)
 }
 
-/// What is defined for every number.
+/// Rule for operations that are defined for every number.
 const EVERYWHERE: &str = sentences::ITS_PARTS_MUST_HAVE_VALUES;
 
 fn rule_of_operator(operator: Operator) -> &'static str {
@@ -88,7 +88,7 @@ fn rule_of_function(function: Function) -> &'static str {
     }
 }
 
-/// A number in six digits.
+/// A number with six digits.
 fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     match rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) {

@@ -1,4 +1,4 @@
-//! Formulas as a graph: what two of them share stands in it once.
+//! Formulas as a graph in which common parts occur only once.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +11,7 @@ use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub(crate) u32);
 
-/// What a node does. Its arguments stand before it, each at a place `P`.
+/// Operation of a node. Its arguments precede it, each at a position `P`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Node<P = NodeId> {
     Input(usize),
@@ -22,7 +22,7 @@ pub(crate) enum Node<P = NodeId> {
 }
 
 impl<P: Copy> Node<P> {
-    /// The same with other places.
+    /// The same operation with other positions.
     pub(crate) fn map<Q>(self, to: impl Fn(P) -> Q) -> Node<Q> {
         match self {
             Node::Input(input) => Node::Input(input),
@@ -33,7 +33,7 @@ impl<P: Copy> Node<P> {
         }
     }
 
-    /// Where its arguments stand; the only one twice.
+    /// Positions of the arguments; a single argument is given twice.
     pub(crate) fn parts(self) -> Option<[P; 2]> {
         match self {
             Node::Input(_) | Node::Number(_) => None,
@@ -42,7 +42,7 @@ impl<P: Copy> Node<P> {
         }
     }
 
-    /// Its value, where `at` gives those of its arguments. An input that is not there has none.
+    /// Value of the node, where `at` gives those of its arguments. A missing input is undefined.
     #[inline]
     pub(crate) fn value(self, inputs: &[Rounded], at: impl Fn(P) -> Rounded) -> Rounded {
         match self {
@@ -55,7 +55,7 @@ impl<P: Copy> Node<P> {
     }
 }
 
-/// A node as a key: numbers by their bits.
+/// A node as a key, with numbers by their bits.
 type Key = (u8, u64, u64, u64);
 
 fn key(node: Node) -> Key {
@@ -72,19 +72,19 @@ fn key(node: Node) -> Key {
 #[derive(Clone, Debug, Default)]
 pub struct FormulaGraph {
     pub(crate) nodes: Vec<Node>,
-    /// The values of nodes that no input enters.
+    /// Values of the nodes that do not depend on inputs.
     pub(crate) constants: Vec<Option<Rounded>>,
     known: BTreeMap<Key, NodeId>,
     names: BTreeMap<String, NodeId>,
     pub(crate) derivatives: BTreeMap<(NodeId, usize), NodeId>,
     inputs: usize,
-    /// Names that were given meanwhile, with what they stood for before.
+    /// Names that were assigned during `meanwhile`, with their previous nodes.
     renamed: Vec<(String, Option<NodeId>)>,
     is_meanwhile: bool,
 }
 
 impl FormulaGraph {
-    /// A graph with inputs of these names, as many more `unnamed`, and `pi`.
+    /// A graph with inputs of these names, `unnamed` further inputs, and `pi`.
     #[must_use]
     pub fn new(inputs: &[&str], unnamed: usize) -> Self {
         let mut graph = FormulaGraph { inputs: inputs.len() + unnamed, ..FormulaGraph::default() };
@@ -103,7 +103,7 @@ impl FormulaGraph {
     /// The node of an input.
     ///
     /// # Panics
-    /// If there are not as many inputs.
+    /// If there are fewer inputs.
     #[must_use]
     pub fn input(&self, index: usize) -> NodeId {
         assert!(index < self.inputs, "there are {} inputs", self.inputs);
@@ -111,7 +111,7 @@ impl FormulaGraph {
         NodeId(index as u32)
     }
 
-    /// Gives a node a name, which formulas after it may use.
+    /// Gives a node a name that later formulas may use.
     pub fn name(&mut self, name: &str, id: NodeId) {
         let before = self.names.insert(name.into(), id);
         if self.is_meanwhile {
@@ -119,7 +119,7 @@ impl FormulaGraph {
         }
     }
 
-    /// A number that does not change, with its error.
+    /// A constant, with its error.
     pub fn constant(&mut self, number: Rounded) -> NodeId {
         self.put(Node::Number(number))
     }
@@ -139,7 +139,7 @@ impl FormulaGraph {
     /// Adds a formula.
     ///
     /// # Errors
-    /// A name that is not known, with its place.
+    /// An unknown name, with its position.
     pub fn add(&mut self, tree: &FormulaTree) -> Result<NodeId, FormulaFault> {
         self.added(tree, false)
     }
@@ -147,7 +147,7 @@ impl FormulaGraph {
     /// The same for a formula that must have a value.
     ///
     /// # Errors
-    /// Those of [`FormulaGraph::add`], and an operation of constants outside its domain, with its place.
+    /// Those of [`FormulaGraph::add`], and an operation on constants outside its domain, with its position.
     pub fn add_defined(&mut self, tree: &FormulaTree) -> Result<NodeId, FormulaFault> {
         self.added(tree, true)
     }
@@ -169,26 +169,26 @@ impl FormulaGraph {
         Ok(lower.expect("a tree is one of its parts"))
     }
 
-    /// The nodes of the parts of what is no pair.
+    /// The nodes of the arguments of a part that is not a pair.
     fn parts(&mut self, tree: &FormulaTree, must_be_defined: bool) -> Result<[Option<NodeId>; 2], FormulaFault> {
         let mut part = |index: usize| tree.parts().get(index).map(|part| self.added(part, must_be_defined)).transpose();
         let first = part(0)?;
         Ok([first, part(1)?.or(first)])
     }
 
-    /// The node of an operation on its parts.
+    /// The node of an operation on these arguments.
     fn operation(&mut self, tree: &FormulaTree, parts: [Option<NodeId>; 2]) -> Result<NodeId, FormulaFault> {
         Ok(match (&tree.shape, parts) {
             (NodeShape::Number(number), _) => self.put(Node::Number(Rounded::decimal(*number))),
             (NodeShape::Negative(_), [Some(part), _]) => self.negative(part),
             (NodeShape::Pair(operator, _), [Some(left), Some(right)]) => {
                 match (operator, self.exact(left), self.exact(right)) {
-                    // What is less itself is zero, however well it is known, if it is anything.
+                    // A node minus itself is exactly zero, whatever its error, unless it is undefined.
                     (Operator::Minus, ..) if left == right => {
                         let zero = self.whole(0.0);
                         self.put(Node::Pair(Operator::Times, zero, left))
                     }
-                    // Whatever it is multiplied by, the other part may be outside a domain.
+                    // The zero is kept, because the other part may be outside a domain.
                     (Operator::Times | Operator::Over, Some(0.0), _)
                     | (Operator::Times | Operator::Power, _, Some(0.0)) => self.put(Node::Pair(*operator, left, right)),
                     _ => self.pair(*operator, left, right),
@@ -200,7 +200,7 @@ impl FormulaGraph {
         })
     }
 
-    /// The value of a node that no input enters.
+    /// The value of a node; `None` if it depends on an input.
     #[must_use]
     pub fn constant_of(&self, id: NodeId) -> Option<Rounded> {
         self.constants[id.0 as usize]
@@ -217,13 +217,14 @@ impl FormulaGraph {
         self.nodes[id.0 as usize]
     }
 
-    /// The nodes that these need, themselves included, arguments first. A graph of many formulas is not walked through.
+    /// All nodes on which these nodes depend, including themselves, arguments first.
+    /// Other parts of a large graph are not visited.
     pub(crate) fn needed(&self, nodes: &[NodeId]) -> Vec<NodeId> {
         self.needed_but(nodes, &|_| false)
     }
 
-    /// The same without those that are done, and without what only these need: what formulas share is walked through
-    /// once.
+    /// The same without the nodes that are done, and without nodes that only these need.
+    /// Common parts of formulas are then visited once.
     pub(crate) fn needed_but(&self, nodes: &[NodeId], is_done: &dyn Fn(NodeId) -> bool) -> Vec<NodeId> {
         let mut needed: BTreeSet<NodeId> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();
         let mut next: Vec<NodeId> = needed.iter().copied().collect();
@@ -231,11 +232,11 @@ impl FormulaGraph {
             let Some(parts) = self.node(id).parts() else { continue };
             next.extend(parts.into_iter().filter(|part| !is_done(*part) && needed.insert(*part)));
         }
-        // Arguments stand before what they are arguments of.
+        // Arguments precede the nodes that use them.
         needed.into_iter().collect()
     }
 
-    /// Lets `then` add to the graph, and forgets afterwards what was added, names included.
+    /// Lets `then` add to the graph, and afterwards removes the additions, names included.
     pub fn meanwhile<T>(&mut self, then: impl FnOnce(&mut FormulaGraph) -> T) -> T {
         let (nodes, derivatives) = (self.nodes.len(), self.derivatives.len());
         self.is_meanwhile = true;
@@ -291,8 +292,8 @@ impl FormulaGraph {
         }
     }
 
-    /// A pair, without the zeros and ones that derivatives leave: what they are multiplied by was there before, and is
-    /// judged there.
+    /// A pair, simplified by the zeros and ones that derivatives produce.
+    /// The dropped factor already exists as a node and is judged there.
     pub(crate) fn pair(&mut self, operator: Operator, left: NodeId, right: NodeId) -> NodeId {
         let (a, b) = (self.exact(left), self.exact(right));
         match (operator, a, b) {

@@ -1,10 +1,10 @@
 #![doc = include_str!("../README.md")]
 //!
-//! - [`FormulaTree`]: what somebody wrote, with the place of every part.
-//! - [`FormulaGraph`]: many formulas at once; what two of them share stands in it once. Derivatives are taken here.
+//! - [`FormulaTree`]: a formula as written, with the position of every part.
+//! - [`FormulaGraph`]: many formulas at once, with common parts only once. It takes derivatives.
 //! - [`Program`]: the part of a graph that some of its nodes need, to be run for many inputs.
-//! - [`Rounded`]: a number, and how far it may be from the exact one.
-//! - [`DerivationSheet`]: a derivation part by part, for the search of what is wrong in it; [`Products`]: numbers as products.
+//! - [`Rounded`]: a number with a bound on its error.
+//! - [`DerivationSheet`]: a derivation part by part, to search for its errors; [`Products`]: numbers as products.
 
 mod derivative;
 mod domain;

@@ -1,4 +1,4 @@
-//! From text to a tree.
+//! Parser from text to a tree.
 
 use crate::sentences;
 use std::ops::Range;
@@ -10,14 +10,14 @@ use winnow::{ModalResult, Parser};
 
 use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 
-/// Longest text of a formula (bytes): a notebook page has some thousand.
+/// Longest text of a formula (bytes). A notebook page has several thousand.
 const LONGEST: usize = 20_000;
-/// Deepest nesting, so that no text uses up the stack.
+/// Deepest nesting, so that no text exhausts the stack.
 const DEEPEST: usize = 200;
 
 type Input<'a> = LocatingSlice<&'a str>;
 
-/// A fault while reading; without one, another alternative may fit.
+/// A fault while reading. If it is empty, another alternative may fit.
 #[derive(Debug)]
 struct Found(Option<FormulaFault>);
 
@@ -41,11 +41,11 @@ fn refused<T>(message: impl Into<String>, at: Range<usize>, help: impl Into<Stri
 
 impl FormulaTree {
     /// Reads a formula: numbers, names (they may contain dots), `+ - * / ^`, parentheses and calls of a [`Function`].
-    /// A name with other signs in it, such as a column's, stands between backquotes.
-    /// `^` binds to the right, and closer than a minus before it: -x^2 is -(x^2), 2^3^2 is 2^9.
+    /// A name with other characters, such as that of a column, is put in backquotes.
+    /// `^` is right-associative and binds tighter than a minus before it: -x^2 is -(x^2), 2^3^2 is 2^9.
     ///
     /// # Errors
-    /// What cannot be read, with its place and the way out.
+    /// The unreadable part, with its position and the remedy.
     pub fn parse(text: &str) -> Result<FormulaTree, FormulaFault> {
         bounded(text)?;
         whole(&mut LocatingSlice::new(text)).map_err(|error| match error {
@@ -59,7 +59,7 @@ impl FormulaTree {
     }
 }
 
-/// Whether reading it can use up neither memory nor stack.
+/// Checks that reading the text cannot exhaust memory or stack.
 fn bounded(text: &str) -> Result<(), FormulaFault> {
     if text.len() > LONGEST {
         let message = sentences::the_formula_has_bytes_more(&text.len(), &LONGEST);
@@ -96,7 +96,7 @@ fn whole(input: &mut Input<'_>) -> Read<FormulaTree> {
     }
 }
 
-/// A sign where an operator or the end of a part could stand.
+/// The fault of a character in place of an operator or the end of a part.
 fn no_operator<T>(sign: char, at: usize) -> Read<T> {
     let own = at..at + sign.len_utf8();
     if sign == ',' {
@@ -154,7 +154,7 @@ fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMod
 }
 
 fn negative(part: FormulaTree) -> FormulaTree {
-    // The minus stands before it, with blanks between at most.
+    // The minus is directly before the part, apart from spaces.
     let at = part.at.start.saturating_sub(1)..part.at.end;
     FormulaTree { shape: NodeShape::Negative(Box::new(part)), at }
 }
@@ -162,7 +162,7 @@ fn negative(part: FormulaTree) -> FormulaTree {
 fn between<'a>(input: &mut Input<'a>) -> Read<Infix<Input<'a>, FormulaTree, ErrMode<Found>>> {
     let text: &str = input;
     let (length, found) = match text.as_bytes() {
-        // Python and Fortran write powers like that.
+        // Python and Fortran write powers in this way.
         [b'*', b'*', ..] => (2, Operator::Power),
         [b'+', ..] => (1, Operator::Plus),
         [b'-', ..] => (1, Operator::Minus),
@@ -190,7 +190,7 @@ fn none<T>() -> Read<T> {
     Err(ErrMode::Backtrack(Found(None)))
 }
 
-/// Takes bytes, and the blanks after them.
+/// Takes bytes, and the spaces after them.
 fn take(input: &mut Input<'_>, bytes: usize) {
     let _ = input.next_slice(bytes);
     skip(input);

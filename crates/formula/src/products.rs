@@ -1,12 +1,12 @@
-//! Products of powers of known quantities, to be recognised by their value.
+//! Products of powers of known quantities, for recognising a number by its value.
 
-/// Numbers that derivations have as factors, with what they add to the complexity.
+/// Typical numeric factors in derivations, each with its contribution to the complexity.
 const NUMBERS: [(f64, usize); 9] =
     [(1.0, 0), (2.0, 1), (0.5, 1), (4.0, 4), (0.25, 4), (1.5, 4), (3.0, 5), (1.0 / 3.0, 5), (0.125, 5)];
-/// Most quantities in a product.
+/// Largest number of quantities in a product.
 const FACTORS: usize = 3;
 
-/// Powers of kilogram, metre and second; `None` where they are not known.
+/// Exponents of kilogram, metre and second; `None` if unknown.
 type Dimension = Option<[f64; 3]>;
 
 /// A product of powers of quantities, times a number.
@@ -16,7 +16,7 @@ pub struct Product {
     pub value: f64,
     /// Whether it is negative.
     pub is_negative: bool,
-    /// How complicated it is: a quantity counts 2, the square of one 3.
+    /// Complexity: a quantity counts 2, the square of a quantity 3.
     pub weight: usize,
     /// The number.
     pub number: f64,
@@ -33,7 +33,7 @@ pub struct Products {
 }
 
 impl Products {
-    /// Of quantities with these values and dimensions, 255 at most.
+    /// The products of quantities with these values and dimensions, at most 255.
     #[must_use]
     pub fn of(quantities: &[(f64, Dimension)]) -> Self {
         let mut list = Vec::new();
@@ -48,13 +48,13 @@ impl Products {
         self.list.len()
     }
 
-    /// Whether there is none, as of no quantity.
+    /// Whether there are no products.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// Those of this size, to a relative accuracy, the simplest first.
+    /// The products of this size within a relative accuracy, the simplest first.
     #[must_use]
     pub fn near(&self, size: f64, accuracy: f64) -> Vec<&Product> {
         let [low, high] = [size * (1.0 - accuracy), size * (1.0 + accuracy)];
@@ -64,7 +64,7 @@ impl Products {
         near
     }
 
-    /// Number of products of this dimension that are no more complicated; an unknown dimension is any.
+    /// Number of products of this dimension with at most this complexity. An unknown dimension matches any.
     #[must_use]
     pub fn alike(&self, weight: usize, dimension: Dimension) -> usize {
         let is_alike = |own: &&Product| match (own.dimension, dimension) {
@@ -75,7 +75,7 @@ impl Products {
     }
 }
 
-/// Adds all products of the quantities from `next` on to those chosen.
+/// Adds all products of the chosen quantities with those from `next` on.
 fn put(quantities: &[(f64, Dimension)], next: usize, chosen: &mut Vec<(u8, i8)>, products: &mut Vec<Product>) {
     let value: f64 = chosen.iter().map(|&(index, power)| quantities[usize::from(index)].0.powi(power.into())).product();
     let dimension = chosen.iter().try_fold([0.0; 3], |sum: [f64; 3], &(index, power)| {
@@ -100,8 +100,9 @@ fn put(quantities: &[(f64, Dimension)], next: usize, chosen: &mut Vec<(u8, i8)>,
     }
 }
 
-/// Bits of information in a number that is known to a relative accuracy: 3 for a sixtieth, 13 for 1.4715, and as many
-/// as the accuracy has where it is neither round nor a simple share, also not of pi. Chance finds a number of few bits.
+/// Bits of information in a number that is known to a relative accuracy, such as 3 for a sixtieth and 13 for 1.4715.
+/// A number that is neither round nor a simple fraction, also not of pi, has as many bits as the accuracy.
+/// A number of few bits is easily met by chance.
 #[must_use]
 pub fn information(value: f64, accuracy: f64) -> f64 {
     let most = -(if accuracy > 1e-15 { accuracy } else { 1e-15 }).log2();
@@ -117,7 +118,7 @@ pub fn information(value: f64, accuracy: f64) -> f64 {
     least
 }
 
-/// The digits of a decimal number as a whole one, without zeros at its ends, if it has no more than nine.
+/// The digits of a decimal number as a whole number, without leading and trailing zeros, if it has at most nine.
 fn whole(value: f64, accuracy: f64) -> Option<f64> {
     if !(value > 0.0) || !value.is_finite() {
         return None;
@@ -160,7 +161,7 @@ mod tests {
             assert_eq!(products.near(size, 1e-6)[0].powers, [(0, 1), (1, 2)], "{size}");
             assert!(products.near(size, 1e-7).is_empty(), "{size}");
         }
-        // m, 1/m, l, 1/l and so on, with the numbers before them: of the first power of a mass alone there are few.
+        // m, 1/m, l, 1/l and so on, with the numeric factors. Few of them have the dimension of a mass.
         assert_eq!(products.alike(2, Some([1.0, 0.0, 0.0])), 1);
         assert_eq!(products.alike(3, Some([1.0, 0.0, 0.0])), 3);
     }

@@ -3,20 +3,20 @@
 use crate::graph::{FormulaGraph, Node, NodeId};
 use crate::rounded::Rounded;
 
-/// Formulas ready to be evaluated: every common part once, in an order in which arguments come first. What no input
-/// enters is evaluated beforehand.
+/// Formulas ready to be evaluated: every common part once, arguments first.
+/// Parts that depend on no input are evaluated beforehand.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// What changes with the inputs, each with the place of its value.
+    /// Operations that depend on the inputs, each with the position of its value.
     steps: Vec<(usize, Node<usize>)>,
-    /// Where the results of the nodes asked for stand.
+    /// Positions of the results of the requested nodes.
     results: Vec<usize>,
     values: Vec<Rounded>,
     answers: Vec<Rounded>,
 }
 
 impl Program {
-    /// What `nodes` of a graph need.
+    /// The program that evaluates `nodes` of a graph.
     #[must_use]
     pub fn of(graph: &FormulaGraph, nodes: &[NodeId]) -> Self {
         let needed = graph.needed(nodes);
@@ -34,7 +34,7 @@ impl Program {
         Program { steps, results, values, answers: vec![Rounded::exact(0.0); nodes.len()] }
     }
 
-    /// The values of the nodes, in the order in which they were asked for. An input that is not there is NaN.
+    /// The values of the nodes, in the order of the request. A missing input is NaN.
     pub fn run(&mut self, inputs: &[Rounded]) -> &[Rounded] {
         for &(place, node) in &self.steps {
             self.values[place] = node.value(inputs, |part| self.values[part]);
@@ -51,13 +51,13 @@ impl Program {
         &self.answers
     }
 
-    /// Number of operations of a run.
+    /// Number of operations per run.
     #[must_use]
     pub fn len(&self) -> usize {
         self.steps.len()
     }
 
-    /// Whether nothing changes with the inputs.
+    /// Whether no result depends on the inputs.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()

@@ -1,29 +1,30 @@
-//! A number, and how far it may be from the exact one.
+//! A number with a bound on its error.
 
 use crate::tree::{Function, Operator};
 
-/// A number with a bound on its error. Every operation passes the errors of its arguments on and adds its own rounding.
+/// A number with a bound on its error.
+/// Every operation propagates the errors of its arguments and adds its rounding error.
 ///
-/// An operation outside its domain, and every operation that takes its result, gives [`Rounded::UNDEFINED`]: unlike in
-/// IEEE 754, `1/(1/0)`, `(0/0)^0` and `atan(1/0)` have no value. An argument that is outside the domain by less than its
-/// error is taken to the domain's end.
+/// An operation outside its domain gives [`Rounded::UNDEFINED`], and so does every operation on that result.
+/// Unlike in IEEE 754, `1/(1/0)`, `(0/0)^0` and `atan(1/0)` have no value.
+/// An argument outside the domain by less than its error is moved to the end of the domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded {
-    /// The number; NaN if there is none.
+    /// The number; NaN if it is undefined.
     pub value: f64,
-    /// How far the exact number may be from it. Infinite where nothing is known.
+    /// Largest distance of the exact number from `value`; infinite if nothing is known.
     pub error: f64,
 }
 
-/// Rounding of an operation of IEEE 754: half a unit in the last place.
+/// Rounding error of an IEEE 754 operation: half a unit in the last place.
 const HALF: f64 = f64::EPSILON / 2.0;
-/// Rounding of a function of the system's library: below a unit in the last place, with a margin.
+/// Rounding error of a function of the system library: less than a unit in the last place, with a margin.
 const WHOLE: f64 = 2.0 * f64::EPSILON;
 
 impl Rounded {
-    /// What an operation outside its domain gives.
+    /// Result of an operation outside its domain.
     pub const UNDEFINED: Self = Rounded { value: f64::NAN, error: f64::INFINITY };
-    /// A number of which nothing is known: too large for a double, or divided by what may be zero.
+    /// A number about which nothing is known: too large for a double, or divided by a possible zero.
     pub const UNKNOWN: Self = Rounded { value: 0.0, error: f64::INFINITY };
 
     /// A number that is exact.
@@ -32,14 +33,14 @@ impl Rounded {
         Rounded { value, error: 0.0 }
     }
 
-    /// A number that stands for a decimal one: exact if it is whole, else with half a unit in the last place.
+    /// A double for a decimal number: exact if it is whole, otherwise with half a unit in the last place.
     #[must_use]
     pub fn decimal(value: f64) -> Self {
         let is_whole = value.fract() == 0.0 && value.abs() < 9e15;
         Rounded { value, error: if is_whole { 0.0 } else { HALF * value.abs() } }
     }
 
-    /// A number with a unit in the last place.
+    /// A number with an error of one unit in the last place.
     #[must_use]
     pub fn nearly(value: f64) -> Self {
         Rounded { value, error: f64::EPSILON * value.abs() }
@@ -54,7 +55,7 @@ impl Rounded {
         Rounded { value, error: if error.is_nan() { f64::INFINITY } else { error } }
     }
 
-    /// The same, where a result that a double cannot tell from zero is zero only if it `is_zero` exactly.
+    /// Adds an error to a result too small for a double, unless the result `is_zero` exactly.
     fn or_tiny(self, is_zero: bool) -> Self {
         match self.value.abs() < f64::MIN_POSITIVE && !is_zero {
             true => Rounded { error: self.error + f64::MIN_POSITIVE, ..self },
@@ -62,13 +63,13 @@ impl Rounded {
         }
     }
 
-    /// Whether the operation that gave it, or one before, was outside its domain.
+    /// Whether the operation that gave this number, or an earlier one, was outside its domain.
     #[must_use]
     pub fn is_undefined(self) -> bool {
         self.value.is_nan()
     }
 
-    /// Whether it is zero, and nothing else.
+    /// Whether the number is exactly zero.
     fn is_zero(self) -> bool {
         self.value == 0.0 && self.error == 0.0
     }
@@ -79,7 +80,7 @@ impl Rounded {
         Rounded { value: -self.value, error: self.error }
     }
 
-    /// What an operator makes of two numbers.
+    /// Result of an operator on two numbers.
     #[must_use]
     pub fn pair(operator: Operator, a: Self, b: Self) -> Self {
         if !a.value.is_finite() || !b.value.is_finite() {
@@ -103,7 +104,7 @@ impl Rounded {
         }
     }
 
-    /// What a function makes of its arguments.
+    /// Result of a function of its arguments.
     #[must_use]
     pub fn call(function: Function, arguments: [Self; 2]) -> Self {
         let [x, other] = arguments;
@@ -121,7 +122,7 @@ impl Rounded {
             }
             Function::Tan => {
                 let value = x.value.tan();
-                // The slope at the end that is nearer to a pole.
+                // The slope at the end of the interval that is nearer to a pole.
                 let steepest = value.abs() + x.error * (1.0 + value * value) * 2.0;
                 let is_near = !(x.error * (1.0 + value.abs()) < 0.1);
                 let error = if is_near { f64::INFINITY } else { x.error * (1.0 + steepest * steepest) };
@@ -132,7 +133,7 @@ impl Rounded {
                 let of = |value: f64| if function == Function::Asin { value.asin() } else { value.acos() };
                 let end = x.value.abs() + x.error;
                 if end < 1.0 {
-                    // The steepest slope is at the end that is nearer to the end of the domain.
+                    // The slope is steepest at the end of the interval that is nearer to the end of the domain.
                     return Rounded::of(of(x.value), x.error / ((1.0 - end) * (1.0 + end)).sqrt(), WHOLE);
                 }
                 growing(of, x, [-1.0, 1.0])
@@ -180,12 +181,12 @@ fn swing(x: Rounded, slope: f64) -> f64 {
     least(least(slope.abs() * x.error + x.error * x.error / 2.0, x.error), 2.0)
 }
 
-/// Zero for a number below it; NaN stays.
+/// The number, but zero if it is negative. NaN stays.
 fn not_below_zero(number: f64) -> f64 {
     if number < 0.0 { 0.0 } else { number }
 }
 
-/// The larger of two sizes; infinite if one is not known.
+/// The larger of two sizes; infinite if one of them is NaN.
 fn larger(one: f64, other: f64) -> f64 {
     match one.is_nan() || other.is_nan() {
         true => f64::INFINITY,
@@ -194,8 +195,9 @@ fn larger(one: f64, other: f64) -> f64 {
     }
 }
 
-/// A function that grows, or falls, everywhere from `domain[0]` to `domain[1]`: its largest change is at one end of
-/// what is known of its argument. An argument beyond the domain by less than its error is taken to its end.
+/// Value of a function that is monotonic from `domain[0]` to `domain[1]`.
+/// Its largest change is at one end of the interval of the argument.
+/// An argument beyond the domain by less than its error is moved to the end of the domain.
 fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Rounded {
     let at = |value: f64| function(value.clamp(domain[0], domain[1]));
     let value = at(x.value);
@@ -206,7 +208,7 @@ fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Round
     Rounded::of(value, larger(below, above), WHOLE)
 }
 
-/// Largest exponent up to which a power is a product (its rounding grows with every factor).
+/// Largest exponent for which a power is computed as a product. Its rounding error grows with every factor.
 const FACTORS: f64 = 1024.0;
 
 fn power(a: Rounded, b: Rounded) -> Rounded {
@@ -216,9 +218,9 @@ fn power(a: Rounded, b: Rounded) -> Rounded {
     }
     if is_whole && b.value.abs() <= FACTORS {
         let power = b.value as i32;
-        // Products of many factors round at every one.
+        // A product of many factors is rounded at every factor.
         let rounding = WHOLE * (1.0 + b.value.abs());
-        // The steepest slope is where the base is largest, or for a negative power where it is smallest.
+        // The slope is steepest where the base is largest or, for a negative exponent, smallest.
         let end = if power >= 0 { a.value.abs() + a.error } else { a.value.abs() - a.error };
         let slope = if power < 0 && !(end > 0.0) { f64::INFINITY } else { b.value.abs() * end.powi(power - 1) };
         let found = match power {
@@ -236,13 +238,13 @@ fn power(a: Rounded, b: Rounded) -> Rounded {
         () if a.is_zero() && b.value - b.error <= 0.0 => return Rounded::UNKNOWN,
         () => {}
     }
-    // A base below zero by less than its error stands for zero.
+    // A base that is negative by less than its error counts as zero.
     let base = if a.value < 0.0 && a.value + a.error >= 0.0 { 0.0 } else { a.value };
     let value = base.powf(b.value);
     if a.error == 0.0 && b.error == 0.0 {
         return Rounded::of(value, 0.0, 4.0 * WHOLE).or_tiny(base == 0.0);
     }
-    // Its size grows or falls with that of the base, and with the exponent: the largest change is at a corner.
+    // The size of the power is monotonic in that of the base and in the exponent, so the largest change is at a corner.
     let sign = if value < 0.0 { -1.0 } else { 1.0 };
     let mut error = 0.0;
     for base in [a.value - a.error, a.value + a.error] {

@@ -1,7 +1,9 @@
 //! Every sentence that this crate can show, in one place, to be read as a list.
 
-// Declares the sentences that a crate can show: `NAME = "text";` makes a constant, `name(a, b) = "text with {a} and {b}";`
-// a function from values to a `String`. Each crate has them in one file, to be read as a list.
+// Declares the sentences that a crate can show.
+// `NAME = "text";` declares a constant.
+// `name(a, b) = "text with {a} and {b}";` declares a function from values to a `String`.
+// Each crate keeps its sentences in one file, to be read as a list.
 macro_rules! sentences {
     (@one $name:ident = $text:literal) => { pub(crate) const $name: &str = $text; };
     (@one $name:ident($($value:ident),+) = $text:literal) => {

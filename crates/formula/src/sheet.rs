@@ -1,5 +1,5 @@
-//! A derivation in which every part has a place of its own, evaluated at some instants: what a change of one part makes
-//! of the whole costs no more than what depends on that part.
+//! A derivation stored part by part and evaluated at some instants.
+//! After a change of one part, only the parts that depend on it are evaluated again.
 
 use std::collections::BTreeMap;
 
@@ -7,10 +7,10 @@ use crate::graph::Node;
 use crate::rounded::Rounded;
 use crate::tree::{FormulaTree, NodeShape, Operator};
 
-/// What stands at a place. Arguments have smaller indices.
+/// A part of the sheet. Its arguments have smaller indices.
 #[derive(Clone, Copy, Debug)]
 enum Part {
-    /// A name, by the place of what it stands for.
+    /// A name, given by the position of its part.
     Named(usize),
     Own(Node<usize>),
 }
@@ -26,32 +26,32 @@ pub struct DerivationSheet {
     inputs: Vec<Vec<Rounded>>,
     /// Values of all parts, by instant.
     values: Vec<Vec<Rounded>>,
-    /// Values under a change, and for which change they were calculated.
+    /// Values after a change, each with the number of the change for which it was calculated.
     changed: Vec<(u32, Rounded)>,
     change: u32,
     operations: u64,
 }
 
-/// Begins a name that stands for the part at a place, in trees that are made for a change.
+/// First character of names that refer to the part at a position, in trees made for a change.
 const PLACE: char = '#';
-/// Most steps to the amount that is missing at an instant.
+/// Largest number of steps in the search for the missing amount at an instant.
 const STEPS: usize = 30;
-/// Change of an amount, over its size, by which a slope is measured.
+/// Change of an amount, relative to its size, for measuring a slope.
 const DIFFERENCE: f64 = 1e-6;
 
-/// What a formula ought to be at an instant.
+/// Correct value of a formula at an instant.
 #[derive(Clone, Copy, Debug)]
 pub struct FormulaTarget {
     /// The right value.
     pub value: f64,
-    /// How far a value may be from it.
+    /// Largest allowed distance of a value from it.
     pub bound: f64,
-    /// A whole turn, if it is an angle.
+    /// A whole turn, if the value is an angle.
     pub turn: Option<f64>,
 }
 
 impl FormulaTarget {
-    /// A value less the right one, for angles without whole turns.
+    /// A value minus the correct one; for angles without whole turns.
     #[must_use]
     pub fn difference(&self, value: f64) -> f64 {
         let difference = value - self.value;
@@ -60,7 +60,7 @@ impl FormulaTarget {
 }
 
 impl DerivationSheet {
-    /// A sheet without formulas: names of inputs, and their numbers by instant.
+    /// A sheet without formulas, from the names of inputs and their numbers at every instant.
     #[must_use]
     pub fn new(names: &[&str], inputs: Vec<Vec<Rounded>>) -> Self {
         let values = vec![Vec::new(); inputs.len()];
@@ -72,12 +72,12 @@ impl DerivationSheet {
         own
     }
 
-    /// Gives a number a name.
+    /// Defines a constant by name.
     pub fn constant(&mut self, name: &str, number: Rounded) {
         self.put_named(name, Node::Number(number));
     }
 
-    /// Adds a formula, which those after it may use by its name. `None` if it uses a name that is not known.
+    /// Adds a formula that later formulas may use by its name. `None` if it uses an unknown name.
     pub fn add(&mut self, name: &str, tree: &FormulaTree) -> Option<()> {
         let mut order = Vec::new();
         let place = self.read(tree, &mut order)?;
@@ -132,20 +132,20 @@ impl DerivationSheet {
         }
     }
 
-    /// Places of the parts of a formula, counted from the first that was added: each before its arguments, as
-    /// [`FormulaTree::parts`] are visited.
+    /// Positions of the parts of a formula, each before its arguments, in the order of [`FormulaTree::parts`].
+    /// Formulas are numbered in the order in which they were added.
     #[must_use]
     pub fn places(&self, formula: usize) -> &[usize] {
         &self.formulas[formula]
     }
 
-    /// The place of what a name stands for.
+    /// Position of the part with this name.
     #[must_use]
     pub fn named(&self, name: &str) -> Option<usize> {
         self.names.get(name).copied()
     }
 
-    /// Places of the arguments of a part; none for names and numbers.
+    /// Positions of the arguments of a part; empty for names and numbers.
     #[must_use]
     pub fn arguments(&self, place: usize) -> Vec<usize> {
         let Part::Own(node) = self.parts[place] else { return Vec::new() };
@@ -156,39 +156,39 @@ impl DerivationSheet {
         }
     }
 
-    /// A tree that stands for the part at a place, as it is written.
+    /// A tree that stands for the unchanged part at a position.
     #[must_use]
     pub fn placeholder(place: usize) -> FormulaTree {
         FormulaTree::name(format!("{PLACE}{place}"))
     }
 
-    /// The place that a name made by [`DerivationSheet::placeholder`] stands for.
+    /// The position to which a name made by [`DerivationSheet::placeholder`] refers.
     #[must_use]
     pub fn placed(name: &str) -> Option<usize> {
         name.strip_prefix(PLACE)?.parse().ok()
     }
 
-    /// The value of a part at an instant, as it is written.
+    /// The value of the unchanged part at an instant.
     #[must_use]
     pub fn value(&self, place: usize, instant: usize) -> Rounded {
         self.values[instant][place]
     }
 
-    /// Number of evaluations of a part at an instant so far.
+    /// Number of evaluations so far, counted per part and instant.
     #[must_use]
     pub fn operations(&self) -> u64 {
         self.operations
     }
 
-    /// Counts work that was done beside it, in the same unit.
+    /// Counts work done outside the sheet, in the same unit.
     pub fn count(&mut self, operations: u64) {
         self.operations += operations;
     }
 
-    /// These places and all that depend on them, in the order in which they are evaluated, up to the last formula.
+    /// These positions and all that depend on them, in the order of evaluation, up to the last formula.
     pub fn depending(&mut self, places: &[usize]) -> Vec<usize> {
         let Some(&first) = places.iter().min() else { return Vec::new() };
-        // Nothing is evaluated here: a look at a part is a small share of an operation.
+        // Nothing is evaluated here. Visiting a part costs a small fraction of an operation.
         self.operations += (self.parts.len() - first) as u64 / 16;
         self.change += 1;
         let mut found = Vec::new();
@@ -207,8 +207,9 @@ impl DerivationSheet {
         found
     }
 
-    /// The value of the last formula at an instant with other trees at some places; `depending` is what
-    /// [`DerivationSheet::depending`] says of these. Names that are not known before a place are NaN.
+    /// The value of the last formula at an instant, with other trees at some positions.
+    /// `depending` is the result of [`DerivationSheet::depending`] for these positions.
+    /// Names that are unknown before a position are NaN.
     pub fn changed(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize], instant: usize) -> Rounded {
         self.change += 1;
         for &place in depending {
@@ -222,7 +223,7 @@ impl DerivationSheet {
         self.current(self.parts.len() - 1, instant)
     }
 
-    /// The same with a number at one place.
+    /// The same with a number at one position.
     fn with_number(&mut self, number: Rounded, depending: &[usize], instant: usize) -> Rounded {
         self.change += 1;
         let Some((&first, rest)) = depending.split_first() else { return Rounded::exact(f64::NAN) };
@@ -266,9 +267,11 @@ impl DerivationSheet {
         }
     }
 
-    /// The amount by which the part at a place has to grow (`Plus`), or the factor that it lacks (`Times`), so that
-    /// the last formula is right at an instant, and how far that is known. Sought by Newton's method from an amount.
-    /// `None` if there is none. `depending` is what [`DerivationSheet::depending`] says of the place.
+    /// The correction of a part that makes the last formula correct at an instant, and the uncertainty of that
+    /// correction.
+    /// It is the amount to add to the part (`Plus`) or the missing factor (`Times`).
+    /// Newton's method starts `from` an amount. `None` if it finds no correction.
+    /// `depending` is the result of [`DerivationSheet::depending`] for the part.
     pub fn amount(
         &mut self,
         operator: Operator,

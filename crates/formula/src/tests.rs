@@ -15,12 +15,12 @@ fn value(text: &str) -> f64 {
     at(text, Rounded::exact(0.3), Rounded::exact(-1.7)).value
 }
 
-/// Where both parts may be zero, the direction may be any.
+/// If both arguments may be zero, any direction is possible.
 #[test]
 fn the_direction_of_what_may_be_nothing_is_known_to_half_a_turn() {
     let near = Rounded { value: 1e-12, error: 1e-9 };
     assert!(at("atan2(x, y)", near, near).error >= std::f64::consts::PI);
-    // Apart from zero it is known.
+    // Away from zero the direction is known.
     assert!(at("atan2(x, y)", Rounded { value: 1.0, error: 1e-9 }, near).error < 2e-9);
 }
 
@@ -91,7 +91,7 @@ fn what_cannot_be_read_is_told_with_its_place_and_the_way_out() {
     assert_eq!((fault.at, fault.help.contains("phi")), (3..5, true));
 }
 
-/// Long sums are no nesting.
+/// Long sums do not count as nesting.
 #[test]
 fn a_long_sum_is_read() {
     assert_relative_eq!(value(&vec!["x"; 9999].join("+")), 2999.7, max_relative = 1e-12);
@@ -115,7 +115,7 @@ fn tree() -> impl Strategy<Value = FormulaTree> {
                 let power = FormulaTree::number(f64::from(power));
                 NodeShape::Pair(Power, Box::new([base, power]))
             }),
-            // Of a positive base any power is defined.
+            // Any power of a positive base is defined.
             (inner.clone(), inner.clone()).prop_map(move |(base, power)| {
                 NodeShape::Pair(Power, Box::new([FormulaTree::call(Function::Exp, vec![base]), power]))
             }),
@@ -144,7 +144,7 @@ fn graph_of(tree: &FormulaTree) -> (FormulaGraph, crate::NodeId) {
     (graph, id)
 }
 
-/// Written for exmex, in parentheses everywhere: what binds closer is not its business here.
+/// Text for exmex, with parentheses everywhere, because precedence is not under test here.
 fn in_parentheses(tree: &FormulaTree) -> String {
     match &tree.shape {
         NodeShape::Number(number) => format!("{number}"),
@@ -167,14 +167,14 @@ fn with_derivatives(tree: &FormulaTree, x: f64, y: f64) -> [Rounded; 3] {
     [found[0], found[1], found[2]]
 }
 
-/// The limit of central differences, and its error by Ridders' extrapolation; `None` where they do not tell it to
-/// five digits: beside a kink, a pole, or the end of a domain.
+/// The limit of central differences by Ridders' extrapolation, and its error.
+/// `None` if the limit is not accurate to five digits: near a kink, a pole, or the end of a domain.
 fn limit_of_differences(function: &dyn Fn(f64) -> Rounded) -> Option<(f64, f64)> {
     let (mut before, mut best) = (Vec::<f64>::new(), None::<(f64, f64)>);
     for level in 0..9 {
         let step = 0.02 * 0.6f64.powi(level);
         let [above, below] = [function(step), function(-step)];
-        // The arguments x + step are rounded too: that counts with the slope.
+        // The arguments x + step are rounded too, which contributes by the slope.
         let slope = (above.value - below.value).abs() / (2.0 * step);
         let rounding = (above.error + below.error + 4.0 * f64::EPSILON * (1.0 + slope)) / (2.0 * step);
         let mut row = vec![(above.value - below.value) / (2.0 * step)];
@@ -197,14 +197,14 @@ fn holds(tree: &FormulaTree, test: &dyn Fn(&NodeShape) -> bool) -> bool {
 }
 
 proptest! {
-    /// What is written is read back.
+    /// A written tree is read back unchanged.
     #[test]
     fn a_tree_is_read_as_it_is_written(tree in tree()) {
         let text = tree.to_string();
         prop_assert_eq!(shape_of(&FormulaTree::parse(&text).unwrap()), shape_of(&tree), "{}", text);
     }
 
-    /// Any text is read or refused, with a place inside it.
+    /// Any text is read or rejected, with a position inside the text.
     #[test]
     fn any_text_has_an_answer(text in "[-+*/^(),.0-9a-z φ²=]{0,60}") {
         if let Err(fault) = FormulaTree::parse(&text) {
@@ -213,22 +213,22 @@ proptest! {
         }
     }
 
-    /// Derivatives are those of somebody else's rules.
+    /// Derivatives agree with those of an independent library.
     #[test]
     fn derivatives_are_those_of_exmex(tree in tree(), x in 0.1f64..2.0, y in -2.0f64..2.0) {
-        // exmex has none of atan2, abs and sign.
+        // exmex lacks atan2, abs and sign.
         let unknown = |shape: &NodeShape| {
             matches!(shape, NodeShape::Call(Function::Atan2 | Function::Abs | Function::Sign, _))
         };
         prop_assume!(!holds(&tree, &unknown));
         let [_, first, mixed] = with_derivatives(&tree, x, y);
-        // Both names are in it, so that exmex counts them alike.
+        // The text contains both names, so that exmex numbers them in the same way.
         let text = format!("{}+0*x+0*y", in_parentheses(&tree));
         let theirs = exmex::parse::<f64>(&text).unwrap().partial(0).unwrap();
         let theirs = [theirs.eval(&[x, y]).unwrap(), theirs.partial(1).unwrap().eval(&[x, y]).unwrap()];
         for (ours, theirs) in [first, mixed].into_iter().zip(theirs) {
             prop_assume!(theirs.is_finite() && ours.error < 1e-6 * (1.0 + ours.value.abs()));
-            // exmex squares what it divides by, and loses digits where the square is a subnormal number.
+            // exmex squares the divisor, and loses digits where the square is a subnormal number.
             prop_assume!(ours.value.abs() < 1e100);
             let bound = (ours.error + 1e-12 * ours.value.abs()) * 1e3 + 1e-9;
             prop_assert!((ours.value - theirs).abs() <= bound, "{}: {:?} {}", tree, ours, theirs);
@@ -248,7 +248,7 @@ proptest! {
         }
     }
 
-    /// The bound holds what inputs anywhere within theirs give.
+    /// The bound covers the results for all inputs within their bounds.
     #[test]
     fn errors_of_inputs_are_within_the_bound(
         tree in tree(), x in 0.1f64..2.0, y in -2.0f64..2.0, error in 1e-9f64..0.1, share in proptest::array::uniform2(-1.0f64..1.0),
@@ -258,13 +258,13 @@ proptest! {
         let known = program.run(&[Rounded { value: x, error }, Rounded { value: y, error }])[0];
         let other = program.run(&[Rounded::exact(x + share[0] * error), Rounded::exact(y + share[1] * error)])[0];
         prop_assume!(known.value.is_finite() && known.error.is_finite() && other.value.is_finite());
-        // The branch cut of atan2 is a jump by a turn; angles are compared modulo a turn.
+        // At its branch cut atan2 jumps by a turn. Angles are compared modulo a turn.
         prop_assume!(!holds(&tree, &|shape| matches!(shape, NodeShape::Call(Function::Atan2, _))));
         prop_assert!((known.value - other.value).abs() <= known.error + other.error, "{}: {:?} {:?}", tree, known, other);
     }
 }
 
-/// Digits that cancel are gone, and the bound says so.
+/// Cancelled digits are lost, and the bound shows it.
 #[test]
 fn cancellation_is_told() {
     let x = Rounded::exact(1e-9);
@@ -272,14 +272,14 @@ fn cancellation_is_told() {
     assert!((lost.value - 0.5).abs() <= lost.error && lost.error > 1e-3, "{lost:?}");
     let kept = at("2*sin(x/2)^2/x^2", x, x);
     assert!((kept.value - 0.5).abs() <= kept.error && kept.error < 1e-14, "{kept:?}");
-    // At the end of a domain the derivative has no bound, the value has.
+    // At the end of a domain the derivative is unbounded, but the value has a bound.
     let end = at("acos(x)", Rounded { value: 1.0 + 1e-16, error: 1e-15 }, x);
     assert!(end.value == 0.0 && end.error > 4e-8 && end.error < 1e-7, "{end:?}");
     assert!(at("1/x", Rounded { value: 1e-20, error: 1e-15 }, x).error.is_infinite());
     assert!(at("sqrt(x)", Rounded { value: -1.0, error: 1e-15 }, x).value.is_nan());
 }
 
-/// Errors that are no small ones: the bound holds both ends of what is known of the arguments, whatever bends between.
+/// Large errors: the bound covers both ends of the interval of the argument, whatever the curvature.
 #[test]
 fn a_bound_holds_the_ends_of_wide_arguments() {
     type Case = (&'static str, [f64; 2], [f64; 2], fn(f64, f64) -> f64);
@@ -302,7 +302,7 @@ fn a_bound_holds_the_ends_of_wide_arguments() {
     }
 }
 
-/// Powers with any exponent are known to a few units in the last place, and pass an error on by their slope.
+/// Powers with any exponent are accurate to a few units in the last place, and propagate an error by their slope.
 #[test]
 fn a_power_is_known_as_well_as_its_base_and_exponent() {
     let known = |x: Rounded, y: Rounded| at("x^y", x, y);
@@ -317,7 +317,7 @@ fn a_power_is_known_as_well_as_its_base_and_exponent() {
     }
 }
 
-/// What two formulas share is evaluated once.
+/// A common part of two formulas is evaluated once.
 #[test]
 fn common_parts_are_evaluated_once() {
     let mut graph = FormulaGraph::new(&["x"], 0);
@@ -374,7 +374,7 @@ fn a_name_with_other_signs_stands_between_backquotes() {
     }
 }
 
-/// The place of a node may be taken by another one afterwards: what was known of the first is no derivative of it.
+/// Another node may later take the position of a removed one. Derivatives of the removed node must not apply to it.
 #[test]
 fn derivatives_taken_meanwhile_are_forgotten() {
     let mut graph = FormulaGraph::new(&["x", "y"], 0);
@@ -388,8 +388,8 @@ fn derivatives_taken_meanwhile_are_forgotten() {
     assert_eq!(Program::of(&graph, &[slope]).run(&[Rounded::exact(0.0)])[0].value, 1.0);
 }
 
-/// Every operator and every function, with both parts changing, against what calculus says. The random test leaves out
-/// what it cannot tell; here nothing is left out.
+/// Every operator and every function, with both arguments varying, against the rules of calculus.
+/// The random test skips cases that it cannot decide. This test skips none.
 #[test]
 fn every_rule_of_calculus_is_kept() {
     let (x, y) = (0.7f64, 1.3f64);
@@ -429,23 +429,24 @@ fn every_rule_of_calculus_is_kept() {
     }
 }
 
-/// At a kink or a jump there is no derivative, also not zero: the mean of both sides is neither of them.
+/// There is no derivative at a kink or a jump. It is not zero either: the mean of the two one-sided slopes is neither
+/// of them.
 #[test]
 fn a_kink_has_no_derivative() {
     for text in ["abs(x)", "x*sign(x)", "abs(x)*abs(x)"] {
         let [value, slope, _] = with_derivatives(&FormulaTree::parse(text).unwrap(), 0.0, 1.0);
         assert_eq!((value.value, slope.is_undefined()), (0.0, true), "{text}");
     }
-    // Nor has a number that is undefined, though nothing changes in it.
+    // An undefined number has no derivative either, although it is constant.
     assert!(with_derivatives(&FormulaTree::parse("1/0").unwrap(), 0.5, 1.0).iter().all(|own| own.is_undefined()));
     let slope = with_derivatives(&FormulaTree::parse("abs(x)").unwrap(), -0.5, 1.0)[1];
     assert!(slope.value == -1.0 && slope.error < 1e-15, "{slope:?}");
 }
 
-/// Every operation outside its domain, in every place where IEEE 754 or algebra would lose it.
+/// Every operation outside its domain, in every context where IEEE 754 or algebra would hide it.
 #[test]
 fn what_is_undefined_stays_undefined_whatever_it_is_multiplied_by() {
-    // Of constants, and the same where x is 1.
+    // With constants, and the same with x = 1.
     let outside = [
         ("ln(-1)", "ln(-x)"),
         ("ln(0)", "ln(x - 1)"),
@@ -497,12 +498,12 @@ fn what_is_undefined_stays_undefined_whatever_it_is_multiplied_by() {
     ];
     for (operation, varied) in outside {
         for context in contexts {
-            // Of constants it is refused at once, with the place of the operation.
+            // With constants the formula is rejected at once, with the position of the operation.
             let text = context.replace('@', &format!("({operation})"));
             let fault = FormulaGraph::new(&["x"], 0).add_defined(&FormulaTree::parse(&text).unwrap()).expect_err(&text);
             let first = context.find('@').unwrap();
             assert!(fault.at.start >= first && fault.at.end <= first + operation.len() + 2, "{text}: {fault:?}");
-            // With inputs it has no value, and the operation is told as well.
+            // With inputs the formula has no value, and the operation is also named.
             let varied = context.replace('@', &format!("({varied})"));
             let tree = FormulaTree::parse(&varied).unwrap_or_else(|fault| panic!("{varied}: {fault}"));
             let mut graph = FormulaGraph::new(&["x"], 0);
@@ -514,7 +515,7 @@ fn what_is_undefined_stays_undefined_whatever_it_is_multiplied_by() {
     }
 }
 
-/// What is too large or too small for a double is not undefined: nothing is known of it, or that it is tiny.
+/// A result too large or too small for a double is not undefined: it is unknown, or known to be tiny.
 #[test]
 fn overflow_and_underflow_are_not_called_undefined() {
     let one = Rounded::exact(1.0);
@@ -526,7 +527,7 @@ fn overflow_and_underflow_are_not_called_undefined() {
         let found = at(text, one, one);
         assert!(!found.is_undefined() && found.error > 0.0, "{text}: {found:?}");
     }
-    // What is outside a domain by less than it is known is taken to the domain's end.
+    // An argument outside a domain by less than its error is moved to the end of the domain.
     let near = |value: f64| Rounded { value, error: 1e-15 };
     for (text, value) in [("sqrt(x)", -1e-16), ("acos(x)", 1.0 + 4e-16), ("x^0.5", -1e-16)] {
         let found = at(text, near(value), one);

@@ -1,4 +1,4 @@
-//! A formula as it was written, the one table of its functions, and what is wrong with its text, and where.
+//! A formula as written, the only table of its functions, and the faults in its text with their positions.
 
 use std::fmt;
 use std::ops::Range;
@@ -41,12 +41,12 @@ impl Operator {
     }
 }
 
-/// How closely a minus before a part binds: -x^2 is -(x^2), -x*y is (-x)*y.
+/// Precedence of a minus before a part: -x^2 is -(x^2), -x*y is (-x)*y.
 const NEGATION: u8 = 3;
-/// How closely the parts of a number, a name or a call do.
+/// Precedence of a number, a name or a call.
 const WHOLE: u8 = 5;
 
-/// What a part of a formula is.
+/// Kind of a part of a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NodeShape {
     /// A number.
@@ -66,18 +66,18 @@ pub enum NodeShape {
 pub struct FormulaTree {
     /// What it is.
     pub shape: NodeShape,
-    /// Bytes of the text where it stands.
+    /// Byte range of the part in the text.
     pub at: Range<usize>,
 }
 
 impl FormulaTree {
-    /// A number that stands in no text.
+    /// A number that does not come from a text.
     #[must_use]
     pub fn number(value: f64) -> FormulaTree {
         FormulaTree::of(NodeShape::Number(value))
     }
 
-    /// A name that stands in no text.
+    /// A name that does not come from a text.
     #[must_use]
     pub fn name(name: impl Into<String>) -> FormulaTree {
         FormulaTree::of(NodeShape::Name(name.into()))
@@ -89,13 +89,13 @@ impl FormulaTree {
         FormulaTree::of(NodeShape::Pair(operator, Box::new([left, right])))
     }
 
-    /// A function of its arguments.
+    /// A function with its arguments.
     #[must_use]
     pub fn call(function: Function, arguments: Vec<FormulaTree>) -> FormulaTree {
         FormulaTree::of(NodeShape::Call(function, arguments))
     }
 
-    /// The negative of a part; of a negative, what it is the negative of.
+    /// The negative of a part. The negative of a negative is the inner part.
     #[must_use]
     pub fn negative(&self) -> FormulaTree {
         match &self.shape {
@@ -110,7 +110,7 @@ impl FormulaTree {
         FormulaTree { shape, at: 0..0 }
     }
 
-    /// The same with another tree wherever a name stands.
+    /// The same tree with `other` in place of every occurrence of a name.
     #[must_use]
     pub fn with_name(&self, name: &str, other: &FormulaTree) -> FormulaTree {
         if matches!(&self.shape, NodeShape::Name(own) if own == name) {
@@ -123,7 +123,7 @@ impl FormulaTree {
         changed
     }
 
-    /// The parts of the uppermost level.
+    /// The arguments of the outermost operation.
     #[must_use]
     pub fn parts(&self) -> &[FormulaTree] {
         match &self.shape {
@@ -134,7 +134,7 @@ impl FormulaTree {
         }
     }
 
-    /// The same, to be changed.
+    /// The same, mutable.
     pub fn parts_mut(&mut self) -> &mut [FormulaTree] {
         match &mut self.shape {
             NodeShape::Number(_) | NodeShape::Name(_) => &mut [],
@@ -144,7 +144,7 @@ impl FormulaTree {
         }
     }
 
-    /// The names in it, each with its place, from left to right.
+    /// All names with their positions, from left to right.
     pub fn names(&self) -> Vec<(&str, Range<usize>)> {
         let (mut names, mut open) = (Vec::new(), vec![self]);
         while let Some(part) = open.pop() {
@@ -156,7 +156,7 @@ impl FormulaTree {
         names
     }
 
-    /// The tree, its left part, the left part of that, and so on. Long sums are deep there, and nowhere else.
+    /// The tree, its left argument, the left argument of that, and so on. Long sums are deep only in this direction.
     pub(crate) fn left_parts(&self) -> Vec<&FormulaTree> {
         std::iter::successors(Some(self), |tree| match &tree.shape {
             NodeShape::Pair(_, parts) => Some(&parts[0]),
@@ -179,7 +179,7 @@ impl FormulaTree {
     }
 }
 
-/// Written with the parentheses that it needs, and no others.
+/// Written with only the necessary parentheses.
 impl fmt::Display for FormulaTree {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.shape {
@@ -196,7 +196,8 @@ impl fmt::Display for FormulaTree {
             }
             NodeShape::Pair(operator, parts) => {
                 let rank = operator.rank();
-                // What follows a minus or a stroke, and what stands before a power, needs parentheses on its own rank.
+                // After a minus or a division sign, and before a power sign, a part of the same precedence needs
+                // parentheses.
                 let [left, right] = match operator {
                     Operator::Plus | Operator::Minus | Operator::Times | Operator::Over => [rank, rank + 1],
                     Operator::Power => [rank + 1, NEGATION],
@@ -292,14 +293,14 @@ impl Function {
 pub struct FormulaFault {
     /// What was found.
     pub message: String,
-    /// Bytes of the text that it is about.
+    /// Byte range of the faulty text.
     pub at: Range<usize>,
     /// The way out.
     pub help: String,
 }
 
 impl FormulaFault {
-    /// A fault with its place and the way out.
+    /// A fault with its position and the remedy.
     pub(crate) fn new(message: impl Into<String>, at: Range<usize>, help: impl Into<String>) -> Self {
         FormulaFault { message: message.into(), at, help: help.into() }
     }

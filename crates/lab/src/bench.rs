@@ -1,7 +1,9 @@
 //! Work and precision: error against time and exact effort of every solver, engine and setting.
 //!
-//! Each way of solving a scenario is a [`BenchPoint`]. Ways that fail are kept, with their reason. The command line passes the
-//! clock in. See docs/numerics/laboratory.md.
+//! Each method of solving a scenario is a [`BenchPoint`].
+//! Methods that fail are kept, with their reason.
+//! The command line passes the clock in.
+//! See docs/numerics/laboratory.md.
 
 mod effort;
 mod front;
@@ -32,7 +34,7 @@ pub struct Bench {
     pub instants: usize,
     /// See `instants`.
     pub span: [f64; 2],
-    /// Whether the motion is free, that is, decided by forces.
+    /// Whether the motion is free, that is, determined by forces.
     pub is_free: bool,
     /// Stages that were wanted.
     pub stages: Vec<Stage>,
@@ -42,18 +44,18 @@ pub struct Bench {
     pub unit: f64,
     /// Versions of engines and peers, by name.
     pub versions: Vec<(String, String)>,
-    /// The points, in the order in which they were made.
+    /// The points, in the order of their creation.
     pub points: Vec<BenchPoint>,
     /// Number of settings that the budget did not allow.
     pub left_out: usize,
-    /// Peers that could not be asked at all, with the reason.
+    /// Peers that could not be called at all, with the reason.
     pub absent: Vec<(String, String)>,
 }
 
-/// Measures all ways of solving a scenario. `progress` receives the finished share.
+/// Measures all methods of solving a scenario. `progress` receives the finished share.
 ///
 /// # Errors
-/// Those of the two sides: without a reference there is no error. Engines and peers that fail are points.
+/// Those of the two sides: without a reference no error can be measured. Engines and peers that fail are points.
 pub fn bench(
     scenario: &Scenario,
     options: &BenchOptions,

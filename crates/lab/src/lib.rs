@@ -1,9 +1,9 @@
-//! The laboratory: what is studied about the prover, and what a proof does not need.
+//! The laboratory: studies of the prover that a proof does not need.
 //!
 //! - [`mod@bench`]: work against error of every solver and engine.
 //! - [`stress`], [`specimens`]: families of hard mechanisms, and random ones.
-//! - [`mutate`]: faults planted in one party, and who finds them.
-//! - [`tune`]: engine settings by their price.
+//! - [`mutate`]: faults planted in one party, and which checks find them.
+//! - [`tune`]: engine settings by their cost.
 //! - [`outside`]: other programs that solve a case or show it.
 
 pub mod bench;

@@ -1,12 +1,13 @@
-//! Does the cross-check see faults? Single faults, planted in one party of a proof at default settings, or in what all
-//! parties share.
+//! Does the cross-check see faults? Single faults are planted in one party of a proof at default settings, or in the
+//! code
+//! that all parties share.
 //!
-//! A fault stands around a solver or an engine, and the proof is the same as that of a user.
-//! A fault in an analytic side that the other side contradicts needs no engine for its verdict. Other proofs with the
-//! engine unchanged take its runs from the first of them; their verdicts are those of new runs, because an engine's
-//! runs do not depend on what they are compared with.
+//! A fault wraps a solver or an engine; otherwise the proof is the same as a user's.
+//! If one analytic side contradicts a fault in the other, the verdict needs no engine.
+//! Other proofs with an unchanged engine reuse the runs of the first such proof.
+//! Their verdicts are those of new runs, because an engine's runs do not depend on the data they are compared with.
 //!
-//! Formulas are a party too: a mistake in one of them is judged by both sides, whose motion is right.
+//! Formulas are a party too: both sides, whose motion is right, judge a mistake in a formula.
 
 mod effect;
 mod formulas;

@@ -1,4 +1,4 @@
-//! What is not ours: other programs that solve a case or show it, and the machine that everything runs on.
+//! External parties: other programs that solve a case or show it, and the machine that everything runs on.
 
 mod answer;
 mod machine;

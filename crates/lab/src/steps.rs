@@ -1,16 +1,16 @@
-//! Steps of an engine, as they are estimated before a run.
+//! Estimate of an engine's steps before a run.
 
 use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
 use linkage::math::KeepNan;
 
-/// Time (s) between the first and the last instant of a case, t = 0 among them.
+/// Time (s) between the first and the last instant of a case, t = 0 included.
 pub(crate) fn span(case: &Case) -> f64 {
     let end = |of: fn(f64, f64) -> f64| case.grid.times.iter().copied().fold(0.0, of);
     end(f64::larger) - end(f64::smaller)
 }
 
-/// Work of a run, in steps without sweeps. That of an engine that chooses its own steps is not known: 0.
+/// Work of a run, in steps without sweeps. It is 0 (unknown) for an engine that chooses its steps itself.
 pub(crate) fn work_of_run(case: &Case, engine: &dyn Engine, settings: &Settings) -> f64 {
     if engine.controls_error() {
         return 0.0;

@@ -1,5 +1,7 @@
-//! Numerical stability: families of mechanisms and settings with one parameter each, and the results of every solver and
-//! engine. A family is one entry of [`FAMILIES`]. See docs/numerics/laboratory.md.
+//! Numerical stability: families of mechanisms and settings with one parameter each.
+//! Each has the results of every solver and engine.
+//! A family is one entry of [`FAMILIES`].
+//! See docs/numerics/laboratory.md.
 
 mod families;
 mod family;

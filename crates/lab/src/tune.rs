@@ -1,7 +1,8 @@
-//! The cheapest settings of an engine that keep a wanted error, found by measurement.
+//! The cheapest settings of an engine that keep a requested error, found by measurement.
 //!
-//! The error falls with a power of the step, so a few runs against the reference find the largest step of each way. The
-//! error that three runs of the engine predict, without the reference, is given beside the measured one.
+//! The error falls with a power of the step, so a few runs against the reference find the largest step of each method.
+//! Three runs of the engine also predict the error without the reference.
+//! The predicted error is reported beside the measured one.
 //! See docs/numerics/laboratory.md.
 
 mod bench;
@@ -28,7 +29,7 @@ use prover::numbers::significant;
 use prover::run::{Options, memory};
 use scenario::Scenario;
 
-/// Work allowed by default, in steps without sweeps: many times what the shipped mechanisms take at 1e-7.
+/// Work allowed by default, in steps without sweeps: many times the work for the shipped mechanisms at 1e-7.
 const BUDGET: f64 = 5e6;
 
 /// The wanted accuracy.
@@ -36,38 +37,39 @@ const BUDGET: f64 = 5e6;
 pub struct WantedAccuracy {
     /// Largest error, as a share of each channel's scale (half its range over the run).
     pub within: f64,
-    /// Channels by name, or stages (`positions`, `reactions`, ...). If empty: all channels that the scenario wants.
+    /// Channels by name, or stages (`positions`, `reactions`, ...). If empty: all channels that the scenario requests.
     pub channels: Vec<String>,
 }
 
 /// Result of tuning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tuning {
-    /// The cheapest settings that meet the wish and that a proof confirms; if it confirms none, the cheapest.
+    /// The cheapest settings that meet the request and that a proof confirms; if no proof confirms any, the cheapest.
     pub best: Candidate,
-    /// The cheapest settings that meet the wish, whether a proof confirms them or not.
+    /// The cheapest settings that meet the request, whether a proof confirms them or not.
     pub cheapest: Candidate,
-    /// Largest error of the cheapest candidate over the channel's scale, predicted by its own runs at three steps and
-    /// with twice the sweeps, without the reference.
+    /// Largest error of `best` over the channel's scale, predicted without the reference.
+    /// The prediction uses the engine's runs at three steps and with twice the sweeps.
     pub predicted: f64,
-    /// The cheapest settings of every engine that meets the wish, the cheapest first.
+    /// The cheapest settings of every engine that meets the request, the cheapest first.
     pub by_engine: Vec<Candidate>,
-    /// Engines that do not meet the wish, with the smallest error found; infinite if no run of the engine finished.
+    /// Engines that do not meet the request, with the smallest error found; infinite if no run of the engine finished.
     pub too_coarse: Vec<(&'static str, f64)>,
-    /// Engines that would cost more than another engine before they meet the wish.
+    /// Engines whose cost exceeds that of another engine before they meet the request.
     pub too_dear: Vec<&'static str>,
     /// Number of runs in the search.
     pub runs: usize,
-    /// Whether the search ended because the work that was allowed was done: there may be cheaper settings.
+    /// Whether the search ended because the allowed work was used up: cheaper settings may exist.
     pub is_spent: bool,
 }
 
-/// Finds the cheapest settings of the engines in `options` that meet the wish. Settings that the options fix stay as
-/// they are.
+/// Finds the cheapest settings of the engines in `options` that meet the request.
+/// Settings that the options fix stay unchanged.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if the wish or a channel makes no sense; [`ErrorKind::Numeric`] if no engine meets the wish,
-/// with how far each comes; those of the analytic solver.
+/// [`ErrorKind::Input`] if the request or a channel makes no sense; [`ErrorKind::Numeric`] if no engine meets the
+/// request,
+/// with the smallest error of each; those of the analytic solver.
 pub fn tune(
     scenario: &Scenario,
     wish: &WantedAccuracy,
@@ -149,7 +151,7 @@ pub fn tune(
     })
 }
 
-/// The channels of a wish.
+/// The channels of a request.
 fn wanted_channels(scenario: &Scenario, wish: &WantedAccuracy) -> Result<Vec<Channel>> {
     let all = scenario.case.channels();
     if wish.channels.is_empty() {

@@ -55,7 +55,7 @@ impl Case {
     /// # Errors
     /// Every error has the faulty part as its key.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) if drives, loads, start pose or modes do not belong to the
-    /// mechanism, if one of their numbers is NaN or infinite, or if the structure is not that of mechanism and drives.
+    /// mechanism, if one of their numbers is NaN or infinite, or if the structure does not match mechanism and drives.
     /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose or a driving link is
     /// not at its start angle.
     /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a combination of drives that this version does not
@@ -76,7 +76,7 @@ impl Case {
         Case { parts, turning }
     }
 
-    /// Returns the case of changed parts; the change must leave unaffected which links can turn.
+    /// Returns the case of changed parts. The change must not affect which links can turn.
     fn of_parts(&self, parts: CaseParts) -> Case {
         Case { parts, turning: self.turning.clone() }
     }
@@ -210,7 +210,7 @@ impl Case {
         }
     }
 
-    /// Step of the input over which links move as far as while a driving link turns by `turn` (rad).
+    /// Step of the input that moves the links as far as a rotation of the driving link by `turn` (rad).
     #[inline]
     #[must_use]
     pub fn step(&self, turn: f64) -> f64 {
@@ -234,7 +234,7 @@ impl Case {
 
     /// Lever arm of the balancing moments (m): the extent of the largest driving link.
     /// For a driving link with a slider it is at least the size of the mechanism, because the slider's force acts at
-    /// the slider's place.
+    /// the position of the slider.
     #[must_use]
     pub fn drive_arm(&self) -> f64 {
         let links = self.mechanism.links();
@@ -246,7 +246,7 @@ impl Case {
     }
 
     /// Calls `put` with the action of every load on every link, the ground included.
-    /// `motions` and `angles` (rad, turns kept) are those of all links, as in [`State`](crate::solver::State).
+    /// `motions` and `angles` (rad, unwrapped) are those of all links, as in [`State`](crate::solver::State).
     /// Loads depend on positions and velocities, not on accelerations.
     #[inline]
     pub fn each_load(&self, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
@@ -313,10 +313,10 @@ impl Case {
         self.loads_with(motions, angles, |_, load, link, crank| load.moment_in(self.spin(motions, link), crank), out);
     }
 
-    /// [`Case::loads_on`] with `sensed` giving the moment (N m) of every load that depends on the sense of a link's
-    /// rotation.
+    /// [`Case::loads_on`] with `sensed` giving the moment (N m) of every load that depends on the sense of rotation of
+    /// a link.
     /// `sensed` receives the number of the load, the load, the link and the crank angle (rad).
-    /// It is not called for links that cannot turn: these loads do not act on them.
+    /// It is not called for links that cannot turn, because these loads do not act on them.
     #[inline]
     pub fn loads_with(
         &self,
@@ -328,8 +328,8 @@ impl Case {
         self.loads_along(motions, angles, sensed, |_, velocity| sense_of(velocity), out);
     }
 
-    /// [`Case::loads_with`] with `way` giving the direction of motion (unit vector, or zero) of the point of every load
-    /// that depends on that direction.
+    /// [`Case::loads_with`] with `way` giving the direction of motion (unit vector, or zero) of the loaded point.
+    /// It applies to every load that depends on that direction.
     /// `way` receives the number of the load and the point's velocity (m/s), set to zero where it is rounding error.
     #[inline]
     pub fn loads_along(

@@ -35,7 +35,8 @@ pub trait Engine: Solver {
     /// Settings of the engine.
     fn settings(&self) -> Settings;
 
-    /// Returns this engine with other settings. Settings that it does not have are ignored: see [`Engine::told`].
+    /// Returns this engine with other settings.
+    /// Settings that the engine does not use are ignored: see [`Engine::told`].
     fn with(&self, settings: Settings) -> Box<dyn Engine>;
 
     /// Returns this engine at another resolution, otherwise unchanged.
@@ -43,27 +44,28 @@ pub trait Engine: Solver {
         self.with(Settings { resolution, ..self.settings() })
     }
 
-    /// Whether the engine controls its error: [`Settings::resolution`] is then an accuracy for which it chooses its
-    /// steps, otherwise a time step.
+    /// Whether the engine controls its error.
+    /// If so, [`Settings::resolution`] is an accuracy for which the engine chooses its steps; otherwise it is a time
+    /// step.
     fn controls_error(&self) -> bool;
 
     /// Methods for joint reactions and balancing moment, the cheapest first.
     fn routes(&self) -> &'static [Route];
 
     /// Methods by which the engine reports the forces it applies in a case, the cheapest first.
-    /// Empty for an engine whose default method already does.
+    /// Empty if the engine's default method already reports these forces.
     fn own_routes(&self, case: &Case) -> &'static [Route];
 
     /// Smallest and largest useful number of sweeps for a case; `None` for an engine that does not iterate.
     /// Both are 1 where the iteration has nothing to converge to.
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]>;
 
-    /// Function that computes reactions and balancing moments of a motion by the engine's method, if the motion alone
-    /// determines them; `None` if the engine itself reports them.
-    /// With it, an extrapolated motion gets the forces that belong to it.
+    /// Smallest and largest useful number of sweeps for a case; `None` for an engine that does not iterate.
+    /// Both are 1 if a single sweep solves the case exactly.
     fn statics(&self, case: &Case) -> Option<Statics>;
 
-    /// Runs the whole case and returns its states. An engine that keeps its runs returns the kept run.
+    /// Runs the whole case and returns its states.
+    /// An engine that keeps its runs returns the kept run if there is one.
     ///
     /// # Errors
     /// Those of [`Solver::sweep`].
@@ -80,7 +82,7 @@ pub trait Engine: Solver {
     /// Bound on the rounding error of a channel on the grid of a case, in the channel's unit.
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;
 
-    /// Whether the factors in [`Engine::noise`] were measured; otherwise they are chosen.
+    /// Whether the factors in [`Engine::noise`] were measured, not chosen.
     fn is_noise_measured(&self) -> bool;
 
     /// Settings that influence the result, by name, for display.

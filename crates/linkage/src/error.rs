@@ -1,5 +1,5 @@
-//! The only error type: what was asked, what was found, where, and the remedy. All of it is data; only the output is
-//! text.
+//! The only error type: request, finding, location and remedy.
+//! All of them are stored as data and become text only in the output.
 
 mod advice;
 mod several;
@@ -27,7 +27,7 @@ pub enum ErrorKind {
     Geometry,
     /// A solver could not finish: a dead point, no convergence, a NaN or infinite number.
     Numeric,
-    /// Well-formed, but this version does not support it.
+    /// The input is well-formed, but this version does not support it.
     Unsupported,
     /// A file could not be read or written.
     Io,
@@ -74,7 +74,7 @@ pub struct KeyPath {
 }
 
 impl KeyPath {
-    /// The key of the one of several Assur groups under a dotted path that has these links.
+    /// Key of one of several Assur groups under a dotted path: the group with these links.
     #[must_use]
     pub fn of_group(path: &str, links: Vec<String>) -> Self {
         KeyPath { text: format!("{path} ({})", links.join(", ")), path: path.len(), links }
@@ -86,7 +86,7 @@ impl KeyPath {
         &self.text[..self.path]
     }
 
-    /// The links of an Assur group; none of another key.
+    /// The links of an Assur group; empty for any other key.
     #[must_use]
     pub fn links(&self) -> &[String] {
         &self.links
@@ -129,7 +129,7 @@ impl fmt::Display for RunReached {
     }
 }
 
-/// An error: message, known data, place if there is one, and remedy.
+/// An error: message, known data, location in the file (if any) and remedy.
 #[derive(Clone, Debug)]
 pub struct Error(Box<Inner>);
 
@@ -171,14 +171,14 @@ impl Error {
         self
     }
 
-    /// Replaces every remedy by the result of `change`.
+    /// Passes every remedy through `change`.
     #[must_use]
     pub fn map_advice(mut self, change: impl FnMut(Advice) -> Advice) -> Self {
         self.0.advice = std::mem::take(&mut self.0.advice).into_iter().map(change).collect();
         self
     }
 
-    /// The same error in other words: `change` turns the old message into the new one. Everything else is kept.
+    /// Rewords the error: `change` turns the old message into the new one. Everything else is kept.
     #[must_use]
     pub fn map_message(mut self, change: impl FnOnce(&str) -> String) -> Self {
         self.0.message = change(&self.0.message);
@@ -192,7 +192,7 @@ impl Error {
         self
     }
 
-    /// Sets the input at which the error is.
+    /// Sets the value of the input at which the error occurs.
     #[must_use]
     pub fn at_input(mut self, at: InputValue) -> Self {
         self.0.input = Some(at);
@@ -227,22 +227,22 @@ impl Error {
         self
     }
 
-    /// Sets how far the run got.
+    /// Sets how far the run got before it failed.
     #[must_use]
     pub fn after(mut self, reached: RunReached) -> Self {
         self.0.reached = Some(reached);
         self
     }
 
-    /// Marks the error as a pose that the branch of the case does not reach.
-    /// The caller that knows both solvers and range of motion adds the crank angles that can be reached.
+    /// Marks the error as a pose out of reach on the branch of the case.
+    /// A caller that knows both solvers and range of motion then adds the reachable crank angles.
     #[must_use]
     pub fn out_of_reach(mut self) -> Self {
         self.0.out_of_reach = true;
         self
     }
 
-    /// Removes that mark, once the error is explained.
+    /// Removes the out-of-reach mark, once the error is explained.
     #[must_use]
     pub fn explained(mut self) -> Self {
         self.0.out_of_reach = false;
@@ -257,7 +257,7 @@ impl Error {
         self
     }
 
-    /// Adds the place in the file. A place that is already set is kept.
+    /// Adds the location in the file. A location that is already set is kept.
     #[must_use]
     pub fn at(mut self, place: Place) -> Self {
         self.0.place.get_or_insert(place);
@@ -270,25 +270,25 @@ impl Error {
         self.0.kind
     }
 
-    /// What was asked and what was found, without key, place and remedy.
+    /// What was asked and what was found, without key, location and remedy.
     #[must_use]
     pub fn message(&self) -> &str {
         &self.0.message
     }
 
-    /// The scenario key at fault in words, if there is one: its dotted path, and of an Assur group its links.
+    /// The scenario key at fault in words, if known: its dotted path, followed by the links if it is an Assur group.
     #[must_use]
     pub fn scenario_key(&self) -> Option<&str> {
         self.0.key.as_ref().map(|key| key.text.as_str())
     }
 
-    /// The scenario key at fault, if there is one.
+    /// The scenario key at fault, if known.
     #[must_use]
     pub fn key_at_fault(&self) -> Option<&KeyPath> {
         self.0.key.as_ref()
     }
 
-    /// Place in the file, if known.
+    /// Location in the file, if known.
     #[must_use]
     pub fn place(&self) -> Option<&Place> {
         self.0.place.as_ref()
@@ -300,7 +300,7 @@ impl Error {
         self.0.time
     }
 
-    /// The input at which it is, if known.
+    /// Value of the input at which the error occurs, if known.
     #[must_use]
     pub fn input(&self) -> Option<InputValue> {
         self.0.input
@@ -336,13 +336,13 @@ impl Error {
         &self.0.advice
     }
 
-    /// The remedy in words that name no option of any program, if one is known.
+    /// The remedy in words, if known. The text names no option of any program.
     #[must_use]
     pub fn way_out(&self) -> Option<String> {
         self.way_out_by(Advice::to_string)
     }
 
-    /// The remedy in words, if one is known. `tell` puts each advice into words.
+    /// The remedy in words, if known. `tell` puts each piece of advice into words.
     #[must_use]
     pub fn way_out_by(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
         let parts = [Advice::sentence(&self.0.advice, tell), self.0.reached.map(|reached| reached.to_string())];
@@ -350,7 +350,8 @@ impl Error {
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
-    /// The whole error in one line, without those that were found with it. `tell` puts each advice into words.
+    /// The whole error in one line, without the errors found together with it.
+    /// `tell` puts each piece of advice into words.
     #[must_use]
     pub fn line_by(&self, tell: impl Fn(&Advice) -> String) -> String {
         let place = self.0.place.as_ref().map(|place| format!("{}:{}: ", place.file.display(), place.line()));

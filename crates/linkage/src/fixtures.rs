@@ -9,7 +9,7 @@ use crate::mechanism::{
     first_pose,
 };
 
-/// A massless link from its points.
+/// A massless link with these points.
 pub fn link(name: &str, points: &[(&str, f64, f64)]) -> Link {
     Link {
         name: name.into(),
@@ -20,7 +20,7 @@ pub fn link(name: &str, points: &[(&str, f64, f64)]) -> Link {
     }
 }
 
-/// A revolute joint at the point `point` that both links carry.
+/// A revolute joint at the point `point`, which both links carry.
 pub fn pin(links: &[Link], name: &str, point: &str, first: &str, second: &str) -> Joint {
     let side = |wanted: &str| {
         let index = links.iter().position(|l| l.name == wanted).unwrap();
@@ -54,7 +54,8 @@ pub fn four_bar() -> Mechanism {
 }
 
 /// Reference 7: crank 1 = OA, triangles 2 = A-C-B and 5 = K-E-D, links 3 = BD and 4 = CE.
-/// B is C turned by +60 deg about A (`side_b` = 1) or by -60 deg (-1), D is E turned about K likewise.
+/// Point B is C rotated about A by +60 deg (`side_b` = 1) or -60 deg (-1).
+/// Point D is E rotated about K in the same way.
 pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
     let (x, y) = (15e-3, 30e-3 * 0.75f64.sqrt());
     let links = vec![
@@ -77,14 +78,15 @@ pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
     mechanism(links, &pins).unwrap()
 }
 
-/// A case of a mechanism of dyads, all in mode left. Joint 0 drives link 1 from angle zero with 1 rad/s; no gravity,
-/// no loads, no grid.
+/// A case of a mechanism of dyads, all in mode left.
+/// Joint 0 drives link 1 from angle zero at 1 rad/s. There is no gravity, no load and no grid.
 pub fn turning(mechanism: Mechanism) -> Case {
     let left = StartGroup { mode: Some(AssemblyMode::Left), ..StartGroup::default() };
     turning_from(mechanism, 0.0, &left)
 }
 
-/// The same mechanism turning, of other groups too: from this crank angle (rad), with all groups as `group` says.
+/// A case of the turning mechanism, for Assur groups of any kind.
+/// It starts at this crank angle (rad), with `group` for every group.
 pub fn turning_from(mechanism: Mechanism, crank: f64, group: &StartGroup) -> Case {
     let drives = Drives::from(Drive::prescribed(JointId(0), LinkId(1), 0.0, crank, MotionLaw::ConstantSpeed(1.0)));
     let structure = Structure::of(&mechanism, &drives.joints()).unwrap();

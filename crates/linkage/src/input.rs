@@ -1,14 +1,14 @@
-//! What moves a mechanism: a joint coordinate, the input. This is the one home of what it measures, of its names in
-//! files and messages, and of the conversion to them.
+//! The input: the joint coordinate that moves a mechanism.
+//! Only this module defines what an input measures, its names in files and messages, and its unit conversion.
 
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// What an input measures. Its values are in SI units, as the scenario counts them.
+/// What an input measures. Its values are in SI units, with the zero that the scenario uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Input {
-    /// The angle of a driving link that turns about its joint, a crank: counter-clockwise from its zero direction, turns
-    /// counted.
+    /// Angle of a crank, a driving link that turns about its joint.
+    /// It is counter-clockwise from the link's zero direction and counts whole turns.
     #[default]
     Angle,
 }
@@ -17,7 +17,7 @@ impl Input {
     /// All of them.
     pub const ALL: [Input; 1] = [Input::Angle];
 
-    /// The input at `value` (in its SI unit), as messages say it.
+    /// The input at `value` (in its SI unit), formatted for messages.
     #[inline]
     #[must_use]
     pub const fn at(self, value: f64) -> InputValue {
@@ -32,7 +32,7 @@ impl Input {
         }
     }
 
-    /// SI unit of its values.
+    /// SI unit of the input's values.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         match self {
@@ -40,7 +40,7 @@ impl Input {
         }
     }
 
-    /// Name of its column in SI units, in recordings, tables and JSON.
+    /// Name of the input's column in SI units, in recordings, tables and JSON.
     #[must_use]
     pub const fn key(self) -> &'static str {
         match self {
@@ -48,7 +48,7 @@ impl Input {
         }
     }
 
-    /// Unit in which people read and write it, and its column in that unit.
+    /// Unit in which people read and write the input, and name of its column in that unit.
     #[must_use]
     pub const fn shown_in(self) -> (&'static str, &'static str) {
         match self {
@@ -56,7 +56,7 @@ impl Input {
         }
     }
 
-    /// A value in the unit in which people read and write it.
+    /// Converts a value to the unit in which people read and write it.
     #[inline]
     #[must_use]
     pub fn shown(self, value: f64) -> f64 {
@@ -65,7 +65,7 @@ impl Input {
         }
     }
 
-    /// The SI value of what people have written.
+    /// Converts a value that people have written to its SI value.
     #[inline]
     #[must_use]
     pub fn read(self, shown: f64) -> f64 {
@@ -74,7 +74,8 @@ impl Input {
         }
     }
 
-    /// How far the input goes until the driving link stands as before, and what that is called; `None` if it never does.
+    /// Period after which the driving link has the same pose again, and its name in the plural; `None` if there is no
+    /// period.
     #[must_use]
     pub const fn period(self) -> Option<(f64, &'static str)> {
         match self {
@@ -93,7 +94,7 @@ pub struct InputValue {
 }
 
 impl fmt::Display for InputValue {
-    /// With the decimals asked for, four if none are.
+    /// Uses the requested number of decimals; the default is four.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (decimals, shown) = (f.precision().unwrap_or(4), self.input.shown(self.value));
         write!(f, "{} {shown:.decimals$} {}", self.input.noun(), self.input.shown_in().0)

@@ -1,8 +1,10 @@
 #![doc = include_str!("../README.md")]
 //!
-//! Links, joints and Assur groups are in [`mechanism`], drives and loads in [`drive`], what an input measures in [`input`].
-//! [`case`] has the problem as every solver receives it, [`trajectory`] the result that every solver returns.
-//! [`solver`] and [`engine`] have the traits of solvers and engines, [`work`] counts what they do, [`threads`] does it side by side.
+//! Links, joints and Assur groups are in [`mechanism`], drives and loads in [`drive`], the quantities of an input in
+//! [`input`].
+//! [`case`] defines the problem that every solver receives, [`trajectory`] the result that every solver returns.
+//! [`solver`] and [`engine`] define the traits of solvers and engines, [`work`] counts their work, [`threads`] runs
+//! work in parallel.
 
 pub mod case;
 pub mod drive;
@@ -23,8 +25,10 @@ pub mod work;
 
 pub use error::{Error, ErrorKind, Result};
 
-/// Declares the sentences that a crate can show: `NAME = "text";` makes a constant, `name(a, b) = "text with {a} and {b}";`
-/// a function from values to a `String`. Each crate has them in one file, to be read as a list.
+/// Declares the sentences that a crate can show.
+/// `NAME = "text";` declares a constant.
+/// `name(a, b) = "text with {a} and {b}";` declares a function from values to a `String`.
+/// Each crate keeps its sentences in one file, to be read as a list.
 #[macro_export]
 macro_rules! sentences {
     (@one $name:ident = $text:literal) => { pub(crate) const $name: &str = $text; };
@@ -37,8 +41,9 @@ macro_rules! sentences {
     };
 }
 
-/// Declares an enum whose variants stand for words in files and reports: `enum Name: method { Variant = "word", }`. It has
-/// the list `ALL` in this order, the word by `method`, and the variant that a word stands for by `named`.
+/// Declares an enum whose variants have words in files and reports: `enum Name: method { Variant = "word", }`.
+/// `ALL` lists the variants in this order, `method` returns a variant's word, and `named` returns the variant of a
+/// word.
 #[macro_export]
 macro_rules! words {
     ($(#[$about:meta])* $vis:vis enum $name:ident: $method:ident { $($(#[$meaning:meta])* $variant:ident = $word:literal,)* }) => {
@@ -49,10 +54,10 @@ macro_rules! words {
 
         #[allow(dead_code, reason = "not every enum is listed, or read from a word")]
         impl $name {
-            /// All of them, in their order.
+            /// All variants, in the order of declaration.
             pub const ALL: [$name; [$($word),*].len()] = [$($name::$variant),*];
 
-            /// The word that it has in files and reports.
+            /// Word of the variant in files and reports.
             #[must_use]
             pub const fn $method(self) -> &'static str {
                 match self {
@@ -60,7 +65,7 @@ macro_rules! words {
                 }
             }
 
-            /// The one that a word stands for.
+            /// The variant with this word.
             #[must_use]
             pub fn named(word: &str) -> Option<$name> {
                 $name::ALL.into_iter().find(|own| own.$method() == word)

@@ -48,7 +48,8 @@ pub fn unit(angle: f64) -> Vec2 {
     Vec2::new(cos, sin)
 }
 
-/// Lower left and upper right corner of the smallest box around points; infinite, the wrong way round, without any.
+/// Lower left and upper right corner of the smallest box around points.
+/// Without points the lower left corner is at plus infinity and the upper right corner at minus infinity.
 #[must_use]
 pub fn corners(points: impl IntoIterator<Item = Vec2>) -> [Vec2; 2] {
     let none = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];

@@ -27,16 +27,18 @@ use std::ops::Range;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::KeepNan;
 
-/// A planar mechanism: links, of which the first is the ground, and the joints between them.
+/// A planar mechanism: links and the joints between them. The first link is the ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mechanism {
     links: PerLink<Link>,
     joints: PerJoint<Joint>,
     /// Joints on every link, in order.
     on: PerLink<Vec<JointId>>,
-    /// First equation of every joint in a list of all, and the number of all at the end.
+    /// For every joint: index of its first equation in a list of all joints' equations. The last entry is their total
+    /// number.
     rows: Vec<usize>,
-    /// Asked for in every pose; computed once, because a link of many points has many more distances.
+    /// Size of the mechanism, needed in every pose.
+    /// It is computed once, because a link with many points has far more distances.
     size: f64,
 }
 
@@ -44,8 +46,8 @@ impl Mechanism {
     /// A mechanism with these links (the first is the ground) and joints.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] with the key of the link or joint at fault: names used twice, a joint of a link with
-    /// itself, negative or non-finite masses and inertias, inertia without mass, a point name on two links that no
+    /// [`ErrorKind::Input`] with the key of the link or joint at fault: duplicate names, a joint that connects a link
+    /// with itself, negative or non-finite masses and inertias, inertia without mass, a point name on two links that no
     /// joint holds together.
     pub fn new(links: Vec<Link>, joints: Vec<Joint>) -> Result<Self> {
         let mechanism = Mechanism::unchecked(links, joints);
@@ -57,8 +59,8 @@ impl Mechanism {
         Ok(mechanism)
     }
 
-    /// Links and joints as they are, sound or not: for looking up names in a file with mistakes, and for a picture of what
-    /// is there. Nothing else may rest on it.
+    /// A mechanism from unchecked links and joints.
+    /// Use it only to look up names in a faulty file, or to draw the parts that exist.
     #[must_use]
     pub fn unchecked(links: Vec<Link>, joints: Vec<Joint>) -> Self {
         let (links, joints) = (PerLink::from(links), PerJoint::from(joints));
@@ -66,7 +68,7 @@ impl Mechanism {
         let mut on = PerLink::from(vec![Vec::new(); links.len()]);
         for (index, joint) in joints.entries() {
             for side in [joint.first, joint.second] {
-                // A joint of a link with itself is refused below.
+                // A joint that connects a link with itself is rejected later, in `check_names`.
                 on[side.link].push(index);
             }
         }
@@ -90,14 +92,15 @@ impl Mechanism {
         &self.joints
     }
 
-    /// The equations of a joint in a list of those of all joints, in the order of joints.
+    /// Indices of a joint's equations in a list of all joints' equations, in the order of joints.
     #[inline]
     #[must_use]
     pub fn rows(&self, joint: JointId) -> Range<usize> {
         self.rows[joint]..self.rows[joint.index() + 1]
     }
 
-    /// Number of equations of all joints. What else is in a list of equations, as those of drives, comes after them.
+    /// Number of equations of all joints.
+    /// In a list of equations, any others, such as those of drives, come after them.
     #[inline]
     #[must_use]
     pub fn equations(&self) -> usize {
@@ -122,8 +125,9 @@ impl Mechanism {
         self.joints.find(|joint| joint.name == name)
     }
 
-    /// Guide and block of a joint that slides; `None` for other joints.
-    /// The ground is always the guide. Of two moving links the larger is the guide, of equal ones the first.
+    /// Guide and block of a sliding joint; `None` for other joints.
+    /// The ground is always the guide.
+    /// Of two moving links the larger is the guide; if they are equal, the first.
     #[must_use]
     pub fn guide_and_block(&self, joint: &Joint) -> Option<[JointSide; 2]> {
         let size = |side: JointSide| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
@@ -131,7 +135,7 @@ impl Mechanism {
         joint.slides().then(|| if size(first) >= size(second) { [first, second] } else { [second, first] })
     }
 
-    /// Points that move, each name once: the first link that carries the point, and its place there.
+    /// Moving points, each name once: the first link that carries the point, and its position on that link.
     pub fn moving_points(&self) -> impl Iterator<Item = (&str, JointSide)> {
         let mut seen: BTreeSet<&str> = self.links[GROUND].points.iter().map(|point| point.name.as_str()).collect();
         let mut points = Vec::new();
@@ -145,8 +149,8 @@ impl Mechanism {
         points.into_iter()
     }
 
-    /// Largest extent of a link (m), of the ground its points'. Closure gaps are compared with it.
-    /// It is positive: 1 m where no link has an extent, and no length matters.
+    /// Largest extent of a link (m); for the ground, that of its points. Closure gaps are compared with this size.
+    /// It is positive: 1 m if no link has an extent, because then no length matters.
     #[must_use]
     pub fn size(&self) -> f64 {
         self.size
@@ -234,8 +238,7 @@ impl Mechanism {
         Ok(())
     }
 
-    /// Whether revolute joints at points with the name `name` connect link `a` with link `b`, directly or through
-    /// others.
+    /// Whether revolute joints at points called `name` connect link `a` with link `b`, directly or through other links.
     fn held_together(&self, name: &str, a: LinkId, b: LinkId) -> bool {
         let at = |side: JointSide| self.links[side.link].points.iter().any(|p| p.name == name && p.local == side.local);
         let mut reached = vec![a];
@@ -245,7 +248,7 @@ impl Mechanism {
             for joint in self.joints.iter().filter(|joint| joint.is_pin() && joint.on(link).is_some()) {
                 let other = joint.other(link).link;
                 if !reached.contains(&other) && at(joint.first) && at(joint.second) {
-                    // On a link of many joints the others would take long.
+                    // Stop early: on a link with many joints, visiting all the others would take long.
                     if other == b {
                         return true;
                     }

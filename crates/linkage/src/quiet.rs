@@ -1,6 +1,6 @@
-//! Panics inside an engine, or inside a reader of files, are caught and become an error's message.
+//! Panics inside an engine or a file reader are caught and become an error's message.
 //! The panic hook belongs to the process, not to a library.
-//! A program can ask here which panics need no output of their own.
+//! Here a program can ask which panics need no separate output.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -25,7 +25,7 @@ pub fn is_guarded() -> bool {
 /// Runs `action` and catches its panic. During the call [`is_guarded`] is true.
 ///
 /// # Errors
-/// What the panic was given, as of [`catch_unwind`].
+/// The payload of the panic, as in [`catch_unwind`].
 pub fn guarded<R>(action: impl FnOnce() -> R) -> thread::Result<R> {
     let before = GUARDED.replace(true);
     let outcome = catch_unwind(AssertUnwindSafe(action));
@@ -43,7 +43,7 @@ mod tests {
     const ALONE: &str = "LINKPROOF_TEST_OF_THE_PANIC_HOOK";
     const NAME: &str = "quiet::tests::the_hook_stays_the_process_own_and_can_tell_caught_panics";
 
-    /// Hooks belong to the process, so the test runs again in a separate one.
+    /// Panic hooks belong to the process, so the test runs again in a separate process.
     #[test]
     fn the_hook_stays_the_process_own_and_can_tell_caught_panics() {
         static HEARD: AtomicUsize = AtomicUsize::new(0);
@@ -63,9 +63,9 @@ mod tests {
         assert_eq!(cause.downcast_ref(), Some(&"inside"));
         assert!(!is_guarded());
         assert!(guarded(is_guarded).unwrap());
-        // The hook was not changed: it sees every panic, and knows which ones are caught.
+        // The hook is unchanged: it sees every panic and knows which panics are caught.
         assert_eq!((HEARD.load(Ordering::SeqCst), CAUGHT.load(Ordering::SeqCst)), (1, 1));
-        // Only its own steps guard another thread.
+        // The guard does not extend to another thread: its panic counts as unguarded.
         let outside = guarded(|| thread::spawn(|| panic!("outside")).join()).unwrap();
         outside.unwrap_err();
         catch_unwind(|| panic!("outside")).unwrap_err();

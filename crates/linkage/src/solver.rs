@@ -16,14 +16,14 @@ use crate::trajectory::{Channel, Trajectory};
 pub enum Provision {
     /// It is computed, or read from the engine, without conversion.
     Computed,
-    /// It is derived from other quantities; the text says how.
+    /// It is derived from other quantities. The text says how.
     Derived(&'static str),
 }
 
-/// Receives the finished share of a long run, from 0 to 1.
+/// Receives the completed fraction of a long run, from 0 to 1.
 pub type Progress<'a> = &'a mut dyn FnMut(f64);
 
-/// Receives every state with its row of the grid. An error that it returns stops the run.
+/// Receives every state with its row of the grid. If it returns an error, the run stops.
 pub type Visit<'a> = &'a mut dyn FnMut(usize, &State) -> Result<()>;
 
 /// Anything that turns a case into a trajectory.
@@ -41,7 +41,7 @@ pub trait Solver: Send + Sync {
     /// An error with the crank angle if the solution cannot stay on the requested branch; also the errors of `visit`.
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()>;
 
-    /// As [`Solver::sweep`], without progress reports.
+    /// The same as [`Solver::sweep`], without progress reports.
     ///
     /// # Errors
     /// Those of [`Solver::sweep`].
@@ -57,7 +57,8 @@ pub trait Solver: Send + Sync {
         self.solve_with(case, &mut |_| {})
     }
 
-    /// As [`Solver::solve`]; `progress` receives the finished share of the run, from 0 to 1.
+    /// The same as [`Solver::solve`], with progress reports: `progress` receives the completed fraction of the run,
+    /// from 0 to 1.
     ///
     /// # Errors
     /// Those of [`Solver::solve`].
@@ -72,8 +73,8 @@ pub trait Solver: Send + Sync {
     }
 }
 
-/// Checks that a free motion has no wanted instant before t = 0, where it begins. A prescribed motion allows any
-/// instant.
+/// Checks that no wanted instant of a free motion lies before t = 0, where the motion starts.
+/// A prescribed motion allows any instant.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] with such an instant.

@@ -1,4 +1,4 @@
-//! Work on several things side by side. No result depends on the number of threads.
+//! Parallel work on several items. No result depends on the number of threads.
 
 use std::ops::ControlFlow;
 use std::panic::resume_unwind;
@@ -8,20 +8,21 @@ use std::thread;
 
 use crate::work;
 
-/// Number of cores of this machine; 1 where it is not known.
+/// Number of cores of this machine; 1 if it is unknown.
 #[must_use]
 pub fn cores() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Does `work` on every index below `count`, on so many threads at most: each takes the next index that is left.
-/// Work tells what it likes, as often as it likes, and `hear` hears it on the calling thread, with the index. Where
-/// `hear` breaks, no further work is begun. What the work [counts](work) is counted by the calling thread.
+/// Calls `work` for every index below `count`, on at most `threads` threads. Each thread takes the next free index.
+/// `work` may send any number of messages.
+/// The calling thread passes each message with its index to `hear`. If `hear` breaks, no further index is started.
+/// [Counts](work) of the work are added to those of the calling thread.
 ///
-/// With one thread, and where the system starts none, the calling thread does the work.
+/// With one thread, or if the system cannot start any, the calling thread does the work.
 ///
 /// # Panics
-/// As the work does, after all that is in hand is done.
+/// If `work` panics, after all started work is finished.
 pub fn side_by_side<M: Send>(
     count: usize,
     threads: usize,
@@ -50,7 +51,7 @@ pub fn side_by_side<M: Send>(
         let (tell, told) = mpsc::channel();
         let start = |_| {
             let tell = tell.clone();
-            // After a break nobody listens.
+            // After a break the channel has no receiver, so a failed send is ignored.
             let all = || take(&mut move |index, message| drop(tell.send((index, message))));
             thread::Builder::new().spawn_scoped(scope, || work::counted(all).1).ok()
         };
@@ -66,11 +67,11 @@ pub fn side_by_side<M: Send>(
     });
 }
 
-/// What `work` makes of every item, in their order, on so many threads. `done` receives the number of those that are
-/// finished.
+/// Results of `work` for all items, in the order of the items, on at most `threads` threads.
+/// `done` receives the number of finished items.
 ///
 /// # Panics
-/// As the work does.
+/// If `work` panics.
 pub fn made<T: Sync, R: Send>(
     items: &[T],
     threads: usize,
@@ -101,7 +102,7 @@ mod tests {
         for threads in [0, 1, 2, 7, 100] {
             let mut finished = Vec::new();
             let work = |&item: &u64| {
-                // The first ones take longest.
+                // The first items take longest.
                 thread::sleep(Duration::from_millis(20 - item));
                 WorkTally::default().one(Count::Steps);
                 item * item

@@ -1,4 +1,4 @@
-//! The result of every solver: channels over a grid of times. A trajectory holds finite numbers only.
+//! The result of every solver: channels over a grid of times. All numbers in a trajectory are finite.
 
 pub mod channel;
 mod reading;
@@ -49,7 +49,7 @@ impl Trajectory {
         Ok(Trajectory { times, input: Input::Angle, inputs, channels, columns })
     }
 
-    /// The same trajectory, moved by another input.
+    /// The same trajectory, with its values of the input attributed to `input`.
     #[must_use]
     pub fn of_input(self, input: Input) -> Self {
         Trajectory { input, ..self }
@@ -61,7 +61,7 @@ impl Trajectory {
         self.input
     }
 
-    /// The input in a row, as messages say it.
+    /// The input in a row, formatted for messages.
     #[must_use]
     pub fn told(&self, row: usize) -> InputValue {
         self.input.at(self.inputs[row])
@@ -92,7 +92,8 @@ impl Trajectory {
         Some(&self.columns[index])
     }
 
-    /// As [`Trajectory::column`], looked for at the place `index` first, where trajectories of one case have it.
+    /// The same as [`Trajectory::column`], but checks position `index` first.
+    /// Trajectories of one case have the channel there.
     #[must_use]
     pub fn column_near(&self, channel: &Channel, index: usize) -> Option<&[f64]> {
         if self.channels.get(index) == Some(channel) { Some(&self.columns[index]) } else { self.column(channel) }
@@ -104,13 +105,13 @@ impl Trajectory {
         self.column(&Channel::named(name)?)
     }
 
-    /// The rows of the grid that `keep` holds.
+    /// The trajectory at the rows where `keep` is true.
     #[must_use]
     pub fn at_rows(&self, keep: &[bool]) -> Trajectory {
         self.part(keep, &|_| true)
     }
 
-    /// The `wanted` channels at the rows of the grid that `keep` holds.
+    /// The `wanted` channels at the rows where `keep` is true.
     #[must_use]
     pub fn part(&self, keep: &[bool], wanted: &dyn Fn(&Channel) -> bool) -> Trajectory {
         let thin = |values: &[f64]| -> Vec<f64> {
@@ -132,7 +133,8 @@ impl Trajectory {
     }
 }
 
-/// Whether all numbers are finite. A non-finite number times zero is not zero; this tests several numbers at a time.
+/// Whether all numbers are finite.
+/// Zero times a non-finite number is NaN, so a sum of such products tests several numbers at a time.
 fn all_finite(values: &[f64]) -> bool {
     let (chunks, rest) = values.as_chunks::<8>();
     let mut sums = [0.0; 8];

@@ -1,7 +1,7 @@
 //! Exact counts of what solvers and engines do.
 //!
-//! Whoever does the work counts it in a [`WorkTally`] of its own; whoever wants to know asks with [`counted`].
-//! Counts say what a run costs on any machine. They never enter a result.
+//! Code that does work counts it in a [`WorkTally`]; a caller reads the counts with [`counted`].
+//! Counts tell the cost of a run independently of the machine. They never enter a result.
 
 use crate::sentences;
 use std::cell::Cell;
@@ -11,9 +11,9 @@ use crate::error::{Advice, Error, ErrorKind, Result};
 /// What is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Count {
-    /// Poses of a whole mechanism that a side has placed, also on the way to a wanted one.
+    /// Computed poses of a whole mechanism, including intermediate poses on the way to a wanted pose.
     Poses,
-    /// Assur groups placed for them.
+    /// Assur groups placed for these poses.
     Groups,
     /// Iterations of Newton's method.
     Iterations,
@@ -23,24 +23,24 @@ pub enum Count {
     Velocities,
     /// Solutions for its accelerations.
     Accelerations,
-    /// Solutions for its reactions and balancing moments, from a known motion.
+    /// Solutions for the reactions and balancing moments of a whole mechanism, from a known motion.
     Forces,
     /// Evaluations of an equation of motion.
     Evaluations,
-    /// Accepted steps of the integrator of a motion under forces.
+    /// Accepted integration steps of a motion under forces.
     Intervals,
-    /// Worlds of an engine that were built.
+    /// Engine worlds built.
     Worlds,
-    /// Time steps of an engine's worlds.
+    /// Time steps of engine worlds.
     Steps,
-    /// Sweeps over the constraints of a world, in all steps.
+    /// Sweeps over the constraints of a world, summed over all steps.
     Sweeps,
-    /// Tiny steps from a given pose, for what the engine exerts there.
+    /// Tiny steps from a given pose, to read the forces that the engine exerts there.
     Probes,
 }
 
 impl Count {
-    /// All that is counted, in the order of reports.
+    /// All kinds of count, in the order of reports.
     pub const ALL: [Count; 13] = [
         Count::Poses,
         Count::Groups,
@@ -57,7 +57,7 @@ impl Count {
         Count::Probes,
     ];
 
-    /// Its name, in the plural and in small letters: `poses`, `sweeps`.
+    /// Name, in the plural and in lower case: `poses`, `sweeps`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -78,7 +78,7 @@ impl Count {
     }
 }
 
-/// Numbers of all that is counted.
+/// The numbers of all counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work([u64; Count::ALL.len()]);
 
@@ -86,13 +86,13 @@ impl Work {
     /// No work.
     pub const NONE: Work = Work([0; Count::ALL.len()]);
 
-    /// How often something was done.
+    /// The number of one count.
     #[must_use]
     pub fn of(&self, what: Count) -> u64 {
         self.0[what as usize]
     }
 
-    /// What was done at all, with its numbers.
+    /// All counts above zero, with their numbers.
     pub fn iter(&self) -> impl Iterator<Item = (Count, u64)> + '_ {
         Count::ALL.into_iter().map(|what| (what, self.of(what))).filter(|(_, times)| *times > 0)
     }
@@ -109,8 +109,9 @@ thread_local! {
     static DONE: Cell<Work> = const { Cell::new(Work::NONE) };
 }
 
-/// Runs `run`, and returns what this thread has done in it, and what other threads were told to [`add`].
-/// Tallies count when they are dropped: those of `run` should not outlive it.
+/// Runs `run` and returns its answer with the work that this thread did meanwhile.
+/// That includes work of other threads passed to [`add`].
+/// A tally counts when it is dropped, so the tallies of `run` should not outlive it.
 pub fn counted<T>(run: impl FnOnce() -> T) -> (T, Work) {
     let before = DONE.replace(Work::NONE);
     let answer = run();
@@ -124,17 +125,18 @@ pub fn add(work: &Work) {
     DONE.set(DONE.get().and(work));
 }
 
-/// Work of placing one Assur group, or of one link in a step of Newton's method over all constraints, in the unit of
-/// budgets: a step of an engine's four-bar without sweeps. Measured on chains of 1 to 1000 four-bars.
+/// Work of placing one Assur group, or of one link in a step of Newton's method over all constraints.
+/// The unit is that of budgets: one time step of an engine on a four-bar, without sweeps.
+/// Measured on chains of 1 to 1000 four-bars.
 pub const PLACED: f64 = 0.2;
 
 thread_local! {
-    /// Work that is left and work that was allowed.
+    /// Remaining work and allowed work.
     static ALLOWED: Cell<[f64; 2]> = const { Cell::new([f64::INFINITY; 2]) };
 }
 
-/// Runs `run`, which may do as much work (in the unit of budgets) and no more: [`spend`] then fails on this thread.
-/// Returns its answer and whether all of the work was used. Of limits inside each other the smaller one counts.
+/// Runs `run` with a limit on its work (in the unit of budgets). Beyond the limit, [`spend`] fails on this thread.
+/// Returns the answer of `run` and whether the limit was exceeded. Of nested limits the smallest applies.
 pub fn limited<T>(limit: f64, run: impl FnOnce() -> T) -> (T, bool) {
     let [left, allowed] = ALLOWED.get();
     let own = if limit < left { [limit, limit] } else { [left, allowed] };
@@ -145,11 +147,11 @@ pub fn limited<T>(limit: f64, run: impl FnOnce() -> T) -> (T, bool) {
     (answer, still < 0.0)
 }
 
-/// Takes work (in the unit of budgets) from what is [allowed](limited). It is counted where poses follow each other, so
-/// that nothing endless goes on unseen.
+/// Takes work (in the unit of budgets) from the [allowed](limited) work.
+/// Loops over successive poses call it, so that none runs without end.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] if no more is allowed, with a larger budget as the way out.
+/// [`ErrorKind::Unsupported`] if the allowed work is used up, with a larger budget as the remedy.
 #[inline]
 pub fn spend(work: f64) -> Result<()> {
     let [left, allowed] = ALLOWED.get();
@@ -163,7 +165,7 @@ fn spent(allowed: f64) -> Error {
     Error::new(ErrorKind::Unsupported, message).or_help(Advice::MoreWork { to: 10.0 * allowed })
 }
 
-/// Counts on behalf of one solver. What it has counted is the thread's when it is dropped.
+/// Counts the work of one solver. When it is dropped, its counts are added to those of the thread.
 #[derive(Debug, Default)]
 pub struct WorkTally(Work);
 
@@ -181,7 +183,7 @@ impl WorkTally {
     }
 }
 
-/// A copy begins anew: nothing is counted twice.
+/// A copy starts at zero, so that nothing is counted twice.
 impl Clone for WorkTally {
     fn clone(&self) -> Self {
         WorkTally::default()
@@ -228,7 +230,7 @@ mod tests {
         let error = last.expect_err("5 and 6 are more than 10");
         assert!(error.message().contains("1.0e1 steps") && !error.advice().is_empty(), "{error}");
         assert!(spend(1e300).is_ok());
-        // A larger limit inside allows no more.
+        // A larger nested limit does not raise the outer limit.
         assert!(limited(1.0, || limited(5.0, || spend(2.0))).0.0.is_err());
     }
 

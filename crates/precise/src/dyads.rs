@@ -1,7 +1,8 @@
-//! Dyads of three revolute pairs in closed form, one after the other; forces backwards.
+//! Dyads of three revolute pairs in closed form, one after the other. Forces are computed in reverse order.
 //!
-//! The inner joint is where two circles meet, on the side on which the start pose has it. Rates are the projections of
-//! the joints' velocities on the two links. Forces follow from moments about the inner joint.
+//! The inner joint is an intersection of two circles, on the same side as in the start pose.
+//! Rates follow from projecting the joints' velocities on the two links.
+//! Forces follow from moments about the inner joint.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -15,20 +16,20 @@ use super::readings::trajectory;
 use super::task::{Task, at_start, stuck};
 use super::vector::Vector;
 
-/// A dyad: for each of its two links the outer joint and the inner one.
+/// A dyad: its inner joint, and for each of its two links the outer joint.
 struct Dyad {
     links: [LinkId; 2],
     outer: [JointId; 2],
     inner: JointId,
-    /// The outer joints' places on the links before.
+    /// Positions of the outer joints on the links before the dyad.
     bases: [JointSide; 2],
-    /// The outer joints' places on the dyad's own links, and the inner joint's.
+    /// For each link of the dyad: positions of the outer and the inner joint.
     locals: [[linkage::math::Vec2; 2]; 2],
-    /// Whether the inner joint is to the left of the way from the first outer joint to the second.
+    /// Whether the inner joint is to the left of the line from the first outer joint to the second.
     is_left: bool,
 }
 
-/// As [`solve`](super::solve), for a mechanism of such dyads.
+/// The same as [`solve`](super::solve), for a mechanism of such dyads.
 ///
 /// # Errors
 /// Those of [`solve`](super::solve); also [`ErrorKind::Unsupported`] for other groups.
@@ -68,13 +69,13 @@ fn dyad(case: &Case, start: &[Frame], group: &Group) -> Result<Dyad> {
 }
 
 impl Dyad {
-    /// Places both links; `None` if the circles do not meet.
+    /// Places both links; `None` if the circles do not intersect.
     fn place(&self, frames: &mut [Frame]) -> Option<()> {
         let [a, b] = self.bases.map(|side| frames[side.link].point(side.local));
         let rods = self.locals.map(|[outer, inner]| Vector::of(inner) - Vector::of(outer));
         let (base, half) = (b - a, Long::of(0.5));
         let square = base.dot(base);
-        // Along the base, and across it: as shares of the base.
+        // Position of the inner joint along and across the base, as fractions of the base.
         let along = (square + rods[0].dot(rods[0]) - rods[1].dot(rods[1])) * half / square;
         let across = rods[0].dot(rods[0]) / square - along * along;
         if !(across > Long::ZERO) {
@@ -93,7 +94,7 @@ impl Dyad {
         });
         let alphas = projected(carried[1] - carried[0]);
         for k in 0..2 {
-            // Direction of the frame: that of the rod, less its direction in the frame.
+            // Direction of the frame: that of the rod in the world, rotated back by that of the rod in the frame.
             let direction = arms[k].rotated_back(rods[k]);
             let direction = direction * (Long::ONE / direction.norm());
             let to_origin = -Vector::of(self.locals[k][0]).rotated(direction);
@@ -113,11 +114,11 @@ impl Dyad {
 
 /// Reactions and torque by the equilibrium of every dyad, the last first.
 fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
-    // Force and moment about the world's origin on every link: weight, inertia, and what later groups exert.
+    // Force and moment about the world's origin on every link: weight, inertia, and actions of later groups.
     let mut acting: Vec<(Vector, Long)> =
         case.mechanism.links().ids().map(|link| instant.inertia(case, link)).collect();
     let joints = case.mechanism.joints();
-    // What a link feels in a joint, as the force of the first link on the second.
+    // Converts the force on a link in a joint to the force of the first link on the second.
     let told =
         |joint: JointId, link: LinkId, force: Vector| if joints[joint].second.link == link { force } else { -force };
     for dyad in dyads.iter().rev() {
@@ -125,7 +126,8 @@ fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
         let c = instant.frames[dyad.links[0]].point(dyad.locals[0][1]);
         let [one, two] = dyad.links.map(|link| acting[link]);
         let about = |place: Vector, (force, moment): (Vector, Long)| moment - place.cross(force);
-        // The second outer joint's force: moments of the second link about the inner joint, of both about the first.
+        // Force in the second outer joint, from two equations of moments.
+        // They are those of the second link about the inner joint, and of both links about the first outer joint.
         let (whole, part) = (-(about(a, one) + about(a, two)), -about(c, two));
         let (p, q) = (b - a, b - c);
         let second = (q * whole - p * part) * (Long::ONE / p.cross(q));

@@ -1,4 +1,4 @@
-//! What is known of a link, and of the whole mechanism at one instant.
+//! State of a link, and of the whole mechanism at one instant.
 
 use linkage::case::Case;
 use linkage::math::Vec2;
@@ -11,7 +11,7 @@ use super::vector::Vector;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     pub(crate) origin: Vector,
-    /// Direction of its x axis.
+    /// Direction of the frame's x axis.
     pub(crate) direction: Vector,
     pub(crate) omega: Long,
     pub(crate) alpha: Long,
@@ -54,10 +54,10 @@ pub(crate) struct Snapshot {
     pub(crate) frames: Vec<Frame>,
     /// Force of the first link on the second in every joint.
     pub(crate) forces: Vec<Vector>,
-    /// Moment of the first link on the second in every joint, about the joint's place on the second.
+    /// Moment of the first link on the second in every joint, about the joint's point on the second link.
     pub(crate) moments: Vec<Long>,
     pub(crate) torque: Long,
-    /// World angle of the crank, turns kept.
+    /// World angle of the crank, unwrapped.
     pub(crate) crank: Long,
 }
 

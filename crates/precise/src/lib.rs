@@ -1,8 +1,9 @@
 #![doc = include_str!("../README.md")]
 //!
-//! [`solve`] takes dyads of revolute pairs in closed form ([`dyads`]) and every other mechanism by all its equations at
-//! once ([`whole`]). Neither shares an equation or code with the analytic sides; only the case is common.
-//! The crank's angle is taken from the instant's time as it stands, in full precision: start + speed t.
+//! [`solve`] solves dyads of revolute pairs in closed form ([`dyads`]). It solves every other mechanism from all its
+//! equations at once ([`whole`]).
+//! Neither method shares an equation or code with the analytic sides; only the case is common.
+//! The crank angle is computed from the time of the instant in full precision: start + speed t.
 
 pub mod dyads;
 mod frame;
@@ -20,7 +21,7 @@ use linkage::error::Result;
 use linkage::mechanism::GroupKind;
 use linkage::trajectory::Trajectory;
 
-/// How the numbers were found, in words.
+/// The method that computed the numbers, in words.
 #[must_use]
 pub fn method(case: &Case) -> &'static str {
     if are_all_rrr(case) { sentences::CLOSED_FORM_IN_DOUBLE_DOUBLE } else { sentences::ALL_EQUATIONS_IN_DOUBLE_DOUBLE }
@@ -29,9 +30,9 @@ pub fn method(case: &Case) -> &'static str {
 /// All channels of a case on its grid, rounded to doubles at the end.
 ///
 /// # Errors
-/// [`Unsupported`](linkage::ErrorKind::Unsupported) for a case with several drives, another law than a constant speed,
-/// loads, or instants before t = 0.
-/// [`Geometry`](linkage::ErrorKind::Geometry) where the mechanism cannot be assembled or is singular, with the crank
+/// [`Unsupported`](linkage::ErrorKind::Unsupported) for a case with several drives, loads, instants before t = 0, or
+/// any law other than a constant speed.
+/// [`Geometry`](linkage::ErrorKind::Geometry) if the mechanism cannot be assembled or is singular, with the crank
 /// angle.
 pub fn solve(case: &Case) -> Result<Trajectory> {
     if are_all_rrr(case) { dyads::solve(case) } else { whole::solve(case) }

@@ -1,12 +1,13 @@
-//! A number of some 31 digits, with sine and cosine.
+//! A number with about 31 digits, with sine and cosine.
 //!
-//! Sources: Joldes, Muller, Popescu, "Tight and rigorous error bounds for basic building blocks of double-word arithmetic",
-//! ACM Transactions on Mathematical Software 44 (2017), 15:1-15:27, algorithms 6 (sum), 9 and 12 (products), 17 (quotient).
+//! Sources: Joldes, Muller, Popescu, "Tight and rigorous error bounds for basic building blocks of double-word
+//! arithmetic", ACM Transactions on Mathematical Software 44 (2017), 15:1-15:27, algorithms 6 (sum), 9 and 12
+//! (products), 17 (quotient).
 
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A double-double number: the nearest double, and what is left of it.
+/// A double-double number: the nearest double, and the remainder.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Long(f64, f64);
 
@@ -17,7 +18,7 @@ fn sum(a: f64, b: f64) -> Long {
     Long(sum, (a - (sum - second)) + (b - second))
 }
 
-/// The same where the first is the larger one (Dekker).
+/// The same if the first is the larger one (Dekker).
 fn ordered_sum(a: f64, b: f64) -> Long {
     let sum = a + b;
     Long(sum, b - (sum - a))
@@ -60,7 +61,7 @@ impl Long {
         (root + self / root) * Long::of(0.5)
     }
 
-    /// Sine and cosine of an angle (rad) of at most some 1e9.
+    /// Sine and cosine of an angle (rad) of up to about 1e9.
     #[must_use]
     pub fn sin_cos(self) -> (Long, Long) {
         let quarter = Long::PI * Long::of(0.5);
@@ -144,7 +145,7 @@ mod tests {
     fn sums_and_products_keep_thirty_digits() {
         let third = Long::ONE / Long::of(3.0);
         assert!(near(third + third + third, Long::ONE));
-        // 1 + 2^-90 - 1, whatever is between.
+        // 1 + 2^-90 - 1, whatever is added and subtracted between.
         let small = Long::of(2f64.powi(-90));
         assert_eq!(Long::ONE + small - Long::ONE, small);
         for value in [2.0, 1e-12, 0.3, 7e11] {
@@ -164,7 +165,7 @@ mod tests {
             assert!(off.iter().all(|off| off.abs().rounded() < 1e-30), "{k}: {off:?}");
             assert!((s.rounded() - (a + b).rounded().sin()).abs() < 1e-15);
         }
-        // The sine of a twelfth of a turn is a half; so it is a hundred thousand turns later.
+        // The sine of a twelfth of a turn is a half, also a hundred thousand turns later.
         let turn = Long::PI * Long::of(2.0);
         for turns in [0.0, 1.0, 1e5] {
             let (sin, _) = (turn / Long::of(12.0) + turn * Long::of(turns)).sin_cos();

@@ -1,4 +1,4 @@
-//! Channels of instants: read in full precision, rounded once.
+//! Channels of instants, read in full precision and rounded once.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -32,14 +32,14 @@ pub(crate) fn trajectory(case: &Case, instants: &[Snapshot]) -> Result<Trajector
 fn keep_turns(values: &mut [f64]) {
     for row in 1..values.len() {
         let turns = ((values[row - 1] - values[row]) / TAU).round();
-        // As long as there are none, nothing is rounded.
+        // Without whole turns there is no addition and so no rounding error.
         if turns != 0.0 {
             values[row] += turns * TAU;
         }
     }
 }
 
-/// Where links, points and joints are, by name.
+/// Links, points and joints by name.
 struct Places<'a> {
     links: BTreeMap<&'a str, LinkId>,
     points: BTreeMap<&'a str, JointSide>,
@@ -104,7 +104,7 @@ impl<'a> Places<'a> {
     }
 }
 
-/// Angle of a direction (rad), within half a turn: the double nearest to it and what that leaves.
+/// Angle of a direction (rad), within half a turn: a rough angle in doubles plus the remainder.
 fn angle(direction: Vector) -> f64 {
     let rough = direction.y.rounded().atan2(direction.x.rounded());
     let rest = direction.rotated_back(Vector::unit(Long::of(rough)));
@@ -123,7 +123,8 @@ fn of_point(frame: &Frame, local: linkage::math::Vec2, reading: OfPoint) -> f64 
     .rounded()
 }
 
-/// Slide along the first link's axis with its rates: the second place as seen from the turning first link.
+/// Slide along the first link's axis with its rates: the motion of the second point as seen from the rotating first
+/// link.
 fn slide(instant: &Snapshot, joint: &Joint) -> [Long; 3] {
     let [first, second] = [joint.first, joint.second].map(|side| (&instant.frames[side.link], side.local));
     let axis = first.0.arm(joint.axis_on(joint.first.link).unwrap_or_default());
@@ -131,14 +132,14 @@ fn slide(instant: &Snapshot, joint: &Joint) -> [Long; 3] {
     let gap_rate = second.0.point_velocity(second.1) - first.0.point_velocity(first.1);
     let gap_second = second.0.point_acceleration(second.1) - first.0.point_acceleration(first.1);
     let (omega, alpha, two) = (first.0.omega, first.0.alpha, Long::of(2.0));
-    // The derivatives of axis . gap, the axis turning with the first link.
+    // The derivatives of axis . gap, where the axis rotates with the first link.
     let turned = axis.turned();
     let second_rate =
         axis.dot(gap_second) + two * omega * turned.dot(gap_rate) + (turned * alpha - axis * (omega * omega)).dot(gap);
     [axis.dot(gap), axis.dot(gap_rate) + omega * turned.dot(gap), second_rate]
 }
 
-/// What joints and drive exert on the ground, with the moment about the origin.
+/// Force that joints and drive exert on the ground, and the moment about the origin.
 fn shaking(case: &Case, instant: &Snapshot) -> (Vector, Long) {
     let (mut force, mut moment) = (Vector::ZERO, -instant.torque);
     for (index, joint) in case.mechanism.joints().entries() {

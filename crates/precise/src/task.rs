@@ -1,4 +1,4 @@
-//! What this reference takes, and the crank's motion.
+//! The cases that this reference supports, and the crank's motion.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -9,7 +9,7 @@ use super::Long;
 use super::frame::Frame;
 use super::vector::Vector;
 
-/// The drive of a case that can be taken.
+/// The drive of a supported case.
 pub(crate) struct Task {
     /// Joint and link of the drive.
     pub(crate) joint: JointId,
@@ -21,10 +21,10 @@ pub(crate) struct Task {
 }
 
 impl Task {
-    /// The drive.
+    /// The drive of a case.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] with what cannot be taken.
+    /// [`ErrorKind::Unsupported`] with the unsupported part of the case.
     pub(crate) fn of(case: &Case) -> Result<Task> {
         let refused = |what: &str| Err(Error::new(ErrorKind::Unsupported, sentences::no_precise_numbers(&what)));
         let drive = case.crank();

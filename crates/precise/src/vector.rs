@@ -44,12 +44,12 @@ impl Vector {
         Vector { x: -self.y, y: self.x }
     }
 
-    /// The product of the two as complex numbers: `self` turned by the direction `by`.
+    /// `self` rotated by the direction `by`: the product of the two as complex numbers.
     pub(crate) fn rotated(self, by: Vector) -> Vector {
         Vector { x: by.x * self.x - by.y * self.y, y: by.x * self.y + by.y * self.x }
     }
 
-    /// The same against the direction `by`.
+    /// `self` rotated backwards by the direction `by`.
     pub(crate) fn rotated_back(self, by: Vector) -> Vector {
         self.rotated(Vector { x: by.x, y: -by.y })
     }

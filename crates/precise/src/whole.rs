@@ -1,7 +1,9 @@
 //! Any mechanism of revolute and prismatic pairs: all constraint equations at once, and all equations of equilibrium.
 //!
-//! Unknown are the frames of all moving links. The start pose is followed in steps of at most one degree of the crank;
-//! at the wanted instants Newton's method goes on until nothing changes. Dense elimination: for some tens of links.
+//! The unknowns are the frames of all moving links.
+//! The start pose is followed in steps of at most one degree of the crank.
+//! At the wanted instants Newton's method continues until the change is at the level of rounding errors.
+//! The elimination is dense, for some tens of links.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -15,18 +17,18 @@ use super::readings::trajectory;
 use super::task::{Task, at_start, stuck};
 use super::vector::Vector;
 
-/// Crank angle of a step of the way (rad).
+/// Crank angle of one step between wanted instants (rad).
 const STEP: f64 = std::f64::consts::PI / 180.0;
-/// Most iterations at one pose. The method squares its error.
+/// Largest number of iterations at one pose. Convergence is quadratic.
 const MOST: usize = 30;
-/// Change of a pose, over the mechanism's size, that is rounding.
+/// Change of a pose, relative to the mechanism's size, that counts as rounding error.
 const SETTLED: f64 = 1e-28;
-/// The same where no further iteration brings less.
+/// The same if further iterations no longer reduce the change.
 const ROUNDING: f64 = 1e-20;
-/// The same on the way.
+/// The same in steps between wanted instants.
 const NEAR: f64 = 1e-10;
 
-/// As [`solve`](super::solve), for any mechanism of some tens of links.
+/// The same as [`solve`](super::solve), for any mechanism of some tens of links.
 ///
 /// # Errors
 /// Those of [`solve`](super::solve).
@@ -65,7 +67,7 @@ struct System {
 }
 
 impl System {
-    /// Gaussian elimination with the largest pivot of each column; `None` if it is singular.
+    /// Gaussian elimination with the largest pivot of each column; `None` if the matrix is singular.
     fn solved(mut self) -> Option<Vec<Long>> {
         let count = self.right.len();
         for k in 0..count {
@@ -105,13 +107,13 @@ fn column(link: LinkId) -> usize {
 }
 
 impl Whole<'_> {
-    /// Three unknowns of every moving link.
+    /// A system with three unknowns for every moving link, all zero.
     fn empty(&self) -> System {
         let unknowns = 3 * (self.case.mechanism.links().len() - 1);
         System { rows: vec![vec![Long::ZERO; unknowns]; unknowns], right: vec![Long::ZERO; unknowns] }
     }
 
-    /// Writes the change of `normal . (point of the link)` to a row, times `sign`.
+    /// Adds the coefficients of `normal . (point of the link)` to a row, times `sign`.
     fn put(&self, row: &mut [Long], link: LinkId, arm: Vector, normal: Vector, sign: Long) {
         if link == GROUND {
             return;
@@ -128,8 +130,9 @@ impl Whole<'_> {
         }
     }
 
-    /// Coefficients of all equations in a pose: those of the joints, then that of the drive. With them the gaps of the pose, or
-    /// the parts of the second derivatives that go with the squares of the speeds, on the other side.
+    /// All equations in a pose: those of the joints, then that of the drive.
+    /// The right-hand side depends on `what`: gaps of the pose, speeds, or the quadratic velocity terms of the
+    /// accelerations.
     fn system(&self, frames: &[Frame], what: What) -> System {
         let mut system = self.empty();
         for (index, joint) in self.case.mechanism.joints().entries() {
@@ -141,7 +144,7 @@ impl Whole<'_> {
             let squares = arms[0] * (sides[0].omega * sides[0].omega) - arms[1] * (sides[1].omega * sides[1].omega);
             let first_row = self.case.mechanism.rows(index).start;
             let rows = [first_row, first_row + 1];
-            // The place of the second link less that of the first, along a direction.
+            // Difference of the joint's points on the second and the first link, along a direction.
             let mut apart = |row: usize, normal: Vector, turning: Long| {
                 self.put(&mut system.rows[row], second, arms[1], normal, one);
                 self.put(&mut system.rows[row], first, arms[0], normal, -one);
@@ -159,7 +162,7 @@ impl Whole<'_> {
                 JointKind::Prismatic { axes } => {
                     let axes = [0, 1].map(|k| sides[k].arm(axes[k]));
                     let normal = axes[0].turned();
-                    // The normal turns with the first link.
+                    // The normal rotates with the first link.
                     let omega = sides[0].omega;
                     let speed = |k: usize| sides[k].velocity + arms[k].turned() * sides[k].omega;
                     let turning = two * omega * axes[0].dot(speed(1) - speed(0)) + omega * omega * normal.dot(gap);
@@ -206,7 +209,7 @@ impl Whole<'_> {
             if !largest.is_finite() {
                 return None;
             }
-            // In badly conditioned poses rounding is more, and shows as a change that does not shrink.
+            // In ill-conditioned poses rounding errors are larger, and show as a change that does not shrink.
             if largest <= settled || (largest <= ROUNDING && largest > 0.5 * before) {
                 return Some(());
             }
@@ -231,7 +234,7 @@ impl Whole<'_> {
         Some(instant)
     }
 
-    /// Force and moment about the world's origin of a joint's two unknowns on its second link.
+    /// Force, moment about the world's origin, and joint moment on the second link for each of a joint's two unknowns.
     fn reactions(joint: &Joint, frames: &[Frame]) -> [(Vector, Long, Long); 2] {
         let place = frames[joint.second.link].point(joint.second.local);
         let along = |force: Vector| (force, place.cross(force), Long::ZERO);
@@ -244,7 +247,7 @@ impl Whole<'_> {
         }
     }
 
-    /// Equilibrium of all links: two forces and a moment about the world's origin each.
+    /// Equilibrium of all links: for each of them two force equations and a moment equation about the world's origin.
     fn forces(&self, instant: &mut Snapshot) -> Option<()> {
         let mut system = self.empty();
         let joints = self.case.mechanism.joints();
@@ -281,13 +284,13 @@ impl Whole<'_> {
     }
 }
 
-/// The other side of the equations.
+/// Right-hand side of the equations.
 #[derive(Clone, Copy)]
 enum What {
     /// Gaps of a pose, for Newton's method, at a world angle of the crank.
     Gaps(Long),
     /// Speeds.
     Rates,
-    /// Squares of the speeds, for accelerations.
+    /// Quadratic velocity terms, for accelerations.
     Squares,
 }

@@ -1,4 +1,4 @@
-//! Accepted values: what is kept of a proof to judge later runs by, and what has moved since.
+//! Accepted values: the values kept from a proof to judge later runs, and what has changed since.
 //! Values are compared within the bounds of both runs, never by bytes.
 
 use crate::sentences;
@@ -16,11 +16,11 @@ const INSTANTS: usize = 5;
 /// Share of a bound that the rounding of a written number may take.
 const WRITTEN: f64 = 0.05;
 
-/// Ratio of the bounds, accepted and found, from which agreement proves nothing: the channel is now known much worse
-/// than before, or was accepted within much too wide a bound.
+/// Ratio of the accepted and the found bound from which agreement proves nothing.
+/// The channel is then known much worse than before, or its accepted bound was much too wide.
 const WIDER: f64 = 100.0;
 
-/// Relative difference below which two times are the same instant, over the larger of both.
+/// Largest difference of two times that count as the same instant, relative to the larger of them.
 const SAME_TIME: f64 = 1e-9;
 
 /// Returns the values of a proof that are accepted. A channel whose bound is not finite is left out.
@@ -62,7 +62,7 @@ fn rounded_up(bound: f64) -> f64 {
     if rounded >= bound { rounded } else { bound }
 }
 
-/// A value found now beside the accepted value.
+/// A value found now and its accepted counterpart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moved {
     /// Name of the channel.
@@ -116,17 +116,17 @@ pub struct FigureComparison {
     pub channels: usize,
     /// Values that differ by more than both bounds allow, in the order of channels.
     pub moved: Vec<Moved>,
-    /// Channels that are known much worse than before.
+    /// Channels whose bound is now much wider than the accepted bound.
     pub wider: Vec<Wider>,
-    /// Channels whose accepted bound is much wider than the bound found now: any value near would have been accepted.
+    /// Channels whose accepted bound is much wider than the bound found now: it would have accepted any similar value.
     pub looser: Vec<Wider>,
     /// Channels without accepted values.
     pub new: Vec<String>,
     /// Accepted channels that were not found.
     pub gone: Vec<String>,
-    /// Whether the grids have different instants: values at single instants are then not compared.
+    /// Whether the grids have different instants. If so, values are not compared.
     pub is_other_grid: bool,
-    /// Verdicts on the proof in words, accepted and found; `None` if they agree.
+    /// Verdict words of the accepted and the found proof; `None` if both are `agree`.
     pub proof: Option<[String; 2]>,
     /// The verdict: disagree if anything but a bound has moved or the proof disagrees; inconclusive if only bounds have
     /// moved or one of the proofs proves nothing.
@@ -134,7 +134,7 @@ pub struct FigureComparison {
 }
 
 impl FigureComparison {
-    /// Whether nothing has changed that a file of accepted values records.
+    /// Whether everything that a file of accepted values records is unchanged.
     #[must_use]
     pub fn is_same(&self) -> bool {
         let is_other_proof = self.proof.as_ref().is_some_and(|[accepted, found]| accepted != found);
@@ -187,7 +187,7 @@ pub fn compared(accepted: &Accepted, found: &Accepted) -> FigureComparison {
     let proof = verdicts.iter().any(|word| word != "agree").then_some(verdicts);
     let is_other =
         is_other_grid || !moved.is_empty() || !new.is_empty() || !gone.is_empty() || found.verdict == "disagree";
-    // Without any value nothing can have moved, which proves nothing.
+    // A run without channels has no moved value, but proves nothing.
     let is_open = !wider.is_empty() || !looser.is_empty() || proof.is_some() || found.channels.is_empty();
     let parts = [
         Verdict::Agree { margin: least_margin },
@@ -203,7 +203,7 @@ fn by_name(accepted: &Accepted) -> BTreeMap<&str, &AcceptedChannel> {
     accepted.channels.iter().map(|kept| (kept.name.as_str(), kept)).collect()
 }
 
-/// Returns the accepted values of a channel if they are the same set of values.
+/// Returns the accepted values of a channel if both have a root mean square or neither has.
 fn counterpart<'a>(
     known: &BTreeMap<&str, &'a AcceptedChannel>,
     found: &AcceptedChannel,
@@ -246,7 +246,7 @@ fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<
     at.chain(ends).chain(rms).collect()
 }
 
-/// Returns what is to be kept after `found`: channels that have not moved keep their accepted values, so that the file
+/// Returns the values to keep after `found`. Channels that have not moved keep their accepted values, so that the file
 /// changes only where values have moved.
 #[must_use]
 pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &FigureComparison) -> Accepted {

@@ -1,4 +1,4 @@
-//! Two trajectories against each other: residuals, their distribution, the engine's own convergence, and the verdict.
+//! Comparison of two trajectories: residuals, their distribution, the convergence of the engine, and the verdict.
 
 pub mod convergence;
 pub mod other_sweeps;

@@ -1,7 +1,8 @@
 //! Two parties side by side: scenarios, recordings, tables of other programs.
 //!
-//! One of the two is brought to the instants of the other: a scenario is solved there, a table has them or is
-//! interpolated. Then channel by channel is compared, within what is known of both and what is allowed besides.
+//! One party is brought to the instants of the other: a scenario is solved there; a table has values there or is
+//! interpolated.
+//! Then each channel is compared within the known errors of both parties plus the allowed tolerance.
 
 mod align;
 mod allowed;
@@ -31,7 +32,7 @@ use scenario::mapping::Mapping;
 use scenario::words::choice;
 use std::path::Path;
 
-/// One of the two that are compared.
+/// One of the two parties of a comparison.
 pub struct ComparedParty {
     name: String,
     holds: Holds,
@@ -46,26 +47,27 @@ enum Holds {
 }
 
 impl ComparedParty {
-    /// What a recording holds: trajectories by the names of their sides, of which `reference` is analytic. Messages call
-    /// it `name`.
+    /// A recording: trajectories by the names of their sides.
+    /// The side `reference` is analytic.
+    /// Messages call the party `name`.
     pub fn recording(name: impl Into<String>, sides: Vec<(String, Trajectory)>) -> ComparedParty {
         ComparedParty { name: name.into(), holds: Holds::Recording(sides) }
     }
 
-    /// A table in a file, CSV or Parquet, and which of its columns are which channels. A column that has the name of a
-    /// channel, unit included, needs no line of the mapping.
+    /// A CSV or Parquet file, and the mapping of its columns to channels.
+    /// A column with the name of a channel, unit included, needs no line in the mapping.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] if it is no table of numbers, or if the mapping does
-    /// not fit it, with the place.
+    /// [`ErrorKind::Io`] if the file cannot be read.
+    /// [`ErrorKind::Input`], with the location, if it is not a table of numbers or the mapping does not fit it.
     pub fn table(path: impl AsRef<Path>, mapping: &Mapping) -> Result<ComparedParty> {
         ComparedParty::table_within(path, mapping, &|_, _| Ok(()))
     }
 
-    /// The same where `may` is asked before memory is taken.
+    /// As [`ComparedParty::table`], but asks `may` before it takes memory.
     ///
     /// # Errors
-    /// Those of [`ComparedParty::table`], and what `may` says.
+    /// Those of [`ComparedParty::table`], and those of `may`.
     pub fn table_within(path: impl AsRef<Path>, mapping: &Mapping, may: May) -> Result<ComparedParty> {
         let path = path.as_ref();
         let held = Held::of_table(&load_within(path, may)?, mapping)?;
@@ -73,21 +75,21 @@ impl ComparedParty {
     }
 }
 
-/// A scenario, which is solved where the other party has instants.
+/// A scenario. It is solved at the instants of the other party.
 impl From<Scenario> for ComparedParty {
     fn from(scenario: Scenario) -> ComparedParty {
         ComparedParty { name: scenario.path.display().to_string(), holds: Holds::Scenario(Box::new(scenario)) }
     }
 }
 
-/// What another program, or an engine, has found: numbers of which nobody knows the errors.
+/// The result of another program or an engine: numbers with unknown errors.
 impl From<Trajectory> for ComparedParty {
     fn from(trajectory: Trajectory) -> ComparedParty {
         ComparedParty::recording("the trajectory", vec![(String::new(), trajectory)])
     }
 }
 
-/// What is read of a table.
+/// The data read from a table.
 impl From<Held> for ComparedParty {
     fn from(held: Held) -> ComparedParty {
         ComparedParty { name: "the table".into(), holds: Holds::Table(Box::new(held)) }
@@ -96,19 +98,19 @@ impl From<Held> for ComparedParty {
 
 /// Two parties compared.
 pub struct PartyComparison {
-    /// One after the other: a recording may have several sides.
+    /// The compared pairs of sides, in order: a recording may have several sides.
     pub pairs: Vec<SidePair>,
-    /// The verdict on all of them.
+    /// The verdict on all pairs.
     pub verdict: Verdict,
 }
 
 /// Name of the analytic side in a recording.
 const REFERENCE: &str = "reference";
 
-/// Compares two parties channel by channel, within what is known of both and what is allowed besides.
+/// Compares two parties channel by channel, within the known errors of both plus the allowed tolerance.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if they have no instant or no channel in common, and those of the sides.
+/// [`ErrorKind::Input`] if they have no instant or no channel in common, and the errors of the sides.
 pub fn compare(parties: [ComparedParty; 2], how: &ComparisonRule) -> Result<PartyComparison> {
     let names = parties.each_ref().map(|party| party.name.clone());
     let [first, second] = parties.map(|party| party.holds);
@@ -129,7 +131,7 @@ pub fn compare(parties: [ComparedParty; 2], how: &ComparisonRule) -> Result<Part
     Ok(PartyComparison { verdict: overall(&verdicts), pairs })
 }
 
-/// The sides of a party that are asked for.
+/// The requested sides of a party.
 fn sides(party: Holds, how: &ComparisonRule) -> Result<Vec<Side>> {
     let alone = |held: Held| vec![Side { name: String::new(), held }];
     match party {
@@ -139,7 +141,7 @@ fn sides(party: Holds, how: &ComparisonRule) -> Result<Vec<Side>> {
     }
 }
 
-/// The sides of a recording that are asked for.
+/// The requested sides of a recording.
 fn asked(all: Vec<(String, Trajectory)>, how: &ComparisonRule) -> Result<Vec<Side>> {
     let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
     let is_asked = |name: &str| how.side.as_deref().is_none_or(|side| side == name);
@@ -164,7 +166,7 @@ fn asked(all: Vec<(String, Trajectory)>, how: &ComparisonRule) -> Result<Vec<Sid
     }
 }
 
-/// Which sides of two parties belong together: those of the same name, or all with one that is alone.
+/// Pairs the sides of two parties: a single side with each side of the other party, otherwise sides of the same name.
 fn paired<'a>(ones: &'a [Side], others: &'a [Side], names: &[String; 2]) -> Result<Vec<[&'a Side; 2]>> {
     let pairs: Vec<[&Side; 2]> = match (ones, others) {
         ([one], others) => others.iter().map(|other| [one, other]).collect(),

@@ -1,5 +1,6 @@
-//! Diagnosis of a disagreement: which party is alone, since when and in which channels, and the simple cause that
-//! explains it. Pure functions of data. See docs/numerics/diagnosis.md.
+//! Diagnosis of a disagreement: which party stands alone, since when, in which channels, and the simple cause that
+//! explains it.
+//! Pure functions of data. See docs/numerics/diagnosis.md.
 
 mod alone;
 mod bench;

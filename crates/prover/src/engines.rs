@@ -21,12 +21,13 @@ pub fn is_built(engine: EngineName) -> bool {
     }
 }
 
-/// An engine with its own default settings. An engine with a fixed step runs at the time step `step` (s), an engine
-/// that controls its error at an accuracy of its own.
+/// Creates an engine with its default settings.
+/// An engine with a fixed step uses the time step `step` (s).
+/// An engine with error control uses a preset accuracy instead.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if this build does not have it, with the feature that
-/// it needs.
+/// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if this build does not have the engine. The error names
+/// the required feature.
 pub fn with_step(engine: EngineName, step: f64) -> Result<Box<dyn Engine>> {
     let rapier = |build, precision| -> Result<Box<dyn Engine>> { Ok(Box::new(Rapier::new(build, precision, step))) };
     match engine {
@@ -53,19 +54,20 @@ fn missing(engine: EngineName) -> linkage::Error {
         .help(crate::sentences::build_with_the_cargo_feature(&feature))
 }
 
-/// Rotation of the fastest driving link in a step that is usual (rad): a quarter of a degree.
+/// Usual rotation of the fastest driving link in one step (rad): a quarter of a degree.
 const USUAL_TURN: f64 = std::f64::consts::PI / 720.0;
-/// The same of the first, coarse step of a search: two degrees.
+/// Rotation of the fastest driving link in the first, coarse step of a search (rad): two degrees.
 const COARSE_TURN: f64 = std::f64::consts::PI / 90.0;
 
-/// A time step (s) at which an engine is good to some 1e-4 in most cases: a quarter of a degree of the fastest driving
-/// link, or, where forces decide the motion, at most a ten-thousandth of its duration.
+/// A time step (s) at which an engine is accurate to about 1e-4 in most cases.
+/// The fastest driving link rotates by a quarter of a degree in it.
+/// Where forces decide the motion, the step is at most a ten-thousandth of the duration.
 #[must_use]
 pub fn usual_step(case: &Case) -> f64 {
     step(case, USUAL_TURN, 1e-4)
 }
 
-/// The time step (s) that a search of settings begins with.
+/// The time step (s) at which a search of settings begins.
 pub(crate) fn coarse_step(case: &Case) -> f64 {
     step(case, COARSE_TURN, 4e-3)
 }
@@ -73,24 +75,25 @@ pub(crate) fn coarse_step(case: &Case) -> f64 {
 fn step(case: &Case, turn: f64, share: f64) -> f64 {
     let last = case.grid.times.iter().fold(0.0f64, |last, t| last.larger(t.abs()));
     let (by_turn, by_time) = (turn / case.drives.top_speed(), share * if last > 0.0 { last } else { 1.0 });
-    // Links at rest turn nowhere, and a motion under forces may become much faster than it begins.
+    // Links at rest do not rotate, and a motion under forces may become much faster than at its start.
     if case.is_free() || !by_turn.is_finite() { by_turn.smaller(by_time) } else { by_turn }
 }
 
-/// Every engine that this build has, the default first, as [`with_step`] makes it.
+/// Every engine of this build, the default first, as created by [`with_step`].
 #[must_use]
 pub fn all(step: f64) -> Vec<Box<dyn Engine>> {
     EngineName::ALL.into_iter().filter_map(|engine| with_step(engine, step).ok()).collect()
 }
 
-/// The engine called `name`, as [`all`] has it.
+/// The engine called `name`, as created by [`all`].
 #[must_use]
 pub fn named(name: &str, step: f64) -> Option<Box<dyn Engine>> {
     with_step(EngineName::named(name)?, step).ok()
 }
 
-/// Whether the current thread is inside a call whose panic is caught and becomes an error, such as a step of an engine.
-/// The panic hook of a program may stay silent then.
+/// Whether the current thread is inside a call whose panics are caught and turned into errors, such as a step of an
+/// engine.
+/// The panic hook of a program may then stay silent.
 #[must_use]
 pub fn panic_is_caught() -> bool {
     linkage::quiet::is_guarded()

@@ -1,11 +1,11 @@
-//! The proof: a case solved twice, compared within bounds that have a basis, and judged.
+//! The proof: a case is solved twice, compared within justified bounds, and judged.
 //!
 //! - [`run`]: one scenario from the two sides to the verdict.
 //! - [`bounds`], [`tolerance`]: residuals, orders of convergence, verdicts.
 //! - [`check`]: formulas against the mechanism.
 //! - [`compare`], [`tables`]: tables and recordings of other programs against a scenario.
 //! - [`diagnosis`]: the likely cause of a disagreement.
-//! - [`accept`]: accepted figures against those of today.
+//! - [`accept`]: accepted values against the values found now.
 //! - [`engines`]: all engines by name.
 
 pub mod accept;

@@ -1,22 +1,23 @@
-//! Numbers as people write them: plain decimals where those are short, no digits that mean nothing, and zero as `0`.
+//! Numbers as people write them: plain decimals where those are short, no meaningless digits, and zero as `0`.
 //!
-//! What is zero has a scale, so every function asks for it: digits that count, or the resolution of a value.
+//! Whether a value counts as zero depends on a scale.
+//! So every function takes a number of digits or the resolution of the value.
 
 use linkage::math::KeepNan;
 
-/// Digits of an error or a bound. More would be read as more than an estimate knows.
+/// Digits of an error or a bound. An estimate does not justify more.
 const DIGITS: usize = 3;
 
 /// Digits that a double holds for certain.
 const MOST_DIGITS: usize = 15;
 
-/// Share of a value from which a difference is seen in its first four digits.
+/// A difference above this share of a value shows in its first four digits.
 const FAR: f64 = 1e-3;
 
-/// Share of a value from which a difference that means nothing is seen in its digits.
+/// Smallest resolution of two values within their bound, as a share of the value: seven digits.
 const NEAR: f64 = 1e-6;
 
-/// An error, a bound or a share of one: three significant digits.
+/// An error, a bound or a share of a bound: three significant digits.
 #[must_use]
 pub fn error(value: f64) -> String {
     significant(value, DIGITS)
@@ -28,7 +29,7 @@ pub fn error_in(value: f64, unit: &str) -> String {
     with_unit(&error(value), unit)
 }
 
-/// A number with so many significant digits at most: plain from a thousandth to a hundred thousand, else with an
+/// A number with at most `digits` significant digits: plain from a thousandth to a hundred thousand, else with an
 /// exponent.
 #[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
@@ -45,8 +46,9 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// A value that is known to `resolution`, its own bound or rounding: digits that say less are left out, and a smaller
-/// value is `0`. With a resolution of 0 it has all its digits.
+/// A value known to `resolution` (its bound or rounding error).
+/// Digits below the resolution are left out, and a value below it is `0`.
+/// With a resolution of 0 the value has all its digits.
 #[must_use]
 pub fn resolved(value: f64, resolution: f64) -> String {
     let resolution = resolution.abs();
@@ -67,8 +69,9 @@ pub fn resolved(value: f64, resolution: f64) -> String {
     }
 }
 
-/// Two values with the digits in which they differ, and with four at least. One that is less than the `bound` on their
-/// difference, and much less than the other, is `0`. Values within the bound have seven digits at most.
+/// Two values with enough digits to show their difference, at least four.
+/// A value is `0` if it is below the `bound` on the difference and much smaller than the other.
+/// Values within the bound have at most seven digits.
 #[must_use]
 pub fn beside(values: [f64; 2], bound: f64) -> [String; 2] {
     let [a, b] = values;
@@ -85,7 +88,7 @@ pub fn beside(values: [f64; 2], bound: f64) -> [String; 2] {
     values.map(|value| resolved(value, resolution(value)))
 }
 
-/// A number with so many decimals, for columns and places: a value that rounds to zero has no sign.
+/// A number with `decimals` decimals, for table columns and locations. A value that rounds to zero has no sign.
 #[must_use]
 pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
@@ -95,7 +98,7 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// The same with its unit.
+/// As `fixed`, with the unit.
 #[must_use]
 pub fn fixed_in(value: f64, decimals: usize, unit: &str) -> String {
     with_unit(&fixed(value, decimals), unit)

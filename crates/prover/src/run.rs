@@ -56,10 +56,10 @@ use linkage::trajectory::Trajectory;
 use linkage::work::limited;
 use scenario::Scenario;
 
-/// Work of the analytic sides that is done whatever is allowed, a second or two: without them nothing can be told.
+/// Work granted to the analytic sides whatever the budget, a second or two: without them there is no result.
 pub const SIDES: f64 = 1e6;
-/// Work that a diagnosis may do once more, over that of the proof. With half of it, a free motion of two freedoms had none
-/// left to confirm what it had found.
+/// Work that a diagnosis may add, as a multiple of the proof's budget.
+/// With half of it, the diagnosis of a free motion with two degrees of freedom had no work left to confirm its finding.
 const DIAGNOSIS: f64 = 1.0;
 
 /// All results of one proof.
@@ -90,27 +90,27 @@ pub struct Proof {
     pub checks: Vec<Check>,
     /// The engines, in the order asked for.
     pub engines: Vec<EngineProof>,
-    /// Channels in which reference and engines do not all agree; empty with a single engine, whose own verdicts state
-    /// it.
+    /// Channels in which the reference and the engines do not all agree.
+    /// Empty with a single engine: its own verdicts show the disagreement.
     pub disputes: Vec<Dispute>,
-    /// Which party stands alone, since when, and why, if a channel disagrees.
+    /// Diagnosis if a channel disagrees: which party stands alone, since when, and why.
     pub diagnosis: Option<Diagnosis>,
-    /// Whether the search for the diagnosis ended at its limit of work, before all causes were tried.
+    /// Whether the search for the diagnosis reached its work limit before it had tried all causes.
     pub diagnosis_is_cut: bool,
     /// Verdict on the whole.
     pub verdict: Verdict,
     /// The reference's trajectory.
     pub reference_trajectory: Trajectory,
-    /// How far the reference is known in each of its channels, over the whole run, in the channel's unit.
+    /// Bound on the error of each reference channel over the whole run, in the channel's unit.
     pub reference_bounds: Vec<f64>,
-    /// The part of the scenario's case that was solved, and what nothing wanted depends on.
+    /// The part of the scenario's case that was solved, and the parts on which no requested channel depends.
     pub scene: Scene,
-    /// What was done, part by part, and what was not needed.
+    /// The work done, part by part, and the work that was not needed.
     pub work: Vec<LedgerEntry>,
 }
 
 impl Proof {
-    /// The first engine. Recordings and short reports are about this engine.
+    /// The first engine. Recordings and short reports use this engine.
     #[must_use]
     pub fn engine(&self) -> &EngineProof {
         &self.engines[0]
@@ -135,9 +135,12 @@ impl Proof {
 /// ```
 ///
 /// # Errors
-/// If an analytic side cannot solve the case, with the crank angle. If a solver is not known. If the only engine cannot
-/// start. If the run would need more memory than is allowed. An engine that fails later, or that fails beside others, is part of the proof, with its trajectory up to the
-/// failure.
+/// If an analytic side cannot solve the case. The error states the crank angle.
+/// If a solver is not known.
+/// If the only engine cannot start.
+/// If the run would need more memory than is allowed.
+///
+/// An engine that fails later, or beside other engines, stays part of the proof, with its trajectory up to the failure.
 pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
     prove_with(scenario, options, &mut |_| {})
 }
@@ -150,8 +153,8 @@ pub fn prove_with(scenario: &Scenario, options: &Options, progress: &mut dyn FnM
     joined(scenario, &scenario.case, options, progress).map_err(|error| explained(&scenario.case, error))
 }
 
-/// As [`prove`], but the engines get a case of their own, on the scenario's instants. A fault planted in that case
-/// shows what a proof can find.
+/// As [`prove`], but the engines solve `engine_case` on the scenario's instants.
+/// A fault planted in that case shows what a proof can find.
 ///
 /// # Errors
 /// Those of [`prove`].
@@ -159,7 +162,7 @@ pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options)
     joined(scenario, engine_case, options, &mut |_| {}).map_err(|error| explained(&scenario.case, error))
 }
 
-/// Solves a case with side 1: all its wanted channels on its grid, accurate to rounding.
+/// Solves a case with side 1: all its requested channels on its grid, accurate to rounding.
 ///
 /// ```
 /// use linkproof::{Scenario, solve};
@@ -172,13 +175,13 @@ pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options)
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 /// # Errors
-/// Any reason why the mechanism cannot stay on its branch, with the crank angle and the interval that can be reached.
+/// If the mechanism cannot stay on its branch. The error states the reason, the crank angle and the reachable interval.
 pub fn solve(case: &Case) -> Result<Trajectory> {
     let case = &case.scene()?.case;
     Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
 }
 
-/// The same, with the solvers' errors unchanged.
+/// As `prove_with`, but with a separate case for the engines and with the solvers' errors unchanged.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let scene = scenario.case.scene()?;
     let (whole, case) = (&scenario.case, &scene.case);

@@ -1,4 +1,4 @@
-//! Every sentence that this crate can show, in one place, to be read as a list.
+//! All sentences that this crate can show, in one list.
 
 linkage::sentences! {
     // accept.rs

@@ -1,4 +1,4 @@
-//! Tables of other programs: CSV and Parquet files, and which of their columns are which channels.
+//! Tables of other programs: CSV and Parquet files, and the mapping of their columns to channels.
 
 mod held;
 #[cfg(feature = "parquet")]
@@ -17,24 +17,25 @@ use std::path::Path;
 use self::source::{MAGIC, text, unread};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Reads a file: Parquet by its first bytes, else text with separated columns.
+/// Reads a file. The first bytes identify Parquet; any other file is text with separated columns.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] if it is no table of numbers, with the place.
+/// [`ErrorKind::Io`] if the file cannot be read.
+/// [`ErrorKind::Input`], with the location, if it is not a table of numbers.
 pub fn load(path: impl AsRef<Path>) -> Result<Raw> {
     load_within(path.as_ref(), &|_, _| Ok(()))
 }
 
-/// The same where memory is asked for before it is taken: before a file is read, by its size, and before its numbers
-/// are, by its rows and cells.
+/// As [`load`], but asks `may` before it takes memory.
+/// It asks by size before it reads the file, and by rows and cells before it stores the numbers.
 ///
 /// # Errors
-/// Those of [`load`], and what `may` says.
+/// Those of [`load`], and those of `may`.
 pub fn load_within(path: &Path, may: May) -> Result<Raw> {
     let mut file = File::open(path).map_err(|error| unread(path, &error))?;
     let about = file.metadata().map_err(|error| unread(path, &error))?;
     let size = about.is_file().then_some(about.len());
-    // A pipe gives its first bytes once.
+    // The first bytes of a pipe can be read only once.
     let mut first = Vec::new();
     file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut first).map_err(|error| unread(path, &error))?;
     let raw = match (first == MAGIC, size) {

@@ -4,7 +4,7 @@
 use crate::sentences;
 use std::fmt;
 
-/// How a bound, or the number compared with, is known.
+/// Origin of a bound, or of the number compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BoundOrigin {
     /// Claimed by the formula that is judged.
@@ -15,7 +15,7 @@ pub enum BoundOrigin {
     Estimated,
     /// Measured on cases like this one, with a margin added.
     Measured,
-    /// Chosen: the wanted size of the number.
+    /// Chosen: the requested size of the number.
     Wanted,
     /// Recomputed with this project's own solvers, from data published by others.
     Recomputed,
@@ -39,13 +39,12 @@ impl BoundOrigin {
     }
 }
 
-/// Why a bound is what it is.
+/// Basis of a bound.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BoundBasis {
-    /// Chosen: wanted of a number that only rounding should keep from zero. The text says why rounding allows this
-    /// bound.
+    /// Chosen for a number that only rounding keeps from zero. The text says why rounding allows this bound.
     Wanted(&'static str),
-    /// Error of the engine, estimated from its own runs at three resolutions and with fewer sweeps.
+    /// Error of the engine, estimated from its runs at three resolutions and with fewer sweeps.
     Truncation {
         /// Order of convergence observed between the runs; NaN where the differences are only rounding.
         observed: f64,
@@ -57,10 +56,11 @@ pub enum BoundBasis {
         safety: f64,
         /// The parts of the bound, safety factors included, in the channel's unit.
         parts: Parts,
-        /// How the rounding part is known. The other two parts are estimated.
+        /// Origin of the rounding part. The discretisation and iteration parts are estimated.
         noise: BoundOrigin,
     },
-    /// Half a unit of the last digit of a number, plus the known error of the number, and what its instant leaves open.
+    /// Half a unit of the last digit of a number, plus its known error, plus its change within the rounding of its
+    /// instant.
     Digits {
         /// How the number is known: published, recomputed or derived.
         origin: BoundOrigin,
@@ -68,12 +68,12 @@ pub enum BoundBasis {
         digits: i32,
         /// Source of the number.
         source: String,
-        /// The part of the bound by which the number changes within the rounding of its instant, in its unit.
+        /// The part of the bound due to the rounding of the instant, in the unit of the number.
         instant: f64,
     },
-    /// Rounding of a formula, passed through its operations, and what the mechanism's side knows.
+    /// Rounding error of a formula, propagated through its operations, plus the error of the mechanism's values.
     Formula {
-        /// Whether the formula claims an error besides.
+        /// Whether the formula also claims an error.
         claimed: bool,
     },
     /// A basis with a note on the check that uses it.
@@ -81,7 +81,7 @@ pub enum BoundBasis {
 }
 
 impl BoundBasis {
-    /// How the bound, or the number compared with, is known.
+    /// Origin of the bound, or of the number compared with.
     #[must_use]
     pub fn origin(&self) -> BoundOrigin {
         match self {
@@ -102,13 +102,13 @@ impl BoundBasis {
 /// The parts of a bound on an engine's error, safety factors included.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Parts {
-    /// Discretisation: reduced by a finer step.
+    /// Discretisation error: a finer step reduces it.
     pub discretisation: f64,
-    /// Iteration: reduced by more sweeps.
+    /// Iteration error: more sweeps reduce it.
     pub iteration: f64,
     /// Rounding: reduced by neither.
     pub rounding: f64,
-    /// Error of the reference itself: how well the analytic sides know the number.
+    /// Error of the reference: how accurately the analytic sides know the number.
     pub reference: f64,
 }
 
@@ -198,7 +198,7 @@ impl fmt::Display for BoundBasis {
 pub struct Tolerance {
     /// The bound, in the unit of the checked number.
     pub bound: f64,
-    /// What the bound rests on.
+    /// Basis of the bound.
     pub basis: BoundBasis,
 }
 

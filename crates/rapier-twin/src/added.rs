@@ -1,11 +1,12 @@
-//! Masses that a free motion needs in Rapier but not in the case, and the loads that take their effect away.
+//! Masses that a free motion needs in Rapier but not in the case, and the loads that compensate them.
 //!
-//! Rapier divides by the mass and by the moment of inertia of a separate body: a point mass could not turn there.
-//! In a multibody a point mass may stay one, unless it lies in a joint: the whole chain's mass matrix is regular.
-//! A link that lacks what it needs gets an added mass or moment of inertia, and with it the load m a + J alpha - m g of the added part.
-//! With the true accelerations the motion is that of the case: (M + M') a = f + M' a is M a = f.
-//! A step knows the accelerations of the step before. The error is of first order, as that of the whole step is.
-//! It decays from step to step, because no added mass is larger than the whole: M' / (M + M') is below 1.
+//! Rapier divides by the mass and by the moment of inertia of a separate body, so a point mass could not turn there.
+//! In a multibody a point mass may stay one unless it lies in a joint: the mass matrix of the whole chain is regular.
+//! A link that lacks mass or inertia gets an added one, and the load m a + J alpha - m g of the added part.
+//! With the true accelerations the motion is that of the case: (M + M') a = f + M' a reduces to M a = f.
+//! A step uses the accelerations of the step before.
+//! The error is of first order, like that of the whole step.
+//! It decays from step to step, because an added mass is smaller than the total: M' / (M + M') is below 1.
 //! See docs/numerics/twins.md.
 
 use super::masses::added;
@@ -16,7 +17,7 @@ use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::LinkId;
 
-/// Added masses in one world of a free motion, and the accelerations by which their effect is taken away.
+/// Added masses in one world of a free motion, and the accelerations from which the compensating loads follow.
 #[derive(Debug)]
 pub(super) struct Added {
     masses: Vec<[f64; 2]>,
@@ -32,7 +33,8 @@ impl Added {
         masses.iter().flatten().any(|&mass| mass > 0.0).then_some(Added { masses, accelerations })
     }
 
-    /// Takes the accelerations of the window's last step. Before the first step those of the last trial stay.
+    /// Takes the accelerations of the window's last step.
+    /// Before the first step, the accelerations of the last trial stay.
     pub(super) fn follow(&mut self, window: &Window) {
         if window.newest() > 0 {
             for (link, own) in self.accelerations.iter_mut().enumerate().skip(1) {
@@ -42,7 +44,8 @@ impl Added {
     }
 
     /// Takes the accelerations of a trial step from the start.
-    /// Returns the largest change of an added load over the largest added load; both as forces at the mechanism's size.
+    /// Returns the largest change of an added load, divided by the largest added load.
+    /// Moments count as forces at an arm of the mechanism's size.
     pub(super) fn guess(&mut self, case: &Case, mut of: impl FnMut(usize) -> [f64; 3]) -> f64 {
         let size = case.mechanism.size();
         let (mut change, mut all) = (0.0f64, 0.0f64);
@@ -59,7 +62,7 @@ impl Added {
         if all > 0.0 { change / all } else { 0.0 }
     }
 
-    /// Writes to `relieved` the loads and those that take the effect of the added masses away.
+    /// Writes to `relieved` the loads plus the loads that compensate the added masses.
     pub(super) fn relieve(&self, case: &Case, loads: &[Wrench], relieved: &mut [Wrench]) {
         relieved.copy_from_slice(loads);
         for ((load, [mass, inertia]), [x, y, alpha]) in relieved.iter_mut().zip(&self.masses).zip(&self.accelerations) {

@@ -11,11 +11,12 @@ use linkage::math::{KeepNan, Motion, Vec2, turned, unit};
 use linkage::mechanism::{GROUND, GroupId, LinkPose};
 use linkage::solver::State;
 
-/// Share of a group's largest determinant beyond which one of the other sign is another branch, and not what little the
-/// engine's loops are open at a dead point.
+/// Share of a group's largest determinant.
+/// A determinant of the opposite sign beyond this share means another branch.
+/// Below it, the small opening of the engine's loops at a dead point explains the sign.
 const BEYOND: f64 = 0.02;
 
-/// The groups of a case, in a motion that is prescribed.
+/// The groups of a case whose motion is prescribed.
 #[derive(Debug)]
 pub(super) struct Branches {
     groups: Vec<Watched>,
@@ -37,7 +38,8 @@ struct Watched {
 }
 
 impl Branches {
-    /// The branches of the start pose. In a free motion none is watched: it may pass change points.
+    /// The branches of the start pose.
+    /// In a free motion no group is watched, because the motion may pass change points.
     pub(super) fn of(case: &Case) -> Self {
         if case.is_free() {
             return Branches { groups: Vec::new() };
@@ -57,7 +59,7 @@ impl Branches {
     /// Checks that all groups of a state at `t` (s) are on their branches.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if one is not.
+    /// [`ErrorKind::Numeric`] if a group is on another branch.
     pub(super) fn check(&mut self, case: &Case, state: &State, t: f64) -> Result<()> {
         for own in &mut self.groups {
             let determinant = own.determinant(case, &state.motions);
@@ -94,8 +96,9 @@ fn turned_back(case: &Case, group: GroupId, t: f64) -> Error {
 }
 
 impl Watched {
-    /// Where change points are passed smoothly the determinant goes on through zero. Here it was on its way there, and
-    /// has come back with the slope reversed.
+    /// Whether the determinant has turned back before zero.
+    /// At a change point that is passed smoothly, the determinant goes on through zero.
+    /// If it was about to pass zero and its slope has reversed instead, the engine has changed branch.
     fn turns_back(&mut self, t: f64, determinant: f64) -> bool {
         let [older, newer] = self.last;
         self.last = [newer, Some((t, determinant))];
@@ -115,7 +118,7 @@ impl Watched {
             let joint = &case.mechanism.joints()[joint];
             let sides = [joint.first, joint.second];
             let [one, other] = sides.map(|side| motions[side.link]);
-            // The derivative of a place with the angle of its link.
+            // Derivative of the joint's position with respect to the angle of its link.
             let arms = sides.map(|side| turned(motions[side.link].arm(side.local)));
             let rows: [[[f64; 3]; 2]; 2] = match joint.kind.axes() {
                 None => [0, 1].map(|end: usize| {

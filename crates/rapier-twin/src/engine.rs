@@ -1,4 +1,4 @@
-//! Rapier as an engine and as a solver: its answers to the two traits.
+//! Rapier as an `Engine` and as a `Solver`.
 
 use super::newton_euler::NewtonEuler;
 use super::rapier::{Build, Precision, Rapier};
@@ -11,7 +11,7 @@ use linkage::error::Result;
 use linkage::solver::{Progress, Provision, Solver, Visit};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
 
-/// More sweeps are not worth trying: loops that they do not close have other faults.
+/// Largest number of sweeps that is tried. A loop that stays open beyond it has another fault.
 const MOST_SWEEPS: usize = 65_536;
 
 impl Engine for Rapier {
@@ -44,8 +44,8 @@ impl Engine for Rapier {
     }
 
     fn own_routes(&self, _: &Case) -> &'static [Route] {
-        // Probes cost more, need many more sweeps at coarse steps, and their tiny steps leave an error that no run
-        // shows.
+        // Probes cost more and need many more sweeps at coarse steps.
+        // Their tiny steps leave an error that does not show in any run.
         &[Route::Native]
     }
 
@@ -54,8 +54,8 @@ impl Engine for Rapier {
         let reports = self.settings.route == Route::Native;
         let begins = case.is_free() && case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
         match self.build {
-            // The worlds that report the forces of a tree cut it open. One sweep there does not give the links the speeds
-            // that they begin with, and no later step makes up for it.
+            // The worlds that report the forces of a tree cut the tree open.
+            // One sweep does not give their links the start velocities, and later steps do not correct that.
             Build::Multibody if alone && reports && begins => Some([2, MOST_SWEEPS]),
             // A tree with one motor is solved exactly in one sweep.
             Build::Multibody if alone => Some([1, 1]),
@@ -78,7 +78,7 @@ impl Engine for Rapier {
 
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         let native = self.settings.route == Route::Native && channel.stage >= Stage::Reactions;
-        // Under forces, each step applies the loads of its start to the whole step.
+        // With forces, each step applies the loads at its start to the whole step.
         if native || case.is_free() { 1.0 } else { 2.0 }
     }
 
@@ -92,7 +92,7 @@ impl Engine for Rapier {
 
     fn told(&self) -> Vec<(&'static str, String)> {
         // The engine's name states the resolution, and `how` states the route.
-        // Whether results are extrapolated is not known here.
+        // This engine does not know whether its results are extrapolated.
         let Settings { resolution: _, sweeps, substeps, route: _, extrapolated: _ } = self.settings;
         let build = match self.build {
             Build::Multibody => sentences::SPANNING_TREE_AS_MULTIBODY_LOOPS,

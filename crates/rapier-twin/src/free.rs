@@ -24,26 +24,25 @@ const STANDSTILL: f64 = 1e-9;
 
 /// Number of tiny steps that take back a trial.
 const UNDOING: usize = 8;
-/// Largest number of trials of the first step for the accelerations in it, and their last change over themselves.
+/// Largest number of trials of the first step, and the relative change of the accelerations at which the trials end.
 const MOST_TRIALS: usize = 200;
 const GUESSED: f64 = 1e-9;
 
 /// Motor and loads of a case in free motion.
 #[derive(Debug)]
 pub(super) struct Acting {
-    /// The engine's present state, and its angular velocities one step before.
+    /// The engine's present state, and the angular velocities one step earlier.
     state: State,
     before: Vec<f64>,
-    /// Velocities of the points against whose motion loads act, one step before; one for each load.
+    /// Velocities, one step earlier, of the points whose motion some loads oppose; one for each load.
     swept: Vec<Vec2>,
     /// Speeds that links at rest reach in the trial step, where one was made.
     setting_off: Vec<f64>,
     loads: Vec<Wrench>,
-    /// The same with those of added masses.
+    /// The loads plus those that compensate added masses.
     relieved: Vec<Wrench>,
     branch: Option<MotorBranch>,
-    /// Moment of the motor on the crank (N m) that is among the loads of the step, because Rapier's motor cannot have
-    /// it.
+    /// Moment of the motor on the crank (N m) that acts as a load in this step, because Rapier's motor cannot apply it.
     direct: f64,
     /// One for each world.
     added: Vec<Option<Added>>,
@@ -54,7 +53,8 @@ impl Acting {
     /// Those of [`check_inertias`].
     pub(super) fn new(case: &Case, precision: Precision, worlds: &[Guard]) -> Result<Self> {
         if precision != Precision::Double {
-            // Second differences of its positions are rounding and cannot take away what an added mass does.
+            // In single precision, second differences of positions are only rounding noise.
+            // They cannot compensate an added mass.
             check_inertias(case, sentences::RAPIER_IN_SINGLE_PRECISION)?;
         }
         let links = case.mechanism.links().len();
@@ -90,7 +90,8 @@ impl Acting {
         let State { motions, angles, .. } = &self.state;
         let (before, setting_off) = (&self.before, &self.setting_off);
         // A link may reverse within the step.
-        // Its load is then the mean of the loads before and after the reversal, weighted with their shares of the step.
+        // Its load is then the weighted mean of the loads before and after the reversal.
+        // The weights are their shares of the step.
         let sensed = |_: usize, load: &Load, link: LinkId, crank: f64| {
             let now = motions[link].omega;
             if now == 0.0 {
@@ -104,7 +105,7 @@ impl Acting {
             }
             own
         };
-        // So may a point, and a force against its motion.
+        // A point that a force opposes may reverse too.
         let swept = &self.swept;
         let way = |index: usize, now: Vec2| {
             let next = 2.0 * now - swept[index];
@@ -130,8 +131,9 @@ impl Acting {
         }
     }
 
-    /// Gives driving links their exact speeds at t = 0, and no speed to links at rest.
-    /// The tiny step before the motion leaves rounding there, whose sign must not choose a sense of motion.
+    /// Gives driving links their exact speeds at t = 0, and zero speed to links at rest.
+    /// The tiny step before the motion leaves rounding errors in these speeds.
+    /// Their sign must not choose a direction of motion.
     fn begin_exactly(&mut self, case: &Case) {
         let motions = &mut self.state.motions;
         for drive in &case.drives {
@@ -149,8 +151,7 @@ impl Acting {
         }
     }
 
-    /// Whether a load, or the losses of a reducer, depend on the sense of rotation of a link that is at rest at the
-    /// beginning.
+    /// Whether a link at rest at the start has a load or reducer losses that depend on its sense of rotation.
     fn must_try(&self, case: &Case) -> bool {
         let losses = case.crank().moving_motor().is_some_and(|motor| motor.efficiency < 1.0);
         let mut sensed = case
@@ -162,8 +163,8 @@ impl Acting {
         sensed.any(|link| self.state.motions[link].omega == 0.0)
     }
 
-    /// Target speed and damping of a motor with the law's moment and slope at the crank's speed.
-    /// If the moment rises with the speed, or does not depend on it, the moment goes to the loads instead.
+    /// Target speed and damping of a motor that has the law's moment and slope at the crank's speed.
+    /// If the moment rises with the speed or does not depend on it, the moment is applied as a load instead.
     fn motor(&mut self, case: &Case) -> [f64; 2] {
         self.direct = 0.0;
         let Some(motor) = case.crank().moving_motor() else { return [0.0; 2] };
@@ -173,14 +174,15 @@ impl Acting {
         let branch = match self.branch {
             Some(branch) if holds(&branch) => branch,
             _ => {
-                // From rest towards the speeds that the trial step has reached.
+                // From rest, the branch is that of the speeds reached in the trial step.
                 let towards = if omega == 0.0 { sense * self.setting_off[case.crank().link] } else { 0.0 };
                 *self.branch.insert(motor.branch(omega, if towards < 0.0 { -1.0 } else { 1.0 }))
             }
         };
         let (mut moment, mut slope) = (branch.moment(omega), branch.slope(omega));
-        // The speed may leave the branch within the step: where power turns round, the losses of a reducer make the
-        // moment jump. As with loads, both count by their shares of the step.
+        // The speed may leave the branch within the step: where the power flow reverses, the losses of a reducer make
+        // the moment jump.
+        // As with loads, both moments count by their shares of the step.
         let next = 2.0 * omega - sense * self.before[case.crank().link];
         let [least, most] = branch.speeds;
         if next < least || next >= most {
@@ -199,7 +201,8 @@ impl Acting {
         [0.0; 2]
     }
 
-    /// Moment of the motor on the crank (N m) that was a load of the last step, and is none of its impulses.
+    /// Moment of the motor on the crank (N m) that was a load in the last step and is therefore in none of its
+    /// impulses.
     pub(super) fn direct(&self) -> f64 {
         self.direct
     }
@@ -207,9 +210,9 @@ impl Acting {
 
 /// Gives worlds at the start pose the velocities of the driving links there.
 /// Returns the window of the motion that begins.
-/// If a load, or the losses of a reducer, depend on the sense of rotation of a link at rest, one step is tried and then
-/// undone.
-/// In it the load does not act, and power flows from the motor.
+/// A load or the losses of a reducer may depend on the sense of rotation of a link at rest.
+/// Then one step is tried and undone.
+/// In this trial the load does not act, and power flows from the motor.
 ///
 /// # Errors
 /// Those of [`Guard::step`].
@@ -236,7 +239,7 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
     Ok(window)
 }
 
-/// Tries the first step until the accelerations in it, by which added masses are taken away, no longer change.
+/// Repeats the first step until its accelerations, from which the compensating loads follow, no longer change.
 /// Every trial is undone.
 fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard], step: f64) -> Result<()> {
     for _ in 0..MOST_TRIALS {
@@ -258,16 +261,17 @@ fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard]
     Ok(())
 }
 
-/// Takes back a trial step. Every tiny step starts from the velocities and impulses of the step before: several of them
-/// leave nothing of the trial.
+/// Undoes a trial step.
+/// Each tiny step starts from the velocities and impulses of the step before.
+/// After several tiny steps the trial has no effect any more.
 fn undo(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
     (0..UNDOING).try_for_each(|_| settle(case, worlds, step))
 }
 
 /// Places worlds at the start with the velocities of the driving links there.
 /// A tiny step with rigid drives makes all other velocities consistent.
-/// They leave out what closes the gaps: over a tiny step even the gaps of rounding would give a speed.
-/// From then on velocities are those that move the bodies.
+/// These velocities exclude the correction of gaps: over a tiny step, even a gap of rounding size would give a speed.
+/// Later velocities include the correction.
 fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
     let fastest = case.drives.iter().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));
     for guard in worlds {

@@ -1,9 +1,9 @@
-//! How the engine's world differs from the case, and what that difference adds to the reactions.
+//! How the engine's world differs from the case, and what the difference adds to the reactions.
 //!
 //! Rapier needs a mass and a moment of inertia on every link.
 //! For a given motion, reactions and driving moment are linear in masses, inertias and loads.
-//! The share of the differences alone is therefore computed and subtracted.
-//! It follows from the Newton-Euler equations with the engine's own accelerations.
+//! The contribution of the differences can therefore be computed alone and subtracted.
+//! It follows from the Newton-Euler equations with the engine's accelerations.
 //! See docs/numerics/twins.md.
 
 use super::masses::{added, masses, masses_with_flywheels};
@@ -22,7 +22,7 @@ pub(super) struct Ghost {
 
 impl Ghost {
     /// The stand-ins of a case, and its loads if the engine was not given them (`unloaded`).
-    /// `None` if there is neither.
+    /// `None` if nothing has to be subtracted.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
         // A flywheel adds a moment only while it is accelerated.
         let tree = SpanningTree::none(&case.mechanism);
@@ -31,7 +31,7 @@ impl Ghost {
         let mut extra: Vec<[f64; 2]> =
             links.map(|(link, [mass, inertia])| [mass - link.mass, inertia - link.inertia]).collect();
         if case.is_free() {
-            // Loads in the world already take away the effect of added masses.
+            // Loads in the world already compensate the added masses.
             for (link, extra) in case.mechanism.links().ids().zip(&mut extra) {
                 let [mass, inertia] = added(case, link, &tree);
                 extra[0] -= mass;
@@ -40,12 +40,12 @@ impl Ghost {
         }
         let unloaded = unloaded && !case.loads.is_empty();
         let any = unloaded || extra.iter().flatten().any(|&extra| extra != 0.0);
-        // What the engine lacks is subtracted with the opposite sign.
+        // Loads that the engine lacks are subtracted with a negative sign, which adds them.
         let load_share = if unloaded { -1.0 } else { 0.0 };
         any.then(|| Ghost { statics: NewtonEuler::of(case, extra, load_share), state: State::at_rest(case) })
     }
 
-    /// Subtracts the share of the stand-ins from reactions and moments.
+    /// Subtracts the contribution of the stand-ins from reactions and moments.
     ///
     /// # Errors
     /// Those of [`NewtonEuler::solve`].

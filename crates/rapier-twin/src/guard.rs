@@ -1,4 +1,5 @@
-//! A world under supervision. Any of these becomes an error with its time, crank angle and place:
+//! A world under supervision.
+//! Any of these becomes an error with its time, crank angle and joint or link:
 //! a loop that opens, a link that turns too far in one step, NaN or infinity, or a panic inside the engine.
 //! See docs/numerics/twins.md.
 
@@ -25,8 +26,8 @@ const LARGEST_GAP: f64 = 0.05;
 /// Largest rotation of a link in one step (rad). Beyond it the trajectory is meaningless.
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
 /// Growth of kinetic energy in one step beyond which a run has diverged: a factor of ten in the speeds.
-/// The drives supply and absorb whatever energy their speeds need, so energy is not conserved.
-/// But it depends on the pose alone, and the pose changes little in a step.
+/// Energy is not conserved, because the drives supply and absorb whatever their speeds need.
+/// But the kinetic energy depends on the pose alone, and the pose changes little in a step.
 const LARGEST_GROWTH: f64 = 100.0;
 
 /// A world and the quantities that are supervised.
@@ -43,11 +44,12 @@ pub(super) struct Guard<'a> {
     /// Mass (kg) and moment of inertia (kg m^2) of all links.
     masses: Vec<[f64; 2]>,
     step: f64,
-    /// Sweeps in a step, its substeps together.
+    /// Sweeps in a step, summed over its substeps.
     sweeps: usize,
     tally: WorkTally,
-    /// The largest kinetic energy so far (J).
-    /// Its lower limit is the energy of all links at one mechanism size from an axis, turning with the fastest drive.
+    /// Largest kinetic energy so far (J).
+    /// Its lower limit assumes that all links turn with the fastest drive, at a distance of one mechanism size from the
+    /// axis.
     energy: f64,
     /// Whether no step has been done yet.
     first: bool,
@@ -130,7 +132,7 @@ impl<'a> Guard<'a> {
         }
     }
 
-    /// Sets the loads that all links have in a state.
+    /// Sets the loads on all links from a state.
     pub(super) fn load(&mut self, state: &State) {
         if self.case.loads.is_empty() {
             return;
@@ -147,7 +149,7 @@ impl<'a> Guard<'a> {
         self.step = step;
     }
 
-    /// Sets whether the velocities after a step leave out what has closed the gaps.
+    /// Sets whether the velocities after a step exclude the correction of gaps.
     pub(super) fn set_stabilised(&mut self, stabilised: bool) {
         self.world.set_stabilised(stabilised);
     }
@@ -190,7 +192,7 @@ impl<'a> Guard<'a> {
             centres[link] = centre;
         }
         let energy = 0.5 * twice_energy / (self.step * self.step);
-        // The first step shows what the speeds are: links may be much faster than the drives.
+        // The first step sets the scale of the speeds: links may be much faster than the drives.
         let first = std::mem::take(&mut self.first) && energy.is_finite();
         if !first && !(energy <= LARGEST_GROWTH * self.energy) {
             let (growth, place) = (energy / self.energy, place(before));
@@ -210,11 +212,11 @@ impl<'a> Guard<'a> {
         Ok(())
     }
 
-    /// Checks that the world is in the case's start pose again, after it has driven itself backwards and returned.
+    /// Checks that the world is back in the case's start pose after its run backwards and forwards.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a link is farther away than a loop may open.
-    /// It then passed a dead point on the way, into another assembly mode.
+    /// [`ErrorKind::Numeric`] if a link is farther off than the largest loop opening.
+    /// The engine has then passed a dead point into another assembly mode.
     pub(super) fn check_start(&self) -> Result<()> {
         let case = self.case;
         for ((id, link), pose) in case.mechanism.links().entries().zip(&case.start.0).skip(1) {
@@ -302,7 +304,7 @@ mod tests {
         world: Box<dyn World>,
         wrong: fn(&mut dyn World),
         off: (Vec2, f64),
-        /// Steps that do not fail, before those that do.
+        /// Number of sound steps before the failing ones.
         healthy: usize,
         frames: Vec<LinkFrame>,
     }
@@ -367,7 +369,7 @@ mod tests {
 
     const BUILDS: [Build; 2] = [Build::Multibody, Build::Impulse];
 
-    /// What a guard reports of a step that fails, after which all positions and angles are wrong by `off`.
+    /// Result of a guarded step that fails and leaves all positions and angles wrong by `off`.
     fn step(build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
         step_after(0, build, wrong, off)
     }
@@ -421,14 +423,14 @@ mod tests {
         }
     }
 
-    /// Nothing turns and no loop opens, but all links run away, as sliders can.
+    /// No link turns and no loop opens, but all links run away, as sliders can.
     /// The links reach 5 m and the drive turns at 1 rad/s.
-    /// A step of a millisecond may move them by some 5 cm, ten times what a link at that distance moves.
+    /// A step of a millisecond may move them by some 5 cm, ten times the travel of a link at that distance.
     #[test]
     fn energy_out_of_nothing_stops_the_run() {
         for build in BUILDS {
             step_after(1, build, |_| {}, (Vec2::new(0.01, 0.0), 0.0)).unwrap();
-            // The first step tells what the speeds are.
+            // The first step sets the scale of the speeds.
             step(build, |_| {}, (Vec2::new(0.2, 0.0), 0.0)).unwrap();
             let error = step_after(1, build, |_| {}, (Vec2::new(0.2, 0.0), 0.0)).unwrap_err();
             assert!(error.message().contains("kinetic energy has grown"), "{error}");

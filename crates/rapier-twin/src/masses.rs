@@ -6,14 +6,14 @@ use linkage::engine::bodies::stand_in;
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, Joint, Link, LinkId};
 
-/// Mass added to a link without any, as a share of the mean mass.
-/// What is light is taken away quickly: the error of a first guess decays with this share from step to step.
+/// Mass added to a link without mass, as a share of the mean mass.
+/// A small mass is compensated quickly: the error of a first guess decays with this share from step to step.
 const SHARE: f64 = 0.1;
 /// Moment of inertia of a slender rod over its mass and the square of its length.
 const ROD: f64 = 1.0 / 12.0;
 
-/// Distance of a mass centre from all joints of its link, as a share of the link's extent, from which on a point mass
-/// makes the mass matrix of a multibody regular.
+/// Smallest distance of a mass centre from all joints of its link, as a share of the link's extent.
+/// From this distance on, a point mass makes the mass matrix of a multibody regular.
 const OFF_JOINTS: f64 = 1e-2;
 
 /// Additional moment of inertia of driving links, in units of all masses times the square of the mechanism's size.
@@ -21,18 +21,18 @@ const OFF_JOINTS: f64 = 1e-2;
 /// It affects the driving moment only where the speed changes, and is subtracted there
 /// ([`Ghost`](super::ghost::Ghost)).
 /// With a large one, the drives' rows hardly depend on those of the loops, and the sweeps converge.
-/// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps then do what 1024 do without it.
-/// Ten times as much gives no further gain.
+/// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps then achieve what 1024 do without it.
+/// A flywheel ten times as large gives no further gain.
 const FLYWHEEL: f64 = 1.0;
 
 /// Mass (kg) and moment of inertia (kg m^2) of every link in Rapier, without flywheels.
 /// Rapier cannot move a body without them.
 /// Under a prescribed speed the motion does not depend on the masses.
-/// There a link has at least the mean mass, and the moment of inertia of a rod of it: where neighbours differ much, the
-/// sweeps hardly converge.
-/// What they add to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
-/// In a free motion the crank also carries rotor and gearbox. Stand-ins depend on the world's tree there, and loads
-/// take away what they do ([`Added`](super::added::Added)).
+/// Each link then has at least the mean mass, and at least the moment of inertia of a rod of that mass.
+/// The sweeps hardly converge if the masses of neighbours differ much.
+/// What this adds to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
+/// In a free motion the crank also carries rotor and gearbox.
+/// Stand-ins then depend on the world's tree, and loads compensate them ([`Added`](super::added::Added)).
 pub(super) fn masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     let mut masses = bare_masses(case, tree);
     if case.is_free() {
@@ -47,7 +47,7 @@ pub(super) fn masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     masses
 }
 
-/// The same with nothing added to links that have both.
+/// The same, with nothing added to links that have both mass and moment of inertia.
 fn bare_masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     let of = |(index, link): (LinkId, &Link)| {
         let [mass, inertia] = if case.is_free() { added(case, index, tree) } else { stand_in(case, index) };
@@ -72,9 +72,9 @@ fn even_masses(case: &Case) -> Vec<[f64; 2]> {
 /// What a world is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Loading {
-    /// It only moves: under prescribed speeds it has [`even_masses`].
+    /// The world only moves: under prescribed speeds it has [`even_masses`].
     Moving,
-    /// Its forces are read, and what stand-ins add is taken off.
+    /// Its forces are read, and the contribution of stand-ins is subtracted.
     Read,
     /// Its forces are read as they are.
     Bare,
@@ -127,7 +127,7 @@ pub(super) fn added(case: &Case, link: LinkId, tree: &SpanningTree) -> [f64; 2] 
     [mass, if is_enough { 0.0 } else { ROD * (own.mass + mass) * extent * extent }]
 }
 
-/// Length (m) of the rod that a link without a moment of inertia is taken for.
+/// Length (m) of the rod that replaces a link without a moment of inertia.
 fn length(case: &Case, link: &Link) -> f64 {
     let extent = link.extent();
     if extent > 0.0 { extent } else { case.mechanism.size() }

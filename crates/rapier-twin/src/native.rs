@@ -13,7 +13,8 @@ use linkage::math::Vec2;
 use linkage::mechanism::{JointId, PerJoint};
 use linkage::solver::State;
 
-/// Substeps between the instant that the engine's report of a step describes best and the end of that step.
+/// Delay of the engine's reports, in substeps.
+/// It is measured from the instant that a report describes best to the end of the reported step.
 /// The impulses of step n belong to the pose of step n - 1.
 /// They change the velocities of step n - 2 into those of step n - 1.
 /// The error is of first order whichever instant the impulses are assigned to.
@@ -21,7 +22,8 @@ use linkage::solver::State;
 /// 3.8e-2, 2.0e-2, 2.1e-2 and 1.7e-2, 5.8e-3, 6.6e-3 at 0.32 deg a step.
 const LATE: f64 = 1.0;
 
-/// For every joint, the index of the world that reports it; none for some of the joints that nobody asks for.
+/// For every joint, the index of the world that reports it.
+/// `None` for some joints whose reactions are not requested.
 pub(super) fn reporters(case: &Case, cuts: &[&[JointId]]) -> PerJoint<Option<usize>> {
     let of = |joint: JointId| cuts.iter().position(|cut| cut.contains(&joint));
     case.mechanism.joints().ids().map(of).collect()
@@ -35,7 +37,7 @@ pub(super) struct Native {
     reporters: PerJoint<Option<usize>>,
     ghost: Option<Ghost>,
     row: Vec<f64>,
-    /// Lowest step from which a reading may be interpolated: the one at or before its instant.
+    /// Smallest number of the step at or before a reading's instant from which the reading is interpolated.
     lowest: i64,
 }
 
@@ -45,8 +47,10 @@ impl Native {
         let cuts: Vec<&[JointId]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let width = 3 * case.mechanism.joints().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
-        // In a free motion step 1 is the first one reported. The first steps of bodies that move begin with velocities
-        // along the constraints of their own pose, not of the one before, and their impulses lack what that changes.
+        // In a free motion step 1 is the first one reported.
+        // The first steps of moving bodies begin with velocities along the constraints of the present pose, not of the
+        // pose before.
+        // The impulses of these steps lack the difference.
         let lowest = if case.is_free() { 3 + first_steps(case, plain) } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
         let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);

@@ -1,4 +1,5 @@
-//! Reactions and driving moment from the engine's own motion: the Newton-Euler equations, link by link along a spanning tree.
+//! Reactions and driving moment from the engine's motion: the Newton-Euler equations, link by link along a spanning
+//! tree.
 //!
 //! For every link: m (a - g) = sum of joint forces + loads.
 //! J alpha = sum of their moments about the mass centre + moments of the loads.
@@ -13,8 +14,8 @@
 //! That gives one equation for every joint of the tree.
 //! These are the composite bodies of Featherstone, "Rigid Body Dynamics Algorithms", 2008, ch. 8.
 //! Driven joints are in the tree, and the remainder of their equation is the driving moment.
-//! As many equations remain as there are components in cut joints.
-//! A four-bar has two, where all links together have nine.
+//! The remaining equations are as many as the components in cut joints.
+//! A four-bar has two; the equations of all its links together are nine.
 
 mod seam;
 mod stages;
@@ -39,7 +40,7 @@ pub struct NewtonEuler {
     /// The links of the tree, from the ground outwards.
     tree: Vec<Limb>,
     cut: Vec<Seam>,
-    /// Their components in the list of all.
+    /// Components of each cut joint, in the list of all components.
     of_cut: Vec<Range<usize>>,
     /// The joints of the tree, then the cut joints, in the present pose.
     stands: Vec<Stand>,
@@ -131,7 +132,7 @@ impl NewtonEuler {
     /// Fills in the reactions and the driving moment of a state whose motion is known.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] where they are not determined.
+    /// [`ErrorKind::Numeric`] where the equations do not determine them.
     pub fn solve(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         self.tally.one(Count::Forces);
         self.begin(case, state);

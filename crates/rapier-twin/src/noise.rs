@@ -16,16 +16,16 @@ const SPEED_ULPS: f64 = 20.0;
 /// Four half units come from the difference itself (12.6 epsilon over a turn; 11.7 were measured).
 /// They are doubled for the links behind the crank.
 const DIFFERENCE_ULPS: f64 = 4.0;
-/// Least angle (rad) whose rounding a second difference has.
-/// Unit vectors and positions are rounded however little a link has turned.
+/// Smallest angle (rad) for the rounding of a second difference.
+/// Unit vectors and positions are rounded even if a link has hardly turned.
 /// Over a quarter and over half a turn, 12.6 epsilon were measured on the crank-rocker and on `quick_return`.
 /// 26 were measured on `ov7_base`; 37 are allowed.
 const LEAST_TURN: f64 = 3.0 * std::f64::consts::PI;
-/// Average of half a unit in the last place, in units of epsilon, while an angle grows to one.
+/// Average of half a unit in the last place of an angle from zero to its present value, in units of epsilon.
 /// Rounding of a unit vector takes up to a whole epsilon, however small the angle.
 const MEAN_HALF_ULP: f64 = 0.25;
-/// Rounding of the speed change that an impulse makes, in units in the last place.
-/// It is the rounding of a speed times the condition number of the loop it is read from.
+/// Rounding of the speed change due to an impulse, in units in the last place.
+/// It is the rounding of a speed times the condition number of the loop that the impulse is read from.
 /// On the crank-rocker in f32, 3100 and 3570 were measured at 1e-3 s and 2.5e-4 s (in the impulse build 557 and 570).
 /// The bound is about twice that.
 const IMPULSE_ULPS: f64 = 8000.0;
@@ -34,9 +34,9 @@ const PROBE_ULPS: f64 = 16000.0;
 
 /// Bound on the rounding noise of a channel, in the channel's unit.
 ///
-/// Angles are sums of as many rounded increments as there are steps.
+/// Angles are sums of rounded increments, one for each step.
 /// Each increment is off by up to half a unit in the last place of the angle so far.
-/// The sign stays the same as long as speed and exponent do.
+/// The sign of this error stays the same as long as speed and exponent do.
 /// Lengths, forces and moments follow with the mechanism's size and mass.
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
@@ -46,7 +46,8 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
 
-    // Positions are world coordinates: far from the origin they are coarser than the mechanism's size suggests.
+    // Positions are world coordinates: far from the origin their rounding is coarser than the mechanism's size
+    // suggests.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));
     let place = epsilon * reach;
     let angle = epsilon * (longest / step * (MEAN_HALF_ULP * turned).larger(1.0) + turned);
@@ -62,7 +63,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     let second = match engine.settings.route {
         _ if channel.stage < Stage::Reactions => second,
         Route::Differences => second,
-        // An impulse makes the difference of two speeds one step apart.
+        // An impulse gives the difference of two speeds one step apart.
         Route::Native => IMPULSE_ULPS * epsilon * speed / step * beginning(case, engine),
         Route::Probe => PROBE_ULPS * epsilon * speed * speed / probe_turn(engine.precision),
     };
@@ -84,8 +85,9 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
 }
 
 /// Lever arm (m) of the forces that make up a moment.
-/// On the driving link they act at its far end, and in a prismatic joint, also on that link, anywhere in the mechanism.
-/// On the frame they are taken about the origin.
+/// For a driving moment it reaches to the far end of the driving link.
+/// A prismatic joint, also one on the driving link, may transmit its force anywhere in the mechanism.
+/// On the frame, moments are taken about the origin.
 fn lever(case: &Case, reach: f64, subject: ChannelSubject) -> f64 {
     match (subject.is_drive(), subject == ChannelSubject::Frame) {
         (true, _) => case.drive_arm(),
@@ -95,8 +97,8 @@ fn lever(case: &Case, reach: f64, subject: ChannelSubject) -> f64 {
 }
 
 /// Factor on the rounding of second differences at the beginning of a free motion.
-/// They, and impulses, are extrapolated back over its first steps, so the factor is the sum of the absolute Lagrange
-/// weights there.
+/// Second differences and impulses are extrapolated back over the first steps.
+/// The factor is therefore the sum of the absolute Lagrange weights there.
 fn beginning(case: &Case, engine: &Rapier) -> f64 {
     let steps = first_steps(case, engine.build == Build::Impulse) as f64;
     let first = case.grid.times.iter().fold(f64::INFINITY, |least: f64, &t| least.smaller(t));

@@ -86,7 +86,7 @@ impl<'a> Probe<'a> {
 }
 
 /// Rotation of the fastest driving link in a tiny step (rad).
-/// After 2 y(h / 2) - y(h) the error is proportional to its square, and the rounding to its inverse.
+/// In 2 y(h / 2) - y(h) the error is proportional to the square of this rotation, and the rounding to its inverse.
 /// The optimum is flat.
 pub(super) fn probe_turn(precision: Precision) -> f64 {
     match precision {

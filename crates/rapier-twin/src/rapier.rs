@@ -88,8 +88,9 @@ impl Rapier {
         kinds.map(of).to_vec()
     }
 
-    /// The bare world of a case in its start pose, at rest, with the given tree; `read` if its reactions will be read.
-    /// Use it to look at what Rapier itself does; a run is [`Solver::sweep`](linkage::solver::Solver::sweep).
+    /// The bare world of a case in its start pose, at rest, with the given tree.
+    /// `read` says whether its reactions will be read.
+    /// Use it to study Rapier itself; for a run use [`Solver::sweep`](linkage::solver::Solver::sweep).
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if Rapier refuses a joint.
@@ -97,7 +98,7 @@ impl Rapier {
         self.world_for(case, tree, if read { Loading::Bare } else { Loading::Moving })
     }
 
-    /// The same for a run.
+    /// The world of a case for a run.
     pub(super) fn world_for(&self, case: &Case, tree: SpanningTree, loading: Loading) -> Result<Box<dyn World>> {
         Ok(match self.precision {
             Precision::Double => Box::new(crate::double::twins::Twin::new(case, tree, &self.settings, loading)?),

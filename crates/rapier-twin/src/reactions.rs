@@ -25,8 +25,10 @@ pub(super) enum Reactions<'a> {
 }
 
 impl<'a> Reactions<'a> {
-    /// The source that the engine's settings name, and the worlds of the run. The first one moves the mechanism. The
-    /// others only report joints that the first does not. Reports begin with step `from`.
+    /// The source that the engine's settings name, and the worlds of the run.
+    /// The first world moves the mechanism.
+    /// The others only report joints that the first does not report.
+    /// Reports begin with step `from`.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] for a probe of a free motion, or if Rapier refuses a joint.
@@ -68,7 +70,8 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// Keeps what the worlds report after a step. `direct` is the moment (N m) that the crank's motor had as a load.
+    /// Stores the reports of the worlds after a step. `direct` is the moment (N m) that the crank's motor had as a
+    /// load.
     pub(super) fn keep(&mut self, worlds: &[Guard], direct: f64) {
         if let Reactions::Native(native) = self {
             native.push(worlds, direct);
@@ -78,7 +81,7 @@ impl<'a> Reactions<'a> {
     /// Fills in the reactions and moments of a state whose motion is that of the window at `t` (s).
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] where they are not determined, or a probe fails.
+    /// [`ErrorKind::Numeric`] where the equations do not determine them, or if a probe fails.
     pub(super) fn solve(&mut self, case: &Case, window: &Window, state: &mut State, t: f64) -> Result<()> {
         match self {
             Reactions::Unwanted => Ok(()),

@@ -8,10 +8,10 @@ use linkage::math::interpolate::{POINTS, lagrange_weights};
 /// There is also room for readings that are dated up to two steps late, and for the first steps of a free motion.
 pub(super) const NODES: usize = POINTS + 8;
 
-/// An instant within this share of a step from a step is that step: grids and steps are computed differently.
+/// An instant within this share of a step from a step counts as that step: grids and steps are computed differently.
 const ON_A_STEP: f64 = 1e-9;
 
-/// A place between steps: the step at or before it, and the share of a step from there to the place (0 to 1).
+/// An instant between steps: the step at or before it, and the share of a step since then (0 to 1).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) before: i64,
@@ -19,25 +19,25 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// The place `x`, counted in steps.
+    /// The instant `x`, counted in steps.
     pub(super) fn of(x: f64) -> Self {
         let before = (x + ON_A_STEP).floor();
         let share = x - before;
         Place { before: before as i64, share: if share < ON_A_STEP { 0.0 } else { share } }
     }
 
-    /// First step that has a weight in [`Place::weights`].
+    /// First of the steps that [`Place::weights`] weights.
     pub(super) fn first(self) -> i64 {
         self.before - 2
     }
 
-    /// The same place, counted from no step before `lowest`. The share may then be negative.
+    /// The same instant, counted from step `lowest` or a later one. The share may then be negative.
     pub(super) fn from(self, lowest: i64) -> Self {
         let before = self.before.max(lowest);
         Place { before, share: self.share + (self.before - before) as f64 }
     }
 
-    /// Weights of the six steps from [`Place::first`] on, for the instant `back` steps before this place.
+    /// Weights of the six steps from [`Place::first`] on, for the instant `back` steps before this one.
     pub(super) fn weights(self, back: f64) -> [f64; POINTS] {
         lagrange_weights(2.0 + self.share - back)
     }
@@ -68,7 +68,7 @@ impl Ring {
         self.row_mut(self.newest)
     }
 
-    /// Advances to the next step without a row: its place keeps the row of an earlier step.
+    /// Advances to the next step without writing its row, which keeps the numbers of an earlier step.
     pub(super) fn skip(&mut self) {
         self.newest += 1;
     }

@@ -85,7 +85,7 @@ fn check(settings: &Settings, steps: f64) -> Result<()> {
     Ok(())
 }
 
-/// Steps of a prescribed motion before the first instant; those after the last one are fewer.
+/// Steps of a prescribed motion before the first instant. Fewer steps follow the last instant.
 pub(super) fn overrun(settings: &Settings) -> i64 {
     Window::BEHIND + SETTLING_STEPS + Window::extra(settings.substeps)
 }
@@ -95,7 +95,7 @@ struct Run<'a> {
     settings: Settings,
     /// Whether all drives turn with constant speeds, which are set only once.
     steady: bool,
-    /// The first world moves the mechanism. The others only report joints that the first does not.
+    /// The first world moves the mechanism. The others only report joints that the first does not report.
     worlds: Vec<Guard<'a>>,
     window: Window,
     /// First step that the window needs for the next sample.
@@ -129,7 +129,7 @@ impl<'a> Run<'a> {
     fn begin(&mut self, start: i64) -> Result<()> {
         if let Some(acting) = &mut self.acting {
             self.window = free::begin(self.case, acting, &mut self.worlds, &self.settings)?;
-            // One report for the step before the beginning, and one for the beginning.
+            // One report for the step before the beginning, and one for the beginning itself.
             self.report();
             self.report();
             return Ok(());
@@ -184,7 +184,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Adds how far the run has come; the rows visited so far are valid.
+/// Adds to the error how far the run got; the rows visited so far are valid.
 fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
     let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
     let until = match case.is_free() {

@@ -16,7 +16,7 @@ fn wide(value: Real) -> f64 {
     f64::from(value)
 }
 
-// The engine is two crates, one for each precision, with the same names in them.
+// Two crates, one for each precision, contain the engine under the same names.
 // Code that compiles against one also compiles against the other.
 #[expect(clippy::duplicate_mod, reason = "the same sources against another crate and another number")]
 #[path = "twins/worlds.rs"]

@@ -1,10 +1,13 @@
 //! Directions of the rows that close a loop, chosen so that few sweeps are enough.
 //!
-//! A pin that the tree cuts has two rows. Gauss-Seidel solves them one after the other, and their coupling decides how
-//! fast that converges. A link that turns about its own pin moves the cut pin across the line between the two, and not
-//! along it. With rows along and across that line, on the more mobile of the two links, each sweep leaves at most half
-//! of the error: with mobilities a and b >= a of the two links and an angle mu between their lines, the share
-//! a cos^2 mu / (a cos^2 mu + b). In any other directions it may come close to 1.
+//! A pin that the tree cuts has two rows.
+//! Gauss-Seidel solves them one after the other, and their coupling decides how fast it converges.
+//! A link that turns about its own pin moves the cut pin across the line between the two pins, and not along it.
+//! The rows therefore lie along and across that line, on the more mobile of the two links.
+//! Then each sweep leaves at most half of the error.
+//! With mobilities a and b >= a of the two links and an angle mu between their lines, the share is
+//! a cos^2 mu / (a cos^2 mu + b).
+//! In other directions it may come close to 1.
 
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, Mechanism};
@@ -24,7 +27,7 @@ pub(super) fn steered(
     let links = [joint.first.link, joint.second.link];
     let arm = |link: LinkId| -> Option<(f64, Vec2)> {
         let Some(branch) = tree.branches.iter().find(|branch| branch.link == link) else {
-            // A link that floats turns about its mass centre.
+            // A floating link turns about its mass centre.
             let arm = joint.on(link)? - mechanism.links()[link].mass_centre;
             return (arm.norm() > 0.0).then(|| (arm.norm_squared() / masses[link][1], arm.normalize()));
         };

@@ -12,13 +12,14 @@ use linkage::solver::State;
 use linkage::trajectory::Stage;
 
 /// Numbers for each link: position of the mass centre and angle, or their rates.
-/// A row has those of all links, then the rates of all links.
+/// A row has the positions and angles of all links, then the rates of all links.
 const WIDTH: usize = 3;
 
-/// Steps at the beginning of a free motion whose accelerations are not those of the motion.
+/// Number of steps at the beginning of a free motion whose accelerations are not those of the motion.
 /// Separate bodies (`plain`) close the gaps of the first step in the second.
-/// Sweeps over the loops of a multibody begin without impulses to start from; every later step continues the one before.
-/// Links with an initial speed have no step before the first, only a straight line that leads to it.
+/// Sweeps over the loops of a multibody begin without impulses; in later steps they begin with those of the step
+/// before.
+/// Links with an initial speed have only a straight line as the step before the first.
 /// The first step also ignores how the transfer functions change.
 pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
     let moving = case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
@@ -26,7 +27,7 @@ pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
     if plain || moving || has_loops { 2 } else { 0 }
 }
 
-/// The motion of the last steps, filled as the run proceeds.
+/// The motion over the last steps, filled as the run proceeds.
 #[derive(Debug)]
 pub(super) struct Window {
     step: f64,
@@ -34,7 +35,7 @@ pub(super) struct Window {
     /// Whether the engine's velocities are those at the start of a step.
     /// This holds if drives turn with constant speeds.
     steady: bool,
-    /// The deepest stage that is wanted; later stages are not computed.
+    /// The deepest stage that is requested; later stages are not computed.
     deepest: Stage,
     /// Whether the engine's velocities are read.
     rated: bool,
@@ -42,7 +43,7 @@ pub(super) struct Window {
     /// Velocity and angular velocity of every link while they are propagated along the tree.
     rates: Vec<(Vec2, f64)>,
     /// Lowest steps about which interpolation may be centred, for positions and for their second differences.
-    /// It reaches two and three steps farther back.
+    /// The interpolation reaches two and three steps farther back.
     lowest: i64,
     settled: i64,
     /// Mass centre and angle of every link at the instant that the velocities belong to, and directions of the tree's links.
@@ -53,7 +54,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Steps needed before the step at or before an instant.
+    /// Number of steps needed before the last step at or before an instant.
     pub(super) const BEHIND: i64 = 3;
     /// Steps needed after it.
     pub(super) const AHEAD: i64 = 4;
@@ -80,10 +81,10 @@ impl Window {
     }
 
     /// A window of a free motion. It begins at step 0 with the pose and the velocities of a world.
-    /// Before it lies one step that leads there without acceleration.
+    /// One step lies before it and leads to this pose without acceleration.
     pub(super) fn beginning(case: &Case, settings: &Settings, guard: &Guard) -> Self {
-        // There is nothing to interpolate before the beginning.
-        // To first order it does not matter where in the step the velocities belong.
+        // Before the beginning there is nothing to interpolate.
+        // To first order it does not matter to which instant of the step the velocities belong.
         let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);
         (window.lowest, window.settled) = (2, 2 + first_steps(case, guard.world().tree().branches.is_empty()));
         window.rated = true;
@@ -212,7 +213,7 @@ impl Window {
         [0, 1, 2].map(|c| (now[c] - 2.0 * before[c] + earlier[c]) / (self.step * self.step))
     }
 
-    /// The same for a step to the place that `guard` has reached from the newest one.
+    /// The same for the step from the newest pose to the pose that `guard` has reached.
     pub(super) fn next_acceleration(&self, guard: &Guard, link: LinkId) -> [f64; WIDTH] {
         let [now, before] = [0, 1].map(|back| &self.ring.row(self.newest() - back)[link.index() * WIDTH..][..WIDTH]);
         let centre = guard.centres()[link];
@@ -236,7 +237,7 @@ impl Window {
         }
     }
 
-    /// The motion of all links at `t` (s), as far as it is wanted.
+    /// The motion of all links at `t` (s), up to the requested stage.
     /// Positions and rates are interpolated between steps.
     /// Accelerations come from centred second differences of the positions.
     /// If drive speeds change, rates are centred first differences of the positions.
@@ -261,7 +262,7 @@ impl Window {
             self.ring.weigh(place.before - Self::BEHIND, &first.map(|first| first / self.step), part.clone(), rates);
         }
         if self.deepest >= Stage::Accelerations {
-            // The second differences leave out the first steps of a free motion, which close gaps.
+            // The second differences leave out the first steps of a free motion, because these steps close gaps.
             let settled = place.from(self.settled);
             let weights = if settled.before == place.before { weights } else { settled.weights(0.0) };
             let mut second = [0.0; POINTS + 2];

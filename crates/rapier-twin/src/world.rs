@@ -8,12 +8,13 @@ use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
 use linkage::mechanism::{Joint, JointId, JointSide, LinkId, LinkPose};
 
-/// What is known of a link's angle (rad, counter-clockwise positive).
+/// What the engine knows of a link's angle (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinkAngle {
-    /// The angle itself, turns counted. For a link of the tree it is the sum of the coordinates that lead there.
+    /// The angle itself, including full turns. For a link of the tree it is the sum of the coordinates from the ground
+    /// to it.
     Whole(f64),
-    /// Whole turns (rad), to be added to the angle of the link's direction between -pi and pi.
+    /// Full turns (rad), to be added to the angle of the link's direction between -pi and pi.
     /// A separate body has a direction only; the arc tangent is computed on demand.
     Turns(f64),
 }
@@ -34,11 +35,11 @@ impl LinkFrame {
     pub const GROUND: LinkFrame =
         LinkFrame { origin: Vec2::new(0.0, 0.0), direction: Vec2::new(1.0, 0.0), angle: LinkAngle::Whole(0.0) };
 
-    /// Chord of a rotation (rad) below which the chord is taken for the rotation.
-    /// The chord is less than the rotation by the square of the rotation over 24.
+    /// Chord of a rotation (rad) below which the chord approximates the rotation.
+    /// Relative to the rotation, the chord is too small by the square of the rotation over 24.
     const SMALL: f64 = 0.1;
 
-    /// Angle of the frame's x axis (rad), turns counted.
+    /// Angle of the frame's x axis (rad), including full turns.
     #[must_use]
     pub fn angle(&self) -> f64 {
         match self.angle {
@@ -55,7 +56,7 @@ impl LinkFrame {
     }
 
     /// Rotation of the link since the frame `before` (rad, without sign), to within 4 parts in ten thousand.
-    /// If only turns are counted, it is at most half a turn.
+    /// If the frames hold only turns and a direction, it is at most half a turn.
     #[inline]
     #[must_use]
     pub fn turn_since(&self, before: &LinkFrame) -> f64 {
@@ -75,7 +76,7 @@ impl LinkFrame {
         if let LinkAngle::Turns(turns) = &mut self.angle
             && (self.direction.y < 0.0) != (direction.y < 0.0)
         {
-            // The direction crosses the x axis. On the negative side its own angle jumps there by a full turn.
+            // The direction crosses the x axis. On the negative side its angle jumps by a full turn.
             let turn = cross(self.direction, direction);
             if turn > 0.0 && direction.y < 0.0 {
                 *turns += TAU;
@@ -86,7 +87,7 @@ impl LinkFrame {
         (self.origin, self.direction) = (origin, direction);
     }
 
-    /// Takes a position whose angle is `angle` (rad) except for rounding.
+    /// Takes a position whose angle is `angle` (rad) up to rounding.
     pub(super) fn put(&mut self, origin: Vec2, direction: Vec2, angle: f64) {
         (self.origin, self.direction) = (origin, direction);
         self.angle = match self.angle {
@@ -102,8 +103,9 @@ fn own_angle(direction: Vec2) -> f64 {
 }
 
 /// The Rapier world of a case.
-/// All links form one multibody: those in its tree hang on each other, the others float. In large free motions each
-/// link that hangs on the ground has one with all that hangs on it. Without branches every link is a separate body.
+/// All links form one multibody: those in its tree are joined to each other, the others float.
+/// In large free motions each link on the ground starts a separate multibody with all links beyond it.
+/// Without branches every link is a separate body.
 /// Joints that the tree cuts are impulse joints.
 /// Every drive has its own motor so that its impulse can be read.
 /// All numbers are f64, SI, world axes.
@@ -114,16 +116,18 @@ pub trait World {
     /// One time step of Rapier, after which frames can be read. It may fail to close loops, and may panic.
     fn step(&mut self);
 
-    /// Only Rapier's own step: frames are not updated.
+    /// Rapier's step alone: frames are not updated.
     fn bare_step(&mut self);
 
     /// Sets the time step (s).
     fn set_step(&mut self, step: f64);
 
-    /// Sets whether the velocities after a step leave out what has closed the gaps of the loops.
+    /// Sets whether the velocities after a step exclude the correction of loop gaps.
     ///
-    /// Rapier then solves all constraints a second time, and goes on with velocities along the constraints at the START
-    /// of the step. They are not those that moved the bodies: in a free motion each step loses momentum across the
+    /// If so, Rapier solves all constraints a second time, and continues with velocities along the constraints at the
+    /// START
+    /// of the step.
+    /// These are not the velocities that moved the bodies: in a free motion each step loses momentum across the
     /// constraints of one pose and regains it across those of the next one.
     fn set_stabilised(&mut self, stabilised: bool);
 
@@ -132,9 +136,10 @@ pub trait World {
     fn set_drive(&mut self, drive: usize, omega: f64);
 
     /// Replaces a prescribed speed by a motor.
-    /// The moment on the link (N m) is `damping` (N m s/rad, not negative) times the speed that is missing to `target`
-    /// (rad/s).
-    /// The speed that counts is the one at the END of the step.
+    /// The moment on the link (N m) is `damping` (N m s/rad, not negative) times the difference of `target` (rad/s) and
+    /// the
+    /// speed.
+    /// The speed is that at the END of the step.
     fn set_motor(&mut self, drive: usize, target: f64, damping: f64);
 
     /// Sets the loads on a link. They stay until they are set again.
@@ -146,7 +151,7 @@ pub trait World {
     /// Frames of all links after the last step or placement, in the mechanism's order, the ground's first.
     fn frames(&self) -> &[LinkFrame];
 
-    /// Angle of a link's frame (rad), turns counted.
+    /// Angle of a link's frame (rad), including full turns.
     fn angle(&self, link: LinkId) -> f64 {
         self.frames()[link].angle()
     }
@@ -168,7 +173,7 @@ pub trait World {
 
     /// Reaction in a joint that the tree cuts, from the impulses of the last step.
     /// It is the force of the first link on the second (N) and the moment about the point on the second (N m).
-    /// `None` for joints of the tree, which report none.
+    /// `None` for joints of the tree, which report no reaction.
     /// The world must have been built for reading reactions.
     fn reaction(&self, joint: JointId) -> Option<(Vec2, f64)>;
 
@@ -196,7 +201,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// From any angle, by steps of any size below half a turn in both senses.
+        /// From any angle, in steps of any size below half a turn, in both senses.
         #[test]
         fn turns_are_counted(start in -20.0f64..20.0, steps in prop::collection::vec(-3.1f64..3.1, 1..40)) {
             let mut frame = LinkFrame { angle: LinkAngle::Turns(0.0), ..LinkFrame::GROUND };
@@ -214,7 +219,7 @@ mod tests {
         }
     }
 
-    /// Onto the axis from either side, with a zero of either sign, and off it again.
+    /// The direction moves onto the axis from either side, with a zero of either sign, and off it again.
     #[test]
     fn turns_are_counted_on_the_axis() {
         let back = |y: f64| Vec2::new(-1.0, y);

@@ -1,4 +1,5 @@
-//! Where a recording goes: in place of an older one of the same run, else beside it.
+//! File of a recording: it replaces an older recording of the same run, else it gets another name in the same
+//! directory.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -13,12 +14,12 @@ use mcap::records::op;
 /// Beginning of the library's name in the header of a recording.
 pub(super) const LIBRARY: &str = "linkproof ";
 
-/// Most recordings of one name in a directory.
+/// Largest number of recordings of one name in a directory.
 const MOST: usize = 1000;
 
-/// Beginnings of the keys that tell what was asked for beyond the scenario's text.
+/// Prefixes of the metadata keys of requests beyond the scenario's text.
 const ASKED: [&str; 7] = ["modes", "parameters", "start_crank_deg", "grid_", "only", "reference", "record_hz"];
-/// Beginning of the keys of the engine's settings, which a proof may have found.
+/// Prefix of the metadata keys of the engine's settings, which a proof may have found.
 const ENGINE: &str = "engine";
 
 /// Where a recording goes.
@@ -26,12 +27,12 @@ const ENGINE: &str = "engine";
 pub struct RecordingPlace {
     /// Its file.
     pub path: PathBuf,
-    /// How the recording differs that keeps the usual name; `None` if it has that name itself.
+    /// Difference from the recording that keeps the usual name; `None` if this recording has the usual name.
     pub other: Option<String>,
 }
 
-/// Where the recording of a run goes: `NAME.mcap` in the directory, or `NAME-2.mcap`, ... if that is one of another
-/// run. `text` is the scenario's, and `metadata` as in [`Recording`](super::Recording).
+/// File of a run's recording: `NAME.mcap` in the directory, or `NAME-2.mcap`, ... if the name belongs to another run.
+/// `text` is the scenario's, and `metadata` as in [`Recording`](super::Recording).
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if there are a thousand recordings of other runs.
@@ -51,7 +52,8 @@ pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<Strin
     Err(Error::new(ErrorKind::Io, message).help(sentences::REMOVE_THOSE_THAT_ARE_NOT_NEEDED))
 }
 
-/// How the recording at `path` differs from that of a run; `None` if it does not, or if there is none.
+/// Difference between the recording at `path` and that of a run.
+/// `None` if they do not differ or the file does not exist.
 fn difference(path: &Path, text: &str, metadata: &BTreeMap<String, String>) -> Option<String> {
     match fs::symlink_metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return None,
@@ -84,7 +86,7 @@ pub(super) fn is_ours(bytes: &[u8]) -> bool {
 /// Text of the scenario, and metadata.
 type Described = (Vec<u8>, BTreeMap<String, String>);
 
-/// What describes a recording; `None` if nothing does.
+/// Scenario text and metadata of a recording; `None` if either is missing.
 pub(super) fn described(bytes: &[u8]) -> Option<Described> {
     let (mut text, mut metadata) = (None, None);
     for (code, content) in raw::records(bytes) {
@@ -93,7 +95,7 @@ pub(super) fn described(bytes: &[u8]) -> Option<Described> {
             op::METADATA => {
                 metadata = metadata.or_else(|| raw::metadata(content).filter(|own| own.name == "linkproof"))
             }
-            // Both stand at the beginning.
+            // Both are at the beginning of the file.
             op::CHUNK | op::DATA_END => break,
             _ => {}
         }

@@ -1,10 +1,10 @@
-//! Where a moving scene is, over all of its frames.
+//! Extent of a moving scene over all of its frames.
 
 use crate::viewers::{FrameTransform, FrameTransforms, Pose, SceneEntity, SceneUpdate, Vector3};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::LinkPose;
 
-/// Corners of all that a scene draws, over all of its frames (m).
+/// Corners of everything that a scene draws, over all of its frames (m).
 pub fn corners<'a>(links: &SceneUpdate, frames: impl Iterator<Item = &'a FrameTransforms>) -> [Vec2; 2] {
     let mut corners = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
     let mut take = |at: Vec2| {
@@ -24,7 +24,7 @@ pub fn corners<'a>(links: &SceneUpdate, frames: impl Iterator<Item = &'a FrameTr
     corners
 }
 
-/// Places of what an entity draws, in its frame.
+/// Positions of the parts of an entity, in its frame.
 fn places(entity: &SceneEntity) -> Vec<Vec2> {
     let flat = |point: &Vector3| Vec2::new(point.x, point.y);
     let lines = entity.lines.iter().flat_map(|line| &line.points).map(flat);
@@ -32,7 +32,7 @@ fn places(entity: &SceneEntity) -> Vec<Vec2> {
     lines.chain(areas).chain(entity.cylinders.iter().map(|pin| placed(pin.pose).origin)).collect()
 }
 
-/// Place and angle of a pose in the plane.
+/// Position and angle of a pose in the plane.
 pub fn placed(pose: Option<Pose>) -> LinkPose {
     let Pose { position, orientation } = pose.unwrap_or_default();
     let (at, turn) = (position.unwrap_or_default(), orientation.unwrap_or_default());
@@ -40,7 +40,7 @@ pub fn placed(pose: Option<Pose>) -> LinkPose {
 }
 
 impl FrameTransform {
-    /// Place and angle of the frame in the plane.
+    /// Position and angle of the frame in the plane.
     pub fn pose(&self) -> LinkPose {
         placed(Some(Pose { position: self.translation, orientation: self.rotation }))
     }

@@ -1,4 +1,4 @@
-//! A recording read back for viewers that know none of its messages: as a moving picture, or its numbers alone.
+//! A recording read back for viewers that do not know its messages: as a moving picture, or as numbers alone.
 
 use super::extent::{corners, placed};
 use super::recording::RecordedSide;
@@ -17,8 +17,8 @@ use prost::Message as _;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Longest message of a picture (bytes), and most parts of all of them, that are looked into: far more than a viewer can
-/// show. Parts take up to a hundred times their bytes in memory.
+/// Largest message of a picture that is read (bytes), and largest number of parts in all messages.
+/// Both are far more than a viewer can show. Parts take up to a hundred times their bytes in memory.
 const LONGEST: usize = 1 << 22;
 const PARTS: usize = 2_000_000;
 
@@ -27,22 +27,22 @@ const PARTS: usize = 2_000_000;
 pub struct Film {
     /// What to show first.
     pub view: View,
-    /// The drawing of every link, in its frame.
+    /// The drawing of every link, in the link's frame.
     pub parts: Vec<DrawnLink>,
     /// Times of the poses.
     pub times: Vec<f64>,
-    /// For every frame its place (m) and angle (rad) at these times.
+    /// For every frame its position (m) and angle (rad) at these times.
     pub poses: BTreeMap<String, Vec<[f64; 3]>>,
-    /// For every arrow its time, its foot (m) and what leads to its tip (m).
+    /// For every arrow its time, its foot (m) and the vector from foot to tip (m).
     pub arrows: BTreeMap<String, Vec<[f64; 5]>>,
     /// For every line of every plot its times and values.
     pub values: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
-/// The drawing of a link, in the frame of this name.
+/// The drawing of a link, in the named frame.
 #[derive(Clone, Debug, Default)]
 pub struct DrawnLink {
-    /// Its frame: of a link, or "world".
+    /// Name of its frame: that of a link, or "world".
     pub frame: String,
     /// Lines: corners (m), thickness (m), colour.
     pub lines: Vec<(Vec<[f64; 3]>, f64, [u8; 4])>,
@@ -50,18 +50,18 @@ pub struct DrawnLink {
     pub discs: Vec<([f64; 3], f64, [u8; 4])>,
     /// Triangles, three corners each (m), and their colour.
     pub areas: Vec<(Vec<[f64; 3]>, [u8; 4])>,
-    /// Letters and their places (m).
+    /// Texts and their positions (m).
     pub texts: Vec<([f64; 3], String)>,
 }
 
-/// What is read of a file.
+/// Content read from a file.
 #[derive(Default)]
 struct Found {
     topics: BTreeSet<String>,
     links: Option<SceneUpdate>,
     frames: Vec<(u64, FrameTransforms)>,
     arrows: Vec<(u64, SceneUpdate)>,
-    /// Number of all frames and arrows.
+    /// Total number of frames and arrows.
     parts: usize,
 }
 
@@ -121,7 +121,7 @@ impl Found {
         if !self.topics.contains(topic) {
             self.topics.insert(topic.into());
         }
-        // What cannot be read is not shown.
+        // Messages that cannot be read are not shown.
         match topic {
             _ if message.data.len() > LONGEST || self.parts > PARTS => {}
             "/mechanism/links" => self.links = SceneUpdate::decode(&*message.data).ok(),
@@ -200,7 +200,7 @@ pub struct Numbers {
     pub plots: Vec<Plot>,
 }
 
-/// Reads which numbers a recording has.
+/// Lists the numbers that a recording contains.
 ///
 /// # Errors
 /// Those of [`load`](super::load).
@@ -219,7 +219,7 @@ pub fn numbers(path: &Path) -> Result<Numbers> {
     Ok(Numbers { plots: plotted(&sides, &topics), topics: topics.into_iter().collect() })
 }
 
-/// Plots of the sides, and of those errors that have a topic.
+/// Plots of the sides, and of the errors that have a topic.
 fn plotted(sides: &[(String, Trajectory)], topics: &BTreeSet<String>) -> Vec<Plot> {
     let named: Vec<RecordedSide> = sides.iter().map(|(name, trajectory)| RecordedSide { name, trajectory }).collect();
     let errors: Vec<Channel> = (named.first().iter().flat_map(|side| side.trajectory.channels()))

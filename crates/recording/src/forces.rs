@@ -37,7 +37,7 @@ impl<'a> Forces<'a> {
         (!sides.is_empty()).then_some(Forces { scene, sides, scale })
     }
 
-    /// Every arrow at a time, always with the same identifiers.
+    /// Every arrow at one time; the identifiers are always the same.
     pub fn arrows(&self, time: f64, nanoseconds: u64) -> SceneUpdate {
         let mechanism = self.scene.mechanism;
         let mut entities = Vec::new();
@@ -61,7 +61,7 @@ impl<'a> Forces<'a> {
         let size = self.scene.size;
         let length = (self.scale * force.norm()).larger(SHORTEST * size);
         let head = (0.3 * length).smaller(0.06 * size);
-        // Arrows are round: a thinner arrow must lie higher to be visible on a broader one.
+        // Arrows are round: a thinner arrow must lie higher to be visible on a thicker one.
         let (broad, z) = (side.paint.broad.sqrt(), (8.0 + 4.0 * side.paint.layer) * self.scene.layer());
         let mut color = colour(side.paint.rgba);
         // Lighter than the links below the arrows.

@@ -3,26 +3,30 @@
 //! | topic | schema | when |
 //! |---|---|---|
 //! | `/<side>/grid` | `linkproof.Grid` | every sample |
-//! | `/<side>/link/<name>`, `/<side>/point/<name>`, `/<side>/joint/<name>`, `/<side>/frame`, `/<side>/drive` | `linkproof.Link`, ...; `linkproof.Slider` of a prismatic joint | every sample |
+//! | `/<side>/link/<name>`, `/<side>/point/<name>`, `/<side>/joint/<name>`, `/<side>/frame`, `/<side>/drive` |
+//! `linkproof.Link`, ...; `linkproof.Slider` of a prismatic joint | every sample |
 //! | `/error/link/<name>`, ... | `linkproof.LinkError`, ...: um, urad, mN | every sample |
 //! | `/mechanism/links` | `foxglove.SceneUpdate` | once |
 //! | `/robot_description` | `std_msgs/msg/String`: the links as URDF, for viewers without scenes | once |
 //! | `/tf` | `foxglove.FrameTransforms` | every frame |
-//! | `/mechanism/forces` | `foxglove.SceneUpdate` | every frame, if asked for |
+//! | `/mechanism/forces` | `foxglove.SceneUpdate` | every frame, if requested |
 //! | `/log` | `foxglove.Log` | verdicts and warnings |
 //!
-//! A message declares the fields that are computed, and no others. One that lacks some of its subject is named after the
-//! numbers of its fields, such as `linkproof.Point_1_2`.
+//! A message declares only the fields that are computed.
+//! If fields of its subject are missing, its name contains the numbers of its fields, such as `linkproof.Point_1_2`.
 //!
-//! Log times are nanoseconds from the first instant of the recording, as many times the simulated ones as
-//! [`Show::slow`] says; the grid has the simulated times themselves. Nothing depends on a clock, so equal
-//! runs give equal files. The sequence number of a message is that of its sample in ascending order of time; it
-//! connects the topics of one side. The scenario is attached as `scenario.toml`. Versions, settings and the scales of
-//! time and of force arrows are in the metadata record `linkproof`.
+//! Log times are nanoseconds from the first instant of the recording.
+//! They are the simulated times multiplied by [`Show::slow`]; the grid has the simulated times themselves.
+//! Nothing depends on a clock, so equal runs give equal files.
+//! The sequence number of a message is that of its sample in ascending order of time.
+//! It connects the topics of one side.
+//! The scenario is attached as `scenario.toml`.
+//! Versions, settings and the scales of time and of force arrows are in the metadata record `linkproof`.
 //!
-//! A recording of another program can be read too. It needs `/<side>/grid` and the topics above in protobuf, with
-//! fields named like the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS). The field numbers are looked up in
-//! the file.
+//! A recording of another program can be read too.
+//! It needs `/<side>/grid` and the topics above in protobuf.
+//! Its fields must be named like the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS).
+//! The field numbers are looked up in the file.
 
 mod beside;
 mod extent;

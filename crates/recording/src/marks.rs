@@ -49,7 +49,7 @@ impl Brush {
             return;
         }
         let (outline, closed) = (mark.shape.points(), mark.shape.is_closed());
-        // An area of a later side would hide the first one, or be hidden.
+        // An area of a later side would hide the first side, or be hidden by it.
         if closed && look.fill != Fill::None && self.broad >= 1.0 {
             let opacity = if look.fill == Fill::Ink { self.rgba[3] } else { TINT };
             let [red, green, blue, _] = self.rgba;
@@ -70,21 +70,21 @@ impl Brush {
     }
 }
 
-/// Triangles from the middle of a polygon to its sides: those of the sketch are seen whole from there.
+/// Triangles from the middle of a polygon to its sides: every polygon of the sketch is star-shaped about its middle.
 fn fan(corners: &[Vec2]) -> Vec<Vec2> {
     let middle = corners.iter().sum::<Vec2>() / corners.len().max(1) as f64;
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).flat_map(|(&from, &to)| [middle, from, to]).collect()
 }
 
-/// A name at a place, at the height `z`, always upright and of one size on the screen.
+/// A name at a position, at the height `z`, always upright and of the same size on the screen.
 pub fn letter(text: &str, at: Vec2, z: f64) -> TextPrimitive {
     TextPrimitive {
         pose: pose(at, z, 0.0),
         billboard: true,
         font_size: 18.0,
         scale_invariant: true,
-        // Viewers lay a dark ground under light letters.
+        // Viewers draw light letters on a dark background.
         color: Some(Color { r: 1.0, g: 1.0, b: 1.0, a: 1.0 }),
         text: text.into(),
     }

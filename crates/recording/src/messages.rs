@@ -1,8 +1,9 @@
-//! The messages of an MCAP file that nobody vouches for.
+//! The messages of an MCAP file from an untrusted source.
 //!
-//! The readers of the library trust the lengths that a file says its records have: damaged ones make them ask for more
-//! memory than there is, or index beyond a record. Here a record is at most as long as the file, or [`SMALL`], and no
-//! other sorts of records are looked into than messages need.
+//! The readers of the MCAP library trust the record lengths in a file.
+//! With damaged lengths they request more memory than exists, or index beyond a record.
+//! Here a record is at most as long as the file, or as [`SMALL`].
+//! Only the kinds of records that messages need are parsed.
 
 use crate::sentences;
 use std::borrow::Cow;
@@ -16,10 +17,10 @@ use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{McapError, McapResult, Message, parse_record};
 use prost::DecodeError;
 
-/// Length that a record may have in any file: a compressed one may be longer than its file.
+/// Length allowed for a record in any file: a decompressed record may be longer than its file.
 const SMALL: usize = 1 << 20;
 
-/// Calls `visit` with every message, in the order of the file, which messages call `path`.
+/// Calls `visit` with every message, in the order of the file. Error messages call the file `path`.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] for a file that is cut off or damaged, and for a message that `visit` cannot read.
@@ -52,10 +53,10 @@ fn walk(
                 reader.notify_read(next.len());
                 left = rest;
             }
-            // The summary says once more what was said.
+            // The summary section repeats earlier records.
             LinearReadEvent::Record { opcode: op::DATA_END, .. } => is_data = false,
             LinearReadEvent::Record { opcode, data } => {
-                // No file has more records than it says it has bytes for.
+                // The records cannot be longer in total than the expanded size that the file states.
                 seen += 9 + data.len() as u64;
                 if seen > told {
                     return Err(McapError::ChunkTooLarge(seen).into());
@@ -69,7 +70,7 @@ fn walk(
     Ok(())
 }
 
-/// The message that a record is; schemas and channels are kept.
+/// The message in a record, if any; schemas and channels are stored.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 fn message<'a>(opcode: u8, data: &'a [u8], known: &mut ChannelAccumulator<'static>) -> McapResult<Option<Message<'a>>> {
     if !matches!(opcode, op::SCHEMA | op::CHANNEL | op::MESSAGE) {

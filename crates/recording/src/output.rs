@@ -39,7 +39,7 @@ impl RecordingOutput {
         Ok(RecordingOutput { writer, flushed: 0, pending: 0 })
     }
 
-    /// Writes the metadata record and the scenario first, so that a file that is cut off has them too.
+    /// Writes the metadata record and the scenario first, so that a truncated file has them too.
     pub fn describe(&mut self, recording: &Recording, start: f64, force_scale: Option<f64>) -> McapResult<()> {
         let mut metadata = recording.metadata.clone();
         metadata.entry("scenario".into()).or_insert_with(|| recording.name.into());

@@ -1,4 +1,4 @@
-//! From trajectories to messages in the order of time.
+//! From trajectories to messages in order of time.
 
 use super::forces::Forces;
 use super::recording::{Level, LogEntry, Recording};
@@ -23,15 +23,15 @@ enum Event<'a> {
     Log(&'a LogEntry),
 }
 
-/// What is drawn of a recording.
+/// The drawing of a recording.
 pub struct DrawnRecording<'a> {
     /// The moving mechanism, if there are positions.
     pub scene: &'a Option<ViewerScene<'a>>,
-    /// Arrows of reactions, if they are asked for and known.
+    /// Arrows of reactions, if they are requested and known.
     pub forces: &'a Option<Forces<'a>>,
 }
 
-/// Hands all messages of a recording to a sink, in the order of time.
+/// Hands all messages of a recording to a sink, in order of time.
 pub fn pour(recording: &Recording, drawn: &DrawnRecording, sink: &mut impl Sink) -> McapResult<()> {
     let &DrawnRecording { scene, forces } = drawn;
     let start = start(recording);

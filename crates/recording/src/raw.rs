@@ -1,14 +1,14 @@
-//! The records of an MCAP file as they lie in it, by lengths that are checked: what tells of a file before it is read.
+//! The raw records of an MCAP file, found by checked lengths: they describe a file before it is read.
 
 use mcap::parse_record;
 use mcap::records::{Metadata, Record, op};
 
-/// Decompressed bytes that any file may have.
+/// Number of decompressed bytes that any file may have.
 const ANY: u64 = 128 << 20;
-/// Decompressed bytes that a file may have for each of its own: recordings have three.
+/// Allowed ratio of decompressed bytes to file bytes; recordings have a ratio of three.
 const EACH: u64 = 16;
 
-/// Codes and contents of the outermost records; what is cut off or damaged ends them.
+/// Codes and contents of the outermost records. Reading ends at the first truncated or damaged record.
 pub(super) fn records(bytes: &[u8]) -> impl Iterator<Item = (u8, &[u8])> {
     let mut left = bytes.strip_prefix(mcap::MAGIC).unwrap_or_default();
     std::iter::from_fn(move || {
@@ -20,17 +20,18 @@ pub(super) fn records(bytes: &[u8]) -> impl Iterator<Item = (u8, &[u8])> {
     })
 }
 
-/// Bytes that a file has with its chunks decompressed, by what they say, and the most that is read of such a file.
+/// Size of a file with its chunks decompressed, as the chunks state it, and the largest size that is read from such a
+/// file.
 pub(super) fn expanded(bytes: &[u8]) -> [u64; 2] {
     let chunks = records(bytes).filter(|(code, _)| *code == op::CHUNK);
-    // The times of the first and the last message stand before the length.
+    // The times of the first and the last message precede the length.
     let told = |content: &[u8]| content.get(16..24)?.first_chunk().map(|length| u64::from_le_bytes(*length));
     let length = bytes.len() as u64;
     let chunks = chunks.filter_map(|(_, content)| told(content)).fold(length, u64::saturating_add);
     [chunks, ANY.max(length.saturating_mul(EACH))]
 }
 
-/// Whether the header names a library whose name begins so.
+/// Whether the header names a library whose name begins with `library`.
 pub(super) fn is_by(bytes: &[u8], library: &str) -> bool {
     let header = || -> Option<bool> {
         let (_, mut content) = records(bytes).next().filter(|(code, _)| *code == op::HEADER)?;
@@ -40,16 +41,16 @@ pub(super) fn is_by(bytes: &[u8], library: &str) -> bool {
     header().unwrap_or(false)
 }
 
-/// The content of the attachment of a name.
+/// Content of the attachment called `name`.
 pub(super) fn attachment<'a>(content: &'a [u8], name: &str) -> Option<&'a [u8]> {
-    // Before the name stand two times.
+    // Two times precede the name.
     let mut left = content.get(16..)?;
     let own = part::<4>(&mut left)?;
     let _kind = part::<4>(&mut left)?;
     part::<8>(&mut left).filter(|_| own == name.as_bytes())
 }
 
-/// The metadata that a record holds.
+/// The metadata in a record.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 pub(super) fn metadata(content: &[u8]) -> Option<Metadata> {
     match parse_record(op::METADATA, content).ok()? {
@@ -58,7 +59,7 @@ pub(super) fn metadata(content: &[u8]) -> Option<Metadata> {
     }
 }
 
-/// Bytes whose number stands before them in `N` bytes.
+/// Bytes preceded by their number, which is stored in `N` bytes.
 fn part<'a, const N: usize>(left: &mut &'a [u8]) -> Option<&'a [u8]> {
     let (length, rest) = left.split_first_chunk::<N>()?;
     let length = length.iter().rev().fold(0, |number: u64, &byte| number << 8 | u64::from(byte));

@@ -17,7 +17,7 @@ use std::path::Path;
 /// Values with the sequence numbers of their samples.
 type Numbered = Vec<(u32, f64)>;
 
-/// How the messages of one MCAP channel of a side are used: what the fields are, by their numbers.
+/// Use of the messages of one MCAP channel of a side: the meaning of the fields, by their numbers.
 struct Topic {
     side: String,
     is_grid: bool,
@@ -31,7 +31,7 @@ enum Field {
     Value(Channel),
 }
 
-/// The data found of one side. Keys keep sides and columns in the order of recording: MCAP channel, then field.
+/// Data found of one side. The keys keep sides and columns in the order of recording: MCAP channel, then field.
 #[derive(Default)]
 struct Found {
     grid: BTreeMap<String, Numbered>,
@@ -65,7 +65,7 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
     })
 }
 
-/// Refuses a file whose chunks hold far more than any recording of its size, before they are decompressed.
+/// Refuses a file whose chunks expand far more than those of any recording of its size, before they are decompressed.
 fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
     let [told, most] = raw::expanded(bytes);
     if told <= most {
@@ -76,7 +76,7 @@ fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
     Err(Error::new(ErrorKind::Io, message).help(sentences::RECORD_IT_AGAIN_RECORDINGS_OF_THIS_PROGRAM))
 }
 
-/// The same from the bytes of a recording; messages call it `path`.
+/// The same from the bytes of a recording; error messages call it `path`.
 ///
 /// # Errors
 /// Those of [`load`], except that the file cannot be read.
@@ -114,8 +114,8 @@ fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Op
     if channel.message_encoding != "protobuf" || schema.encoding != "protobuf" {
         return Ok(None);
     }
-    // `link/crank` and the field `x_m` are the channel `link.crank.x_m`. Errors have small units: no field of theirs is
-    // a channel.
+    // `link/crank` and the field `x_m` are the channel `link.crank.x_m`.
+    // Errors have small units, so none of their fields is a channel.
     let (is_grid, subject) = (subject == "grid", subject.replacen('/', ".", 1));
     let field = |name: &String| match is_grid {
         true => Some(Field::Grid(name.clone())),
@@ -167,7 +167,7 @@ fn assemble(name: &str, mut found: Found, path: &Path) -> Result<Trajectory> {
     if times.is_empty() || !same(&cranks) {
         return Err(incomplete(&"its grid"));
     }
-    // Without row numbers (other programs do not write them) the order of the samples applies.
+    // Other programs do not write row numbers; without them the order of the samples applies.
     let mut order: Vec<usize> = (0..times.len()).collect();
     if same(&rows) {
         order.sort_by(|&a, &b| rows[a].1.total_cmp(&rows[b].1));

@@ -22,16 +22,16 @@ pub struct Recording<'a> {
     pub errors: Option<&'a Trajectory>,
     /// Verdicts and warnings.
     pub log: &'a [LogEntry],
-    /// How it is shown, and how much of it is kept.
+    /// How the recording is shown, and which samples it keeps.
     pub show: Show,
 }
 
-/// How a recording is shown, and how much of it is kept. No value depends on it.
+/// How a recording is shown, and which samples it keeps. Values do not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Show {
-    /// How many times slower than the simulation viewers play it: seconds of log time per simulated second.
+    /// Playback is slower than the simulation by this factor: seconds of log time per simulated second.
     pub slow: f64,
-    /// Most samples per simulated second, beside the first and the last; all of them without.
+    /// Largest number of samples per simulated second, besides the first and the last; `None` keeps all.
     pub hz: Option<f64>,
     /// Whether reactions are drawn as arrows.
     pub forces: bool,
@@ -47,7 +47,7 @@ impl Default for Show {
 /// One trajectory of a recording.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedSide<'a> {
-    /// First part of its topics and frames: "reference", "engine". It must be unique, not empty, and without `/`.
+    /// First part of its topics and frames: "reference", "engine". It must be unique, non-empty, and without `/`.
     pub name: &'a str,
     /// Its values.
     pub trajectory: &'a Trajectory,

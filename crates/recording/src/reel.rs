@@ -1,4 +1,4 @@
-//! A recording in memory, to be played: its topics, and its messages in the order of time.
+//! A recording in memory, for playback: its topics, and its messages in order of time.
 
 use super::pour::{lasts, pour};
 use super::recording::Recording;
@@ -12,14 +12,14 @@ use mcap::{McapError, McapResult};
 /// A recording in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reel {
-    /// Names of the topics, and what their messages are.
+    /// Names of the topics, and the kinds of their messages.
     pub topics: Vec<(String, MessageKind)>,
-    /// How many times slower than the simulation its log times run.
+    /// Factor by which log times run slower than the simulation.
     pub slow: f64,
-    /// Log time of one turn of the crank, or of the whole recording if that is less (s).
+    /// Log time of one revolution of the crank, or of the whole recording if that is shorter (s).
     pub turn: f64,
     entries: Vec<Entry>,
-    /// Numbers of the messages of every topic, in ascending order.
+    /// Indices of the messages of every topic, in ascending order.
     own: Vec<Vec<usize>>,
     data: Vec<u8>,
 }
@@ -43,7 +43,7 @@ struct Entry {
     end: usize,
 }
 
-/// Everything that the recording's file would hold for viewers, in memory, to be played to them.
+/// Everything that the recording's file would contain for viewers, in memory, for playback.
 ///
 /// # Errors
 /// Those of [`write`](super::write()), except that no file is written.
@@ -66,7 +66,7 @@ impl Reel {
         self.entries.len()
     }
 
-    /// Whether there are no messages.
+    /// Whether the reel has no messages.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
@@ -78,16 +78,16 @@ impl Reel {
         self.entries.last().map_or(0, |last| last.time)
     }
 
-    /// Number of messages up to a log time (ns), those at that time included.
+    /// Number of messages up to and including a log time (ns).
     #[must_use]
     pub fn until(&self, time: u64) -> usize {
         self.entries.partition_point(|entry| entry.time <= time)
     }
 
-    /// The message of this number.
+    /// The message with this index.
     ///
     /// # Panics
-    /// If there are not so many.
+    /// If the index is too large.
     #[must_use]
     pub fn message(&self, index: usize) -> ReelMessage<'_> {
         let Entry { time, topic, end } = self.entries[index];

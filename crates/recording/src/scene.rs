@@ -10,9 +10,9 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, LinkId, LinkPose, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Largest number of frames in a recording, unless it is so long that there would be fewer than [`FRAMES_PER_SECOND`].
+/// Largest number of frames in a recording. A long recording has more, to keep [`FRAMES_PER_SECOND`].
 const FRAMES: f64 = 400.0;
-/// Least number of frames per second of log time, if there are as many samples.
+/// Smallest number of frames per second of log time, if there are enough samples.
 const FRAMES_PER_SECOND: f64 = 50.0;
 
 /// Everything that can be drawn of a recording.
@@ -21,14 +21,14 @@ pub struct ViewerScene<'a> {
     pub mechanism: &'a Mechanism,
     /// The sides that have positions.
     pub sides: Vec<PlacedSide<'a>>,
-    /// Length to which all drawing is proportional (m).
+    /// Length to which all dimensions of the drawing are proportional (m).
     pub size: f64,
     /// What it looks like.
     sketch: Sketch,
 }
 
 impl<'a> ViewerScene<'a> {
-    /// The scene of the sides that have samples and all positions; `None` if there is no such side.
+    /// The scene of the sides that have samples and all positions; `None` without such a side.
     pub fn new(mechanism: &'a Mechanism, sides: &[RecordedSide<'a>]) -> Option<Self> {
         let placed = |(number, side): (usize, &RecordedSide<'a>)| {
             let column = |link: &Link, suffix| column(side.trajectory, &format!("link.{}.{suffix}", link.name));
@@ -58,14 +58,14 @@ impl<'a> ViewerScene<'a> {
         (!sides.is_empty()).then_some(ViewerScene { mechanism, sides, size, sketch })
     }
 
-    /// Height between the sides in the drawing (m). A viewer's depth test can separate them, but the eye must not: a
-    /// visible gap would look like a disagreement.
+    /// Height between the sides in the drawing (m).
+    /// It is enough for a viewer's depth test but invisible: a visible gap would look like a disagreement.
     pub fn layer(&self) -> f64 {
         0.002 * self.size
     }
 
-    /// Times at which the scene is drawn (s), ascending: a selection from the times of the first side, for viewers that
-    /// play it `slow` times slower.
+    /// Times at which the scene is drawn (s), ascending.
+    /// They are selected from the times of the first side, for viewers that play it `slow` times slower.
     pub fn times(&self, slow: f64) -> Vec<f64> {
         let side = &self.sides[0];
         let time = |&row: &usize| side.trajectory.times()[row];
@@ -100,7 +100,7 @@ impl<'a> ViewerScene<'a> {
         FrameTransforms { transforms }
     }
 
-    /// The drawing of all links, each in its own frame, and of the ground.
+    /// The drawing of all links, each in its frame, and of the ground.
     pub fn links(&self) -> SceneUpdate {
         let brush = Brush { unit: self.sketch.unit, rgba: GREY, broad: 1.0, z: 0.0, step: 0.1 * self.layer() };
         let mut entities = vec![self.lettered(self.entity("world", "ground", &brush, GROUND), GROUND)];
@@ -133,7 +133,7 @@ impl<'a> ViewerScene<'a> {
 
     /// The same with the names of the link's points.
     fn lettered(&self, mut entity: SceneEntity, link: LinkId) -> SceneEntity {
-        // The names of ground points stand below them, where no link passes.
+        // The names of ground points are written below them, where no link passes.
         let aside = if link == GROUND { Vec2::new(0.03, -0.05) * self.size } else { Vec2::zeros() };
         let own = |names, at| names == Lettering::Point && at == link;
         let labels = self.sketch.labels.iter().filter(|label| own(label.names, label.at.link));
@@ -157,7 +157,7 @@ pub struct PlacedSide<'a> {
 }
 
 impl PlacedSide<'_> {
-    /// Row of the last sample that is not after `time`, or of the first sample.
+    /// Row of the last sample at or before `time`, or else of the first sample.
     pub fn row_at(&self, time: f64) -> usize {
         let times = self.trajectory.times();
         let after = self.rows.partition_point(|&row| times[row] <= time);

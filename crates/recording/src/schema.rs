@@ -1,7 +1,7 @@
-//! Our own messages: flat protobuf, one number per field, made from the table of channels.
+//! Linkproof's messages: flat protobuf, one number per field, generated from the table of channels.
 //!
-//! Every field has presence (proto3 `optional`). A channel that was not computed is not declared either: some viewers show
-//! a field that is absent as zero.
+//! Every field has presence (proto3 `optional`).
+//! A channel that was not computed is not declared: some viewers show an absent field as zero.
 
 use super::sink::MessageKind;
 use linkage::input::Input;
@@ -20,7 +20,7 @@ pub const fn grid_fields(input: Input) -> [&'static str; 3] {
     ["t_s", input.key(), "row"]
 }
 
-/// What the messages of a subject tell.
+/// Content of the messages of a subject.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MessageContent {
     /// Values in SI units.
@@ -83,16 +83,16 @@ pub fn numbers(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
     Ok(fields)
 }
 
-/// Longest description of a message that is looked into (bytes), hundreds of times what ours have. Parts of one take up
-/// to a hundred times their bytes in memory.
+/// Longest message description that is parsed (bytes), hundreds of times the length of linkproof's.
+/// Its parts take up to a hundred times their bytes in memory.
 const LONGEST: usize = 1 << 20;
 
-/// Names of the number fields of schemas, each looked into once.
+/// Names of the number fields of schemas. Each schema is parsed once.
 #[derive(Default)]
 pub struct Names(HashMap<u16, BTreeMap<u32, String>>);
 
 impl Names {
-    /// Those of a schema, by their numbers.
+    /// Names of the number fields of a schema, by their numbers.
     pub fn of(&mut self, schema: &mcap::Schema) -> Result<&BTreeMap<u32, String>, prost::DecodeError> {
         match self.0.entry(schema.id) {
             Entry::Occupied(known) => Ok(known.into_mut()),
@@ -115,14 +115,15 @@ pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, S
     Ok(numbers.map(|field| (field.number() as u32, field.name().to_string())).collect())
 }
 
-/// Channels in the message of a subject. The message of a sliding joint has those of any joint, and more.
+/// Channels in the message of a subject. The message of a sliding joint has those of any joint, and additional ones.
 fn kinds(subject: ChannelSubject) -> impl Iterator<Item = &'static ChannelKind> {
     let joint = subject == ChannelSubject::Slider;
     CHANNELS.iter().filter(move |kind| kind.subject == subject || joint && kind.subject == ChannelSubject::Joint)
 }
 
-/// The message of a subject that has these channels, named after it. One that lacks channels has the numbers of its
-/// fields in its name too: two messages of one name with different fields confuse viewers.
+/// The message of a subject that has these channels, named after it.
+/// If channels are missing, the name also contains the numbers of its fields.
+/// Viewers confuse messages that have the same name but different fields.
 pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&ChannelKind]) -> MessageKind {
     let word = if subject == ChannelSubject::Slider { "slider" } else { subject.word() };
     let (suffix, number) = match told {
@@ -184,7 +185,7 @@ mod tests {
         }
     }
 
-    /// Viewers would show what was not computed as zero, and mix up messages of one name.
+    /// Otherwise viewers would show missing values as zero, and confuse messages of the same name.
     #[test]
     fn only_what_is_there_is_declared() {
         let some: Vec<&ChannelKind> = kinds(ChannelSubject::Slider).filter(|kind| kind.unit == Unit::Metre).collect();

@@ -5,8 +5,10 @@ use prost_types::Timestamp;
 
 use linkage::math::Vec2;
 
-/// How one side is drawn. Sides lie over each other. The first is broad and pale, each later one is thinner and in
-/// front of it. So two sides that agree show both colours, and two that differ separate.
+/// Paint of one side.
+/// Sides lie on top of each other.
+/// The first is broad and pale; each later one is thinner and in front of it.
+/// Two sides that agree therefore show both colours, and two that differ separate.
 #[derive(Clone, Copy)]
 pub struct SidePaint {
     /// Red, green, blue, opacity, each 0 to 255.
@@ -27,13 +29,13 @@ impl SidePaint {
     }
 }
 
-/// A colour as messages need it.
+/// A colour in the form that messages need.
 pub fn colour(rgba: [u8; 4]) -> Color {
     let [r, g, b, a] = rgba.map(|part| f64::from(part) / 255.0);
     Color { r, g, b, a }
 }
 
-/// The same back, each part 0 to 255; that of the ground where none is told.
+/// Red, green, blue and opacity of a message's colour, each 0 to 255; the ground's colour for `None`.
 pub fn rgba(colour: Option<Color>) -> [u8; 4] {
     colour.map_or(GREY, |Color { r, g, b, a }| [r, g, b, a].map(|part| (part * 255.0).round() as u8))
 }
@@ -47,7 +49,7 @@ pub fn stamp(nanoseconds: u64) -> Option<Timestamp> {
     Some(Timestamp { seconds: seconds.into(), nanos: (nanoseconds % 1_000_000_000) as i32 })
 }
 
-/// Rounds to single precision, which is enough for pictures. Numbers with an empty tail compress to half.
+/// Rounds to single precision, which is enough for pictures. Numbers with a zero tail compress to half the size.
 pub fn short(value: f64) -> f64 {
     f64::from(value as f32)
 }

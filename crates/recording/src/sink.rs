@@ -1,4 +1,4 @@
-//! Where messages go: a file, or whoever looks on.
+//! Destination of messages: a file, or a viewer.
 
 use crate::viewers::ViewerMessage;
 use mcap::McapResult;
@@ -12,12 +12,12 @@ pub trait Sink {
     fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()>;
 }
 
-/// What the messages of a topic are.
+/// Kind of the messages of a topic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MessageKind {
     /// Name of their schema.
     pub schema: String,
-    /// How the schema is written.
+    /// Encoding of the schema.
     pub encoding: String,
     /// The schema.
     pub data: Vec<u8>,
@@ -41,7 +41,7 @@ impl MessageKind {
         MessageKind::protobuf(M::SCHEMA, M::DESCRIPTOR)
     }
 
-    /// A text, as robots' programs write it.
+    /// A text in the form of robot programs.
     pub fn text() -> MessageKind {
         let [schema, encoding, data, message] = ["std_msgs/msg/String", "ros2msg", "string data", "cdr"];
         MessageKind { schema: schema.into(), encoding: encoding.into(), data: data.into(), message: message.into() }

@@ -86,8 +86,8 @@ pub fn topic_name(side: &str, subject: ChannelSubject, of: &str) -> String {
 
 type Columns<'a> = Vec<(&'static ChannelKind, &'a [f64])>;
 
-/// The columns of each link, point, joint (all columns of a sliding joint together), of frame and drive, in the order
-/// of their first column.
+/// The columns of each link, point and joint, and of frame and drive, in the order of their first column.
+/// All columns of a sliding joint are together.
 fn by_subject(trajectory: &Trajectory) -> Vec<(ChannelSubject, &str, Columns<'_>)> {
     let mut subjects: Vec<(ChannelSubject, &str, Columns)> = Vec::new();
     for (channel, column) in trajectory.iter() {

@@ -1,4 +1,5 @@
-//! The links as a robot's description (URDF), for viewers that draw no scenes: boxes and cylinders that `/tf` moves.
+//! The links as a robot's description (URDF), for viewers that draw no scenes.
+//! It contains boxes and cylinders that `/tf` moves.
 
 use super::shapes::rgba;
 use crate::viewers::{Color, LinePrimitive, LineType, Pose, SceneEntity, SceneUpdate, Vector3};
@@ -66,7 +67,7 @@ fn at(pose: Option<Pose>) -> String {
     format!("xyz=\"{} {} {}\" rpy=\"0 0 0\"", at.x, at.y, at.z)
 }
 
-/// One part. Materials of one colour share a name, so that no two of a name differ.
+/// One part. Materials of the same colour share a name, so that a name never has two colours.
 fn write_visual(text: &mut String, origin: &str, shape: &str, colour: Option<Color>) {
     let [r, g, b, a] = rgba(colour);
     let rgba = [r, g, b, a].map(|part| (f64::from(part) / 255.0).to_string()).join(" ");

@@ -1,4 +1,4 @@
-//! What a viewer should show first: where the mechanism is, how fast to play it, and which numbers to plot.
+//! Initial display of a viewer: the area of the mechanism, the playback speed, and the numbers to plot.
 
 use super::extent::corners;
 use super::pour::lasts;
@@ -12,23 +12,23 @@ use linkage::math::Vec2;
 use linkage::math::statistics::ends;
 use linkage::trajectory::{Channel, ChannelKind, Trajectory, Unit};
 
-/// Poses at which is looked where the mechanism is.
+/// Number of poses from which the area of the mechanism is determined.
 const POSES: usize = 100;
 
-/// What a viewer should show first.
+/// Initial display of a viewer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
     /// Name of the scenario.
     pub name: String,
-    /// Lower left and upper right corner of all that is drawn, over the whole motion (m).
+    /// Lower left and upper right corner of the drawing, over the whole motion (m).
     pub corners: [Vec2; 2],
     /// Names of the links' frames.
     pub frames: Vec<String>,
     /// Whether reactions are recorded as arrows.
     pub forces: bool,
-    /// How many times slower than the simulation it is played.
+    /// Factor by which playback is slower than the simulation.
     pub slow: f64,
-    /// Log time of one turn of the crank, or of the whole recording if that is less (s).
+    /// Log time of one revolution of the crank, or of the whole recording if that is shorter (s).
     pub turn: f64,
     /// Plots, the most interesting first: the values of all sides, then their errors.
     pub plots: Vec<Plot>,
@@ -52,11 +52,11 @@ pub struct Line {
     pub field: String,
     /// What it is called.
     pub label: String,
-    /// Number of the side, the reference being 0; `None` for errors.
+    /// Index of the side, the reference being 0; `None` for errors.
     pub side: Option<usize>,
 }
 
-/// What a viewer should show first of a recording; `None` if it has no positions.
+/// Initial display of a recording; `None` if it has no positions.
 #[must_use]
 pub fn view(recording: &Recording) -> Option<View> {
     as_shown(recording, |recording, drawn| {
@@ -79,13 +79,13 @@ pub fn view(recording: &Recording) -> Option<View> {
     })
 }
 
-/// Log time of a turn, of a recording that lasts so long.
+/// Log time of one revolution in a recording of duration `lasts`.
 pub(super) fn turn(lasts: f64, trajectory: &Trajectory) -> f64 {
     let turns = (range(trajectory.inputs()) / std::f64::consts::TAU).round();
     if turns >= 1.0 { lasts / turns } else { lasts }
 }
 
-/// Plots of the two channels that tell most, and of their errors where there are some.
+/// Plots of the two most informative channels, and of their errors where these are recorded.
 pub(super) fn plots(sides: &[RecordedSide], errors: &[Channel]) -> Vec<Plot> {
     let mut plots = Vec::new();
     let Some(first) = sides.first() else { return plots };
@@ -110,8 +110,8 @@ pub(super) fn plots(sides: &[RecordedSide], errors: &[Channel]) -> Vec<Plot> {
     plots
 }
 
-/// The two channels that tell most: the moment of a drive, the largest reaction, then accelerations, velocities,
-/// positions. No two are of one subject and unit.
+/// The two most informative channels: the moment of a drive, the largest reaction, then accelerations, velocities,
+/// positions. They differ in subject or unit.
 fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
     let place = |unit: Unit| match unit {
         Unit::NewtonMetre => 0,
@@ -126,7 +126,7 @@ fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
     let mut units: Vec<Unit> = trajectory.channels().iter().map(|channel| channel.kind.unit).collect();
     units.sort_by_key(|&unit| place(unit));
     units.dedup();
-    // A drive's numbers are what people look for first; what shakes the frame is a sum.
+    // People look first for a drive's numbers; the shaking force on the frame is a sum.
     let rank = |kind: &ChannelKind| match (kind.subject.is_drive(), kind.subject.is_whole()) {
         (true, _) => 0,
         (false, false) => 1,
@@ -136,7 +136,7 @@ fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
         let own = || trajectory.iter().filter(|(channel, column)| channel.kind.unit == unit && range(column) > 0.0);
         let least = own().map(|(channel, _)| rank(channel.kind)).min()?;
         let best = own().filter(|(channel, _)| rank(channel.kind) == least);
-        // Of equal ones the first, so that the choice does not depend on rounding alone.
+        // The first of several equal ones, so that the choice does not depend on rounding alone.
         best.reduce(|best, next| if range(next.1) > range(best.1) { next } else { best }).map(|(channel, _)| channel)
     };
     units.into_iter().filter_map(of).take(2).collect()

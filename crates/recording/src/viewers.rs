@@ -1,6 +1,8 @@
-//! Messages that viewers of the Foxglove family draw by themselves: scenes, frames and log lines, with the fields that
-//! are used here. Names and numbers are those of Foxglove's schemas (foxglove/schemas, Protobuf). The descriptors beside
-//! this file are theirs; tests hold both against Foxglove's SDK.
+//! Messages that viewers of the Foxglove family draw by themselves: scenes, frames and log lines.
+//! They have only the fields used here.
+//! Names and numbers are those of Foxglove's schemas (foxglove/schemas, Protobuf).
+//! The descriptors beside this file are Foxglove's.
+//! Tests compare both with Foxglove's SDK.
 
 use prost::{Enumeration, Message};
 use prost_types::Timestamp;
@@ -50,7 +52,7 @@ messages! {
         w: f64 = 4 (double),
     }
 
-    /// A place and a rotation.
+    /// A position and a rotation.
     #[derive(Copy)]
     Pose {
         position: Option<Vector3> = 1 (message, optional),
@@ -122,7 +124,7 @@ messages! {
         text: String = 6 (string),
     }
 
-    /// What moves with a frame.
+    /// Shapes that move with a frame.
     SceneEntity {
         timestamp: Option<Timestamp> = 1 (message, optional),
         frame_id: String = 2 (string),
@@ -141,7 +143,7 @@ messages! {
         entities: Vec<SceneEntity> = 2 (message, repeated),
     }
 
-    /// The pose of a frame in another.
+    /// The pose of a frame relative to another.
     FrameTransform {
         timestamp: Option<Timestamp> = 1 (message, optional),
         parent_frame_id: String = 2 (string),
@@ -170,11 +172,11 @@ messages! {
 pub enum LineType {
     /// From point to point.
     LineStrip = 0,
-    /// And back to the first.
+    /// Through all points and back to the first.
     LineLoop = 1,
 }
 
-/// How grave a line of a log is.
+/// Severity of a log line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 #[repr(i32)]
 pub enum LogLevel {
@@ -182,7 +184,7 @@ pub enum LogLevel {
     Unknown = 0,
     /// What happened.
     Info = 2,
-    /// What stands in the way.
+    /// A warning.
     Warning = 3,
     /// What is wrong.
     Error = 4,
@@ -194,7 +196,7 @@ mod tests {
     use foxglove::Encode;
     use foxglove::messages as sdk;
 
-    /// Every field that is used here, filled with numbers that differ, read by the SDK and written again.
+    /// Every field used here, filled with different numbers, read by the SDK and written again.
     #[test]
     fn the_sdk_reads_and_writes_the_same_bytes() {
         let pose = Some(Pose {

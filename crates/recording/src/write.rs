@@ -18,10 +18,10 @@ use std::path::Path;
 /// Longest log time (s), a third of what 64 bits hold in nanoseconds.
 const LONGEST: f64 = 3e9;
 
-/// Share of a sample's distance by which it may come too early: grids are rounded.
+/// Share of the sample spacing by which a sample may come too early: grids are rounded.
 const EARLY: f64 = 1e-6;
 
-/// Writes a recording to `path`, by way of a temporary file. So only a complete recording replaces an older one.
+/// Writes a recording to `path` through a temporary file, so that only a complete recording replaces an older one.
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if a file cannot be written;
@@ -77,7 +77,7 @@ fn fill(recording: &Recording, file: File) -> McapResult<()> {
     })
 }
 
-/// Calls `visit` with the samples that are kept and with what is drawn of them.
+/// Calls `visit` with the kept samples and their drawing.
 pub(super) fn as_shown<T>(recording: &Recording, visit: impl FnOnce(&Recording, &DrawnRecording) -> T) -> T {
     let thin = |trajectory: &Trajectory| recording.show.hz.map(|hz| thinned(trajectory, hz));
     let fewer: Vec<Option<Trajectory>> = recording.sides.iter().map(|side| thin(side.trajectory)).collect();
@@ -91,7 +91,7 @@ pub(super) fn as_shown<T>(recording: &Recording, visit: impl FnOnce(&Recording, 
     visit(&shown, &DrawnRecording { scene: &scene, forces: &forces })
 }
 
-/// The trajectory with at most `hz` samples a second beside its first and its last.
+/// The trajectory with at most `hz` samples per second, besides its first and its last.
 fn thinned(trajectory: &Trajectory, hz: f64) -> Trajectory {
     let times = trajectory.times();
     let order = ascending(times);
@@ -125,7 +125,7 @@ mod tests {
         assert_eq!(kept(&grid, 5.0), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]);
         assert_eq!(kept(&grid, 1000.0), grid);
         assert_eq!(kept(&grid, 0.1), [0.0, 1.0]);
-        // Gaps do not shift what comes after them.
+        // Gaps do not shift later samples.
         assert_eq!(kept(&[0.0, 0.05, 0.95, 1.0, 1.05, 2.0], 1.0), [0.0, 1.0, 2.0]);
         assert_eq!(kept(&[2.0, 1.0, 0.0, 0.5], 1.0), [2.0, 1.0, 0.0]);
         assert_eq!(kept(&[], 1.0), [0.0; 0]);

@@ -1,6 +1,6 @@
-//! Accepted figures: a file beside the scenario, for people to review and for later runs to be judged by.
+//! Accepted figures: a file beside the scenario. People review it, and later runs are judged by it.
 //!
-//! It is TOML, but not called so: `*.toml` are scenarios.
+//! The file is TOML but has another ending, because `*.toml` files are scenarios.
 
 use crate::sentences;
 use std::fmt::Write;
@@ -13,7 +13,7 @@ use super::reader::TomlTable;
 use super::source::Source;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Figures of a reference that were accepted, or that a run has found.
+/// Figures of a reference: those that were accepted, or those that a run has found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accepted {
     /// Name of the scenario.
@@ -33,7 +33,7 @@ pub struct Accepted {
 pub struct AcceptedChannel {
     /// Name of the channel.
     pub name: String,
-    /// How far every figure is known.
+    /// Bound on the error of every figure.
     pub bound: f64,
     /// Values at the instants kept.
     pub at: Vec<f64>,
@@ -41,7 +41,7 @@ pub struct AcceptedChannel {
     pub least: f64,
     /// Largest value over the run.
     pub greatest: f64,
-    /// Root of the mean square; none of an angle, whose turns are counted from anywhere.
+    /// Root mean square; `None` for an angle, because its count of full turns has no fixed zero.
     pub rms: Option<f64>,
 }
 
@@ -127,7 +127,7 @@ fn kept(mut table: TomlTable, count: usize) -> Result<AcceptedChannel> {
     Ok(AcceptedChannel { name, bound, at, least, greatest, rms })
 }
 
-/// Refuses a channel that stands twice.
+/// Refuses a channel that is listed twice.
 fn twice(root: &TomlTable, channels: &[AcceptedChannel]) -> Result<()> {
     let mut names: Vec<&str> = channels.iter().map(|own| own.name.as_str()).collect();
     names.sort_unstable();
@@ -139,7 +139,7 @@ fn twice(root: &TomlTable, channels: &[AcceptedChannel]) -> Result<()> {
     }
 }
 
-/// The file of accepted figures. Numbers have one digit more than their bound.
+/// The text of a file of accepted figures. Numbers have one digit more than their bound.
 #[must_use]
 pub fn text(accepted: &Accepted) -> String {
     let quoted = |text: &str| Value::from(text).to_string();
@@ -177,18 +177,19 @@ fn list(values: &[f64], bound: f64) -> String {
 const SMALL: f64 = 1e-4;
 /// Numbers from this on have an exponent.
 const LARGE: f64 = 1e9;
-/// More digits than a double has say nothing.
+/// Number of significant digits of a double. Further digits carry no information.
 const MOST_DIGITS: f64 = 17.0;
 
-/// A number rounded by a twentieth of its bound at most; all digits where the bound is zero.
-/// What is read back is written again with the same digits.
+/// A number, rounded so that the rounding error is at most a twentieth of its bound.
+/// If the bound is zero, all digits are written.
+/// A number that is read back is written again with the same digits.
 fn number(value: f64, bound: f64) -> String {
     if bound == 0.0 {
         return format!("{value:?}");
     }
     let decimals = -(bound / 10.0).log10().floor();
     let magnitude = |value: f64| value.abs().log10().floor();
-    // Rounding may carry over into one more digit: the second time it does not.
+    // Rounding may carry over into one more digit. The second rounding does not carry over again.
     let rounded = digits(value, magnitude(value) + decimals).parse().unwrap_or(value);
     if rounded == 0.0 {
         return "0.0".into();
@@ -200,7 +201,7 @@ fn number(value: f64, bound: f64) -> String {
     }
 }
 
-/// A number with so many digits after its first one; zero if the first one is beyond what counts.
+/// A number with `after_the_first` digits after its first significant digit; zero if `after_the_first` is below -1.
 fn digits(value: f64, after_the_first: f64) -> String {
     if value == 0.0 || after_the_first < -1.0 {
         return "0.0".into();

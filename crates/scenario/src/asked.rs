@@ -1,4 +1,4 @@
-//! What is asked for in place of the file's own start: assembly modes, and the crank angle at t = 0.
+//! The requested start, which replaces that of the file: assembly modes, and the crank angle at t = 0.
 
 use super::start;
 use crate::sentences;
@@ -14,31 +14,35 @@ use linkage::mechanism::{Group, GroupId, GroupKind, JointSide, LinkId, Mechanism
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartRequest {
     /// Groups and their modes, each `LINK,LINK=MODE` or `LINK,LINK=NUMBER`.
-    /// The links of a group and its mode are named as in the file; in another order of the links, left and right are
-    /// exchanged. NUMBER is the place in the list of [`configurations`](linkage::mechanism::assembly::configurations)
-    /// at the start, counted from 1.
+    /// Links and modes have the names of the file. If the links are in another order, left and right are exchanged.
+    /// NUMBER is the position in the list of [`configurations`](linkage::mechanism::assembly::configurations) at the
+    /// start,
+    /// counted from 1.
     pub modes: Vec<String>,
     /// Crank angle at t = 0 (rad), in place of `crank` in `[start]`.
-    /// Modes of the file hold at that angle too. Rough places (`near`) belong to the file's own angle: the
-    /// configuration that they choose there is followed to the angle asked for.
+    /// Modes of the file also hold at the requested angle.
+    /// Approximate positions (`near`) hold at the file's angle only. The configuration that they choose there is
+    /// followed to
+    /// the requested angle.
     pub crank: Option<f64>,
-    /// Whether the caller lays its own grid: the case then has no instants, and that of the file need not be one to
-    /// which the drive comes.
+    /// Whether the caller defines its own grid. The case then has no instants, and the drive need not reach the
+    /// instants of
+    /// the file's grid.
     pub without_grid: bool,
     /// Parameters of formulas by their keys, in place of the file's own.
     pub set: Vec<(String, f64)>,
-    /// Memory that the numbers of the file's tables may take (bytes); `None` for what a proof is allowed by default.
+    /// Limit on the memory for the numbers of the file's tables (bytes); `None` for the default limit of a proof.
     pub memory: Option<f64>,
-    /// Whether parameters that the file does not have are added; else they are refused.
+    /// Whether parameters that the file does not have are added. Otherwise they are refused.
     pub adds_parameters: bool,
 }
 
-/// A group for which the file does not decide between the configurations.
+/// A group whose configuration the file leaves undecided.
 #[derive(Clone, Debug)]
 pub struct Undecided {
     /// Index of the group in the structure.
     pub group: GroupId,
-    /// Why it is not decided.
+    /// Why the configuration is undecided.
     pub why: Error,
 }
 
@@ -47,12 +51,12 @@ pub(super) struct Placed {
     pub pose: Pose,
     pub choices: Vec<ConfigurationChoice>,
     pub starts: Vec<StartGroup>,
-    /// Whether the pose lies on the branch that the file itself starts on.
+    /// Whether the pose lies on the branch of the file's own start.
     pub is_own_branch: bool,
     pub undecided: Vec<Undecided>,
 }
 
-/// The mechanism and the start that the file gives it.
+/// The mechanism, with the start that the file states for it.
 pub(super) struct Start<'a> {
     pub mechanism: &'a Mechanism,
     pub structure: &'a Structure,
@@ -64,33 +68,33 @@ pub(super) struct Start<'a> {
     pub lists: Lists,
 }
 
-/// Whether the groups that a file does not decide are placed all the same, and listed.
+/// Whether groups that the file leaves undecided are placed anyway and listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lists {
     No,
     Undecided,
 }
 
-/// Largest step of the crank in which a configuration is followed (rad).
+/// Largest crank step when a configuration is followed (rad).
 const STEP: f64 = std::f64::consts::PI / 180.0;
 
-/// Largest difference of two directions in the same pose.
+/// Largest difference between a link's unit direction vectors in two poses that count as the same.
 const SAME: f64 = 1e-9;
 
 impl StartRequest {
-    /// The groups and starts asked for.
+    /// The requested groups with their starts.
     pub fn groups(&self, mechanism: &Mechanism, structure: &Structure) -> Result<Vec<(GroupId, StartGroup)>> {
         self.modes.iter().map(|text| start::asked(text, mechanism, structure)).collect()
     }
 }
 
 impl Start<'_> {
-    /// Places all groups: those in `groups` as asked for, the others as the file says; `crank` is the crank angle at
-    /// t = 0 (rad).
+    /// Places all groups: those in `groups` as requested, the others as the file says.
+    /// `crank` is the crank angle at t = 0 (rad).
     ///
     /// # Errors
-    /// Those of [`first_choices`], with the group to blame, and [`ErrorKind::Geometry`] if the file's configuration
-    /// cannot be followed to the angle.
+    /// Those of [`first_choices`], with the group that causes the error.
+    /// [`ErrorKind::Geometry`] if the file's configuration cannot be followed to the angle.
     pub fn placed(&self, crank: f64, groups: &[(GroupId, StartGroup)]) -> Result<Placed> {
         let moved = crank != self.crank;
         if groups.is_empty() && !moved {
@@ -134,8 +138,9 @@ impl Start<'_> {
         self.drives.iter().enumerate().map(angle).collect()
     }
 
-    /// All groups placed by these starts. For a list, groups that cannot be decided get a number; without any the branch
-    /// is taken to be the file's.
+    /// Places all groups by these starts.
+    /// If undecided groups are to be listed, each of them gets a number.
+    /// If no group is undecided, the branch counts as the file's.
     fn settled(&self, crank: f64, mut starts: Vec<StartGroup>) -> Result<Placed> {
         let angles = self.angles(crank);
         let mut undecided: Vec<Undecided> = Vec::new();
@@ -175,8 +180,9 @@ impl Start<'_> {
         }
     }
 
-    /// The pose of the file's own configuration with the crank at `crank` (rad): straight on, or by the other way round
-    /// if there is no way straight on. A dyad keeps its mode, a higher group goes on from step to step.
+    /// The pose of the file's own configuration, followed until the crank is at `crank` (rad).
+    /// The direct path comes first; if it fails, the crank turns the opposite way to the same angle.
+    /// A dyad keeps its mode; a higher group is followed step by step.
     fn followed(&self, own: &(Pose, Vec<ConfigurationChoice>), crank: f64) -> Option<Pose> {
         let other = crank - std::f64::consts::TAU.copysign(crank - self.crank);
         self.walked(own, crank).or_else(|| self.walked(own, other))
@@ -204,7 +210,7 @@ impl Start<'_> {
         Some(pose)
     }
 
-    /// The start of a group where it stands in `pose`.
+    /// The start that describes a group's position in `pose`.
     fn standing(&self, group: &Group, pose: &Pose) -> StartGroup {
         let of_link = |&link: &LinkId| {
             self.mechanism.links()[link].points.iter().map(move |point| {
@@ -226,7 +232,7 @@ impl Start<'_> {
     }
 }
 
-/// Whether two poses are the same but for rounding and whole turns.
+/// Whether two poses are equal, except for rounding errors and full turns.
 fn is_same(one: &Pose, other: &Pose) -> bool {
     one.0.iter().zip(&other.0).all(|(a, b)| (unit(a.angle) - unit(b.angle)).norm() <= SAME)
 }

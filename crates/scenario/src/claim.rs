@@ -1,4 +1,4 @@
-//! What a formula is said to be.
+//! The claim of a formula: what it is said to equal.
 
 use super::figure::MechanismFigure;
 use super::printed::PrintedChannel;
@@ -9,19 +9,19 @@ use formula::{FormulaFault, FormulaGraph, FormulaTree, NodeShape, Operator};
 use linkage::case::Case;
 use linkage::trajectory::Channel;
 
-/// A channel, a figure, or an arithmetic of both, in the units of their names.
+/// A channel, a figure, or an arithmetic expression of both, in the units of their names.
 #[derive(Clone, Debug)]
 pub struct Claim {
     /// Its text.
     pub text: String,
-    /// The text as it was read. Its names are those of the channels and figures; what is reduced to the crank stands
-    /// there as the arithmetic of channels that it is.
+    /// The text as parsed. Its names are those of the channels and figures.
+    /// A quantity reduced to the crank is replaced by its arithmetic expression of channels.
     pub tree: FormulaTree,
     /// The channels with their names in the tree.
     pub channels: Vec<(String, PrintedChannel)>,
     /// The figures with their names in the tree.
     pub figures: Vec<(String, MechanismFigure)>,
-    /// Unit of its numbers; empty for an arithmetic.
+    /// Unit of the claim's values; empty for an arithmetic expression.
     unit: &'static str,
 }
 
@@ -29,22 +29,22 @@ impl Claim {
     /// Reads a claim about a case.
     ///
     /// # Errors
-    /// What is wrong, with its place in the text.
+    /// The mistake, with its position in the text.
     pub fn parse(text: &str, case: &Case) -> Result<Claim, FormulaFault> {
         Claim::read(text, &case.all_channels(), Some(case))
     }
 
-    /// Reads a claim about some channels, whatever case they are of.
+    /// Reads a claim about the given channels, whatever case they belong to.
     ///
     /// # Errors
-    /// What is wrong, with its place in the text.
+    /// The mistake, with its position in the text.
     pub fn of_channels(text: &str, all: &[Channel]) -> Result<Claim, FormulaFault> {
         Claim::read(text, all, None)
     }
 
     fn read(text: &str, all: &[Channel], case: Option<&Case>) -> Result<Claim, FormulaFault> {
         let channel = |name: &str| PrintedChannel::named(name).filter(|found| all.contains(&found.channel));
-        // A name may have signs in it that mean something in an arithmetic.
+        // A channel name may contain characters that are operators in an arithmetic expression.
         let written = match channel(text) {
             Some(_) => FormulaTree { shape: NodeShape::Name(text.into()), at: 0..text.len() },
             None => FormulaTree::parse(text)?,
@@ -94,7 +94,7 @@ impl Claim {
         Ok(claim)
     }
 
-    /// Unit of its numbers; empty for an arithmetic.
+    /// Unit of the claim's values; empty for an arithmetic expression.
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match self.turn() {
@@ -103,7 +103,8 @@ impl Claim {
         }
     }
 
-    /// A turn in its unit, if it is an angle, or a sum and difference of angles: values a turn apart mean the same.
+    /// A full turn in the unit of the claim, if the claim is an angle, or a sum or difference of angles.
+    /// Values that differ by full turns are then equivalent.
     #[must_use]
     pub fn turn(&self) -> Option<f64> {
         fn is_sum(tree: &FormulaTree) -> bool {
@@ -121,7 +122,7 @@ impl Claim {
     }
 }
 
-/// A name that stands for nothing here: the message, and the nearest that does.
+/// The message for an unknown name, and help with the nearest known name.
 fn unknown(name: &str, all: &[Channel]) -> (String, String) {
     let known: Vec<String> = all.iter().map(Channel::to_string).collect();
     let reduced = QUANTITIES.iter().map(|own| own.name);

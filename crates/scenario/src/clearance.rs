@@ -1,4 +1,4 @@
-//! `[clearance]`: outlines of links, the housing, and what is wanted of their distances.
+//! `[clearance]`: outlines of links, the housing, and the requested distances.
 
 pub mod outline;
 pub mod question;
@@ -25,7 +25,7 @@ const CORNERS: FileKey = optional("corners", ValueKind::Tables, "a line")
 const LINE: FileKey = optional("line", ValueKind::Tables, "through the link's points, if there are no corners")
     .means("places: capsules from place to place; a single one is a disc");
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("clearance").with(&[
         optional("radius", ValueKind::LENGTHS.of(Sign::Positive), "every link needs an outline of its own").means(
@@ -59,16 +59,17 @@ pub const SECTIONS: &[Section] = &[
             .means("the two that cannot meet; `\"housing\"` stands for all its parts")]),
 ];
 
-/// Share of a swept area that its error may have, unless the file says otherwise.
+/// Default tolerance of a swept area, as a share of the area.
 const AREA: f64 = 5e-3;
-/// Smallest share: the number of squares grows with its inverse.
+/// Smallest tolerance of a swept area, as a share: the number of squares grows with its inverse.
 const SMALLEST_AREA: f64 = 1e-5;
-/// Smallest tolerance, and largest extent of an outline, in sizes of the mechanism: beyond them rounding decides.
+/// Smallest tolerance and largest extent of an outline, as multiples of the mechanism's size.
+/// Beyond these limits rounding errors decide.
 const FINEST: f64 = 1e-10;
 const FARTHEST: f64 = 1e6;
 /// Most parts of a housing.
 const MOST_PARTS: usize = 200;
-/// Name that stands for all parts of the housing.
+/// Name that denotes all parts of the housing.
 const HOUSING: &str = "housing";
 
 /// The question that a file asks about clearance.
@@ -184,7 +185,7 @@ fn of_link(mut table: TomlTable, default_radius: Option<f64>, link: &Link) -> Re
     }
 }
 
-/// A polygon by its `corners`, or a line, as [`drawn`].
+/// The outline that [`drawn`] has read: a polygon from its `corners`, or a line.
 fn rounded(table: &TomlTable, (key, places): (&'static str, Vec<Vec2>), radius: f64) -> Result<Outline> {
     let outline = if key == "corners" { Outline::polygon(&places, radius) } else { Outline::line(&places, radius) };
     outline.map_err(|flaw| flawed(table, key, flaw))
@@ -208,7 +209,8 @@ fn wall(mut table: TomlTable, mechanism: &Mechanism, before: &[ClearanceBody]) -
     Ok(ClearanceBody { name, link: GROUND, outline })
 }
 
-/// `corners` of a polygon or the places of a `line`, if there are any; places may count from the points `known`.
+/// The positions under `corners` (a polygon) or `line`, if either key is present.
+/// Positions may be relative to the points `known`.
 fn drawn(table: &mut TomlTable, known: &[Point]) -> Result<Option<(&'static str, Vec<Vec2>)>> {
     let mut found = None;
     for key in ["corners", "line"] {

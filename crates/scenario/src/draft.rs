@@ -1,4 +1,4 @@
-//! What a file states of a mechanism that cannot be assembled, or that is not right yet, for a picture of it.
+//! The content of a scenario file for a picture: the mechanism may have mistakes, or may be impossible to assemble.
 
 use std::path::Path;
 
@@ -13,21 +13,21 @@ use linkage::error::{Error, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, JointId, Mechanism, StartGroup, Structure};
 
-/// The mechanism of a scenario file, whether or not it can be assembled, without what has a mistake.
+/// The mechanism of a scenario file, without the parts that have mistakes. It need not be possible to assemble it.
 #[derive(Clone, Debug)]
 pub struct Draft {
     /// Short name; that of the file if it states none.
     pub name: String,
     /// One line for people.
     pub title: String,
-    /// Links and joints; not sound after mistakes.
+    /// Links and joints; possibly inconsistent if the file has mistakes.
     pub mechanism: Mechanism,
     /// Its groups, or why it has none.
     pub structure: Result<Structure>,
     /// What moves it.
     pub drives: Vec<Drive>,
-    /// Whether the file states no drive that could be read: a link that is hinged to the ground then stands for the
-    /// crank, if one of them makes a mechanism that can be laid.
+    /// Whether the file states no drive that could be read.
+    /// The first link hinged to the ground that gives a valid structure then serves as the crank, if there is one.
     pub is_driven_by_guess: bool,
     /// What loads it.
     pub loads: Vec<Load>,
@@ -35,7 +35,7 @@ pub struct Draft {
     pub gravity: Vec2,
     /// Crank angle at t = 0 (rad).
     pub crank: f64,
-    /// The start of each group, as far as the file gives it and it is sound; in the order of the structure.
+    /// The start of each group, in the order of the structure, as far as the file states a valid one.
     pub starts: Vec<StartGroup>,
     /// The mistakes of the file, if there are any.
     pub mistakes: Option<Error>,
@@ -45,7 +45,7 @@ impl Draft {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// That the file cannot be read, that it is no TOML or of another version, and what is wrong with the question.
+    /// The file cannot be read, is not TOML or has another version, or the request `asked` is wrong.
     pub fn load(path: &Path, asked: &StartRequest) -> Result<Draft> {
         Draft::parse(&text_of(path)?, path, asked)
     }
@@ -62,7 +62,7 @@ impl Draft {
         let source = plain.with(parameters, keys::rows);
         let found = TomlTable::root(&source, &tree).read_on(|root| read(root, asked));
         let (draft, mistakes) = found.map_err(|error| source.located(tree.get_ref(), error))?;
-        // A parameter may be the cause of all others.
+        // A faulty parameter may be the cause of all other mistakes.
         Ok(Draft { mistakes: fault.or(mistakes), ..draft })
     }
 }
@@ -113,7 +113,7 @@ fn read(root: &mut TomlTable, asked: &StartRequest) -> Result<Draft> {
     })
 }
 
-/// A drive of the first link on the ground whose motion would be that of all.
+/// A drive of the first link hinged to the ground whose motion determines the motion of all links.
 fn guessed(mechanism: &Mechanism, crank: f64) -> Option<Drive> {
     let joints = mechanism.joints();
     let is_hinge = |&index: &JointId| joints[index].is_pin() && joints[index].on(GROUND).is_some();
@@ -121,7 +121,7 @@ fn guessed(mechanism: &Mechanism, crank: f64) -> Option<Drive> {
     Some(Drive::prescribed(index, joints[index].other(GROUND).link, 0.0, crank, MotionLaw::ConstantSpeed(1.0)))
 }
 
-/// The mechanism without the points that are nowhere; no joint lies at one.
+/// The mechanism without the points whose position could not be read. No joint lies at such a point.
 fn with_places(mechanism: &Mechanism) -> Mechanism {
     let mut links = mechanism.links().to_vec();
     for link in &mut links {

@@ -6,8 +6,7 @@ use toml_edit::{DocumentMut, Item, Table, value};
 use super::engine::{EngineSettings, ROWS, SECTIONS, Slot};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// The text of a scenario with another `[engine]` section: the settings that are given. Comments, order and
-/// everything else stay.
+/// The text of a scenario, with the given settings as its `[engine]` section. Comments, order and everything else stay.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the text is not TOML, or if `engine` in it is not a section.

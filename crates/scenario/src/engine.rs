@@ -1,7 +1,7 @@
-//! `[engine]`: engines by name, and their settings, given or free, from files and arguments to the proof.
+//! `[engine]`: engines by name, and their settings, given or free. Files and arguments pass them to the proof.
 //!
-//! [`ROWS`] is the one place of a setting: reader, writer and argument follow from its row, schema and documents from its
-//! key in [`SECTIONS`].
+//! [`ROWS`] is the only definition of a setting. Reader, writer and argument follow from its row.
+//! Schema and documents follow from its key in [`SECTIONS`].
 
 use crate::sentences;
 use std::fmt;
@@ -21,7 +21,7 @@ pub enum EngineName {
     Rapier,
     /// The same in single precision; needs the feature `f32`.
     RapierF32,
-    /// Rapier in f64, every link a body of its own.
+    /// Rapier in f64, every link as a separate rigid body.
     Impulse,
     /// The same in single precision; needs the feature `f32`.
     ImpulseF32,
@@ -30,7 +30,7 @@ pub enum EngineName {
 }
 
 impl EngineName {
-    /// All engines, the default first, whether a build has them or not.
+    /// All engines, the default first, including those that this build does not have.
     pub const ALL: [EngineName; 5] =
         [EngineName::Rapier, EngineName::RapierF32, EngineName::Impulse, EngineName::ImpulseF32, EngineName::Simbody];
 
@@ -78,7 +78,7 @@ macro_rules! settings {
         }
 
         impl EngineSettings {
-            /// These settings, and those of `other` where these are free.
+            /// These settings; where one is free, that of `other`.
             #[must_use]
             pub fn or(&self, other: &EngineSettings) -> Self {
                 EngineSettings { $($name: self.$name.or(&other.$name).clone(),)* }
@@ -104,7 +104,7 @@ settings! {
     extrapolated: usize,
 }
 
-/// The place of a setting of one kind.
+/// Mutable access to a setting, by kind of value.
 #[derive(Debug)]
 pub enum Slot<'a> {
     /// Engines by name.
@@ -122,7 +122,7 @@ pub enum Slot<'a> {
 /// What a setting is called and means.
 #[derive(Debug)]
 pub struct SettingRow {
-    /// Its key in [`SECTIONS`], the first where it is stated in two ways; none of a setting that is no matter of a file.
+    /// Its key in [`SECTIONS`]: the first one if two keys can state it, `None` if no file can state it.
     pub key: Option<&'static str>,
     /// Its argument.
     pub argument: &'static str,
@@ -190,7 +190,7 @@ pub const ROWS: &[SettingRow] = &[
     },
 ];
 
-/// What is told of the keys that are read here, in the order of the rows.
+/// Descriptions of the keys that this module reads, in the order of the rows.
 pub const SECTIONS: &[Section] = &[Section::at("engine").with(&[
     optional("dt", ValueKind::TIMES.of(Sign::Positive), "found by `run`")
         .means("time step of engines with a fixed step; at most one of `dt` and `step`"),
@@ -213,7 +213,7 @@ pub const SECTIONS: &[Section] = &[Section::at("engine").with(&[
 ])];
 
 impl EngineSettings {
-    /// All settings of an engine, given.
+    /// All settings of an engine, marked as given.
     #[must_use]
     pub fn exactly(engine: &dyn Engine) -> Self {
         let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
@@ -229,7 +229,8 @@ impl EngineSettings {
         }
     }
 
-    /// The settings of a search for those of a motion. Extrapolation takes finer steps: a step that is given is kept to.
+    /// These settings, as the search for the settings of a motion uses them.
+    /// Extrapolation would use finer steps than a given one, so it is off by default if the step is given.
     #[must_use]
     pub fn of_motion(mut self) -> Self {
         if !self.step.is_free() && self.extrapolated.is_free() {
@@ -238,7 +239,7 @@ impl EngineSettings {
         self
     }
 
-    /// Whether a search has anything to choose.
+    /// Whether a setting is free that a search could choose.
     #[must_use]
     pub fn leaves_a_choice(&self) -> bool {
         self.step.is_free() || self.sweeps.is_free() || self.extrapolated.is_free()
@@ -252,7 +253,7 @@ pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     for row in ROWS {
         let Some(key) = row.key else { continue };
         match (row.slot)(&mut own) {
-            // The step is stated in two ways, which are read above.
+            // The step has two keys, which are read above.
             Slot::Positive(_) => {}
             Slot::Engines(engines) => {
                 let engine = table.optional_choice(
@@ -298,7 +299,7 @@ pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     }
 }
 
-/// A whole number of a range; one without an end begins at one.
+/// A whole number within `range`. A range up to `usize::MAX` means any number from one.
 fn whole(table: &mut TomlTable, key: &str, range: RangeInclusive<usize>) -> Result<EngineSetting<usize>> {
     let Some(number) = table.optional_integer(key)? else { return Ok(EngineSetting::Free) };
     if let Some(count) = usize::try_from(number).ok().filter(|count| range.contains(count)) {

@@ -9,7 +9,7 @@ use linkage::case::Case;
 use linkage::error::Result;
 use linkage::mechanism::{JointSide, LinkId};
 
-/// One figure with the number it must have.
+/// One figure with its expected number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OracleFigure {
     /// Which figure.
@@ -72,7 +72,7 @@ const OF_MECHANISM: [(&str, MechanismFigure); 4] = [
 /// Names of the figures between two points.
 const OF_POINTS: [&str; 2] = ["distance_m", "distance_mm"];
 
-/// What the name of a figure begins with in a claim.
+/// Prefix of a figure's name in a claim.
 const CLAIMED: &str = "figure.";
 
 impl MechanismFigure {
@@ -81,17 +81,17 @@ impl MechanismFigure {
         OF_MECHANISM.iter().map(|(name, _)| format!("{CLAIMED}{name}"))
     }
 
-    /// The figure that a claim names, `None` if it names none.
+    /// The figure that a claim names; `None` if it names none.
     ///
     /// # Errors
-    /// A figure that the case does not have: the message, and the way out.
+    /// Message and help, if the case lacks what the figure needs.
     pub(super) fn claimed(name: &str, case: &Case) -> Option<std::result::Result<MechanismFigure, (String, String)>> {
         let name = name.strip_prefix(CLAIMED)?;
         let (_, figure) = OF_MECHANISM.iter().find(|(own, _)| *own == name)?;
         Some(figure.lacks(case).map_or(Ok(*figure), |(message, help)| Err((message.into(), help.into()))))
     }
 
-    /// What a case lacks for the figure, and the way out.
+    /// Message and help, if the case lacks what the figure needs.
     fn lacks(self, case: &Case) -> Option<(&'static str, &'static str)> {
         match self {
             MechanismFigure::SteadyCrankSpeed | MechanismFigure::SteadyMotorSpeed if case.crank().motor().is_none() => {
@@ -157,8 +157,8 @@ fn distance(entry: &mut TomlTable, case: &Case) -> Result<(MechanismFigure, Stri
         return entry.refuse("points", message, "write `points = [\"A\", \"B\"]`");
     };
     let places = [places(entry, case, first)?, places(entry, case, second)?];
-    // On one link a distance is only what the file states. So it is measured between two links, where the solver must
-    // bring the two points together.
+    // On a single link, a distance is only what the file states.
+    // So it is measured between two links, where it depends on how the solver assembles them.
     let has = |link: LinkId, of: &[JointSide]| of.iter().any(|side| side.link == link);
     let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
     let (Some(first), Some(second)) = (measured(0), measured(1)) else {

@@ -1,4 +1,4 @@
-//! `[[formula]]`: formulas as they were derived, and the channels that they claim.
+//! `[[formula]]`: derived formulas, and the channels that they claim.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,7 +15,7 @@ use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Place, Result};
 use linkage::math::KeepNan;
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
     needed("name", ValueKind::Text).means("letters, digits and `_`; formulas after it may use it"),
     needed("expression", ValueKind::Text).means(
@@ -43,8 +43,8 @@ pub struct Formulas {
     pub parameters: Vec<Parameter>,
     /// The formulas, in the order of the file: each may use those before it.
     pub list: Vec<Formula>,
-    /// All of them, over the crank angle (rad, as the scenario states it), the time (s), and without names the crank's
-    /// angular velocity (rad/s) and angular acceleration (rad/s^2).
+    /// Graph of all formulas. Its inputs are the crank angle (rad, as the scenario states it) and the time (s).
+    /// Two more inputs have no names: the crank's angular velocity (rad/s) and angular acceleration (rad/s^2).
     pub graph: FormulaGraph,
 }
 
@@ -59,7 +59,7 @@ pub struct Formula {
     pub tree: FormulaTree,
     /// Its node in the graph.
     pub id: NodeId,
-    /// What it is said to be; `None` for a step of a derivation.
+    /// Its claim; `None` for a step of a derivation.
     pub claim: Option<Claim>,
     /// Where it comes from.
     pub source: Option<String>,
@@ -80,7 +80,7 @@ impl Formula {
 }
 
 impl Formulas {
-    /// Formulas over some parameters: none yet.
+    /// An empty list of formulas over some parameters.
     #[must_use]
     pub fn over(parameters: Vec<Parameter>) -> Self {
         let mut graph = FormulaGraph::new(&INPUTS, 2);
@@ -94,7 +94,7 @@ impl Formulas {
     /// Adds a formula without a claim.
     ///
     /// # Errors
-    /// What is wrong, with its place in the text.
+    /// The mistake, with its position in the text.
     pub fn add(&mut self, name: &str, text: &str) -> std::result::Result<&mut Formula, FormulaFault> {
         let tree = FormulaTree::parse(text)?;
         if let Some((name, at)) = tree.names().into_iter().find(|(name, _)| !self.graph.knows(name)) {
@@ -113,7 +113,7 @@ impl Formulas {
         Ok(())
     }
 
-    /// Whether a formula may have this name.
+    /// Checks that a formula may have this name.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if not.
@@ -128,7 +128,7 @@ impl Formulas {
         Ok(())
     }
 
-    /// The fault of a name that is not known, with the nearest that is.
+    /// The fault of an unknown name, with the nearest known name.
     fn unknown(&self, name: &str, at: Range<usize>) -> FormulaFault {
         let units = self.parameters.iter().find(|own| own.short() == Some(name));
         let help = match units {
@@ -143,8 +143,9 @@ impl Formulas {
         self.list[..=of].iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect()
     }
 
-    /// The first operation outside its domain where the formula `of` has no value, with the index of the formula in
-    /// which it stands: that one, or one that it uses. `inputs` are the crank angle (rad) and the time (s).
+    /// The first operation outside its domain, if the formula `of` has no value at `inputs`.
+    /// The index is that of the formula with this operation: `of`, or a formula that `of` uses.
+    /// `inputs` are the crank angle (rad) and the time (s).
     #[must_use]
     pub fn undefined(&self, of: usize, inputs: [Rounded; 2]) -> Option<(usize, FormulaFault)> {
         let places = self.places(of);
@@ -169,9 +170,9 @@ impl Formulas {
         None
     }
 
-    /// What `then` makes of the formula `of` with other trees in the formulas `changed`, each with its index: formulas
-    /// that use them follow. [`OMEGA`] is known there. Afterwards everything is as before. `None` if
-    /// a name is not known.
+    /// The result of `then` for the formula `of`, while the formulas in `changed` (by index) have other trees.
+    /// Formulas that use a changed formula change with it. The trees may use [`OMEGA`].
+    /// Afterwards the graph is as before. `None` if a name is unknown.
     pub fn with_trees<T>(
         &mut self,
         changed: &[(usize, FormulaTree)],
@@ -184,7 +185,7 @@ impl Formulas {
             if !graph.knows(OMEGA) {
                 graph.name(OMEGA, graph.input(2));
             }
-            // A name stands for the formula before it, as when the file was read.
+            // A name refers to an earlier formula, as when the file was read.
             let mut last = None;
             for (own, formula) in list.iter().enumerate().take(of + 1).skip(first) {
                 let other = changed.iter().find(|(index, _)| *index == own).map(|(_, tree)| tree);
@@ -196,8 +197,9 @@ impl Formulas {
         })
     }
 
-    /// The formula `of` with all that it uses, `beside` steps before it with what these use, and as many parameters
-    /// that nothing uses: what a search for its mistake knows, however long the file is. Also its index there.
+    /// The formulas that a search for a mistake in the formula `of` works with, and the index of `of` among them.
+    /// These are `of` and the `beside` formulas before it, with all formulas that these use.
+    /// At most `beside` unused parameters are kept. The rest of the file is left out, however long it is.
     #[must_use]
     pub fn derivation(&self, of: usize, beside: usize) -> (Formulas, usize) {
         let places = self.places(of);
@@ -227,8 +229,8 @@ impl Formulas {
         (formulas, kept.len() - 1)
     }
 
-    /// The same with another tree in the formula `of`: formulas that use it follow. [`OMEGA`] is known there. `None` if
-    /// the tree uses a name that is not.
+    /// These formulas with another tree in the formula `of`. Formulas that use it change with it.
+    /// The tree may use [`OMEGA`]. `None` if it uses an unknown name.
     #[must_use]
     pub fn with_tree(&self, of: usize, tree: FormulaTree) -> Option<Formulas> {
         let mut formulas = Formulas::over(self.parameters.clone());
@@ -259,7 +261,7 @@ impl Formulas {
     }
 }
 
-/// What is wrong with the range (rad) and the error of a claim: the key `to` or `error`, a message and the way out.
+/// The fault in the range (rad) or in the error of a claim: the key `to` or `error`, a message and help.
 #[must_use]
 pub fn fault_of_claim(
     valid: [Option<f64>; 2],
@@ -274,19 +276,19 @@ pub fn fault_of_claim(
     is_wrong.then_some(("error", sentences::A_CLAIMED_ERROR_MUST_BE_A_POSITIVE, sentences::LEAVE_IT_OUT_IF_THE_FORMULA))
 }
 
-/// An error of a text that is no key of a file, such as an argument: `what` it is.
+/// An error in a text that does not come from a file, such as an argument; `what` names the text.
 #[must_use]
 pub fn refused(what: &str, text: &str, fault: &FormulaFault) -> Error {
     let place = Place { file: what.into(), text: text.into(), span: fault.at.clone() };
     Error::new(ErrorKind::Input, fault.message.clone()).at(place).help(fault.help.clone())
 }
 
-/// The formulas of a scenario, but those with mistakes.
+/// The formulas of a scenario, without those that have mistakes.
 pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<TomlTable>, case: &Case, faults: &mut Faults) -> Formulas {
     let mut formulas = Formulas::over(parameters);
     for mut table in tables {
         let read = faults.read(&mut table, |table| formula(table, &mut formulas, case));
-        // A formula that is left out is missed by those after it.
+        // Later formulas may use the one that is left out.
         faults.whole &= read.is_some();
     }
     formulas

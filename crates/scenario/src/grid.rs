@@ -1,4 +1,4 @@
-//! `[grid]`: the instants at which a solution is wanted.
+//! `[grid]`: the instants at which a solution is requested.
 
 use crate::sentences;
 use std::cmp::Ordering;
@@ -10,7 +10,7 @@ use linkage::case::Grid;
 use linkage::drive::Drive;
 use linkage::error::Result;
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[Section::at("grid").with(&[
     optional("from", ValueKind::INPUTS_OR_TIMES, "given with `to` and `step`")
         .means("first crank angle, or first time from the start"),
@@ -52,7 +52,7 @@ pub fn range(from: f64, to: f64, step: f64) -> std::result::Result<Vec<f64>, Str
 /// Checks the values of a list of instants.
 ///
 /// # Errors
-/// A message if there is none, or too many, or one of them stands twice.
+/// A message if the list is empty or too long, or if a value occurs twice.
 pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
     if values.is_empty() {
         return Err(sentences::THE_LIST_IS_EMPTY.into());
@@ -61,7 +61,7 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
         return Err(sentences::the_list_has_more_than_values(&MOST));
     }
     let mut order: Vec<usize> = (0..values.len()).collect();
-    // Stable, so that of equal values the earlier comes first.
+    // The sort is stable: of equal values, the earlier one comes first.
     order.sort_by(|&a, &b| values[a].partial_cmp(&values[b]).unwrap_or(Ordering::Equal));
     match order.windows(2).find(|pair| values[pair[0]] == values[pair[1]]) {
         Some(pair) => Err(sentences::values_and_of_the_list_are_the_same(&(pair[0] + 1), &(pair[1] + 1))),
@@ -69,8 +69,8 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
     }
 }
 
-/// The grid of a scenario, by crank angle or by time: a range or a list. An empty one if it is not wanted: it is read,
-/// but not checked against the drive.
+/// The grid of a scenario, by crank angle or by time: a range or a list.
+/// If `is_replaced`, the grid is read but not checked against the drive, and the result is empty.
 pub fn read(table: &mut TomlTable, drive: &Drive, is_replaced: bool) -> Result<Grid> {
     let mut lists = Vec::new();
     for key in ["angles", "times"] {

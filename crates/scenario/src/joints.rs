@@ -17,7 +17,7 @@ type ReadJoint = fn(&mut TomlTable) -> Result<(JointKind, Option<Guise>)>;
 /// Types of joints, each with its reader.
 const TYPES: Words<ReadJoint> = &[("revolute", revolute), ("prismatic", prismatic)];
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
     needed("name", ValueKind::Text).means("name, unique"),
     needed("type", ValueKind::Choice(|| names(TYPES))).means("kind of joint"),
@@ -48,7 +48,8 @@ pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
     ),
 ])];
 
-/// The joints, in the order of the file, but those with mistakes and those at points that are nowhere.
+/// The joints, in the order of the file. Joints with mistakes are left out, and so are joints at points whose position
+/// could not be read.
 pub fn read(tables: Vec<TomlTable>, links: &[Link], faults: &mut Faults) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     let count = tables.len();
@@ -56,7 +57,7 @@ pub fn read(tables: Vec<TomlTable>, links: &[Link], faults: &mut Faults) -> Vec<
         let read = faults.read(&mut table, |table| joint(table, links, &joints));
         joints.extend(read.filter(|joint| [joint.first, joint.second].iter().all(|side| is_somewhere(side.local))));
     }
-    // A joint that is left out is missed by drives and by the mechanism.
+    // Drives and the mechanism may need the joint that is left out.
     faults.whole &= joints.len() == count;
     joints
 }
@@ -132,7 +133,7 @@ fn guided(table: &mut TomlTable) -> Result<Places> {
     Ok(Places { names: [first.clone(), second.clone()], key: "points", rule })
 }
 
-/// The kind of a joint, and what it is drawn as if the file says so.
+/// The kind of a joint, and how it is drawn if the file says so.
 fn kind(table: &mut TomlTable) -> Result<(JointKind, Option<Guise>)> {
     table.choice("type", sentences::IS_NO_TYPE_OF_JOINT, TYPES)?(table)
 }
@@ -149,8 +150,8 @@ fn prismatic(table: &mut TomlTable) -> Result<(JointKind, Option<Guise>)> {
     Ok((JointKind::Prismatic { axes: [first, second].map(direction) }, drawn))
 }
 
-/// Unit vector at `angle` (rad). Along the axes of the frame it has no rounding of pi, so that a vertical guide is
-/// exactly vertical.
+/// Unit vector at `angle` (rad). Along the axes of the frame it is exact, without the rounding error of pi.
+/// So a vertical guide is exactly vertical.
 fn direction(angle: f64) -> Vec2 {
     let quarters = angle / FRAC_PI_2;
     if (quarters - quarters.round()).abs() > 4.0 * f64::EPSILON * quarters.abs() {

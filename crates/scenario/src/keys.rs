@@ -1,5 +1,6 @@
-//! Every key of scenario files: what editors are told of the format. Each stands beside its reader, which decides what is
-//! read; tests hold the two together, and the document of the format to them.
+//! Every key of scenario files, with the description that editors show.
+//! Each key is defined beside its reader, which decides what is read.
+//! Tests keep keys and readers consistent, and the format document consistent with both.
 
 pub mod key;
 #[cfg(test)]
@@ -29,7 +30,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
     all.into_iter().flatten()
 }
 
-/// The keys of the section with a path; none if there is no such section.
+/// The keys of the section at a path; empty if there is no such section.
 pub(crate) fn rows(path: &str) -> &'static [FileKey] {
     section(path).map_or(&[], |section| section.keys)
 }

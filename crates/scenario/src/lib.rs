@@ -1,5 +1,5 @@
 //! Scenario files: TOML in, a [`Case`] out. Only this module converts units; docs/scenario.md describes the format.
-//! Every error names file, line and key, what was found, and the way out.
+//! Every error names file, line and key, what was found, and how to correct it.
 
 pub mod accepted;
 mod asked;
@@ -94,16 +94,15 @@ pub struct Scenario {
     pub case: Case,
     /// Engines and their settings, as far as the scenario gives them.
     pub engine: EngineSettings,
-    /// Largest discretisation error of the engine, as a share of a channel's scale, at which agreement is still a
-    /// proof.
+    /// Largest discretisation error of the engine at which agreement is still a proof, as a share of a channel's scale.
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
     /// Formulas over parameters, and what they claim.
     pub formulas: Formulas,
-    /// Outlines and what is asked of their distances, if the scenario asks.
+    /// Outlines and the question about their distances, if the scenario has one.
     pub clearance: Option<ClearanceQuestion>,
-    /// The start asked for in the file for each group, in the order of the structure.
+    /// The start that the file requests for each group, in the order of the structure.
     pub starts: Vec<StartGroup>,
     /// How each group was placed at the start, in the order of the structure.
     pub choices: Vec<ConfigurationChoice>,
@@ -148,23 +147,26 @@ impl Scenario {
     /// Reads a scenario from its text. Tables of published numbers are searched in the directory of `path`.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for anything wrong in the text, [`ErrorKind::Geometry`] if the first pose cannot be
-    /// taken, [`ErrorKind::Unsupported`] for what this version does not solve, [`ErrorKind::Io`] for a table that
-    /// cannot be read; all with the place in the file and the key.
+    /// [`ErrorKind::Input`] for a mistake in the text.
+    /// [`ErrorKind::Geometry`] if the mechanism cannot take its first pose.
+    /// [`ErrorKind::Unsupported`] for what this version does not solve.
+    /// [`ErrorKind::Io`] for a table that cannot be read.
+    /// All errors carry the position in the file and the key.
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Scenario> {
         Ok(parse(text, path.as_ref(), &StartRequest::default(), Lists::No)?.0)
     }
 
     /// Reads the scenario file at `path` with another start.
     ///
-    /// Published numbers belong to the file's own branch: on another one they are left out.
-    /// With another crank angle at t = 0, so are those that depend on it: distances at t = 0, and values over the crank
-    /// angle if the crank's speed changes, if there are further drives, or if a torsional spring counts turns from the
-    /// start.
+    /// Published numbers belong to the file's own branch. On another branch they are left out.
+    /// Another crank angle at t = 0 also leaves out numbers that depend on this angle.
+    /// These are distances at t = 0, and in three cases values over the crank angle: the crank's speed changes, there
+    /// are
+    /// further drives, or a torsional spring counts turns from the start.
     ///
     /// # Errors
-    /// Those of [`Scenario::load`], and [`ErrorKind::Input`] without a place in the file if a group, its mode or its
-    /// number is not known.
+    /// Those of [`Scenario::load`].
+    /// [`ErrorKind::Input`] without a position in the file if a group, its mode or its number is unknown.
     pub fn load_as(path: impl AsRef<Path>, asked: &StartRequest) -> Result<Scenario> {
         Scenario::parse_as(&text_of(path.as_ref())?, path, asked)
     }
@@ -177,11 +179,12 @@ impl Scenario {
         Ok(parse(text, path.as_ref(), asked, Lists::No)?.0)
     }
 
-    /// As [`Scenario::load_as`], for a list of configurations: groups for which the file does not decide are placed in
-    /// one of their configurations, and are returned with the reason, in the order of the structure.
+    /// As [`Scenario::load_as`], for a list of configurations.
+    /// Groups that the file leaves undecided are placed in one of their configurations.
+    /// They are returned with the reason, in the order of the structure.
     ///
     /// # Errors
-    /// Those of [`Scenario::load_as`], except that nothing decides for a group.
+    /// Those of [`Scenario::load_as`], except that an undecided group is no error.
     pub fn load_to_list(path: impl AsRef<Path>, asked: &StartRequest) -> Result<(Scenario, Vec<Undecided>)> {
         Scenario::parse_to_list(&text_of(path.as_ref())?, path, asked)
     }
@@ -200,8 +203,8 @@ impl Scenario {
         Ok((scenario, undecided))
     }
 
-    /// The scenario of a case that was built in code: without a file, without published numbers, with the engine's own
-    /// settings, which the proof finds. `name` must be usable in file names.
+    /// The scenario of a case that was built in code. It has no file and no published numbers.
+    /// Its engine settings are free: the proof finds them. `name` must be usable in file names.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a name with other characters than lower-case letters, digits and `_`.
@@ -231,11 +234,11 @@ impl Scenario {
         })
     }
 
-    /// The same scenario with only the channels wanted that `words` ask for, as those of `want` in `[channels]`.
+    /// The same scenario, restricted to the channels that `words` request, in the syntax of `want` in `[channels]`.
     /// Published numbers of other channels are left out, and so are figures of the whole mechanism.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a word that asks for nothing.
+    /// [`ErrorKind::Input`] for a word that requests nothing.
     pub fn only(mut self, words: &[String]) -> Result<Scenario> {
         let channels = settings::called(&self.case, words)
             .map_err(|(message, help)| Error::new(ErrorKind::Input, message).help(help))?;
@@ -285,7 +288,7 @@ fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<
         unreachable!("what is missing has ended the reading");
     };
     let structure = structure(&stated.mechanism, drives).map_err(in_file)?;
-    // What is asked for has no place in the file.
+    // A requested start has no position in the file.
     let groups = asked.groups(&stated.mechanism, &structure)?;
     let mechanism = &stated.mechanism;
     let starts = start::groups(start, stated.groups, mechanism, &structure, &groups).map_err(in_file)?;
@@ -299,14 +302,14 @@ fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<
     finished(stated, structure, placed, &source, asked).map_err(in_file)
 }
 
-/// The structure of what a file states, whose masses and speeds make sense.
+/// The structure of a stated mechanism, after a check that its masses and speeds make sense.
 fn structure(mechanism: &Mechanism, drives: &Drives) -> Result<Structure> {
     masses::check(mechanism, drives)?;
     masses::check_speeds(mechanism, drives)?;
     Structure::of(mechanism, &drives.joints())
 }
 
-/// The scenario of a mechanism that stands at its start, and the groups that are not decided.
+/// The scenario of a mechanism that is placed at its start, and the undecided groups.
 fn finished(
     stated: FileSections,
     structure: Structure,

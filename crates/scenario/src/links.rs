@@ -10,7 +10,7 @@ use linkage::error::Result;
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Link, Point, is_sound_name};
 
-/// A place: coordinates, or distance and direction from an earlier point.
+/// A position: coordinates, or distance and direction from an earlier point.
 pub const PLACE: &[FileKey] = &[
     optional("x", ValueKind::LENGTHS, "given with `y`, in place of `from`").means("coordinate along x"),
     optional("y", ValueKind::LENGTHS, "given with `x`").means("coordinate along y"),
@@ -23,7 +23,7 @@ pub const PLACE: &[FileKey] = &[
     ),
 ];
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("ground").with(&[needed("points", ValueKind::Table).means("fixed points by name")]),
     Section::at("ground.points.*").with(PLACE),
@@ -39,16 +39,17 @@ pub const SECTIONS: &[Section] = &[
     Section::at("links.*.mass_centre").with(PLACE),
 ];
 
-/// The place of a point that has none because of a mistake.
+/// Position of a point whose position could not be read.
 const NOWHERE: Vec2 = Vec2::new(f64::NAN, f64::NAN);
 
-/// Whether a place could be read.
+/// Whether a position could be read.
 pub fn is_somewhere(place: Vec2) -> bool {
     place.iter().all(|part| part.is_finite())
 }
 
-/// The ground and all links, in the order of the file. Those with mistakes keep their names and those of their points;
-/// points whose places could not be read are nowhere.
+/// The ground and all links, in the order of the file.
+/// Links with mistakes keep their names and the names of their points.
+/// Points whose position could not be read are at `NOWHERE`.
 pub fn read(ground: Option<TomlTable>, links: Option<TomlTable>, faults: &mut Faults) -> Vec<Link> {
     let mut points = Vec::new();
     if let Some(mut ground) = ground {
@@ -74,7 +75,7 @@ pub fn read(ground: Option<TomlTable>, links: Option<TomlTable>, faults: &mut Fa
         faults.read(&mut table, |table| fill(table, &mut link));
         all.push(link);
     }
-    // A link or a point that is left out is missed by others.
+    // Other sections may name a link or a point that is left out.
     faults.names &= all.len() > 1 && all.iter().all(|link| !link.points.is_empty());
     faults.whole &= faults.names;
     all
@@ -107,7 +108,7 @@ fn fill(table: &mut TomlTable, link: &mut Link) -> Result<()> {
     Ok(())
 }
 
-/// The points of a link. Those with mistakes keep their names.
+/// The points of a link. Points with mistakes keep their names.
 fn named_points(link: &mut TomlTable) -> Result<Vec<Point>> {
     let Ok(mut table) = link.table("points") else { return Ok(Vec::new()) };
     let mut points: Vec<Point> = Vec::new();
@@ -130,7 +131,7 @@ fn named_points(link: &mut TomlTable) -> Result<Vec<Point>> {
     Ok(points)
 }
 
-/// A place: coordinates, or a distance and an angle from one of the points read before.
+/// A position: coordinates, or a distance and an angle from one of the points read before.
 pub fn place(mut table: TomlTable, known: &[Point]) -> Result<Vec2> {
     table.read(|table| place_of(table, known))
 }
@@ -157,7 +158,7 @@ fn place_of(table: &mut TomlTable, known: &[Point]) -> Result<Vec2> {
     Ok(place)
 }
 
-/// The key `name`, if it can be that of `what`.
+/// The value of the key `name`, if it is allowed as the name of `what`.
 pub fn sound_name(table: &mut TomlTable, what: &str) -> Result<String> {
     let name = table.string("name")?;
     match is_sound_name(&name) {

@@ -14,13 +14,13 @@ use std::f64::consts::TAU;
 const ACTS: Words<Acts> =
     &[("always", Acts::Always), ("counter-clockwise", Acts::CounterClockwise), ("clockwise", Acts::Clockwise)];
 
-/// Whether a force turns with its link.
+/// Whether the axes of a force turn with its link.
 const FRAMES: Words<bool> = &[("world", false), ("link", true)];
 
 /// Whether a table is a curve without kinks.
 const INTERPOLATIONS: Words<bool> = &[("linear", false), ("smooth", true)];
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("loads").with(&[
         needed("type", ValueKind::Choice(|| names(SORTS))).means("kind of load"),
@@ -62,7 +62,7 @@ pub const SECTIONS: &[Section] = &[
     ]),
 ];
 
-/// Sorts of loads, each with its reader. The name is that of [`Load::sort`].
+/// Types of loads, each with its reader. The name is that of [`Load::sort`].
 const SORTS: Words<fn(&mut TomlTable, &Mechanism) -> Result<Load>> = &[
     ("resistance", resistance),
     ("moment", moment),
@@ -77,7 +77,7 @@ const SORTS: Words<fn(&mut TomlTable, &Mechanism) -> Result<Load>> = &[
 /// Largest number of crank turns after which a table may repeat.
 const MOST_TURNS: i64 = 1000;
 
-/// The loads, but those with mistakes.
+/// The loads, without those that have mistakes.
 pub fn read(tables: Vec<TomlTable>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Load> {
     tables.into_iter().filter_map(|mut table| faults.read(&mut table, |table| load(table, mechanism))).collect()
 }
@@ -117,7 +117,7 @@ fn resisting_force(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load>
     let point = (table.string("link")?, table.string("point")?);
     let force = table.si("force")?;
     let at = loaded_point(table, mechanism, point)?;
-    // The velocity of such a point would be the rounding of zero, and so would the direction of the force.
+    // The velocity of such a point is zero plus rounding error. That error would decide the direction of the force.
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
     if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
         return table.refuse(
@@ -245,7 +245,7 @@ fn turning(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<L
     if link == GROUND {
         return table.refuse("link", sentences::THE_GROUND_DOES_NOT_TURN, sentences::NAME_A_MOVING_LINK);
     }
-    // The angular velocity of such a link would be the rounding of zero, and so would the sense of the moment.
+    // The angular velocity of such a link is zero plus rounding error. That error would decide the sense of the moment.
     if !mechanism.can_turn(link) {
         let message = sentences::link_does_not_turn_prismatic(&name);
         return table.refuse("link", message, sentences::NAME_A_LINK_THAT_TURNS);

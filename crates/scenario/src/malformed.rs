@@ -1,4 +1,4 @@
-//! What is wrong with a text that is no TOML, or no CSV.
+//! Errors of a text that is not valid TOML or CSV.
 
 use crate::sentences;
 use std::ops::Range;
@@ -7,13 +7,13 @@ use toml::de::DeTable;
 
 use linkage::error::{Error, ErrorKind, Place};
 
-/// Most bytes that are parsed to find the first place of a duplicate key.
+/// Most bytes that are parsed in the search for the first occurrence of a duplicate key.
 const MOST: usize = 10_000_000;
 
-/// Gives the place of a range of bytes in the file.
+/// Gives the position in the file of a range of bytes.
 type Places<'a> = &'a dyn Fn(Range<usize>) -> Place;
 
-/// The error of a file that is no TOML.
+/// The error of a file that is not valid TOML.
 pub(super) fn no_toml(text: &str, place: Places, error: &toml::de::Error) -> Error {
     let span = error.span().unwrap_or(0..0);
     if error.message() == DUPLICATE {
@@ -31,7 +31,7 @@ pub(super) fn no_toml(text: &str, place: Places, error: &toml::de::Error) -> Err
         .help(sentences::A_KEY_IS_WRITTEN_NAME_VALUE)
 }
 
-/// What the parser says of a key that stands twice in its table.
+/// The parser's message for a key that occurs twice in its table.
 const DUPLICATE: &str = "duplicate key";
 
 fn duplicate(text: &str, place: Places, span: Range<usize>) -> Error {
@@ -45,8 +45,8 @@ fn duplicate(text: &str, place: Places, span: Range<usize>) -> Error {
     error.at(place(span)).help(sentences::KEEP_ONE_OF_THE_TWO)
 }
 
-/// Where the key at `span` stands first. The key before it without which it is no duplicate any more: only that one is
-/// in the same table.
+/// Position of the first occurrence of the duplicate key at `span`.
+/// It is the earlier key whose renaming removes the error: only that one is in the same table.
 fn first_of(text: &str, span: &Range<usize>) -> Option<usize> {
     const OTHER: &str = "another-key";
     let key = &text[span.clone()];
@@ -61,7 +61,7 @@ fn first_of(text: &str, span: &Range<usize>) -> Option<usize> {
     })
 }
 
-/// The number with a decimal comma that is the value of a key and ends at byte `at`, or holds it.
+/// The number with a decimal comma that is the value of a key. Byte `at` lies in it or at its end.
 fn decimal_comma(text: &str, at: usize) -> Option<Range<usize>> {
     let line = text[..at].rfind('\n').map_or(0, |before| before + 1);
     let end = text[at..].find('\n').map_or(text.len(), |length| at + length);
@@ -78,7 +78,7 @@ fn decimal_comma(text: &str, at: usize) -> Option<Range<usize>> {
         .find(|number| (number.start..=number.end + 1).contains(&at))
 }
 
-/// Whether a text is a number but for its decimal comma.
+/// Whether a text is a number except for its decimal comma.
 pub(super) fn has_decimal_comma(text: &str) -> bool {
     let is_sound = |(whole, part): (&str, &str)| {
         let whole = whole.trim_start_matches(['+', '-']);

@@ -1,4 +1,4 @@
-//! Mapping files: which numbers of another program's table are which channels of a mechanism.
+//! Mapping files: they map the numbers of another program's table to the channels of a mechanism.
 
 use crate::sentences;
 use std::path::Path;
@@ -9,38 +9,38 @@ use super::words::suggestion;
 use formula::FormulaFault;
 use linkage::error::{Error, ErrorKind, Place, Result};
 
-/// Which numbers of a table are what.
+/// The meaning of the numbers of a table.
 #[derive(Clone, Debug, Default)]
 pub struct Mapping {
-    /// Where the rows hold: names `time_s` and the like, as in the measurements of a scenario.
+    /// The instants of the rows, under names such as `time_s`, as in the measurements of a scenario.
     pub at: Vec<Mapped>,
-    /// Channels, or arithmetics of channels.
+    /// Channels, or arithmetic expressions of channels.
     pub channels: Vec<Mapped>,
-    /// What the table is trusted to.
+    /// The differences that are allowed to the table.
     pub allowed: Vec<Allowed>,
 }
 
-/// A channel, and what it is in the table.
+/// A channel, and its expression in the columns of the table.
 #[derive(Clone, Debug)]
 pub struct Mapped {
     /// The channel in its unit, such as `link.rocker.angle_deg`; or a name of [`INSTANTS`].
     pub name: String,
-    /// An arithmetic over the table's columns.
+    /// An arithmetic expression of the table's columns.
     pub text: String,
     place: Place,
     start: usize,
 }
 
-/// A difference that is allowed.
+/// An allowed difference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Allowed {
-    /// A channel or a word for several; `None` for all.
+    /// A channel, or a word for several channels; `None` for all.
     pub of: Option<String>,
     /// How much.
     pub size: Size,
 }
 
-/// How a difference that is allowed is given.
+/// How an allowed difference is stated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Size {
     /// In the channel's unit.
@@ -51,14 +51,14 @@ pub enum Size {
     OfValue(f64),
 }
 
-/// A key of differences that are allowed, and its kind.
+/// A key of allowed differences, and its kind.
 type Sized = (&'static str, fn(f64) -> Size);
 
-/// All of them, in the order of the kinds.
+/// All keys of allowed differences, in the order of the kinds.
 const SIZES: [Sized; 3] = [("abs", Size::Absolute), ("rel", Size::Relative), ("rel_value", Size::OfValue)];
 
 impl Size {
-    /// Its kind, from 0: in units, of the scale, of each value.
+    /// Index of its kind, from 0: in units, as a share of the scale, as a share of each value.
     #[must_use]
     pub fn kind(self) -> usize {
         self.parts().0
@@ -73,7 +73,7 @@ impl Size {
     }
 }
 
-/// Names of what rows hold at, each with its factor to SI, and whether it is a crank angle.
+/// Names for the instants of rows, each with its factor to SI, and whether it is a crank angle.
 pub const INSTANTS: [(&str, f64, bool); 4] = [
     ("time_s", 1.0, false),
     ("time_ms", 1e-3, false),
@@ -82,10 +82,10 @@ pub const INSTANTS: [(&str, f64, bool); 4] = [
 ];
 
 impl Mapped {
-    /// `EXPR=NAME`, as an argument gives it; `what` it is, for messages.
+    /// Parses `EXPR=NAME`, as an argument gives it; `what` names the text in messages.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if there is no `=`, or nothing on one of its sides.
+    /// [`ErrorKind::Input`] if there is no `=`, or if one of its sides is empty.
     pub fn parse(text: &str, what: &str) -> Result<Self> {
         let place = Place { file: what.into(), text: text.into(), span: 0..text.len() };
         let parts = text.rsplit_once('=').map(|(left, right)| (left.trim(), right.trim()));
@@ -100,20 +100,20 @@ impl Mapped {
         }
     }
 
-    /// A column that has the name of a channel already.
+    /// A column that already has the name of a channel.
     #[must_use]
     pub fn same(name: &str, text: &str) -> Self {
         let place = Place { file: "the header".into(), text: text.into(), span: 0..text.len() };
         Mapped { name: name.into(), text: text.into(), place, start: 0 }
     }
 
-    /// The factor of a name of [`INSTANTS`] to SI, and whether it is a crank angle.
+    /// If the name is one of [`INSTANTS`]: its factor to SI, and whether it is a crank angle.
     #[must_use]
     pub fn instant(&self) -> Option<(f64, bool)> {
         INSTANTS.iter().find(|(name, ..)| *name == self.name).map(|&(_, factor, is_crank)| (factor, is_crank))
     }
 
-    /// An error about its arithmetic.
+    /// An error in the arithmetic expression.
     #[must_use]
     pub fn refused(&self, fault: &FormulaFault) -> Error {
         let span = self.start + fault.at.start..self.start + fault.at.end;
@@ -143,14 +143,14 @@ impl Mapping {
         read(&mut TomlTable::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
     }
 
-    /// Adds what another mapping says.
+    /// Adds the content of another mapping.
     pub fn extend(&mut self, other: Mapping) {
         self.at.extend(other.at);
         self.channels.extend(other.channels);
         self.allowed.extend(other.allowed);
     }
 
-    /// Adds one line of it.
+    /// Adds one line to the mapping.
     pub fn push(&mut self, mapped: Mapped) {
         match mapped.instant() {
             Some(_) => self.at.push(mapped),
@@ -164,7 +164,7 @@ impl Mapping {
         self.at.is_empty() && self.channels.is_empty() && self.allowed.is_empty()
     }
 
-    /// The text of a file that says the same.
+    /// The text of a mapping file with the same content.
     #[must_use]
     pub fn text(&self) -> String {
         let mut document = toml_edit::DocumentMut::new();
@@ -196,7 +196,7 @@ impl Mapping {
     }
 }
 
-/// Stands for all channels among tolerances.
+/// Name that denotes all channels among the tolerances.
 const ALL: &str = "all";
 
 fn read(root: &mut TomlTable) -> Result<Mapping> {

@@ -1,7 +1,7 @@
-//! Masses that no longer fit the mechanism that they belong to: a wrong unit, as a rule.
+//! Masses that do not fit their mechanism. The usual cause is a wrong unit.
 //!
-//! A double has sixteen digits. What is so far away, or so heavy, leaves too few of them to everything else: no side
-//! and no engine could say more about the rest of the mechanism than the rounding of that one number.
+//! A double has sixteen digits. A mass that is too far away, or too heavy, leaves too few digits for everything else.
+//! The rounding error of that one number would then hide the rest of the mechanism from the solvers and the engines.
 
 use crate::sentences;
 use linkage::drive::{Drive, Drives};
@@ -9,15 +9,16 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::mechanism::{Link, Mechanism};
 
-/// Largest distance of a mass centre from the nearest point of its link, over the largest link.
+/// Largest distance of a mass centre from the nearest point of its link, as a multiple of the largest link's size.
 const FARTHEST: f64 = 1e3;
-/// Largest moment of inertia of a link, its mass at the mechanism's size included, over those of all others together.
+/// Largest moment of inertia of a link, as a multiple of the sum over all others.
+/// It includes the link's mass at a distance of the mechanism's size.
 const HEAVIEST: f64 = 1e12;
 
 /// Speed of light (m/s).
 const LIGHT: f64 = 299_792_458.0;
 
-/// Checks that no crank has a point that is faster than light by its law of motion, or at the start.
+/// Checks that no point of a crank is faster than light, by the law of motion or at the start.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for such a speed.
@@ -38,10 +39,10 @@ pub fn check_speeds(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
     Ok(())
 }
 
-/// Checks the places of mass centres, and the masses against each other.
+/// Checks the positions of mass centres, and the masses relative to each other.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for a mass centre or an inertia that is beyond the rest of the mechanism.
+/// [`ErrorKind::Input`] for a mass centre or an inertia that is out of proportion to the rest of the mechanism.
 pub fn check(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
     let size = mechanism.links().iter().map(Link::size).fold(0.0, f64::larger);
     if size == 0.0 {
@@ -65,7 +66,7 @@ pub fn check(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
     }
     let inertia = |link: &Link| link.inertia + link.mass * size * size;
     let motors: f64 = drives.iter().map(Drive::moving_inertia).sum();
-    // Added up anew for every link: a difference of sums has no digit left of what matters here.
+    // Summed separately for every link: a difference of two sums would lose all significant digits here.
     let others = |link: &Link| moving().filter(|other| other.name != link.name).map(inertia).sum::<f64>() + motors;
     let Some(link) = moving().max_by(|a, b| inertia(a).total_cmp(&inertia(b))) else { return Ok(()) };
     let (own, others) = (inertia(link), others(link));

@@ -13,7 +13,7 @@ use linkage::input::InputValue;
 use linkage::math::{Piecewise, Vec2};
 use linkage::mechanism::{GROUND, JointKind, JointSide, Mechanism};
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("drive").with(&[
         needed("joint", ValueKind::Text).means("revolute joint between the ground and the driving link"),
@@ -52,8 +52,8 @@ pub const SECTIONS: &[Section] = &[
     ]),
 ];
 
-/// The drives of the mechanism: the crank, with `start` as its angle at t = 0 (rad) and with the motor, and further
-/// drives, which state their own start. `None` after a mistake.
+/// The drives of the mechanism: the crank first, then further drives, which state their own start.
+/// The crank has `start` as its angle at t = 0 (rad), and the motor. `None` after a mistake.
 pub fn drives(
     tables: Vec<TomlTable>,
     motor: Option<TomlTable>,
@@ -71,7 +71,7 @@ pub fn drives(
             Ok(drive)
         };
         drives.extend(faults.read(&mut table, own));
-        // A drive may hang on a link that one before it moves.
+        // A drive may be carried by a link that an earlier drive moves.
         faults.whole &= drives.len() > index;
     }
     let motor = motor.map(|mut motor| faults.read(&mut motor, motor::read));
@@ -82,7 +82,7 @@ pub fn drives(
     Some(Drives::new(crank, drives))
 }
 
-/// Checks that a drive may stand beside those before it.
+/// Checks that a drive can be combined with the drives before it.
 fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()> {
     if before.is_empty() {
         return Ok(());
@@ -217,7 +217,7 @@ fn cycloidal(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
     Ok(MotionLaw::Cycloidal { rise, time })
 }
 
-/// From rest at the start, at t = 0, to rest at the last point.
+/// A law from a table: from rest at the start (t = 0) to rest at the last point.
 fn points(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
     let InputValue { input, value: start } = start;
     let mut points: Vec<(f64, f64)> = Vec::new();

@@ -7,7 +7,7 @@ use crate::sentences;
 use linkage::drive::{Motor, MotorLaw, ShaftInertia};
 use linkage::error::{ErrorKind, Result};
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("motor").with(&[
         needed("law", ValueKind::Choice(|| names(LAWS))).means("torque over the motor's own speed"),
@@ -79,7 +79,7 @@ fn linear(table: &mut TomlTable) -> Result<MotorLaw> {
     Ok(MotorLaw::Linear { at_rest, slope: table.si("slope")? })
 }
 
-/// The breakdown point is given by its slip or by its speed, whichever the catalogue has.
+/// The breakdown point is given by its slip or by its speed, depending on the catalogue.
 fn kloss(table: &mut TomlTable) -> Result<MotorLaw> {
     let breakdown_torque = table.si("breakdown_torque")?;
     let synchronous_speed = table.si("synchronous_speed")?;

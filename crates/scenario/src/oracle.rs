@@ -1,4 +1,4 @@
-//! `[[oracle]]`: numbers that the mechanism must reproduce, each with the bound that its digits give.
+//! `[[oracle]]`: numbers that the mechanism must reproduce, each with the bound that follows from its digits.
 
 use super::figure::MechanismFigure;
 use super::figure::{self, OracleFigure};
@@ -25,7 +25,7 @@ const DIGITS: FileKey = needed("digits", ValueKind::Integer).means("number of pr
 const CRANK: FileKey = optional("crank", ValueKind::INPUTS, "a time is given").means("crank angle");
 const AT_TIME: FileKey = optional("time", ValueKind::TIMES, "a crank angle is given").means("time");
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("oracle").with(&[
         needed("source", ValueKind::Text).means("author, title, table"),
@@ -93,10 +93,10 @@ pub const SECTIONS: &[Section] = &[
 /// Numbers of one source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Oracle {
-    /// The scenario's name for it, else the file name of the table (`positions.csv`). For numbers in the scenario
-    /// itself it is `inline 1`, `inline 2`, ...
+    /// The name that the scenario states, or else the file name of the table (`positions.csv`).
+    /// Numbers in the scenario itself are named `inline 1`, `inline 2`, ...
     pub name: String,
-    /// Source of the numbers, and the reason for their own error if they have one.
+    /// Source of the numbers. If the numbers have a known error, also the reason for it.
     pub source: String,
     /// How they are known.
     pub basis: OracleBasis,
@@ -106,7 +106,7 @@ pub struct Oracle {
     pub figures: Vec<OracleFigure>,
 }
 
-/// How the numbers of an oracle are known.
+/// Origin of the numbers of an oracle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OracleBasis {
     /// Printed in the source.
@@ -118,13 +118,16 @@ pub enum OracleBasis {
 }
 
 impl Oracle {
-    /// What holds for a case that starts at another crank angle of the same branch; `None` if nothing does.
+    /// The part of the oracle that still holds if the case starts at another crank angle of the same branch; `None` if
+    /// no
+    /// part holds.
     pub(super) fn at_another_start(mut self, case: &Case) -> Option<Oracle> {
         self.figures.retain(|figure| !matches!(figure.figure, MechanismFigure::Distance(_)));
-        // A motion from another angle is another function of time.
+        // From another start angle, the motion is a different function of time.
         self.series.retain(|series| series.instants().all(|at| at.time().is_none()));
-        // A further drive or a changing speed ties the crank angle to time, and a torsional spring to turns from the
-        // start.
+        // A further drive or a changing speed couples the crank angle to time. A torsional spring couples it to the
+        // turns since
+        // the start.
         let winds = |load: &linkage::drive::Load| load.nature().twist.is_some();
         if !case.is_steady() || !case.drives.further().is_empty() || case.loads.iter().any(winds) {
             self.series.clear();
@@ -144,7 +147,7 @@ impl OracleBasis {
         }
     }
 
-    /// Reads the key `basis`; published if the key is missing.
+    /// Reads the key `basis`; `Published` if the key is missing.
     fn read(table: &mut TomlTable) -> Result<Self> {
         let words = Self::ALL.map(|basis| (basis.word(), basis));
         Ok(table
@@ -153,7 +156,7 @@ impl OracleBasis {
     }
 }
 
-/// The oracles of a case, but those with mistakes.
+/// The oracles of a case, without those that have mistakes.
 pub(super) fn read(tables: Vec<TomlTable>, case: &Case, memory: Option<f64>, faults: &mut Faults) -> Vec<Oracle> {
     let (wanted, all) = (case.channels(), case.all_channels());
     let known = Known { channels: &all, wanted: &wanted, digits: None, slack: 0.0, memory };

@@ -1,4 +1,4 @@
-//! `[parameters]`: parameters as a file gives them.
+//! `[parameters]`: parameters as a file states them.
 
 use super::parameters::{Parameter, Parameters, fault_of_name};
 use super::reader::TomlTable;
@@ -6,12 +6,12 @@ use super::words::suggestion;
 use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Reads the section, with the numbers that are `set` instead of the file's own. Keys that the file does not have are
-/// added where the caller allows it. A parameter with a mistake is left out; the first such mistake comes with the
-/// others, because it may be the cause of the next.
+/// Reads the section. Numbers in `set` replace the file's own.
+/// Keys that the file does not have are added if the caller allows it.
+/// A parameter with a mistake is left out. Only the first such mistake is returned, because it may cause the others.
 ///
 /// # Errors
-/// Those of `set`.
+/// Mistakes in `set`.
 pub(super) fn read(
     table: Option<TomlTable>,
     set: &[(String, f64)],
@@ -51,7 +51,7 @@ pub(super) fn read(
     Ok((parameters, first))
 }
 
-/// The parameter of a key; `before` are those read already.
+/// The parameter of a key; `before` are the parameters read already.
 fn own(table: &mut TomlTable, key: &str, before: &Parameters) -> Result<Parameter> {
     let parameter = Parameter::new(key, table.number_with(key, before)?);
     let faulty = parameter.names().find_map(|(name, _)| fault_of_name(name));
@@ -61,7 +61,7 @@ fn own(table: &mut TomlTable, key: &str, before: &Parameters) -> Result<Paramete
     }
 }
 
-/// A name of a parameter that another has too.
+/// Message and help, if a name of the parameter is also a name of another one.
 fn twice(others: &Parameters, parameter: &Parameter) -> Option<(String, &'static str)> {
     let (name, other) = parameter.names().find_map(|(name, _)| Some((name, others.called(name)?)))?;
     let message = sentences::would_stand_for_and_for(&name, &other.key, &parameter.key);

@@ -1,4 +1,4 @@
-//! Parameters: numbers with names, for other numbers and for formulas.
+//! Parameters: named numbers, which other numbers and formulas may use.
 
 use super::unit::{self, NamedUnit};
 use super::words::suggestion;
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// A number with a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// The key with its unit, such as `a_mm`: as a name it is the plain number.
+    /// The key with its unit, such as `a_mm`. As a name it denotes the plain number.
     pub key: String,
     /// The number as it was given, in the unit of the key.
     pub given: f64,
@@ -21,13 +21,13 @@ impl Parameter {
         Parameter { key: key.into(), given, unit: unit::ending(key).map(|(_, unit)| unit) }
     }
 
-    /// The key without its unit, such as `a`: as a name it is the number in SI. `None` for a key without a unit.
+    /// The key without its unit, such as `a`. As a name it denotes the number in SI. `None` for a key without a unit.
     #[must_use]
     pub fn short(&self) -> Option<&str> {
         self.unit.map(|unit| &self.key[..self.key.len() - unit.suffix.len() - 1])
     }
 
-    /// Its unit, as its key ends.
+    /// Its unit, from the ending of its key.
     #[must_use]
     pub fn unit(&self) -> Option<&'static str> {
         self.unit.map(|unit| unit.suffix)
@@ -39,13 +39,13 @@ impl Parameter {
         self.unit.is_some_and(|unit| unit::ANGLE.units.contains(unit))
     }
 
-    /// The name that stands for it in SI: the short one, or its key if that has no unit.
+    /// The name of its value in SI: the short name, or the key if that has no unit.
     #[must_use]
     pub fn quantity(&self) -> &str {
         self.short().unwrap_or(&self.key)
     }
 
-    /// Its names, each with the number that it stands for.
+    /// Its names, each with the number that it denotes.
     pub fn names(&self) -> impl Iterator<Item = (&str, Rounded)> {
         let plain = Rounded::decimal(self.given);
         let si = self.unit.map(|unit| match unit.to_si(1.0) {
@@ -64,19 +64,19 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// All of them, in the order of the file.
+    /// All parameters, in the order of the file.
     #[must_use]
     pub fn list(&self) -> &[Parameter] {
         &self.list
     }
 
-    /// The one that a name stands for.
+    /// The parameter that a name denotes.
     #[must_use]
     pub fn called(&self, name: &str) -> Option<&Parameter> {
         self.places.get(name).map(|&place| &self.list[place])
     }
 
-    /// Adds one, of whose names none is taken.
+    /// Adds a parameter whose names are not taken yet.
     pub(super) fn push(&mut self, parameter: Parameter) {
         for (name, _) in parameter.names() {
             self.places.insert(name.into(), self.list.len());
@@ -84,18 +84,19 @@ impl Parameters {
         self.list.push(parameter);
     }
 
-    /// Gives the parameter of a key another number; `false` if there is none.
+    /// Gives the parameter of a key another number; `false` if there is no such parameter.
     pub(super) fn set(&mut self, key: &str, given: f64) -> bool {
         let place = self.places.get(key).copied().filter(|&place| self.list[place].key == key);
         place.map(|place| self.list[place].given = given).is_some()
     }
 }
 
-/// The number that `text` gives for a key: an arithmetic of numbers and parameters. Short names of parameters count in
-/// the key's unit where they measure the same quantity (`length_mm = "2 * a"`), else in SI.
+/// The number that `text` gives for a key: an arithmetic expression of numbers and parameters.
+/// If a short name of a parameter measures the same quantity as the key, it counts in the key's unit
+/// (`length_mm = "2 * a"`). Otherwise it counts in SI.
 ///
 /// # Errors
-/// What is wrong with the text, with its place.
+/// The mistake in the text, with its position.
 pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std::result::Result<f64, FormulaFault> {
     let tree = FormulaTree::parse(text)?;
     let wanted = unit::ending(key).map(|(_, unit)| unit);
@@ -104,7 +105,7 @@ pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std:
         let (_, number) = own.names().find(|(own, _)| *own == name)?;
         let is_short = own.short() == Some(name);
         let of_key = wanted.filter(|wanted| is_short && own.unit.is_some_and(|unit| unit::alike(unit, wanted)));
-        // The number itself, where it is given in the key's unit.
+        // The plain number, if it is given in the key's unit.
         Some(Rounded::exact(match of_key {
             Some(unit) if Some(unit) == own.unit => own.given,
             Some(unit) => number.value / unit.to_si(1.0),
@@ -127,10 +128,10 @@ pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std:
     Err(FormulaFault { message: sentences::NOTHING_IS_KNOWN_OF_ITS_VALUE.into(), at: 0..text.len(), help })
 }
 
-/// Names that stand for something else in every formula.
+/// Names that have a fixed meaning in every formula.
 pub const INPUTS: [&str; 2] = ["phi", "t"];
 
-/// What is wrong with the name of a parameter or formula, and the way out.
+/// Message and help, if a name cannot be that of a parameter or formula.
 pub(super) fn fault_of_name(name: &str) -> Option<(String, &'static str)> {
     const HELP: &str = sentences::NAMES_BEGIN_WITH_A_LETTER;
     let mut bytes = name.bytes();

@@ -1,5 +1,4 @@
-//! Printed numbers: their value, how far the true value may be from it, and what stands beside those that are known to be
-//! wrong.
+//! Printed numbers: their value, their uncertainty, and the correction of those that are known to be wrong.
 
 use super::reader::TomlTable;
 use super::unit::{ANGLE, LENGTH, NamedUnit, UnitFamily};
@@ -16,26 +15,26 @@ pub struct Printed {
     pub value: f64,
     /// Decimals printed; negative if digits before the decimal point are missing (1.5e3 has -2).
     pub digits: i32,
-    /// How far the number may be from the one that was printed, in the printed unit.
+    /// Largest distance of the true number from the printed one, in the printed unit.
     half_unit: f64,
 }
 
 impl Printed {
-    /// A number with a count of decimals, whatever its text shows.
+    /// A number with a given count of decimals, independent of its text.
     #[must_use]
     pub fn with_digits(value: f64, digits: i32) -> Printed {
         // The printed decimal is rounded once more to binary; the excess covers only that rounding.
         Printed { value, digits, half_unit: 0.5 * 10f64.powi(-digits) * (1.0 + 1e-9) }
     }
 
-    /// A number of a column, with what the digits of the column leave open.
+    /// A number of a column, with the uncertainty that the digits of the column leave.
     #[must_use]
     pub fn of_column(number: &Rounded) -> Printed {
         let Rounded { value, error } = *number;
         Printed { value, digits: -(2.0 * error).log10().round() as i32, half_unit: error }
     }
 
-    /// Reads a decimal number with an optional exponent; any other text is refused, and so is a cell without a number.
+    /// Reads a decimal number with an optional exponent. Any other text is refused, and so is a cell without a number.
     #[must_use]
     pub fn cell(text: &str) -> Option<TableCell> {
         let begins = text.strip_prefix(['+', '-']).unwrap_or(text);
@@ -52,10 +51,10 @@ impl Printed {
 /// Largest count of decimals that makes sense in double precision.
 pub const MOST_DIGITS: i32 = 20;
 
-/// Ending of a joint's name that stands for the magnitude of its reaction.
+/// Ending after a joint's name that denotes the magnitude of the reaction.
 const MAGNITUDE: &str = "f_N";
 
-/// Ending of the channel of the x component, which stands for the magnitude.
+/// Ending of the channel of the x component, which represents the magnitude.
 const X_OF_MAGNITUDE: &str = "fx_N";
 
 /// The units that a channel is printed in; `None` if only the SI unit is printed.
@@ -88,7 +87,7 @@ pub fn endings(kind: &ChannelKind) -> Vec<String> {
 pub struct PrintedChannel {
     /// The channel, in SI.
     pub channel: Channel,
-    /// Family of the printed unit, if units other than SI are known; without one the numbers are SI.
+    /// Family of the printed unit, if the family has units other than SI; `None` if the numbers are in SI.
     pub family: Option<&'static UnitFamily>,
     /// Whether the printed number is the magnitude of a vector; `channel` is then the x component of the vector.
     pub magnitude: bool,
@@ -96,8 +95,8 @@ pub struct PrintedChannel {
 }
 
 impl PrintedChannel {
-    /// Channel called `name` with the printed unit as its ending: `x_mm` for `x_m`, `angle_deg` for `angle_rad`, else
-    /// the name in SI.
+    /// Channel called `name`. Its ending may be a printed unit: `x_mm` for `x_m`, `angle_deg` for `angle_rad`.
+    /// Otherwise it is the name in SI.
     #[must_use]
     pub fn named(name: &str) -> Option<PrintedChannel> {
         if let Some(base) = name.strip_suffix(&format!(".{MAGNITUDE}")) {
@@ -124,7 +123,7 @@ impl PrintedChannel {
         PrintedChannel { channel, family: None, magnitude: false, unit: None }
     }
 
-    /// A turn in its unit, if it is an angle.
+    /// A full turn in the channel's unit, if the channel is an angle.
     #[must_use]
     pub fn turn(&self) -> Option<f64> {
         let is_degrees = self.unit.is_some_and(|unit| unit.suffix == "deg");
@@ -184,7 +183,7 @@ pub(super) fn finding(entry: &mut TomlTable) -> Result<Option<String>> {
     }
 }
 
-/// Refuses a correct number so close to the printed one that one number could agree with both.
+/// Refuses a correct number that is so close to the printed one that a single number could agree with both.
 pub(super) fn check_apart(entry: &TomlTable, printed: &Printed, right: &Printed) -> Result<()> {
     if (printed.value - right.value).abs() > printed.half_unit() + right.half_unit() {
         return Ok(());

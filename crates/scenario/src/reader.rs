@@ -1,7 +1,7 @@
-//! Typed reading of a spanned TOML table. A reader knows its dotted path, returns typed values, remembers the keys that
-//! were asked for, and at the end refuses the keys that nobody asked for.
+//! Typed reading of a spanned TOML table. A reader knows its dotted path and returns typed values.
+//! It remembers the requested keys, and at the end it refuses all other keys.
 //!
-//! A table that is read by [`TomlTable::read`] tells all mistakes of its keys and values at once.
+//! A table that is read by [`TomlTable::read`] reports all mistakes of its keys and values at once.
 
 mod quantity;
 mod several;
@@ -39,20 +39,20 @@ pub struct TomlTable<'a> {
     path: String,
     span: Range<usize>,
     entries: Vec<Entry<'a>>,
-    /// The place of each key among them.
+    /// Index of each key in `entries`.
     places: BTreeMap<&'a str, usize>,
     used: BTreeSet<&'a str>,
     asked: Vec<String>,
     /// Whether reading goes on after a mistake.
     goes_on: bool,
     faults: Vec<Error>,
-    /// Names of other tables that there are not.
+    /// Errors about names that no other table defines.
     unknown_names: Vec<Error>,
-    /// Spellings of keys that are there in one of them.
+    /// All spellings of the keys of which one spelling is present.
     settled: Vec<String>,
-    /// Spellings of each key that is missing, and the way out.
+    /// Spellings of each missing key, and the help for it.
     missing: Vec<(Vec<String>, Option<&'static str>)>,
-    /// Keys that lead here, with `*` for names: its section in the table of keys.
+    /// Keys that lead to this table, with `*` for names: its section in the table of keys.
     section: String,
     /// The rows of that section.
     rows: &'static [FileKey],
@@ -138,17 +138,17 @@ impl<'a> TomlTable<'a> {
         Error::new(kind, message).key(key).at(place)
     }
 
-    /// Refuses the value of `key`, as [`TomlTable::wrong`], with the way out.
+    /// Refuses the value of `key`, as [`TomlTable::wrong`], with help.
     pub fn refuse<T>(&self, key: &str, message: impl Into<String>, help: impl Into<Advice>) -> Result<T> {
         Err(self.wrong(ErrorKind::Input, key, message).help(help))
     }
 
-    /// The same for what this version does not support.
+    /// The same, for a value that this version does not support.
     pub fn unsupported<T>(&self, key: &str, message: impl Into<String>, help: impl Into<Advice>) -> Result<T> {
         Err(self.wrong(ErrorKind::Unsupported, key, message).help(help))
     }
 
-    /// A setting whose value was read from `key`, if it was.
+    /// A setting with the value that was read from `key`; free without a value.
     pub fn given<T>(&self, key: &str, value: Option<T>) -> EngineSetting<T> {
         value.map_or(EngineSetting::Free, |value| {
             let (key, place) = self.spot(key);
@@ -156,7 +156,7 @@ impl<'a> TomlTable<'a> {
         })
     }
 
-    /// Dotted path and place of the value of `key`; of the table if it is not there.
+    /// Dotted path and position of the value of `key`. If the key is missing, the position is that of the table.
     fn spot(&self, key: &str) -> (String, Place) {
         let with_unit = |entry: &&Entry| {
             self.used.contains(&entry.key) && entry.key.strip_prefix(key).is_some_and(|rest| rest.starts_with('_'))
@@ -176,10 +176,10 @@ impl<'a> TomlTable<'a> {
 
     fn fault_at(&self, key: &str, value: &Spanned<DeValue>, fault: &FormulaFault) -> Error {
         let (mut span, text) = (value.span(), value.get_ref().as_str().unwrap_or_default());
-        // The text stands there as it is, unless it has escapes.
+        // The file contains the text literally, unless it has escapes.
         if let Some(offset) = self.source.text[span.clone()].find(text) {
             let start = span.start + offset;
-            // What is missing at the end is shown at the last sign.
+            // A fault beyond the end of the text is shown at its last character.
             let (from, to) = (fault.at.start.min(text.len().saturating_sub(1)), fault.at.end);
             span = start + from..start + to.max(from);
         }
@@ -199,7 +199,7 @@ impl<'a> TomlTable<'a> {
         self.places.get(key).map(|&place| &self.entries[place])
     }
 
-    /// Value of `key`, which is recorded as asked for.
+    /// Value of `key`. The key is recorded as requested.
     fn take(&mut self, key: &str) -> Option<&'a Spanned<DeValue<'a>>> {
         self.asked.push(key.to_string());
         let &place = self.places.get(key)?;
@@ -211,8 +211,8 @@ impl<'a> TomlTable<'a> {
         value.ok_or_else(|| self.missing(vec![key.to_string()]))
     }
 
-    /// What `read` makes of the value of `key`, if the key is there; in place of another value, `stand_in`, or nothing
-    /// more is read.
+    /// What `read` makes of the value of `key`, if the key is present.
+    /// If `read` refuses the value, `stand_in` replaces it. Without `stand_in` the reading ends.
     fn scalar<T>(
         &mut self,
         key: &str,
@@ -233,7 +233,7 @@ impl<'a> TomlTable<'a> {
         self.scalar(key, Needed::Text, None, |value| value.as_str().map(ToString::to_string))
     }
 
-    /// What the word of a key stands for, if the key is there; `wrong` says what another word is.
+    /// The meaning of the word of a key, if the key is present; `wrong` is the message for an unknown word.
     pub fn optional_choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<Option<T>> {
         let Some(word) = self.optional_string(key)? else { return Ok(None) };
         let found = words.iter().find(|(own, _)| *own == word).map(|(_, meant)| *meant);
@@ -245,7 +245,7 @@ impl<'a> TomlTable<'a> {
         Ok(found)
     }
 
-    /// What the word of a key stands for.
+    /// The meaning of the word of a key.
     pub fn choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<T> {
         let found = self.optional_choice(key, wrong, words)?;
         match self.faults.last() {
@@ -289,7 +289,7 @@ impl<'a> TomlTable<'a> {
         self.finite(key, value).map(Some).or_else(|error| self.instead(None, error))
     }
 
-    /// Finite number, or an arithmetic of these parameters.
+    /// Finite number, or an arithmetic expression of these parameters.
     pub fn number_with(&mut self, key: &str, parameters: &Parameters) -> Result<f64> {
         let value = self.take(key);
         let value = self.required(key, value)?;
@@ -348,8 +348,9 @@ impl<'a> TomlTable<'a> {
         self.child(key, self.path_of(key), value).map_err(|error| self.noted(error))
     }
 
-    /// Elements of an array of tables; empty if the key is missing. Their paths contain their name if they have one
-    /// (`joints.A`), else their number, counted from 1 (`oracle[2]`).
+    /// Elements of an array of tables; empty if the key is missing.
+    /// The path of an element contains its name (`joints.A`). Without a name it contains its number from 1
+    /// (`oracle[2]`).
     pub fn tables(&mut self, key: &str) -> Result<Vec<TomlTable<'a>>> {
         let Some(value) = self.take(key) else { return Ok(Vec::new()) };
         let Some(array) = value.get_ref().as_array() else {
@@ -392,7 +393,7 @@ impl<'a> TomlTable<'a> {
     fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<TomlTable<'a>> {
         match value.get_ref() {
             DeValue::Table(table) => {
-                // A key that was not asked for by its name is a name itself.
+                // A key that no reader requested literally is a name.
                 let own = if self.asked.iter().any(|own| own == key) { key } else { "*" };
                 let section = if self.section.is_empty() { own.into() } else { format!("{}.{own}", self.section) };
                 Ok(TomlTable { name: key.into(), path, ..TomlTable::new(self.source, section, value.span(), table) })
@@ -422,7 +423,7 @@ impl<'a> TomlTable<'a> {
     }
 }
 
-/// What must stand at a key.
+/// The type of value that a key needs.
 #[derive(Clone, Copy)]
 enum Needed {
     Text,
@@ -451,7 +452,7 @@ impl Needed {
         }
     }
 
-    /// How to correct what was found instead at a dotted path.
+    /// How to correct the value that was found at a dotted path.
     fn help(self, path: &str, found: &DeValue) -> String {
         let help = match (self, found) {
             (Needed::Text, DeValue::Integer(_) | DeValue::Float(_)) => sentences::PUT_THE_TEXT_IN_QUOTES,

@@ -1,14 +1,14 @@
-//! Quantities of the mechanism reduced to its crank, as an arithmetic of channels: what a claim may name besides.
+//! Quantities reduced to the crank, as arithmetic expressions of channels. A claim may name them too.
 //!
-//! They are twice the kinetic energy, and the balance of powers, of whatever motion a side has found. Each side finds
-//! velocities, accelerations and the drive's moment by equations of its own.
+//! They are twice the kinetic energy, and the balance of powers, of the motion that a solver or engine has found.
+//! Each of these finds velocities, accelerations and the drive's moment by its own equations.
 
 use crate::sentences;
 use formula::{FormulaTree, Operator};
 use linkage::case::Case;
 use linkage::mechanism::{GROUND, Link};
 
-/// A quantity that is an arithmetic of channels.
+/// A quantity that is an arithmetic expression of channels.
 pub(super) struct Quantity {
     /// Its name in a claim, unit included.
     pub(super) name: &'static str,
@@ -17,10 +17,10 @@ pub(super) struct Quantity {
     tree: fn(&Case) -> Found,
 }
 
-/// The arithmetic, or what is wrong and the way out.
+/// The arithmetic expression, or a message and help.
 type Found = Result<FormulaTree, (String, String)>;
 
-/// All of them. Motor, reducer and flywheel are not counted.
+/// All reduced quantities. Motor, reducer and flywheel are not counted.
 pub(super) const QUANTITIES: [Quantity; 2] = [
     // I* = sum of m (v / omega)^2 + J (omega_link / omega)^2.
     Quantity { name: "drive.reduced_inertia_kg_m2", unit: "kg m^2", tree: inertia },
@@ -29,10 +29,10 @@ pub(super) const QUANTITIES: [Quantity; 2] = [
 ];
 
 impl Quantity {
-    /// The arithmetic of channels that it stands for in a case.
+    /// The arithmetic expression of channels for this quantity in a case.
     ///
     /// # Errors
-    /// Where it has no meaning: the message, and the way out.
+    /// Message and help, if the quantity has no meaning in the case.
     pub(super) fn of(&self, case: &Case) -> Found {
         match case.drives.len() {
             1 => (self.tree)(case),
@@ -74,7 +74,7 @@ fn moment(case: &Case) -> Found {
     let gained = sum(powers).map_or(FormulaTree::number(0.0), |sum| {
         FormulaTree::pair(Operator::Over, sum, of_link(crank(case), "omega_rad_s"))
     });
-    // A crank that nothing drives has no moment of a drive.
+    // A crank without a driving torque has no moment of a drive to subtract.
     Ok(match case.drives.with_moment().next() {
         Some(_) => FormulaTree::pair(Operator::Minus, gained, FormulaTree::name("drive.torque_N_m")),
         None => gained,
@@ -91,7 +91,7 @@ fn crank(case: &Case) -> &Link {
     &case.mechanism.links()[case.crank().link]
 }
 
-/// Mass times one part and moment of inertia times another, without what is zero.
+/// The link's mass times `of_mass` plus its moment of inertia times `of_inertia`, without terms that are zero.
 fn of_inertias(link: &Link, of_mass: FormulaTree, of_inertia: FormulaTree) -> FormulaTree {
     let parts = [(link.mass, of_mass), (link.inertia, of_inertia)];
     let parts = parts.into_iter().filter(|(factor, _)| *factor > 0.0);

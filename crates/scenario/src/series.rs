@@ -1,5 +1,5 @@
-//! Values of one channel that an oracle has, which channels it may name, and where its numbers hold: at a crank angle, or
-//! at a time.
+//! Values of one channel from an oracle, and the channels that an oracle may name.
+//! Its numbers hold at a crank angle or at a time.
 
 use crate::sentences;
 use std::fmt;
@@ -29,7 +29,7 @@ pub struct OracleSeries {
     pub points: Vec<OraclePoint>,
     /// Values known to be wrong, each with its own finding.
     pub expected: Vec<ExpectedCell>,
-    /// Finding that says why all values are wrong. They are then listed here and not in the two lists above.
+    /// Finding that says why all values are wrong. The values are then listed here and not in the two lists above.
     pub wrong: Option<(String, Vec<ExpectedCell>)>,
 }
 
@@ -38,7 +38,7 @@ pub struct OracleSeries {
 pub struct OraclePoint {
     /// Where the value holds.
     pub at: When,
-    /// By how much the instant may be off, because a table has rounded it (rad or s); 0 of one that was chosen.
+    /// Largest error of the instant because the table has rounded it (rad or s); 0 if the instant was chosen.
     pub at_error: f64,
     /// Value in the channel's SI unit.
     pub value: f64,
@@ -51,20 +51,21 @@ pub struct OraclePoint {
 /// Where a value holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum When {
-    /// At a crank angle (rad, as the scenario measures it). Where forces decide the motion, of the nominal motion.
+    /// At a crank angle (rad, as the scenario measures it). If forces decide the motion, it is that of the nominal
+    /// motion.
     Crank(f64),
     /// At a time (s) of the scenario's own motion.
     Time(f64),
 }
 
 impl When {
-    /// The crank angle (rad) of a value at one.
+    /// The crank angle (rad), if the value holds at one.
     #[must_use]
     pub fn crank(self) -> Option<f64> {
         if let When::Crank(crank) = self { Some(crank) } else { None }
     }
 
-    /// The time (s) of a value at one.
+    /// The time (s), if the value holds at one.
     #[must_use]
     pub fn time(self) -> Option<f64> {
         if let When::Time(time) = self { Some(time) } else { None }
@@ -80,7 +81,7 @@ impl fmt::Display for When {
     }
 }
 
-/// A printed value that is known to be wrong. It must not be reproduced; the correct value must.
+/// A printed value that is known to be wrong. The mechanism must reproduce the correct value, not the printed one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpectedCell {
     /// The value as printed.
@@ -96,7 +97,7 @@ pub struct ExpectedCell {
 pub(super) struct Known<'a> {
     pub channels: &'a [Channel],
     pub wanted: &'a [Channel],
-    /// Number of decimals in a table that does not print zeros at the end.
+    /// Number of decimals in a table that does not print trailing zeros.
     pub digits: Option<i32>,
     /// Known error of the published numbers, in the printed unit.
     pub slack: f64,
@@ -126,8 +127,8 @@ impl OracleSeries {
 }
 
 impl Known<'_> {
-    /// The same for a table with this number of decimals, which does not print zeros at the end, and with this known
-    /// error.
+    /// The same, for a table with this known error. `digits` is its number of decimals if it does not print trailing
+    /// zeros.
     pub fn of_table(self, digits: Option<i32>, slack: f64) -> Self {
         Known { digits, slack, ..self }
     }
@@ -168,7 +169,7 @@ impl Known<'_> {
     }
 }
 
-/// Share of the last instant by which a time may lie beyond it: the rounding of a number in other units.
+/// Share of the last instant by which a time may exceed it: the rounding error of a conversion between units.
 const ROUNDING: f64 = 1e-12;
 
 const HELP: &str = sentences::A_NUMBER_HOLDS_AT_A_CRANK;
@@ -190,7 +191,7 @@ pub(super) fn instant(table: &mut TomlTable, case: &Case) -> Result<When> {
     }
 }
 
-/// The column of a file that says where its rows hold.
+/// The column of a file with the instants of its rows.
 pub(super) struct Rows {
     /// Name of the column.
     pub column: String,
@@ -228,11 +229,11 @@ impl Rows {
         !self.is_time && self.unit.suffix == "deg"
     }
 
-    /// The instant of a row, in a motion with this [`end`], and by how much it may be off (rad or s). A rounded time
-    /// may lie a little beyond the motion.
+    /// The instant of a row in a motion with this [`end`], and its largest error (rad or s).
+    /// A rounded time may lie slightly beyond the motion.
     ///
     /// # Errors
-    /// A message for a time that the motion does not have.
+    /// A message for a time outside the motion.
     pub fn instant(&self, case: &Case, end: Option<f64>, printed: Rounded) -> std::result::Result<(When, f64), String> {
         let [value, error] = [printed.value, printed.error].map(|number| self.unit.to_si(number));
         if !self.is_time {
@@ -244,7 +245,7 @@ impl Rows {
     }
 }
 
-/// A time brought into the motion of a drive: from zero to the end of its law.
+/// A time limited to the motion of a drive: from zero to the end of its law.
 #[must_use]
 pub fn within(drive: &Drive, time: f64) -> f64 {
     match drive.constant_speed() {
@@ -255,16 +256,18 @@ pub fn within(drive: &Drive, time: f64) -> f64 {
 
 const COLUMN_HELP: &str = sentences::NAME_THE_COLUMN_OF_CRANK;
 
-/// The way out for a time that the motion does not have.
+/// The help for a time outside the motion.
 pub(super) const TIME_HELP: &str = sentences::GIVE_A_TIME_WITHIN_THE_RUN;
 
-/// The last instant (s) of a motion that forces decide; `None` of another, or where another grid replaces its grid.
+/// The last instant (s) of a motion that forces decide; `None` for another motion, or if another grid replaces its
+/// grid.
 pub(super) fn end(case: &Case) -> Option<f64> {
     let is_solved = case.is_free() && !case.grid.is_empty();
     is_solved.then(|| case.grid.ascending().last().map_or(0.0, |&row| case.grid.times[row]))
 }
 
-/// Whether the case's own motion is solved at this time (s): within its run, to `end`, and where its law is defined.
+/// Checks that the case's own motion is solved at this time (s): within its run up to `end`, and where its law is
+/// defined.
 fn checked(case: &Case, end: Option<f64>, time: f64) -> std::result::Result<(), String> {
     Grid::of_times(case.crank(), vec![time]).check(case.crank())?;
     let Some(end) = end else { return Ok(()) };

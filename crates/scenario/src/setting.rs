@@ -1,4 +1,4 @@
-//! A setting: given, and where, or free.
+//! A setting: free, or given together with its origin.
 
 use linkage::error::{Error, Place};
 
@@ -16,7 +16,7 @@ pub enum SettingOrigin {
 /// A setting.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum EngineSetting<T> {
-    /// Found by the proof, or the engine's own.
+    /// Chosen by the proof or by the engine.
     #[default]
     Free,
     /// Given, and where.
@@ -44,7 +44,7 @@ impl<T> EngineSetting<T> {
         self.value().is_none()
     }
 
-    /// The error with the place where the setting was given.
+    /// The error, with the position where the setting was given.
     pub fn blamed(&self, error: Error) -> Error {
         match self {
             EngineSetting::Given(_, SettingOrigin::Key(key, place)) => error.key(key.as_str()).at(place.clone()),

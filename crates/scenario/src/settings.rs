@@ -1,4 +1,4 @@
-//! `[channels]` and `[tolerances]`: the wanted channels and the limits of judgement.
+//! `[channels]` and `[tolerances]`: the requested channels and the limits of judgement.
 
 use super::keys::key::{Section, ValueKind, needed, optional};
 use super::reader::TomlTable;
@@ -8,7 +8,7 @@ use linkage::case::Case;
 use linkage::error::Result;
 use linkage::trajectory::{Channel, Stage};
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("channels")
         .with(&[needed("want", ValueKind::Texts).means("stages, subjects or channels that are wanted")]),
@@ -18,7 +18,7 @@ pub const SECTIONS: &[Section] = &[
     )]),
 ];
 
-/// The words of `[channels]`; there is one at least.
+/// The words of `[channels]`; at least one.
 pub fn wanted(table: &mut TomlTable) -> Result<Vec<String>> {
     let names = table.strings("want")?;
     table.finish()?;
@@ -30,16 +30,16 @@ pub fn wanted(table: &mut TomlTable) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// The case with the channels wanted that the words of `[channels]` ask for.
+/// The case, restricted to the channels that the words of `[channels]` request.
 pub fn wanting(table: &TomlTable, names: &[String], case: Case) -> Result<Case> {
     let channels = called(&case, names).or_else(|(message, help)| table.refuse("want", message, help))?;
     Ok(case.wanting_only(&channels))
 }
 
-/// The channels that words ask for.
+/// The channels that words request.
 ///
 /// # Errors
-/// What is wrong with a word, and the way out.
+/// Message and help for a word that requests no channel.
 pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>, (String, String)> {
     let mut channels = Vec::new();
     for word in words {
@@ -67,7 +67,7 @@ pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>
 /// Default share for [`engine_rel`]: chosen, not derived.
 pub const ENGINE_REL: f64 = 1e-2;
 
-/// Largest bound on the error of the engine, as a share of a channel's scale, at which agreement is still a proof.
+/// Largest bound on the engine's error at which agreement is still a proof, as a share of a channel's scale.
 pub fn engine_rel(table: &mut TomlTable) -> Result<f64> {
     let share = table.optional_number("engine_rel")?.unwrap_or(ENGINE_REL);
     table.finish()?;

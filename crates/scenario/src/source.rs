@@ -1,5 +1,5 @@
-//! The file of a scenario: places in it, its spanned tree, and the place of a key that an error of the `linkage` crate
-//! carries.
+//! The file of a scenario: positions in it, and its spanned tree.
+//! It also finds the position of the key that an error of the `linkage` crate carries.
 
 use crate::sentences;
 use std::ops::Range;
@@ -18,12 +18,14 @@ use linkage::mechanism::{LONGEST_NAME, is_unseen};
 /// Longest text (characters).
 const LONGEST_TEXT: usize = 10_000;
 
-/// Most signs that begin a value or a table, dots of decimals included. A value takes some 200 bytes once it is read,
-/// whatever its length in the file: the memory is told before it is taken.
+/// Most characters that begin a value or a table, including decimal points.
+/// A value that is read takes some 200 bytes, whatever its length in the file. So the memory is known before it is
+/// used.
 const MOST_VALUES: usize = 2_000_000;
 
-/// Most parts of a file: tables, such as points, links, joints, loads and formulas. Costs grow with the square of their
-/// number in several places; with so many they are seconds. Published numbers do not count.
+/// Most parts of a file: tables, such as points, links, joints, loads and formulas.
+/// In several places the cost grows with the square of their number; at this limit it is a matter of seconds.
+/// Published numbers do not count.
 const MOST_PARTS: usize = 30_000;
 const UNCOUNTED: &str = "oracle";
 
@@ -45,9 +47,9 @@ pub struct Source<'a> {
     pub text: &'a str,
     /// Parameters that its numbers may use.
     pub parameters: Parameters,
-    /// The rows of the table of keys for a section, by its path; none of files that are no scenarios.
+    /// The rows of the table of keys for a section, by its path; empty for files that are not scenarios.
     pub rows: fn(&str) -> &'static [key::FileKey],
-    /// The text once more, for places.
+    /// The text once more, shared by all positions.
     shared: Arc<str>,
 }
 
@@ -57,12 +59,12 @@ impl<'a> Source<'a> {
         Source { path, text, parameters: Parameters::default(), rows: |_| &[], shared: text.into() }
     }
 
-    /// The same file with parameters, whose sections have these rows.
+    /// The same file with parameters, and with the rows of its sections.
     pub fn with(self, parameters: Parameters, rows: fn(&str) -> &'static [key::FileKey]) -> Self {
         Source { parameters, rows, ..self }
     }
 
-    /// Place of a byte range.
+    /// Position of a byte range.
     pub fn place(&self, span: Range<usize>) -> Place {
         Place { file: self.path.to_path_buf(), text: self.shared.clone(), span }
     }
@@ -70,7 +72,7 @@ impl<'a> Source<'a> {
     /// The spanned tree of the file.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] with the place, for what is no TOML, and for what no text of a file may hold.
+    /// [`ErrorKind::Input`] with the position, for invalid TOML and for forbidden characters or lengths.
     pub fn tree(&self) -> Result<Spanned<DeTable<'a>>> {
         self.check_size()?;
         let tree = DeTable::parse(self.text)
@@ -79,7 +81,8 @@ impl<'a> Source<'a> {
         Ok(tree)
     }
 
-    /// `error`, and those that were found with it: each with the place of its key, if it has a key and no place yet.
+    /// `error` and the errors that were found with it. Each gets the position of its key, if it has a key but no
+    /// position.
     pub fn located(&self, tree: &DeTable, error: Error) -> Error {
         error.each_in_order(|error| {
             if error.place().is_some() {
@@ -90,7 +93,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// Checks that the text can be read without taking up the memory: how many values it may have at most.
+    /// Checks that the text can be read without exhausting the memory: it limits the number of values.
     fn check_size(&self) -> Result<()> {
         let mut signs = self.text.bytes().enumerate().filter(|(_, byte)| b",=[{.".contains(byte));
         let Some((at, _)) = signs.nth(MOST_VALUES) else { return Ok(()) };
@@ -100,11 +103,11 @@ impl<'a> Source<'a> {
             .help(sentences::DIVIDE_IT_OR_TAKE_A_COARSER))
     }
 
-    /// Checks all keys and texts of a table. No file may hold letters that a reader does not see, or texts of any length.
+    /// Checks all keys and texts of a table. They must not contain invisible characters or be longer than a limit.
     ///
-    /// Titles, sources and names go into reports, tables, drawings and recordings. A line break there would forge a line
-    /// of a report, an escape character would command a terminal, and a change of direction would show another name than
-    /// the one that is meant.
+    /// Titles, sources and names go into reports, tables, drawings and recordings.
+    /// A line break there would forge a line of a report. An escape character would command a terminal.
+    /// A change of writing direction would show a wrong name.
     fn check_table(&self, table: &DeTable, path: &str, parts: &mut usize) -> Result<()> {
         for (key, value) in table {
             let name: &str = key.get_ref();
@@ -151,8 +154,9 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Place of a key, or else of the nearest existing parent. Elements of an array are found by their name (`joints.A`),
-/// Assur groups by their links.
+/// Position of a key, or of its nearest existing parent. Elements of an array are found by their name (`joints.A`),
+/// Assur
+/// groups by their links.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 fn locate(tree: &DeTable, key: &KeyPath) -> Range<usize> {
     let mut segments = key.path().split('.');

@@ -1,4 +1,4 @@
-//! `[[start.groups]]`: the assembly mode in which each Assur group starts, and the same from the command line.
+//! `[[start.groups]]`: the assembly mode in which each Assur group starts. The command line can state it too.
 
 use super::joints::link;
 use super::keys::key::{Section, ValueKind, needed, optional};
@@ -17,7 +17,7 @@ const MODES: Words<AssemblyMode> = &[
     ("behind", AssemblyMode::Behind),
 ];
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("start").with(&[
         needed("crank", ValueKind::INPUTS).means("crank angle at t = 0, of the first drive"),
@@ -40,7 +40,7 @@ pub const SECTIONS: &[Section] = &[
     ]),
 ];
 
-/// A table of `[[start.groups]]` as it stands there.
+/// A table of `[[start.groups]]` as the file states it.
 pub struct StatedGroup<'a> {
     table: TomlTable<'a>,
     links: Vec<LinkId>,
@@ -48,7 +48,7 @@ pub struct StatedGroup<'a> {
     near: Vec<(TomlTable<'a>, String, Vec2)>,
 }
 
-/// The tables of `[[start.groups]]`, but those with mistakes.
+/// The tables of `[[start.groups]]`, without those that have mistakes.
 pub fn stated<'a>(tables: Vec<TomlTable<'a>>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<StatedGroup<'a>> {
     let one = |mut table: TomlTable<'a>| {
         let (links, mode, near) = faults.read(&mut table, |table| {
@@ -65,8 +65,9 @@ pub fn stated<'a>(tables: Vec<TomlTable<'a>>, mechanism: &Mechanism, faults: &mu
     tables.into_iter().filter_map(one).collect()
 }
 
-/// The start that the file asks for each group, in the order of the structure. `start` is the table that contains the
-/// groups. Those that are `asked` for elsewhere may be missing.
+/// The start that the file requests for each group, in the order of the structure.
+/// `start` is the table that contains the groups. Groups in `asked` may be missing, because they are requested
+/// elsewhere.
 pub fn groups(
     start: &TomlTable,
     stated: Vec<StatedGroup>,
@@ -86,7 +87,7 @@ pub fn groups(
     let groups = structure.groups.entries();
     let missing: Vec<&Group> =
         groups.filter(|&(index, _)| wanted[index].is_none() && !is_asked(index)).map(|(_, group)| group).collect();
-    // A group that no version of the file could start is left to the first pose, which reports it.
+    // A group without named modes is left to the search for the first pose, which reports it.
     match missing.iter().find(|group| !modes_of(group.kind).is_empty()) {
         None => Ok(wanted.into_iter().map(Option::unwrap_or_default).collect()),
         Some(first) => Err(start
@@ -119,14 +120,14 @@ fn group(
     Ok((index, StartGroup { mode, rank: None, near }))
 }
 
-/// Index of the group of exactly these links, in any order.
+/// Index of the group with exactly these links, in any order.
 fn group_of(links: &[LinkId], structure: &Structure) -> Option<GroupId> {
     let mut sorted = links.to_vec();
     sorted.sort_unstable();
     structure.groups.find(|group| group.links == sorted)
 }
 
-/// The group and the start that `LINK,LINK=MODE` or `LINK,LINK=NUMBER` asks for.
+/// The group and the start that `LINK,LINK=MODE` or `LINK,LINK=NUMBER` requests.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if there is no such group, or if the group does not have the mode.
@@ -164,7 +165,7 @@ pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result
     Ok((index, StartGroup { mode: Some(mode), ..StartGroup::default() }))
 }
 
-/// The assembly modes of a group of this kind that can be asked for by name.
+/// The assembly modes of a group of this kind that can be requested by name.
 fn modes_of(kind: GroupKind) -> &'static [AssemblyMode] {
     match kind {
         GroupKind::Rrr => &[AssemblyMode::Left, AssemblyMode::Right],
@@ -183,7 +184,7 @@ fn foreign_mode(table: &TomlTable, asked: AssemblyMode, group: &Group) -> Error 
     table.wrong(ErrorKind::Input, "mode", message).help(help)
 }
 
-/// A rough place: the table that states it, the name of the point, and the coordinates (m).
+/// An approximate position: the table that states it, the name of the point, and the coordinates (m).
 fn rough_place(mut table: TomlTable) -> Result<(TomlTable, String, Vec2)> {
     let (name, place) = table.read(|table| {
         let name = table.string("point")?;

@@ -1,4 +1,4 @@
-//! What a scenario file states, before it is asked what that means as a whole.
+//! The statements of a scenario file, before the case is built from them.
 
 use super::asked::StartRequest;
 use super::clearance::ClearanceQuestion;
@@ -14,7 +14,7 @@ use linkage::error::Result;
 use linkage::math::Vec2;
 use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism};
 
-/// What is told of the keys that are read here.
+/// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[Section::at("").with(&[
     needed("format", ValueKind::Integer).means("version of this format: 1"),
     needed("name", ValueKind::Text).means("short name for file names: `a`-`z`, `0`-`9`, `_`"),
@@ -39,13 +39,13 @@ pub const SECTIONS: &[Section] = &[Section::at("").with(&[
     optional("formula", ValueKind::Tables, "none").means("formulas as they were derived, and what they claim to be"),
 ])];
 
-/// The sections of a file. Those that need the whole case are still tables. What has a mistake is left out, or stands
-/// for itself as nothing does.
+/// The sections of a file. Sections that need the whole case are still tables.
+/// A part with a mistake is left out or replaced by an empty default.
 pub struct FileSections<'a> {
     pub name: String,
     pub title: String,
     pub source: Option<String>,
-    /// Links and joints; after a mistake good for looking at only.
+    /// Links and joints; after a mistake only fit for display.
     pub mechanism: Mechanism,
     /// What moves it; `None` after a mistake.
     pub drives: Option<Drives>,
@@ -67,14 +67,14 @@ pub struct FileSections<'a> {
 }
 
 impl<'a> FileSections<'a> {
-    /// Reads every section. The mistakes of all of them are noted in `root`.
+    /// Reads every section. Mistakes of all sections are noted in `root`.
     ///
     /// # Errors
-    /// What this version cannot read at all.
+    /// A file that this version cannot read at all.
     pub fn read(root: &mut TomlTable<'a>, asked: &StartRequest) -> Result<FileSections<'a>> {
         check_format(root)?;
         let (name, title, source) = (name(root), root.string("title"), root.optional_string("source"));
-        // All sections are fetched before any is read: a misspelt section is the cause of other errors.
+        // All sections are fetched before any is read, because a misspelt section causes other errors.
         let (ground, links, joints) = (root.table("ground"), root.table("links"), root.tables("joints")?);
         let (drives, motor) = (root.needed_tables("drive"), root.optional_table("motor")?);
         let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
@@ -82,7 +82,7 @@ impl<'a> FileSections<'a> {
         let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
         let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
         let formulas = root.tables("formula")?;
-        // It was read before all others, which may use it.
+        // The parameters were read first, because all other sections may use them.
         root.optional_table("parameters")?;
         let mut faults = Faults::none();
         let has_all = ground.is_ok() && links.is_ok() && drives.is_ok() && start.is_ok();
@@ -112,7 +112,7 @@ impl<'a> FileSections<'a> {
         let drives = drives
             .ok()
             .and_then(|drives| motion::drives(drives, motor, &mechanism, asked.crank.unwrap_or(crank), &mut faults));
-        // What follows depends on numbers of the mechanism and of the drive.
+        // The sections below depend on numbers of the mechanism and of the drive.
         faults.whole &= faults.is_empty();
         let clearance =
             clearance.and_then(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));
@@ -147,7 +147,7 @@ impl<'a> FileSections<'a> {
     }
 }
 
-/// The mechanism; after a mistake one that is good for its names only.
+/// The mechanism; after a mistake only its names are usable.
 fn mechanism(links: Vec<Link>, joints: Vec<Joint>, faults: &mut Faults) -> Mechanism {
     if !(faults.is_empty() && faults.whole) {
         return Mechanism::unchecked(links, joints);

@@ -19,12 +19,12 @@ use linkage::mechanism::is_unseen;
 /// Crank angles (rad), or times (s), that differ by less than this belong to the same row.
 const SAME: f64 = 1e-9;
 
-/// Memory of a row of a table while it is read (bytes): its place, where it holds.
+/// Memory of a row of a table while it is read (bytes): its position in the text, and its instant.
 const OF_ROW: f64 = (size_of::<u32>() + size_of::<(When, f64)>()) as f64;
-/// Memory of a number (bytes): as a cell, as it was printed, and as it is kept.
+/// Memory of a number (bytes): as a cell, as a printed number, and as a point of the oracle.
 const OF_NUMBER: f64 =
     (size_of::<columns::TableCell>() + size_of::<Rounded>() + size_of::<Printed>() + size_of::<OraclePoint>()) as f64;
-/// Memory allowed where nothing is said (bytes), as for a proof.
+/// Default limit on the memory (bytes), the same as for a proof.
 const MOST: f64 = 4e9;
 
 /// Name and series of the table that an oracle with the key `file` describes.
@@ -96,7 +96,7 @@ fn series(
         bound: channel.to_si(number.half_unit() + slack),
         digits: number.digits,
     };
-    // The printed value may be off by the slack; the correct value may not.
+    // The slack applies to the printed value, not to the correct value.
     let corrected = |row: usize, finding: &str, right: &Printed| ExpectedCell {
         point: point(row, &printed[row], known.slack),
         right: point(row, right, 0.0),
@@ -183,7 +183,7 @@ fn slack(oracle: &mut TomlTable) -> Result<f64> {
     oracle.refuse("slack", sentences::found_explained_by(&slack, &why), help)
 }
 
-/// Printed values minus the channel, in SI; zero if it is not given.
+/// Printed values minus the channel, in SI; zero by default.
 fn offset(table: &mut TomlTable, channel: &PrintedChannel) -> Result<f64> {
     match channel.family {
         Some(family) => Ok(table.optional_quantity("offset", family, Sign::Any)?.unwrap_or(0.0)),
@@ -241,7 +241,7 @@ impl<'a> Rows<'a> {
         (0..self.records.len()).map(|row| self.number(row, column)).collect()
     }
 
-    /// The numbers of a column; with so many `digits` at least, or with those that the column shows.
+    /// The numbers of a column, with at least `digits` decimals if given, otherwise with those that the column shows.
     fn printed(&self, column: usize, digits: Option<i32>) -> Result<Vec<Printed>> {
         let cells = self.numbers(column)?;
         Ok(match digits {
@@ -261,7 +261,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// Where the rows hold, and by how much that may be off because it was rounded.
+    /// The instants of the rows, and the largest error of each from rounding.
     fn instants(&self, column: usize, from: &series::Rows, case: &Case) -> Result<Vec<(When, f64)>> {
         let numbers = columns::numbers(&self.numbers(column)?);
         let chosen = if from.are_degrees() { columns::degrees_chosen } else { columns::chosen };

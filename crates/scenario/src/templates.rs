@@ -1,4 +1,4 @@
-//! Mechanisms to begin with: scenarios with comments, whose dimensions are parameters.
+//! Templates of mechanisms: commented scenarios whose dimensions are parameters.
 
 use toml_edit::{DocumentMut, Item, Value};
 
@@ -6,10 +6,10 @@ use super::header::is_name;
 use super::words::nearest;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// A mechanism to begin with.
+/// A template of a mechanism.
 #[derive(Debug)]
 pub struct Template {
-    /// What it is asked for by.
+    /// Name by which it is requested.
     pub name: &'static str,
     text: &'static str,
 }
@@ -20,7 +20,7 @@ macro_rules! templates {
     };
 }
 
-/// All of them, in the order of lists. A further one is a file in `templates/` and its name here.
+/// All templates, in the order of lists. To add one, add a file in `templates/` and its name here.
 pub static TEMPLATES: &[Template] = templates![
     "four-bar",
     "slider-crank",
@@ -50,14 +50,14 @@ pub fn named(name: &str) -> Result<&'static Template> {
     })
 }
 
-/// Sets a value and leaves the comment and the blanks around it.
+/// Sets a value and keeps the comment and the blanks around it.
 fn set(value: &mut Value, to: impl Into<Value>) {
     let decor = value.decor().clone();
     *value = to.into();
     *value.decor_mut() = decor;
 }
 
-/// As people write it: without a point where it has no decimals.
+/// A number as people write it: without a decimal point if it is whole.
 fn written(number: f64) -> Value {
     // Below 2^53 every whole number is exact.
     let whole = (number.fract() == 0.0 && number.abs() < 9e15).then(|| format!("{number:.0}").parse::<i64>());
@@ -79,7 +79,7 @@ impl Template {
         self.text.parse().expect("tests read every template")
     }
 
-    /// One line that says what it is.
+    /// One line that describes it.
     #[must_use]
     pub fn title(&self) -> String {
         self.document()["title"].as_str().unwrap_or_default().into()
@@ -98,10 +98,10 @@ impl Template {
         all.iter().map(|(key, number)| format!("{key} = {number}")).collect::<Vec<_>>().join(", ")
     }
 
-    /// The text of a scenario: the template under a `name`, if that can be one of a scenario, with other dimensions.
+    /// The text of a scenario: the template with other dimensions, and with `name` if a scenario can have that name.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a dimension that it does not have.
+    /// [`ErrorKind::Input`] for a dimension that the template does not have.
     pub fn scenario(&self, name: &str, dimensions: &[(String, f64)]) -> Result<String> {
         let mut document = self.document();
         if is_name(name)
@@ -121,7 +121,7 @@ impl Template {
     fn lacks(&self, key: &str) -> Error {
         let all = parameters(&self.document());
         let keys = || all.iter().map(|(key, _)| key.as_str());
-        // The same with its unit is nearer than any letter.
+        // The same key with its unit is a better guess than the nearest spelling.
         let with_unit = keys().find(|own| own.strip_prefix(key).is_some_and(|unit| unit.starts_with('_')));
         let near = with_unit.or_else(|| nearest(key, keys()));
         let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
@@ -143,7 +143,7 @@ mod tests {
         let new: Vec<&str> = lines.map(|(_, new)| new.split(" #").next().unwrap()).collect();
         assert_eq!(new, ["name = \"mine\"", "crank_mm = 30", "density = 0.25"]);
         assert_eq!(changed.matches(" # ").count(), template.text.matches(" # ").count());
-        // What cannot be a name is left.
+        // A name that a scenario cannot have is not set.
         assert!(template.scenario("Mine!", &[]).unwrap().contains("name = \"four_bar\""));
     }
 

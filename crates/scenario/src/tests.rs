@@ -58,7 +58,7 @@ fn ov7_base_is_read_whole() {
     assert!(case.grid.times.iter().all(|&time| time >= 0.0));
     assert_eq!(scenario.engine, EngineSettings::default());
     let columns: Vec<usize> = scenario.oracles.iter().map(|oracle| oracle.series.len()).collect();
-    // The last two are from a program of its own: a distance at the start, and one pose.
+    // The last two come from a separate program: a distance at the start, and one pose.
     assert_eq!(columns, [10, 10, 10, 7, 7, 7, 0, 84]);
     let rows = scenario.oracles[..6].iter().flat_map(|oracle| &oracle.series).map(|series| series.points.len());
     assert!(rows.into_iter().all(|rows| rows == 13));
@@ -171,7 +171,7 @@ fn links_keep_the_order_of_the_file_when_their_points_come_first() {
     let tree = source.tree().unwrap();
     let links = TomlTable::root(&source, &tree).table("links").unwrap().all_tables().unwrap();
     let names: Vec<&str> = links.iter().map(TomlTable::name).collect();
-    // The order of the headers counts, as for a reader of the file.
+    // The order of the section headers counts, as for a reader of the file.
     assert_eq!(names, ["a", "b", "c"]);
 }
 
@@ -194,7 +194,7 @@ fn cells_known_to_be_wrong_keep_their_finding() {
     let points = &oracle.series[0].points;
     assert_eq!((points.len(), points[0].digits, points[1].digits, points[1].at), (2, 1, 2, When::Crank(1.0)));
     assert!((points[0].value - 10f64.to_radians()).abs() < 1e-15);
-    // Zeros at the end were not printed: 7 has the digits of 9.25, and 12.5 has three.
+    // Trailing zeros were not printed: 7 has the digits of 9.25, and 12.5 has three.
     assert!((points[1].bound / 0.005f64.to_radians() - 1.0).abs() < 2e-9);
     // 0, 0.5 and 1e0 may have been rounded, the last to one digit.
     assert!((points[0].at_error - 0.05).abs() < 1e-9 && (points[1].at_error - 0.5).abs() < 1e-8);

@@ -9,7 +9,7 @@ pub struct NamedUnit {
     /// Ending of keys in this unit, without the underscore that joins it.
     pub suffix: &'static str,
     factor: f64,
-    // Kept apart from the factor: 150 / 1000 is the double nearest to 0.15, but 150 * 0.001 need not be.
+    // Kept separate from the factor: 150 / 1000 is the double nearest to 0.15, but 150 * 0.001 need not be.
     divisor: f64,
 }
 
@@ -32,8 +32,8 @@ pub struct UnitFamily {
     pub noun: &'static str,
     /// Units, the SI unit first.
     pub units: &'static [NamedUnit],
-    /// Largest size in SI. It is far beyond anything that is built, and products with others are numbers that both sides
-    /// and the engines can still tell apart; a larger one is a slip of the unit.
+    /// Largest size in SI, far beyond anything that is built. A larger number is a mistake in the unit.
+    /// Up to this size, solvers and engines can still handle products with other quantities.
     pub most: f64,
 }
 
@@ -88,12 +88,12 @@ pub static STIFFNESS: UnitFamily = UnitFamily::of("a stiffness", &[si("N_m"), un
 pub static DAMPING: UnitFamily = UnitFamily::of("a damping", &[si("N_s_m")], 1e20);
 /// Moments per angle.
 pub static TORSIONAL_STIFFNESS: UnitFamily = UnitFamily::of(sentences::A_TORSIONAL_STIFFNESS, &[si("N_m_rad")], 1e20);
-/// Masses of bars per length.
+/// Masses of bars per unit length.
 pub static MASS_PER_LENGTH: UnitFamily = UnitFamily::of(sentences::A_MASS_PER_LENGTH, &[si("kg_per_m")], 1e20);
 /// Powers.
 pub static POWER: UnitFamily = UnitFamily::of("a power", &[si("W"), unit("kW", 1e3, 1.0)], 1e20);
 
-/// The units in which inputs are written, whatever they measure.
+/// The units in which inputs are written, for every kind of input.
 pub static INPUTS: [&UnitFamily; 1] = [&ANGLE];
 /// The same, or times.
 pub static INPUTS_OR_TIMES: [&UnitFamily; 2] = [&ANGLE, &TIME];
@@ -117,13 +117,13 @@ pub static ALL: [&UnitFamily; 15] = [
     &POWER,
 ];
 
-/// The unit that a key ends in, the longest that fits, and the family that it is of first.
+/// The longest unit that a key ends in, with the first family that has this unit.
 #[must_use]
 pub fn ending(key: &str) -> Option<(&'static UnitFamily, &'static NamedUnit)> {
     let all = ALL.iter().flat_map(|family| family.units.iter().map(move |unit| (*family, unit)));
     let ends =
         |unit: &NamedUnit| key.strip_suffix(unit.suffix).is_some_and(|rest| rest.len() > 1 && rest.ends_with('_'));
-    // Of units of the same length the first is kept.
+    // Of several units with the same length, the first is kept.
     all.filter(|(_, unit)| ends(unit)).rev().max_by_key(|(_, unit)| unit.suffix.len())
 }
 

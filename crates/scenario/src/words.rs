@@ -3,15 +3,15 @@
 use crate::sentences;
 use strsim::osa_distance;
 
-/// Longest word that may be misspelt (letters): the comparison takes the product of both lengths.
+/// Longest word that is checked for misspelling (characters): the work grows with the product of both lengths.
 const LONGEST: usize = 100;
-/// Most candidates among which the nearest is sought, and told: every wrong word is compared with each.
+/// Most candidates that are searched for the nearest one and shown: every wrong word is compared with each candidate.
 const MOST: usize = 1000;
 
 /// The candidate nearest to `word`, if one is near enough.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // In names of one or two letters, another letter makes another name, not a misspelling.
+    // In a name of one or two letters, a different letter is a different name, not a misspelling.
     let length = word.chars().count();
     if length > LONGEST {
         return None;
@@ -26,7 +26,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// `a, b or c`, each word between two marks `quote`.
+/// `a, b or c`, each word quoted with the mark `quote`.
 #[must_use]
 pub fn choice<'a>(words: impl IntoIterator<Item = &'a str>, quote: &str) -> String {
     let words: Vec<String> = words.into_iter().map(|word| format!("{quote}{word}{quote}")).collect();
@@ -51,7 +51,7 @@ pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>,
     }
 }
 
-/// Words of a key, each with what it stands for.
+/// Words of a key, each with its meaning.
 pub type Words<T> = &'static [(&'static str, T)];
 
 /// The words alone.

@@ -17,7 +17,7 @@ use linkage::solver::State;
 /// Starts the run of a free motion at t = 0.
 ///
 /// # Errors
-/// Those of [`check_inertias`], and whatever prevents Simbody from starting.
+/// Those of [`check_inertias`], and the failures with which Simbody does not start.
 pub(super) fn start(case: &Case, settings: IntegrationSettings) -> Result<(Linkage, LinkageRun)> {
     check_inertias(case, "Simbody")?;
     // A model driven at the initial speeds gives the rates of all other links.
@@ -39,7 +39,8 @@ pub(super) fn start(case: &Case, settings: IntegrationSettings) -> Result<(Linka
     if !case.loads.iter().any(|load| load.sensed_link().is_some()) {
         return Ok((linkage, run));
     }
-    // Links at rest start in the sense in which they are accelerated without the loads that need that sense.
+    // A link at rest starts in the direction in which it accelerates without the loads that depend on its sense of
+    // rotation.
     let mut state = State::at_rest(case);
     let found = run.read(false).map_err(|failure| linkage.stopped(case, &failure))?;
     linkage.motion(&found.bodies, &mut state);
@@ -51,8 +52,8 @@ pub(super) fn start(case: &Case, settings: IntegrationSettings) -> Result<(Linka
     Ok((linkage, run))
 }
 
-/// Motor and loads at positions and velocities of Simbody.
-/// A link at rest gets its load against the sense in which it will start.
+/// Moments of the motor and the loads, at positions and velocities from Simbody.
+/// On a link at rest, loads that depend on its sense of rotation use the sense in which it will start.
 fn acting(case: &Case, linkage: &Linkage, setting_off: Rc<RefCell<Vec<f64>>>) -> Act {
     let (case, linkage) = (case.clone(), linkage.clone());
     let mut state = State::at_rest(&case);

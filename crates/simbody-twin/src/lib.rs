@@ -19,8 +19,8 @@ use linkage::trajectory::{Channel, ChannelKind, Stage};
 use linkage::work::{Count, WorkTally};
 use model::Linkage;
 
-/// Largest opening of the start pose as a share of the mechanism's size.
-/// It is far more than rounding, and too small to matter.
+/// Largest opening of the start pose, as a fraction of the mechanism's size.
+/// It is far above rounding error and too small to matter.
 const LARGEST_GAP: f64 = 1e-9;
 /// Internal steps allowed per radian of crank angle, or between two closer instants, at the default accuracy.
 /// `ov7_base` takes 200 of them, and 14 000 at 1e-14.
@@ -36,12 +36,13 @@ pub struct Simbody {
 impl Simbody {
     /// Default accuracy. Steps are then about a degree of the crank, so projections start close to their assembly mode.
     pub const ACCURACY: f64 = 1e-8;
-    /// Constraint tolerance as a share of how far the mechanism extends from the origin.
+    /// Constraint tolerance as a fraction of the mechanism's extent from the origin.
     /// Under prescribed motion the pose follows from the constraints alone, so a looser tolerance has no benefit.
-    /// Projections aim at a tenth of it, and rounding prevents a smaller one: on `fourth_class` they fail at 1e-14.
+    /// Projections aim at a tenth of it, and rounding errors prevent a smaller value: on `fourth_class` they fail at
+    /// 1e-14.
     pub const TOLERANCE: f64 = 1e-12;
 
-    /// The engine with the given accuracy of its integrator (a share of the usual coordinates: 1 rad or 1 m).
+    /// The engine with the given accuracy of its integrator, relative to the usual coordinates (1 rad or 1 m).
     #[must_use]
     pub fn new(accuracy: f64) -> Self {
         Simbody { accuracy }
@@ -102,7 +103,7 @@ impl Engine for Simbody {
     }
 
     fn own_routes(&self, _: &Case) -> &'static [Route] {
-        // What it exerts is what it reports by its only route.
+        // The only route already reports the forces that the engine applies.
         &[]
     }
 

@@ -24,7 +24,7 @@ pub(super) struct Linkage {
     pub(super) model: SimbodyModel,
     /// The spanning tree, which contains all drives.
     pub(super) tree: SpanningTree,
-    /// +1 forwards, -1 backwards in time.
+    /// Direction of time: +1 forwards, -1 backwards.
     sense: f64,
     /// Angle of the child minus that of its parent (rad), for every branch whose joint keeps it constant.
     twists: Vec<Option<f64>>,
@@ -33,7 +33,7 @@ pub(super) struct Linkage {
 impl Linkage {
     /// The case's mechanism in its start pose.
     /// With `sense` -1 time runs backwards.
-    /// Drives then turn the other way and resistance acts with the motion; all else is the same.
+    /// Drives then turn in the opposite direction and resistance acts with the motion; everything else is the same.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a number that Simbody cannot take.
@@ -63,7 +63,7 @@ impl Linkage {
                 resistance: if case.is_free() { 0.0 } else { sense * resistance(case, branch.link) },
                 coordinate: coordinate(found, branch, &case.start.0),
                 rate: rates.map_or(0.0, |rates| rates[index]),
-                // Other laws have been refused before.
+                // Other laws were rejected before.
                 law: drive
                     .and_then(|drive| law(case, branch, drive, rates.is_some()))
                     .map(|rate| Law { rate: sense * rate }),
@@ -83,7 +83,7 @@ impl Linkage {
         Ok(Linkage { model, tree, sense, twists })
     }
 
-    /// Fills a state with the motion that was read, with velocities in the sense of the case's time.
+    /// Fills a state with the motion read from Simbody. Velocities follow the direction of the case's time.
     pub(super) fn motion(&self, bodies: &[BodyState], state: &mut State) {
         for ((branch, body), twist) in self.tree.branches.iter().zip(bodies).zip(&self.twists) {
             let motion = &mut state.motions[branch.link];
@@ -105,7 +105,7 @@ impl Linkage {
         })
     }
 
-    /// Fills in the reactions, after [`Linkage::motion`]. Forces do not change with the sense of time.
+    /// Fills in the reactions, after [`Linkage::motion`]. Forces do not depend on the direction of time.
     pub(super) fn reactions(&self, case: &Case, bodies: &[BodyState], loops: &[LoopState], state: &mut State) {
         for (branch, body) in self.tree.branches.iter().zip(bodies) {
             let joint = &case.mechanism.joints()[branch.joint];
@@ -179,7 +179,7 @@ fn joint(found: &mechanism::Joint, branch: &TreeBranch) -> SimbodyJoint {
 }
 
 /// Mass and inertia of a link. Simbody cannot accelerate a free body without them.
-/// Such a link carries additional ones, which its reactions do not contain.
+/// A link that lacks them gets substitutes, which do not affect its reactions.
 pub(super) fn inertia(case: &Case, link: LinkId) -> Inertia {
     let body = &case.mechanism.links()[link];
     let [extra_mass, extra_inertia] = stand_in(case, link);

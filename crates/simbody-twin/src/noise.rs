@@ -1,7 +1,7 @@
 //! Accuracy of Simbody's results at a given constraint tolerance.
 //!
 //! Under prescribed motion the pose follows from the constraints alone, and every state is projected onto them.
-//! Its error is what the projection leaves, at most the tolerance, times a factor that depends on the pose.
+//! The error of the pose is at most the tolerance of the projection times a factor that depends on the pose.
 //! The integrator's error before the projection does not matter.
 
 use super::model::inertia;
@@ -11,19 +11,19 @@ use linkage::trajectory::{ChannelKind, ChannelSubject, Unit};
 
 /// Amplification of a constraint error by the pose: 1 / sin of the angle between two links, which is 10 at 6 degrees.
 const POSE: f64 = 10.0;
-/// Rounding in the tree and in the projection, in units in the last place.
+/// Rounding errors in the tree and in the projection, in units in the last place.
 const ULPS: f64 = 20.0;
 
 /// Bound on the error of a channel, in the channel's unit.
 /// It depends on the constraint tolerance `tolerance` (m) and the integrator's accuracy.
 ///
-/// In a free motion the integrator counts too: each step may be off by the accuracy, as a share of a radian.
-/// Every output time ends a step, so errors hardly fall with the accuracy where output times are dense.
-/// On the shipped run-ups they are 5e-9 to 5e-7 of the scale at 1e-8.
+/// In a free motion the integrator contributes too: each step may have an error of the accuracy, in rad.
+/// Every output time ends a step, so with dense output times the errors hardly fall with the accuracy.
+/// On the shipped run-ups they are 5e-9 to 5e-7 of the scale at an accuracy of 1e-8.
 ///
-/// A constraint error turns a link by that error over its length, so the shortest link is the worst.
+/// A constraint error rotates a link by that error divided by its length, so the shortest link is the worst.
 /// The pose amplifies an error of the angles once more in the velocities, and again in accelerations and forces.
-/// Rates of constraints are held to the tolerance times the drive's speed; accelerations follow from both.
+/// Rates of constraints are kept below the tolerance times the drive's speed; accelerations follow from both.
 pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &ChannelKind) -> f64 {
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
     let speed = case.drives.top_speed();
@@ -33,13 +33,13 @@ pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &Chan
     let mass: f64 =
         case.mechanism.links().ids().skip(1).map(|link| inertia(case, link)).map(|own| own.mass + own.extra_mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
-    // Positions are world coordinates: far from the origin they are coarser than the mechanism's size suggests.
+    // Positions are world coordinates: far from the origin their rounding errors exceed those at the mechanism's size.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));
 
     let place = POSE * tolerance + ULPS * f64::EPSILON * reach;
     let integrated = if case.is_free() { accuracy * case.grid.len() as f64 } else { 0.0 };
     let closed = place / shortest + f64::EPSILON * turned;
-    // Errors of an angle, of a place, and of their derivatives of order `k`.
+    // Errors of an angle, of a position, and of their derivatives of order `k`.
     let angle = |k: i32| (POSE.powi(k) * closed + integrated) * speed.powi(k);
     let linear = |k: i32| POSE.powi(k) * place * speed.powi(k) + angle(k) * size;
     let force = mass * (linear(2) + (POSE * closed + integrated) * case.gravity.norm());

@@ -142,7 +142,7 @@ fn plain(words: &str) -> String {
     parts.fold(first, |told, part| told + part.split_once(": ").map_or(part, |(_, rest)| rest))
 }
 
-/// What acts on the bodies besides gravity during the run.
+/// Forces and moments on the bodies besides gravity during the run.
 /// The first argument has positions and velocities of all bodies; accelerations and forces are 0.
 /// The second argument takes the force at the mass centre (N, world axes) and the moment about it (N m) of every body.
 /// These are 0 on entry.
@@ -156,8 +156,8 @@ struct Acting {
 
 /// Passes a call from Simbody on to Rust. A panic becomes NaN loads, which end the run.
 unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: *mut f64) {
-    // SAFETY: `user` is the box that the run keeps as long as it lives, and Simbody calls from one thread at a time.
-    // There are as many bodies, and three loads for each, as the run was built from.
+    // SAFETY: `user` is the box that the run keeps for its whole life, and Simbody calls from one thread at a time.
+    // The numbers of bodies and of loads (three per body) are those with which the run was built.
     let (acting, bodies, loads) = unsafe {
         let acting = &mut *user.cast::<Acting>();
         let count = acting.count;
@@ -222,7 +222,7 @@ impl LinkageRun {
             loops: vec![LoopState::default(); loops.len()],
         };
         let mut run = LinkageRun { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
-        // A free mobilizer without inertia is not an error in Simbody, but it has no finite acceleration.
+        // Simbody accepts a free mobilizer without inertia, but its acceleration is not finite.
         run.read(false)?;
         Ok(run)
     }
@@ -230,16 +230,17 @@ impl LinkageRun {
     /// Integrates to exactly `time` (s). After a failure the run cannot be used any more.
     ///
     /// # Errors
-    /// A time before the one reached; any failure in Simbody, with its message, the time reached and all gaps there.
+    /// A time before the one reached; any failure in Simbody, with its message, the time reached and all gaps at that
+    /// time.
     pub fn advance(&mut self, time: f64) -> Result<(), Failure> {
         if !(time >= self.time && time.is_finite()) {
             return Err(Failure::of(sentences::is_asked_for_after(&time, &self.time)));
         }
         let (raw, (steps, time_scale)) = (self.raw.as_ptr(), self.pace);
-        // A cast saturates: a number that is too large gives the largest.
+        // A cast saturates: a number that is too large gives the largest integer.
         let intervals = (time - self.time) / time_scale;
         let steps = (steps as f64 * if intervals < 1.0 { 1.0 } else { intervals }) as usize;
-        // SAFETY: the run is alive and nobody else has it; the shim writes at most `size` bytes of text.
+        // SAFETY: the run is alive and has no other user. The shim writes at most `size` bytes of text.
         told(|text, size| unsafe { linkproof_simbody_advance(raw, time, steps, text, size) })
             .map_err(|failure| self.located(failure))?;
         self.time = time;
@@ -259,7 +260,8 @@ impl LinkageRun {
         if !loads.as_flattened().iter().all(|number| number.is_finite()) {
             return Err(Failure::of(sentences::A_LOAD_IS_NOT_FINITE));
         }
-        // SAFETY: the run is alive and nobody else has it; there are three numbers for every body, and the shim copies them.
+        // SAFETY: the run is alive and has no other user. There are three numbers for every body, and the shim copies
+        // them.
         unsafe { linkproof_simbody_load(self.raw.as_ptr(), loads.as_ptr().cast()) };
         Ok(())
     }
@@ -271,8 +273,8 @@ impl LinkageRun {
     pub fn read(&mut self, reactions: bool) -> Result<&SimbodyState, Failure> {
         let SimbodyState { bodies, loops } = &mut self.state;
         let raw = self.raw.as_ptr();
-        // SAFETY: the run is alive and nobody else has it.
-        // The vectors are as long as the bodies and loops that it was built from, and the shim fills all of them.
+        // SAFETY: the run is alive and has no other user.
+        // The vectors are as long as the bodies and loops from which the run was built, and the shim fills all of them.
         // It writes at most `size` bytes of text.
         let read = told(|text, size| unsafe {
             linkproof_simbody_read(raw, reactions.into(), bodies.as_mut_ptr(), loops.as_mut_ptr(), text, size)
@@ -295,7 +297,7 @@ impl LinkageRun {
     fn located(&self, failure: Failure) -> Failure {
         let (mut time, mut gaps) = (0.0, vec![0.0; self.state.loops.len()]);
         let raw = self.raw.as_ptr();
-        // SAFETY: the run is alive and nobody else has it; there are as many gaps as loops.
+        // SAFETY: the run is alive and has no other user. There are as many gaps as loops.
         // The shim writes at most `size` bytes of text.
         match told(|text, size| unsafe { linkproof_simbody_gaps(raw, &mut time, gaps.as_mut_ptr(), text, size) }) {
             Ok(()) => Failure { time: Some(time), gaps, ..failure },

@@ -43,7 +43,7 @@ pub struct Inertia {
     /// This is exact while every degree of freedom is prescribed, since accelerations then do not depend on masses.
     /// Simbody cannot move a free mobilizer that carries no inertia.
     pub extra_mass: f64,
-    /// Moment of inertia that is added for the same reason (kg m^2).
+    /// Moment of inertia added for the same reason (kg m^2).
     pub extra_inertia: f64,
 }
 
@@ -63,24 +63,24 @@ pub struct SimbodyBody {
     pub joint: SimbodyJoint,
     /// Its inertia.
     pub inertia: Inertia,
-    /// Constant moment against its rotation (N m), zero while it is at rest.
+    /// Constant moment against the body's rotation (N m); zero while it is at rest.
     pub resistance: f64,
-    /// Coordinate of its joint at time 0 (rad or m).
+    /// Coordinate of the body's joint at time 0 (rad or m).
     pub coordinate: f64,
     /// Rate of the coordinate at time 0, where it is not prescribed (rad/s or m/s).
     /// Inconsistent rates are projected onto the loops.
     pub rate: f64,
-    /// Its prescribed motion, if it has one.
+    /// Prescribed motion of the coordinate, if any.
     pub law: Option<Law>,
 }
 
-/// A revolute joint between two bodies that are in the tree already. It closes a loop. The memory layout is that of C.
+/// A revolute joint that closes a loop. Both bodies are already in the tree. The memory layout is that of C.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopClosure {
     /// First and second body.
     pub bodies: [usize; 2],
-    /// The joint's position on each body, in its frame (m).
+    /// The joint's position on each body, in the frame of that body (m).
     pub places: [[f64; 2]; 2],
 }
 
@@ -91,7 +91,7 @@ pub struct IntegrationSettings {
     pub accuracy: f64,
     /// Largest constraint error that projections leave (m).
     pub tolerance: f64,
-    /// Characteristic time of the motion (s): rates of constraint errors are held to `tolerance` divided by it.
+    /// Characteristic time of the motion (s). Rates of constraint errors are kept below `tolerance` divided by it.
     pub time_scale: f64,
     /// Internal steps allowed per time scale, or between two closer instants.
     /// Without a limit the integrator would take hours in tiny steps near a dead point.
@@ -109,7 +109,7 @@ impl Default for IntegrationSettings {
 pub struct Failure {
     /// What is wrong with the model, or Simbody's own message.
     pub message: String,
-    /// Time that was reached (s), if there was a run.
+    /// Time reached (s), if there was a run.
     pub time: Option<f64>,
     /// Gap of every loop at that time (m).
     pub gaps: Vec<f64>,

@@ -13,13 +13,13 @@ pub struct SimbodyState {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct BodyState {
-    /// Coordinate of its joint (rad, turns counted, or m).
+    /// Coordinate of the body's joint (rad, unwrapped, or m).
     pub coordinate: f64,
-    /// Its rate (rad/s or m/s).
+    /// Rate of the coordinate (rad/s or m/s).
     pub rate: f64,
-    /// Position of the origin of its frame (m).
+    /// Position of the origin of the body's frame (m).
     pub origin: [f64; 2],
-    /// Unit vector of its x axis.
+    /// Unit vector of the x axis of the body's frame.
     pub direction: [f64; 2],
     /// Velocity of the origin (m/s).
     pub velocity: [f64; 2],
@@ -31,7 +31,8 @@ pub struct BodyState {
     pub alpha: f64,
     /// Force on the body from its joint with the parent (N).
     pub force: [f64; 2],
-    /// Moment of that joint on the body, about the joint's point on it (N m). It includes the driving moment.
+    /// Moment of the joint with the parent on the body, about the joint's point on the body (N m).
+    /// It includes the driving moment.
     pub moment: f64,
     /// Generalised force of the prescribed motion (N m for a pin, N for a slider).
     pub drive: f64,

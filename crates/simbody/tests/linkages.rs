@@ -20,7 +20,7 @@ fn body(parent: usize, joint: SimbodyJoint, inertia: Inertia, coordinate: f64) -
 
 /// A parallelogram with cranks of length 1 from (0, 0) and (2, 0).
 /// The first crank is driven; the coupler only translates.
-/// The coordinates of coupler and second crank are off by `off` (rad).
+/// The coordinates of the coupler and the second crank have an error of `off` (rad).
 fn parallelogram(coupler: Inertia, start: f64, rate: f64, off: f64) -> SimbodyModel {
     let mut model = SimbodyModel::new([0.0, -G]);
     let first = SimbodyBody { law: Some(Law { rate }), ..body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), start) };
@@ -44,8 +44,8 @@ fn the_library_is_a_simbody_3() {
 fn forces_in_a_parallelogram_are_those_of_statics() {
     // The coupler of 3 kg only translates, on a circle of radius 1 at 4 rad/s: a = -16 e.
     // Its joints together carry m (a - g).
-    // The shares follow from the moments about its middle and about the second pivot.
-    // That crank turns uniformly, and its weight acts at half its length.
+    // Their shares follow from the moments about the coupler's middle and about the second pivot.
+    // The second crank turns uniformly, and its weight acts at half its length.
     let (start, rate, t) = (0.7, 4.0, 0.2);
     let mut run = parallelogram(rod(3.0, 2.0), start, rate, 1e-4).run(IntegrationSettings::default()).unwrap();
     run.advance(t).unwrap();

@@ -7,9 +7,9 @@ use crate::cli::engine_args::{EngineArgs, side};
 use crate::cli::grid::GridArgs;
 use crate::cli::live::LiveArgs;
 use crate::cli::load::StartArgs;
+use crate::cli::number;
+use crate::cli::outputs::{Outputs, results};
 use crate::cli::record_args::RecordArgs;
-use crate::cli::reports::Reports;
-use crate::cli::{html, number};
 use prover::run::Reference;
 
 #[derive(Debug, clap::Args)]
@@ -57,10 +57,12 @@ pub(in crate::cli) struct Args {
     #[arg(long)]
     pub explain: bool,
     #[command(flatten)]
-    pub reports: Reports,
-    /// Write a page to look at: the mechanism moving, all channels of both sides with errors and bounds, verdict and
-    /// findings. It needs nothing else, no network either. A file for one scenario; for several, or if it is there or
-    /// ends with `/`, a directory with NAME.html for each
-    #[arg(long, value_name = "FILE|DIR", value_parser = html::target)]
-    pub html: Option<PathBuf>,
+    pub outputs: Outputs<RunResults>,
 }
+
+results! { RunResults {
+    Json = "the results",
+    Junit = "JUnit: a suite a scenario, a case a channel and check",
+    Markdown = "a comment for a pull request",
+    Html = "a page with the moving mechanism, all channels, errors and bounds (`DIR/` for several scenarios)",
+} }

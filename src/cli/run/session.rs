@@ -14,10 +14,12 @@ use crate::cli::record_args::Recorded;
 use crate::cli::{advice, load, output};
 use crate::plain::brief;
 
+use super::args::RunResults;
 use crate::plain::style::Detail;
 use crate::report::closing::Closing;
 use crate::report::outcomes::Outcomes;
 use crate::report::{explain, json, recorded, text};
+use crate::report::{junit, markdown};
 use linkage::error::{Error, Result};
 use linkage::work::Work;
 use prover::run::{EngineProof, LedgerEntry, Proof};
@@ -52,7 +54,7 @@ impl<'a> Session<'a> {
 
     /// Whether standard output has the report; it is JSON otherwise.
     fn reports(&self) -> bool {
-        !self.args.reports.takes_output()
+        !self.args.outputs.take_standard()
     }
 
     fn failed(&mut self, file: &Path, error: &Error) {
@@ -170,13 +172,20 @@ impl<'a> Session<'a> {
         {
             self.print(&table);
         }
-        let written = self.args.reports.write(|| self.document.text(), &self.outcomes);
+        let written = self.args.outputs.write_some(|result| {
+            Ok(match result {
+                RunResults::Json => Some(self.document.text()),
+                RunResults::Junit => Some(junit::xml(&self.outcomes)),
+                RunResults::Markdown => Some(markdown::text(&self.outcomes)),
+                RunResults::Html => None,
+            })
+        });
         if let (Some(live), Some(told)) = (self.live, self.live_told.take()) {
             let tell = || if self.reports() { self.print(&told) } else { output::note(told.trim()) };
             let served = live.serve(tell).code();
             self.worst = graver(self.worst, served);
         }
-        graver(self.worst, written)
+        graver(self.worst, written.code())
     }
 }
 

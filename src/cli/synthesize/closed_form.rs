@@ -2,10 +2,10 @@
 
 use crate::sentences;
 use std::f64::consts::TAU;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::target::{scenario_target, write_scenario};
-use crate::cli::{number, output};
+use crate::cli::number;
+use crate::cli::outputs::{Outputs, results};
 use crate::report::closed_form::{self as report, Told};
 use design::synthesize::DraftContents;
 use design::synthesize::crank_rocker::{self, CrankRocker};
@@ -17,41 +17,39 @@ use scenario::Scenario;
 /// Where results are written, and what a scenario needs besides dimensions.
 #[derive(Debug, clap::Args)]
 struct Target {
-    /// Write the scenario to a file, or to standard output instead of the text with `-`
-    #[arg(short, long, value_name = "FILE", value_parser = scenario_target, conflicts_with = "json")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs<ClosedForms>,
     /// Speed of the crank in the scenario, in turns per minute, counter-clockwise positive
     #[arg(long, value_name = "RPM", default_value = "60", allow_hyphen_values = true, value_parser = number::not_zero)]
     rpm: f64,
     /// Mass per metre of the links in the scenario, which are uniform bars
     #[arg(long, value_name = "KG_PER_M", default_value = "1", allow_hyphen_values = true, value_parser = number::positive)]
     bar_kg_per_m: f64,
-    /// Write the result as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
 }
 
 impl Target {
     fn sheet(&self, name: &str, title: &str, comment: String) -> DraftContents {
-        let stem = self.output.as_deref().and_then(Path::file_stem).map_or("-".into(), |stem| stem.to_string_lossy());
+        let to = self.outputs.first(ClosedForms::Scenario);
+        let stem = to.and_then(Path::file_stem).map_or("-".into(), |stem| stem.to_string_lossy());
         let name = if stem == "-" { name.to_string() } else { stem.to_string() };
         DraftContents { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m }
     }
 
-    /// Writes the scenario, if one is wanted. Then writes the other results, unless the scenario went to standard
-    /// output.
+    /// Writes the results. An invalid name of a scenario is found here, not first when the scenario is run.
     fn deliver(&self, scenario: &str, told: &Told) -> Result<()> {
-        if let Some(to) = &self.output {
-            // An invalid name is found here, not first when the scenario is run.
-            Scenario::parse(scenario, to)?;
-            write_scenario(scenario, to, &[])?;
-            if output::is_standard(to) {
-                return Ok(());
-            }
-        }
-        output::either(&self.json, || told.json.clone(), || told.text.clone())
+        self.outputs.of(ClosedForms::Scenario).try_for_each(|to| Scenario::parse(scenario, to).map(|_| ()))?;
+        let result = |form| match form {
+            ClosedForms::Scenario => scenario.to_string(),
+            ClosedForms::Json => told.json.clone(),
+        };
+        self.outputs.deliver(|form| Ok(result(form)), || told.text.clone())
     }
 }
+
+results! { ClosedForms {
+    Scenario = "the scenario",
+    Json = "the dimensions",
+} }
 
 /// Two numbers separated by a comma.
 fn pair(text: &str) -> std::result::Result<[f64; 2], String> {

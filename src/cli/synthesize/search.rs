@@ -1,10 +1,11 @@
 //! `linkproof synthesize search` and `check`.
 
 use crate::sentences;
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
-use super::target::{scenario_target, write_scenario};
 use crate::cli::load::plain;
+use crate::cli::outputs::{Outputs, results};
 use crate::cli::{output, progress};
 use crate::report::synthesize::{self as report, Story};
 use design::draw;
@@ -15,31 +16,22 @@ use design::synthesize::{self, Achieved};
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
 
-/// Where results are written.
-#[derive(Debug, clap::Args)]
-struct Target {
-    /// Draw the wanted and the achieved motion to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    svg: Option<PathBuf>,
-    /// Write the result as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
-}
+results! { SearchResults {
+    Scenario = "the scenario found",
+    Json = "the result",
+    Svg = "wanted and achieved motion",
+} }
 
-impl Target {
-    fn check(&self, output: &Option<PathBuf>) -> Result<()> {
-        output::apart(&[("--output", output), ("--svg", &self.svg), ("--json", &self.json)])
-    }
-}
+results! { CheckResults {
+    Json = "the result",
+    Svg = "wanted and achieved motion",
+} }
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// Synthesis file
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Write the scenario found to a file, or to standard output instead of the text with `-`
-    #[arg(short, long, value_name = "FILE", value_parser = scenario_target)]
-    output: Option<PathBuf>,
     /// Seed of the random numbers [default: the file's]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -56,7 +48,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
     threads: usize,
     #[command(flatten)]
-    target: Target,
+    outputs: Outputs<SearchResults>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -68,11 +60,11 @@ pub(super) struct CheckArgs {
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
     #[command(flatten)]
-    target: Target,
+    outputs: Outputs<CheckResults>,
 }
 
 pub(super) fn search(args: &Args) -> Result<()> {
-    args.target.check(&args.output)?;
+    args.outputs.of(SearchResults::Scenario).try_for_each(|to| is_no_source(to, &args.file))?;
     let TaskFile { mut task, drawing } = TaskFile::load(&args.file)?;
     let effort = &mut task.effort;
     effort.seed = args.seed.unwrap_or(effort.seed);
@@ -89,13 +81,14 @@ pub(super) fn search(args: &Args) -> Result<()> {
     let own = Task { case: bare.case, ..task.clone() };
     let achieved = Achieved::of(&own, found.forward)?;
     let text = redraw::redrawn(&task, &drawing.text, &values, &comment(args, &own, &achieved))?;
-    if let Some(to) = &args.output {
-        write_scenario(&text, to, &[&args.file, &drawing.path])?;
-        if output::is_standard(to) {
-            return Ok(());
-        }
-    }
-    tell(&args.target, &Story { task: &own, achieved: &achieved, search: Some((&found, &values)) })
+    args.outputs.of(SearchResults::Scenario).try_for_each(|to| is_no_source(to, &drawing.path))?;
+    let story = Story { task: &own, achieved: &achieved, search: Some((&found, &values)) };
+    let result = |result| match result {
+        SearchResults::Scenario => text.clone(),
+        SearchResults::Json => report::json(&story),
+        SearchResults::Svg => svg(&story),
+    };
+    args.outputs.deliver(|form| Ok(result(form)), || report::text(&story))
 }
 
 /// How the scenario was found, and how good it is.
@@ -112,7 +105,6 @@ fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
 }
 
 pub(super) fn check(args: &CheckArgs) -> Result<()> {
-    args.target.check(&None)?;
     let TaskFile { task, drawing } = TaskFile::load(&args.file)?;
     let scenario = plain(&args.scenario)?;
     let names =
@@ -123,19 +115,25 @@ pub(super) fn check(args: &CheckArgs) -> Result<()> {
     }
     let task = Task { case: scenario.case, ..task };
     let achieved = Achieved::of_either(&task)?;
-    tell(&args.target, &Story { task: &task, achieved: &achieved, search: None })
+    let story = Story { task: &task, achieved: &achieved, search: None };
+    let result = |result| match result {
+        CheckResults::Json => report::json(&story),
+        CheckResults::Svg => svg(&story),
+    };
+    args.outputs.deliver(|form| Ok(result(form)), || report::text(&story))
 }
 
-fn tell(target: &Target, story: &Story) -> Result<()> {
-    if let Some(to) = &target.svg {
-        output::write(&draw::timing(&report::diagram(story), &story.task.title), to)?;
-    }
-    if let Some(to) = &target.json {
-        output::write(&report::json(story), to)?;
-    }
-    if output::is_said(&target.svg) || output::is_said(&target.json) {
-        Ok(())
-    } else {
-        output::print(&report::text(story))
+fn svg(story: &Story) -> String {
+    draw::timing(&report::diagram(story), &story.task.title)
+}
+
+/// Refuses to write the scenario over one of its sources.
+fn is_no_source(to: &Path, source: &Path) -> Result<()> {
+    match (fs::canonicalize(source), fs::canonicalize(to)) {
+        (Ok(a), Ok(b)) if a == b => {
+            let message = sentences::the_scenario_found_would_overwrite(&source.display());
+            output::refused("--output", message, sentences::NAME_ANOTHER_FILE)
+        }
+        _ => Ok(()),
     }
 }

@@ -61,7 +61,7 @@ impl<'a> Batch<'a> {
     /// Those of [`PoseSolver::new`].
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
-        // Lanes use constant signs of the groups, but a change point changes them.
+        // The lanes keep the signs of the groups constant, but a change point changes them.
         let groups = match case.crank().through {
             true => None,
             false => Groups::of(case, &poses.plan, Layout::of(case, false)),
@@ -94,14 +94,14 @@ impl<'a> Batch<'a> {
         self.singly
     }
 
-    /// Solves the poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity
-    /// `omega` (rad/s) and angular acceleration `alpha` (rad/s^2) of the crank, up to the stage `deepest`.
-    /// To rounding, the poses equal those of [`PoseSolver::solve`] at one crank angle after the other.
-    /// The solution starts from the last crank angle reached, at first from the start pose.
-    /// Where poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits at every place in the
+    /// Solves the poses at the crank angles `cranks` (rad, as the scenario states them), up to the stage `deepest`.
+    /// All poses have the angular velocity `omega` (rad/s) and angular acceleration `alpha` (rad/s^2) of the crank.
+    /// Within rounding error, the poses equal those of [`PoseSolver::solve`] at one crank angle after the other.
+    /// The first call starts from the start pose, later calls from the last crank angle reached.
+    /// Where poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits at every position in the
     /// list.
-    /// Higher groups are followed from the start pose in steps of two degrees; near a dead point, and more than 50 000
-    /// steps away, their poses are solved one by one.
+    /// Higher groups are followed from the start pose in steps of two degrees.
+    /// Near a dead point, and more than 50 000 steps away, their poses are solved one by one.
     /// Between rows more than 15 degrees apart, intermediate poses are solved too.
     ///
     /// # Errors
@@ -242,7 +242,7 @@ mod tests {
     #[test]
     fn units_are_those_of_the_standard_library() {
         for k in -400_000..400_000 {
-            // A tenth of them are multiples of a quarter turn, where sine or cosine is zero.
+            // A tenth of the angles are multiples of a quarter turn, where sine or cosine is zero.
             let quarters = f64::from(k) * if k % 10 == 0 { 1.0 } else { 1.600_123_4 };
             let angles = [1.0, 1e-5, 3.0, 15.0, -1.0, -0.1, 7.3, 0.5].map(|share| quarters * share * PI / 2.0);
             let [cos, sin] = units(angles);

@@ -10,7 +10,7 @@ use linkage::mechanism::GroupId;
 const BISECTIONS: usize = 64;
 
 impl PoseSolver<'_> {
-    /// Checks the step to the pose just found, where the stored bounds do not prove that it passes no change point.
+    /// Checks the step to the pose just found, for which the stored bounds do not exclude a change point.
     #[cold]
     pub(super) fn pass_closely(&mut self, target: f64) -> Result<(), OutOfReach> {
         self.gauges.pass_closely([self.crank, target], self.case, &self.plan, &self.state.motions)?;
@@ -84,9 +84,9 @@ impl PoseSolver<'_> {
         Ok(())
     }
 
-    /// Searches the smallest clearance of a group between the present crank angle and `target`, by bisection of its
+    /// Searches for the smallest clearance of a group between the present crank angle and `target`, by bisection on its
     /// slope.
-    /// Refuses the step if that clearance is zero to rounding.
+    /// Refuses the step if that clearance is zero within rounding error.
     #[cold]
     fn search(&mut self, group: GroupId, target: f64, ends: [SingularityDistance; 2]) -> Result<(), OutOfReach> {
         let ([mut low, mut high], [mut before, mut after]) = ([self.crank, target], ends);

@@ -86,7 +86,7 @@ impl Kinetostatics {
         self.balance(case, plan, state);
     }
 
-    /// Does what [`Kinetostatics::solve`] does, with the given loads on all links.
+    /// Like [`Kinetostatics::solve`], with the given loads on all links.
     pub(super) fn solve_under(&mut self, loads: &[Wrench], case: &Case, plan: &SolutionPlan, state: &mut State) {
         let count = self.loads.len();
         self.loads.copy_from_slice(&loads[..count]);

@@ -1,16 +1,20 @@
 //! Proof that no dyad passes a change point on a step of `PoseSolver`.
 //!
 //! Where two branches of a dyad meet, its [gauge](crate::assur::groups::Step::gauge) is at an end of its range.
-//! Between two poses the gauge differs from the straight line through its values there by M h^2 / 8 at most. If that
-//! band is within the range, the dyad is on one branch all the way.
-//! For a dyad on driving links of constant speed ratio and the ground M is a number. Where the band is too wide the
-//! step is divided, until it is proven or the change point is found.
-//! For a dyad on other dyads M follows from bounds of these, which grow from dyad to dyad and with the inverse of their
-//! sines. It is proven where these suffice, and otherwise left to the estimate of [`super::watch`], as are dyads on
-//! higher groups, on sliders of two guides, and with several driving links of changing speed ratios.
+//! Between two poses the gauge differs from linear interpolation by at most M h^2 / 8.
+//! Here h is the step and M a bound of the gauge's second derivative.
+//! If that band lies within the range, the dyad stays on one branch.
+//! For a dyad on the ground and on driving links of constant speed ratio, M is known.
+//! If its band is too wide, the step is divided until it is proven or the change point is found.
+//! For a dyad on other dyads, M follows from the bounds of those dyads.
+//! These bounds grow from dyad to dyad and with the inverse of the dyads' sines.
+//! Where they do not suffice, the estimate of [`super::watch`] decides.
+//! That estimate also serves dyads on higher groups, dyads on sliders of two guides, and several driving links of
+//! changing speed ratios.
 //!
-//! Bounds are kept for the next steps. They are those of a band that is wider than the step needs, so that they hold
-//! until a gauge leaves it, a step is longer, or the crank has gone far.
+//! Bounds are kept for the next steps.
+//! Their band is wider than the step needs. They hold until a gauge leaves it, a step is longer, or the crank has gone
+//! far.
 //! See docs/numerics/change_points.md.
 
 use crate::assur::groups::{Bound, Limit, Misfit, OutOfReach, SINGULAR, SolutionPlan};
@@ -18,9 +22,9 @@ use linkage::case::Case;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
-/// Share of the distance between an end of the range and the band of a step that the stored band leaves free.
+/// Distance from the stored band to an end of the range, as a share of the distance from the step's band.
 const SPARE: f64 = 0.25;
-/// Factor for slightly longer steps: steps of a grid are equal to rounding only.
+/// Factor for slightly longer steps: the steps of a grid are equal only within rounding error.
 const LONGER: f64 = 1.0 + 1e-6;
 /// Factor by which a gauge without an upper limit may grow.
 const GROWN: f64 = 4.0;
@@ -126,7 +130,7 @@ impl Gauges {
     /// Checks the step between two crank angles (rad) with bounds for this step, and divides it where necessary.
     ///
     /// # Errors
-    /// [`Misfit::Passed`] with a change point; the last pose is then again that before the step.
+    /// [`Misfit::Passed`] with a change point. The last pose is then the pose before the step again.
     #[cold]
     pub(super) fn pass_closely(
         &mut self,
@@ -170,8 +174,8 @@ impl Gauges {
 
     /// Whether the gauges of all direct groups stay within their ranges between two poses, for steps of length `step`
     /// (rad).
-    /// Stores the bounds that prove it, for bands that leave free the share `share` of the remaining distance.
-    /// A group that is not direct and has no proof is marked open.
+    /// Stores the bounds of this proof. Their bands leave the share `share` of the remaining distance free.
+    /// An indirect group without a proof is marked open.
     fn prove(&mut self, ends: &[End; 2], plan: &SolutionPlan, step: f64, share: f64) -> bool {
         let motions = &ends[1].motions;
         (self.reach, self.left) = (-1.0, f64::INFINITY);
@@ -237,8 +241,8 @@ impl Gauges {
     }
 }
 
-/// Returns the band in which a gauge with these least and largest values at the ends of a step stays, and its largest
-/// deviation from linear interpolation; `None` if the gauge may leave its range.
+/// Returns the band in which a gauge stays over a step, and its largest deviation from linear interpolation.
+/// `least` and `most` are its values at the ends of the step. Returns `None` if the gauge may leave its range.
 fn band(limit: Limit, [least, most]: [f64; 2], step: f64, share: f64) -> Option<(Limit, [f64; 2], f64)> {
     let bulge = limit.second * step * step / 8.0;
     let [start, end] = limit.range;

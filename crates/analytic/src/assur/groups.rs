@@ -28,8 +28,7 @@ use linkage::math::{KeepNan, Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{AssemblyMode, GROUND, GroupId, GroupKind, LinkId, Mechanism, PerGroup, Structure};
 use linkage::work::{Count, WorkTally};
 
-/// Largest ratio of the squared distances of two configurations from an expected pose at which the nearer one is
-/// accepted as the expected configuration.
+/// Largest ratio of squared distances from an expected pose at which the nearer of two configurations is accepted.
 const NEARER: f64 = 0.04;
 
 /// Driving link that turns about a joint with the ground or with an earlier driving link.
@@ -118,7 +117,7 @@ impl Step {
         }
     }
 
-    /// Sine of the [clearance](SolutionPlan::clearances), which positions alone give.
+    /// Sine of the [clearance](SolutionPlan::clearances), from positions alone.
     #[inline]
     pub(crate) fn sine(&self, motions: &[Motion]) -> Option<f64> {
         match self {
@@ -132,7 +131,7 @@ impl Step {
     /// Gauge at the last pose: see [`bounds`]. NaN for groups without a gauge.
     #[inline]
     pub(in crate::assur) fn gauge(&self) -> f64 {
-        // Most groups are of this kind.
+        // Most groups are RRR dyads.
         if let Step::Rrr(dyad) = self {
             return dyad.gauge();
         }
@@ -261,7 +260,8 @@ impl SolutionPlan {
         Ok(())
     }
 
-    /// Positions, velocities and accelerations of all links in one pass, with what each of these takes.
+    /// Computes the positions, velocities and accelerations of all links in one pass.
+    /// The arguments are those of the three separate functions.
     ///
     /// # Errors
     /// Those of [`SolutionPlan::positions`].
@@ -297,7 +297,7 @@ impl SolutionPlan {
             motions[driver.link] = Motion { origin, direction, velocity, omega, acceleration, alpha };
         }
         for (group, step) in self.steps.entries_mut() {
-            // Most groups are of this kind.
+            // Most groups are RRR dyads.
             if let Step::Rrr(dyad) = step {
                 dyad.motions(motions).map_err(|why| OutOfReach { group, why })?;
             } else {
@@ -309,8 +309,8 @@ impl SolutionPlan {
         Ok(())
     }
 
-    /// The same in those configurations of the dyads that lie nearest to the expected poses `like`, which become those
-    /// of the plan.
+    /// Computes the positions of all links, with each dyad in the configuration nearest to the expected poses `like`.
+    /// The plan keeps these configurations.
     ///
     /// # Errors
     /// Those of [`SolutionPlan::positions`]; [`Misfit::Singular`] where two configurations are about equally near.
@@ -352,7 +352,7 @@ impl SolutionPlan {
         Ok(())
     }
 
-    /// Positions of the driving links and of these groups, which need no other ones.
+    /// Positions of the driving links and of these groups, which depend on no other groups.
     ///
     /// # Errors
     /// Those of [`SolutionPlan::positions`].

@@ -1,11 +1,12 @@
-//! Side 1 through change points: where two branches of a group cross, the mechanism goes on along the one on which
-//! velocities go on.
+//! Side 1 through change points: where two branches of a group cross, the mechanism continues on the branch with
+//! continuous velocities.
 //!
 //! Along this branch all positions and transfer functions are smooth functions of the driving link's angle.
-//! Only the equations of the group are singular: its sine, or what it is for the dyad, passes through zero linearly,
-//! and the sign that the closed form keeps is another one on the far side.
-//! Around such an angle (a [`Window`]) nothing is calculated from the equations of the pose, but from polynomials
-//! through poses on both sides of it.
+//! Only the equations of the group are singular.
+//! Its sine, or the corresponding measure of the dyad, passes through zero linearly.
+//! The sign that the closed form keeps is the opposite one on the far side.
+//! In a [`Window`] around such an angle, results come from polynomials through poses on both sides, not from the
+//! equations of the pose.
 //! See docs/numerics/change_points.md.
 
 mod forces;
@@ -21,22 +22,23 @@ use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 use window::Window;
 
-/// Largest estimated distance (rad) at which a change point is looked for: before a step can lead into its window.
+/// Largest estimated distance (rad) at which a change point is searched for.
+/// The search thus comes before a step can lead into the window.
 const LOOK: f64 = 1.0;
-/// A known change point up to this multiple of the estimated distance is the one that is meant, or comes before it:
-/// then what lies behind is looked for from there.
+/// Multiple of the estimated distance within which a known change point is the estimated one, or lies before it.
+/// Change points behind the known one are then searched for from there.
 const NEXT: f64 = 1.3;
-/// Distance (rad) up to which two change points are one, at which several groups are singular.
+/// Distance (rad) up to which two change points count as one, at which several groups are singular.
 const SAME: f64 = 1e-6;
-/// Windows that are kept, the nearest ones. After many turns the others are found again.
+/// Largest number of windows kept, the nearest ones. After many turns the others are found again.
 const MOST_WINDOWS: usize = 8;
-/// Number of intervals without a change point that are remembered: a motion of many small steps finds as many.
+/// Largest number of remembered intervals without a change point. A motion of many small steps finds as many.
 const MOST_CLEAR: usize = 256;
 
-/// The change points of a mechanism with one driving link, as far as they have been met.
+/// The change points found so far in a mechanism with one driving link.
 #[derive(Debug)]
 pub(super) struct Passing {
-    /// Share of the usual half widths that windows have.
+    /// Half width of the windows, as a share of the usual half width.
     share: f64,
     windows: Vec<Window>,
     /// Intervals of the driving link's angle (rad) in which a search in this direction has found nothing: group,
@@ -45,15 +47,16 @@ pub(super) struct Passing {
     /// The window of the last pose, if it lies in one.
     inside: Option<usize>,
     motions: Vec<Motion>,
-    /// Ends of windows from which the next change point has been looked for.
+    /// Ends of windows from which the next change point has already been searched for.
     looked: Vec<f64>,
     /// Angle of the last pose outside of windows, and the determinants of higher groups there.
     last: (f64, Vec<Option<f64>>),
 }
 
 impl Passing {
-    /// No change point met yet. Windows have this share of their usual half widths: two runs with different shares show
-    /// the error that is left in them.
+    /// Starts without a known change point.
+    /// Windows have the share `share` of their usual half widths. Two runs with different shares show the remaining
+    /// error of the windows.
     pub(super) fn new(share: f64) -> Self {
         Passing {
             share,
@@ -83,7 +86,7 @@ impl Passing {
             return Ok(());
         }
         let mut from = from;
-        // Out of windows, or over them: on along the branch of the nodes on that side.
+        // If the step leaves or passes over windows, continue on the branch of the nodes on that side.
         while let Some(index) = self.left([from, to]) {
             let window = &self.windows[index];
             let [end, before] = window.ends(to);
@@ -111,7 +114,8 @@ impl Passing {
         Ok(())
     }
 
-    /// The window that a way leaves or passes over, the nearest one to its end.
+    /// The window that a step between two angles leaves or passes over; of several, the one nearest to the end of the
+    /// step.
     fn left(&self, [from, to]: [f64; 2]) -> Option<usize> {
         let over =
             |window: &Window| (from - window.at) * (to - window.at) <= 0.0 || (from - window.at).abs() < window.reach;
@@ -119,7 +123,7 @@ impl Passing {
         all.min_by(|(_, a), (_, b)| (a.at - to).abs().total_cmp(&(b.at - to).abs())).map(|(index, _)| index)
     }
 
-    /// Places the mechanism by a window, if there is one at this angle.
+    /// Places the mechanism by the window at this angle, if there is one.
     fn enter(&mut self, angle: f64, plan: &SolutionPlan, motions: &mut [Motion]) -> bool {
         self.inside = self.windows.iter().position(|window| (angle - window.at).abs() < window.reach);
         if let Some(window) = self.inside() {
@@ -129,14 +133,14 @@ impl Passing {
         self.inside.is_some()
     }
 
-    /// Looks for change points near a pose that has just been placed.
+    /// Searches for change points near a pose that has just been placed.
     fn look(&mut self, angle: f64, plan: &mut SolutionPlan, motions: &[Motion]) -> Result<(), OutOfReach> {
         self.motions.clear();
         self.motions.extend_from_slice(motions);
         plan.velocities(&[1.0], &mut self.motions);
         let (before, dets) = &self.last;
         let slope = |group: GroupId| {
-            // Of a higher group, the determinant's way from pose to pose.
+            // For a higher group, the determinant is extrapolated linearly from the last two poses.
             let (now, last) = (plan.determinant(group)?.abs(), dets.get(group.index()).copied().flatten()?.abs());
             (angle != *before).then(|| now * (angle - before) / (now - last))
         };
@@ -150,7 +154,7 @@ impl Passing {
         let found: Vec<(GroupId, f64)> =
             plan.steps().ids().zip(plan.clearances(&self.motions)).filter_map(near).collect();
         self.last = (angle, plan.steps().ids().map(|group| plan.determinant(group)).collect());
-        // What is forgotten is only searched once more.
+        // A forgotten interval is only searched again.
         let old = self.clear.len().saturating_sub(MOST_CLEAR);
         self.clear.drain(..old);
         for (group, ahead) in found {
@@ -187,20 +191,20 @@ impl Passing {
     }
 }
 
-/// The error for reactions at a change point that grow without bound.
+/// The error for reactions that grow without bound at a change point.
 pub(super) fn unbounded(at: InputValue) -> Error {
     let message = sentences::this_is_a_change_point_and_towards(&at);
     let error = Error::new(ErrorKind::Numeric, message).at_input(at);
     error.help(WITHOUT_POLE)
 }
 
-/// The way out where reactions have a pole.
+/// Advice where reactions have a pole.
 const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;
 
-/// The way through a pose that may be a change point.
+/// Advice for passing a pose that may be a change point.
 pub(super) fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
-        // It is passed already, or there are several drives, with which none is passed.
+        // The case passes change points already, or it has several drives and passes none.
         true => sentences::LET_THE_GRID_END_BEFORE_IT,
         false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }

@@ -1,4 +1,4 @@
-//! Pose after pose by Assur groups: the fast part of side 1.
+//! Solves pose after pose by Assur groups: the fast part of side 1.
 
 use crate::sentences;
 use std::slice;
@@ -18,11 +18,11 @@ use linkage::solver::State;
 use linkage::trajectory::Stage;
 use linkage::work;
 
-/// Turn of the crank (rad) after which a link that starts at its own dead centre shows its sense.
+/// Rotation of the crank (rad) after which a link that starts at its dead centre shows its sense of rotation.
 const NUDGE: f64 = 1e-7;
 /// How often a failing step is halved: down to a millionth of it.
 pub(super) const HALVINGS: u32 = 20;
-/// What a singular pose is.
+/// Explanation of a singular pose.
 const MEET: &str = sentences::THERE_THE_LINKS_OF_THE_GROUP;
 
 /// Goes from crank angle to crank angle on one branch and solves the pose there, without allocation.
@@ -38,8 +38,9 @@ pub struct PoseSolver<'a> {
     pub(super) inputs: Vec<f64>,
     /// Angular velocities and accelerations of all driving links, where all motions are found in one pass.
     rates: [Vec<f64>; 2],
-    /// What the caller wants at the end of the way: all motions in one pass, for these rates of the crank. At a pose
-    /// they are known then.
+    /// Whether the caller requests all motions in one pass at the target, for the rates `omega` and `alpha` of the
+    /// crank.
+    /// `has_motions` tells whether they are known at the present pose.
     in_one_pass: bool,
     pub(super) omega: f64,
     alpha: f64,
@@ -50,7 +51,7 @@ pub struct PoseSolver<'a> {
     step: f64,
     pub(super) gauges: Gauges,
     pub(super) watch: Watch,
-    /// Change points, where the drive says that they are passed.
+    /// Change points, if the drive is set to pass them.
     pub(super) passing: Option<Passing>,
 }
 
@@ -92,7 +93,7 @@ impl<'a> PoseSolver<'a> {
         Ok(solver)
     }
 
-    /// The same, and counts the turns of all links.
+    /// Like [`PoseSolver::new`], and counts the turns of all links.
     ///
     /// # Errors
     /// Those of [`PoseSolver::new`].
@@ -102,8 +103,9 @@ impl<'a> PoseSolver<'a> {
         Ok(solver)
     }
 
-    /// The same for a crank that was seen to turn fully: nothing looks for change points again, where closed forms give
-    /// every pose. Higher groups follow their last pose, and are still watched.
+    /// The solver for a crank that has been seen to rotate fully.
+    /// If all poses have a closed form, change points are not searched for again.
+    /// Higher groups follow their last pose and are still watched.
     pub(crate) fn turning_fully(mut self) -> Self {
         if self.plan.is_closed_form() && self.passing.is_none() {
             (self.gauges, self.watch) = (Gauges::none(), Watch::none());
@@ -147,12 +149,12 @@ impl<'a> PoseSolver<'a> {
         Ok(&self.state)
     }
 
-    /// The rest of [`PoseSolver::solve`] beside a change point.
+    /// Completes [`PoseSolver::solve`] near a change point.
     #[cold]
     fn solve_passing(&mut self, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         let begun: PerLink<Motion> = self.state.motions.clone();
         self.pass([omega, alpha], deepest, None)?;
-        // What was not asked for keeps its old values.
+        // Stages that were not requested keep their old values.
         if deepest < Stage::Accelerations {
             for (motion, before) in self.state.motions.iter_mut().zip(&begun) {
                 (motion.acceleration, motion.alpha) = (before.acceleration, before.alpha);
@@ -161,8 +163,9 @@ impl<'a> PoseSolver<'a> {
         Ok(&self.state)
     }
 
-    /// Rates and reactions beside a change point. Loads that depend on the sense of a link take it from `senses`, its
-    /// angular velocities, if given.
+    /// Rates and reactions near a change point.
+    /// `senses`, if given, are the angular velocities of the links. Loads that depend on a link's sense of rotation use
+    /// them.
     fn pass(&mut self, rates: [f64; 2], deepest: Stage, senses: Option<&[f64]>) -> Result<()> {
         if deepest >= Stage::Reactions && self.turns.is_some() && !self.case.loads.is_empty() {
             self.with_angles();
@@ -174,7 +177,7 @@ impl<'a> PoseSolver<'a> {
         if deepest < Stage::Reactions {
             return Ok(());
         }
-        // One sense for all poses around: that of this one.
+        // All neighbouring poses use the senses of this pose.
         let own: Vec<f64> = match senses {
             Some(senses) => senses.to_vec(),
             None => self.state.motions.ids().map(|link| case.spin(&self.state.motions, link)).collect(),
@@ -187,9 +190,9 @@ impl<'a> PoseSolver<'a> {
         found.map_err(|_| passing::unbounded(self.case.told(self.crank)))
     }
 
-    /// As [`PoseSolver::solve`] at the instant at which the crank starts from rest with the acceleration `alpha`: loads
-    /// that depend on the sense of a link act against the motion that begins.
-    /// A link that is at its own dead centre shows its sense a little later.
+    /// Like [`PoseSolver::solve`], at the instant at which the crank starts from rest with the acceleration `alpha`.
+    /// Loads that depend on a link's sense of rotation act against the beginning motion.
+    /// A link at its dead centre shows its sense a little later.
     pub(crate) fn set_off(&mut self, crank: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         let sense = 1f64.copysign(alpha);
         let mut begun: Vec<f64> = Vec::new();
@@ -223,7 +226,7 @@ impl<'a> PoseSolver<'a> {
         self.go_far_to(target)
     }
 
-    /// The same where one step is not enough.
+    /// Moves the mechanism to `target` where one step is not enough.
     #[cold]
     fn go_far_to(&mut self, target: f64) -> Result<()> {
         self.skip_turns(target)?;
@@ -301,7 +304,7 @@ impl<'a> PoseSolver<'a> {
         Ok(())
     }
 
-    /// One step. Where a group cannot be followed over it, two steps of half the size.
+    /// Takes one step, or two steps of half the size where a group cannot be followed over it.
     fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
         work::spend(work::PLACED * self.case.structure.groups.len() as f64)?;
         match self.place(target) {
@@ -387,7 +390,7 @@ fn drive_further(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
     rates.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
 }
 
-/// The world angles of the driving links beside the crank.
+/// The world angles of the driving links other than the crank.
 #[inline(never)]
 fn turn_further(case: &Case, crank: f64, angles: &mut [f64]) {
     let t = case.crank().time_of(crank);

@@ -36,7 +36,7 @@ pub(crate) struct TransferSide<'a> {
     at: Vec<f64>,
     target: Vec<f64>,
     unit: Vec<f64>,
-    /// Numbers of the free drives.
+    /// Indices of the free drives.
     free: Vec<usize>,
     /// First transfer functions of every link's mass centre and angle, link by link, for one free driving link
     /// after the other.
@@ -44,16 +44,17 @@ pub(crate) struct TransferSide<'a> {
     matrix: Lu,
     right: Vec<f64>,
     loads: Vec<Wrench>,
-    /// Change points, with one driving link. With several, they are not passed.
+    /// Change points of a mechanism with one driving link. With several driving links, they are not passed.
     passing: Option<Passing>,
     /// With several driving links: clearances of the groups at the last pose.
     sines: Vec<Option<f64>>,
-    /// What the last accelerations were found with.
+    /// Held actions at the last accelerations.
     held: Option<Held>,
 }
 
 impl<'a> TransferSide<'a> {
-    /// Starts at the start pose of a case. The windows around change points have this share of their usual widths.
+    /// Starts at the start pose of a case. The windows around change points have the share `share` of their usual
+    /// widths.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if the start pose is singular.
@@ -103,9 +104,9 @@ impl<'a> TransferSide<'a> {
         Ok(())
     }
 
-    /// Refuses a step over a change point: there a clearance falls to zero and rises again, so that its slope at the
-    /// end leads back to less than nothing at the beginning. So does a step over a near miss, which smaller steps
-    /// resolve.
+    /// Refuses a step over a change point, where a clearance falls to zero and rises again.
+    /// Its slope at the end of the step then extrapolates to a negative clearance at the beginning.
+    /// A step over a near miss is refused too; smaller steps resolve it.
     fn keep_clear(&mut self) -> std::result::Result<(), OutOfReach> {
         for ((step, target), at) in self.unit.iter_mut().zip(&self.target).zip(&self.at) {
             *step = target - at;
@@ -151,8 +152,7 @@ impl<'a> TransferSide<'a> {
         Ok(())
     }
 
-    /// Goes on from one share of a way to another. Where a group cannot be followed over the step, two steps of half
-    /// the size.
+    /// Moves from one share of a path to another, in two steps of half the size where a group cannot be followed.
     fn step_to(&mut self, way: [&[f64]; 2], [before, share]: [f64; 2], halvings: u32) -> Result<()> {
         work::spend(work::PLACED * self.case.structure.groups.len() as f64)?;
         for ((target, &from), &to) in self.target.iter_mut().zip(way[0]).zip(way[1]) {

@@ -8,7 +8,7 @@ use linkage::mechanism::{LinkId, PerLink, Pose};
 /// Largest turn of a driving link between two poses (rad). Over such a step no link turns so far that its turns could
 /// be miscounted.
 pub(super) const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
-/// The same where Newton's method follows a group from pose to pose.
+/// Largest turn of a driving link (rad) where Newton's method follows a group from pose to pose.
 pub(super) const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
 /// Counts the turns of every link. Between two poses no link may turn by half a turn or more.
 #[derive(Clone, Debug)]
@@ -21,7 +21,7 @@ pub(super) struct Turns {
 impl Turns {
     /// Starts from a pose whose angles keep their turns.
     pub(super) fn from(pose: &Pose, motions: &[Motion]) -> Self {
-        // Against the direction itself: on the axis -x rounding decides between -pi and pi.
+        // The angle is compared with that of the direction: on the axis -x, rounding decides between -pi and pi.
         let whole = |angle: f64, direction: Vec2| ((angle - principal(direction)) / TAU).round();
         let directions: Vec<Vec2> = motions.iter().map(|motion| motion.direction).collect();
         let whole = pose.0.iter().zip(&directions).map(|(pose, direction)| whole(pose.angle, *direction)).collect();
@@ -64,8 +64,8 @@ impl Turns {
     }
 }
 
-/// Angle of a direction (rad), from -pi to pi. Adding zero makes -0 a 0: on the axis -x it is +pi, as the count
-/// assumes.
+/// Angle of a direction (rad), from -pi to pi.
+/// Adding zero turns -0 into 0. The angle on the axis -x is therefore +pi, as the count assumes.
 #[inline]
 fn principal(direction: Vec2) -> f64 {
     (direction.y + 0.0).atan2(direction.x)

@@ -1,9 +1,10 @@
-//! What is watched of dyads that have no proof by [`super::gauges`].
+//! Watches the dyads for which [`super::gauges`] has no proof.
 //!
-//! A closed form keeps the sign of a dyad's sine, and there the branch that it takes has a corner: the dyad's
+//! A closed form keeps the sign of a dyad's sine. At a change point its branch therefore has a corner: the dyad's
 //! clearance falls to zero and rises again.
-//! This is an estimate: how fast the carrying links turn between two poses is taken from the poses. It misses a
-//! clearance that falls to zero, rises and turns again within one step, which is 2 degrees behind a higher group.
+//! This is an estimate: the speeds of the carrying links between two poses are taken from the poses.
+//! It misses a clearance that falls to zero, rises and falls again within one step.
+//! Behind a higher group, a step is 2 degrees.
 //! See docs/numerics/change_points.md.
 
 use super::gauges::Gauges;
@@ -11,30 +12,32 @@ use crate::assur::groups::{SingularityDistance, SolutionPlan};
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::{PerGroup, PerLink};
 
-/// Clearance of a dyad below which a change point may lie within a step. From 0.8 to 0 and back its links turn by 106
-/// deg against each other, which at [`FAST`] takes 7 deg of the crank: more than a step behind a higher group, less
-/// than one of 15 deg of dyads alone.
+/// Clearance of a dyad below which a change point may lie within a step.
+/// From 0.8 to 0 and back, the links of the dyad turn by 106 deg relative to each other.
+/// At [`FAST`] this takes 7 deg of the crank.
+/// That is more than a step behind a higher group, but less than a step of 15 deg for dyads alone.
 const NARROW: f64 = 0.8;
-/// A clearance that is this many times the change over the rest of the way is taken not to fall to zero on it.
-/// Near a change point the sine is linear in the crank angle, and its change over the next step is that over the last:
-/// 1 would do there. At a dead point it changes with the root of the way, at most (1 + root 2) times as fast. The rest
-/// is reserve, and no proof.
+/// A clearance of this many times its change over the rest of the step is assumed not to fall to zero there.
+/// Near a change point the sine is linear in the crank angle. Its change over the next step equals that over the last,
+/// and 1 would suffice.
+/// Near a dead point the sine changes with the square root of the distance, at most (1 + root 2) times as fast.
+/// The rest is a reserve, not a proof.
 pub(super) const CLEAR: f64 = 4.0;
-/// Angle by which the links of a dyad turn against each other while the crank turns by one unit, and hardly ever more.
-/// An assumption: it holds as long as no carrying link is 16 times as fast as the crank.
+/// Largest expected rotation of a dyad's links relative to each other, per unit of crank rotation.
+/// It is an assumption, valid as long as no carrying link is 16 times as fast as the crank.
 const FAST: f64 = 16.0;
 
-/// The clearance of a group that has none.
+/// Placeholder for a group without a clearance.
 const NONE: SingularityDistance = SingularityDistance { sine: f64::NAN, rate: f64::NAN };
 
-/// What is seen of one group. Rates are per unit of the crank angle, NaN if they are not known.
+/// Clearances of one group. Rates are per unit of the crank angle; NaN if unknown.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
     pub(super) last: SingularityDistance,
     pub(super) now: SingularityDistance,
     /// Change of the clearance over the last step, without sign.
     fall: f64,
-    /// Whether it is watched here.
+    /// Whether the group is watched here.
     is_watched: bool,
 }
 
@@ -42,7 +45,7 @@ impl Seen {
     /// Whether the clearance may have fallen to zero and risen again, on a step of the crank in this sense.
     #[inline]
     pub(super) fn may_pass(&self, sense: f64) -> bool {
-        // A rate that is not known might be any.
+        // An unknown rate may have any value.
         self.last.sine.smaller(self.now.sine) < NARROW
             && !(self.last.rate * sense >= 0.0)
             && self.now.rate * sense > 0.0
@@ -73,7 +76,7 @@ impl Watch {
         Watch { is_needed: false, motions: PerLink::default(), groups: PerGroup::default(), step: 0.0 }
     }
 
-    /// Watches the groups that gauges prove nothing of.
+    /// Watches the groups for which the gauges prove nothing.
     pub(super) fn leave_to(&mut self, gauges: &Gauges, plan: &SolutionPlan) {
         for (seen, step) in self.groups.iter_mut().zip(plan.steps()) {
             seen.is_watched = step.has_clearance();
@@ -116,9 +119,10 @@ impl Watch {
         may_pass
     }
 
-    /// Whether the positions alone tell that no group passes a change point on this step of the crank.
-    /// On the way through one, the angle between the two links turns by both sines together at least. They must be many
-    /// times the change over the last step, as it would be over this one, and more than links ever turn.
+    /// Whether the positions alone show that no group passes a change point on this step of the crank.
+    /// Through a change point, the angle between the two links changes by at least the sum of both sines.
+    /// The sum must exceed the largest expected rotation, and many times the change over the last step, scaled to this
+    /// step.
     #[inline]
     pub(super) fn is_far(&mut self, step: f64, plan: &SolutionPlan, motions: &[Motion]) -> bool {
         let (steps, mut is_far) = (CLEAR * step / self.step, true);

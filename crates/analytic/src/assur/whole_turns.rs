@@ -1,7 +1,8 @@
 //! Whole turns of the crank on the way to a distant crank angle.
 //!
-//! With one drive a pose is a function of the crank angle and the branch. Where one whole turn, followed in small
-//! steps, brings every link back to where it was, the next turns are the same: they are counted, not followed.
+//! With one drive, a pose is a function of the crank angle and the branch.
+//! If one whole turn, followed in small steps, brings every link back, the next turns are the same.
+//! They are counted, not followed.
 //! See docs/numerics/change_points.md.
 
 use std::f64::consts::TAU;
@@ -10,16 +11,16 @@ use super::PoseSolver;
 use linkage::error::Result;
 use linkage::math::Motion;
 
-/// Turns of the crank from which it is worth to look.
+/// Number of crank turns from which a check for equal turns pays off.
 const WORTH: f64 = 3.0;
-/// Largest difference of poses that are the same: of places in sizes of the mechanism, of directions in rad. Branches
-/// as close as that are refused as singular.
+/// Largest difference of equal poses: of positions in sizes of the mechanism, of directions in rad.
+/// Branches as close as that are refused as singular.
 const SAME: f64 = 1e-9;
 
 impl PoseSolver<'_> {
-    /// Follows one whole turn towards the crank angle `target` and skips those that are the same. What is left is at
-    /// most a few turns; all of them where a turn leads to another pose, or where other drives or change points make
-    /// turns differ.
+    /// Follows one whole turn towards the crank angle `target` and skips the turns equal to it.
+    /// At most a few turns then remain.
+    /// No turn is skipped where a turn leads to another pose, or where other drives or change points make turns differ.
     pub(super) fn skip_turns(&mut self, target: f64) -> Result<()> {
         let Some((whole, _)) = self.case.crank().input.period() else { return Ok(()) };
         let turns = ((target - self.crank).abs() / whole).floor() - 1.0;

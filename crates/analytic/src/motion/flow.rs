@@ -25,7 +25,7 @@ const FARTHEST: f64 = std::f64::consts::PI;
 /// A bound of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Bound {
-    /// The motion that this load depends on, by its number, turns back.
+    /// The motion on which the load with this number depends reverses.
     Sense(usize),
     /// The motor leaves its branch towards higher speeds.
     TooFast,
@@ -37,15 +37,16 @@ enum Bound {
     KnotAhead,
 }
 
-/// The bounds of every piece. They follow those of the loads.
+/// The bounds of every piece. Their indices follow those of the loads.
 const COMMON: [Bound; 4] = [Bound::TooFast, Bound::TooSlow, Bound::KnotBehind, Bound::KnotAhead];
-/// Share of the largest speed so far below which a link or a point is at rest, where a piece ends.
+/// Share of the largest speed so far below which a link or point counts as at rest at the end of a piece.
 const AT_REST: f64 = 1e-11;
-/// Turn of a driving link (rad) after which a link or point that starts at its own dead centre shows its sense.
+/// Rotation of a driving link (rad) after which a link or point that starts at its dead centre shows its sense of
+/// motion.
 const NUDGE: f64 = 1e-7;
-/// Largest number of rounds in which points at rest settle their directions against each other.
+/// Largest number of iterations for the starting directions of points at rest, which depend on each other.
 const ROUNDS: usize = 60;
-/// Bisections of the acceleration with which a point starts.
+/// Number of bisections for the starting acceleration of a point.
 const HALVINGS: usize = 60;
 
 /// Angles and speeds of the free driving links at t = 0: first all angles in the world, then all speeds.
@@ -57,7 +58,7 @@ pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
     y
 }
 
-/// A load that depends on a sense of motion, by its number, and that motion.
+/// Number of a load that depends on a sense of motion, and that motion.
 type Sensed = (usize, Senses);
 
 /// The motion whose sense a load depends on, unless its link never turns.
@@ -95,7 +96,7 @@ struct Work<'a> {
 }
 
 impl Held {
-    /// The sense of a link or point, as a unit vector: of a link, +1 or -1 as the first component.
+    /// The sense of a link or point, as a unit vector. For a link, the first component is +1 or -1.
     fn sense(&self, (index, senses): Sensed) -> Vec2 {
         match senses {
             Senses::Nothing => Vec2::zeros(),
@@ -106,8 +107,8 @@ impl Held {
 }
 
 impl Work<'_> {
-    /// Velocity of a link or point at the present inputs: of a link its angular velocity (rad/s) as the first
-    /// component.
+    /// Velocity of a link or point at the present inputs. For a link, the first component is its angular velocity
+    /// (rad/s).
     fn rate(&mut self, (_, senses): Sensed) -> Result<Vec2> {
         match senses {
             Senses::Nothing => Ok(Vec2::zeros()),
@@ -116,7 +117,7 @@ impl Work<'_> {
         }
     }
 
-    /// Its derivative after the last call of [accelerate](side::Side::accelerate).
+    /// Derivative of that velocity after the last call of [accelerate](side::Side::accelerate).
     fn second(&self, (_, senses): Sensed) -> Vec2 {
         match senses {
             Senses::Nothing => Vec2::zeros(),
@@ -125,7 +126,7 @@ impl Work<'_> {
         }
     }
 
-    /// Holds the sense of the present motion.
+    /// Stores the sense of the present motion.
     fn take_sense(&mut self, own: Sensed) -> Result<()> {
         let rate = self.rate(own)?;
         match own.1 {
@@ -219,8 +220,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
         index.checked_sub(self.case.loads.len()).map_or(Bound::Sense(index), |common| COMMON[common])
     }
 
-    /// Puts the crank's speed exactly on this end of the motor's branch and chooses the branch beyond it; otherwise the same
-    /// piece would be chosen again. Nothing stands still there.
+    /// Sets the crank's speed exactly to this end of the motor's branch and chooses the branch beyond it.
+    /// Otherwise the same piece would be chosen again. No link or point stands still there.
     fn at_branch_end(&self, place: &mut Place<N>, end: usize, towards: f64) -> Vec<Sensed> {
         let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
         place.y[N / 2] = self.case.crank().sense() * speeds[end];
@@ -229,7 +230,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Chooses senses and branch at the beginning of the motion.
-    /// From rest the motor drives the crank, unless the other forces then turn it back: power flows to the motor.
+    /// From rest the motor drives the crank. If the other forces then turn it back, power flows to the motor.
     fn begin(&self, work: &mut Work, place: &Place<N>) -> Result<()> {
         self.choose_branch(place, 1.0);
         let stood = self.begin_senses(work, place)?;
@@ -247,7 +248,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(())
     }
 
-    /// Accelerations at a place where loads in `stood` have links at rest.
+    /// Computes the accelerations at `place`, where the loads in `stood` have links or points at rest.
     fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
         self.smooth.set(self.knots.around(self.crank(place.x, &place.y)));
@@ -258,13 +259,14 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Chooses the motor's branch at the crank's speed.
-    /// Where two meet: the one towards higher speeds for a positive `towards`, otherwise the one towards lower speeds.
+    /// Where two branches meet, a positive `towards` selects the one towards higher speeds, otherwise the one towards
+    /// lower speeds.
     fn choose_branch(&self, place: &Place<N>, towards: f64) {
         let motor = self.case.crank().moving_motor();
         self.branch.set(motor.map(|motor| motor.branch(self.crank_speed(&place.y), towards)));
     }
 
-    /// Senses at the beginning. Returns the entries of `sensed` that stand still.
+    /// Chooses the senses at the beginning. Returns the entries of `sensed` that stand still.
     fn begin_senses(&self, work: &mut Work, place: &Place<N>) -> Result<Vec<Sensed>> {
         self.put(&mut work.inputs, place.x, &place.y);
         let fastest = work.inputs.speeds.iter().fold(0.0f64, |most, speed| most.larger(speed.abs()));
@@ -280,8 +282,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(stood)
     }
 
-    /// The entries of `sensed` that stand still where a piece ends: that of the bound, and all that stop with it. A point
-    /// that has only turned away from its direction goes on.
+    /// The entries of `sensed` that stand still at the end of a piece: the entry of the bound, and all that stop with
+    /// it.
+    /// A point that has only turned away from its direction goes on.
     fn stopped(&self, work: &mut Work, place: &Place<N>, bound: usize) -> Result<Vec<Sensed>> {
         self.put(&mut work.inputs, place.x, &place.y);
         let mut stood = Vec::new();
@@ -296,7 +299,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(stood)
     }
 
-    /// Speed of a link or point at the present inputs (rad/s or m/s). Keeps the largest.
+    /// Speed of a link or point at the present inputs (rad/s or m/s). Updates the largest speed so far.
     fn look(&self, work: &mut Work, own: Sensed) -> Result<f64> {
         let speed = work.rate(own)?.norm();
         let fastest = &mut self.fastest.borrow_mut()[own.0];
@@ -304,7 +307,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(speed)
     }
 
-    /// Chooses the sense of links and points at rest, with their loads in `stood`.
+    /// Chooses the senses of the links and points at rest, whose loads are in `stood`.
     /// Each starts in the direction in which it is accelerated without its resistances, if the resistances allow it.
     fn set_off(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         let before = work.held.clone();
@@ -350,8 +353,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
         }
     }
 
-    /// Rates of links and points at rest a moment later, and that time (s), with the present accelerations of the
-    /// driving links. `None` where nothing moves, or if the mechanism cannot go there.
+    /// A short time (s), and the velocities after this time of the links and points at rest.
+    /// The driving links keep their present accelerations.
+    /// `None` where nothing moves, or if the mechanism cannot reach that pose.
     fn ahead(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Option<(f64, Vec<Vec2>)> {
         let alphas: Vec<f64> = self.case.drives.free().map(|(index, _)| work.inputs.accelerations[index]).collect();
         let of = |k: usize| {
@@ -372,10 +376,12 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Some((after, rates.ok()?))
     }
 
-    /// With several freedoms a force turns the acceleration of its point. Finds the directions in which points at rest
-    /// start against the forces of these very directions.
-    /// The acceleration is linear in the force: a(u) = a0 + B u with the direction u. Sought is a(u) = s u with s > 0, so
-    /// that |(s - B)^-1 a0| = 1. That length falls with s; if it is below 1 at s = 0, the point is held.
+    /// Finds the directions in which points at rest start. The force on each point acts against its own starting
+    /// direction.
+    /// With several degrees of freedom, a force changes the direction of its point's acceleration.
+    /// The acceleration is linear in the force: a(u) = a0 + B u with the direction u.
+    /// The solution satisfies a(u) = s u with s > 0, so that |(s - B)^-1 a0| = 1.
+    /// This length falls with s. If it is below 1 at s = 0, the point is held.
     fn settle(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         for _ in 0..ROUNDS {
             let mut moved = 0.0f64;
@@ -426,7 +432,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         if crank.is_free() { crank.from_world(y[0]) } else { crank.at(t).value }
     }
 
-    /// The crank's speed in the motor's sense. Wherever there is a branch, the crank is the first free driving link.
+    /// The crank's speed in the motor's sense. If the motor has a branch, the crank is the first free driving link.
     fn crank_speed(&self, y: &[f64; N]) -> f64 {
         self.case.crank().sense() * y[N / 2]
     }
@@ -495,7 +501,7 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
 
     fn begin(&self, t: f64, y: &[f64; N]) {
         self.origin.set(*y);
-        // At its beginning a piece has its senses from the accelerations.
+        // At the beginning of a piece, the senses come from the accelerations.
         if t == self.entered.get() {
             return;
         }

@@ -1,10 +1,10 @@
 //! Motion decided by forces, with any number of degrees of freedom.
-//! Each analytic side computes the accelerations of the driving links with its own equations. The shared integrator
-//! follows them in time.
+//! Each analytic side computes the accelerations of the driving links with its own equations.
+//! The shared integrator follows them in time.
 //!
 //! The independent coordinates are the angles of the driving links (coordinate partitioning: Wehage and Haug 1982).
-//! A resistance or the losses of a reducer jump with a sense of motion. They keep their sense within one piece of the
-//! motion, and pieces end exactly where the sense changes.
+//! Resistances and the losses of a reducer jump where a motion changes its sense.
+//! Their sense is constant within one piece of the motion. Pieces end exactly where a sense changes.
 
 use super::flow::{self, Pieces};
 use super::march::{MOST_EMPTY, Pace, Place, Stop, march};
@@ -52,7 +52,7 @@ pub(crate) fn sweep(case: &Case, side: &mut dyn Side, accuracy: f64, visit: Visi
     }
 }
 
-/// An error of the integration at a time (s) and an input. Errors of a side say the input themselves.
+/// Adds the time (s) and the input to an error of the integration. Errors of a side already state the input.
 fn located(error: Error, t: f64, at: InputValue) -> Error {
     if error.message().starts_with(at.input.noun()) {
         return error.at_time(t);

@@ -1,10 +1,11 @@
-//! States inside a step of DOP853, where the wanted instants lie.
+//! States inside a step of DOP853, at the requested instants.
 //!
-//! The method's own interpolation is of order 7: a cubic H by the values and rates at both ends, and s^2 (1 - s)^2 times
-//! a cubic C (Hairer, Norsett, Wanner, "Solving ordinary differential equations I", II.6).
-//! The library takes s and 1 - s of C the wrong way round, so that its value at s has C at 1 - s, and is of order 4.
-//! The factor of C is the same at both, so that H(s) + (library(1 - s) - H(1 - s)) is the true value.
-//! A test below holds the order: it fails once the library has mended this.
+//! The method's own interpolant has order 7.
+//! It is a cubic H through the values and rates at both ends, plus s^2 (1 - s)^2 times a cubic C (Hairer, Norsett,
+//! Wanner, "Solving ordinary differential equations I", II.6).
+//! The library exchanges s and 1 - s in C. Its value at s contains C at 1 - s, and has order 4.
+//! The factor of C is the same at s and 1 - s. The true value is therefore H(s) + (library(1 - s) - H(1 - s)).
+//! A test below checks the order. It fails once the library has corrected this.
 //! See docs/numerics/forces.md.
 
 use std::cell::Cell;
@@ -14,10 +15,10 @@ use differential_equations::interpolate::Interpolation;
 use differential_equations::ode::ODE;
 use linkage::error::Result;
 
-/// Evaluations that are remembered. A step ends with one at its end and three inside it.
+/// Number of remembered evaluations. A step ends with one at its end and three inside it.
 const REMEMBERED: usize = 4;
 
-/// One evaluation: the place, and state and rate there.
+/// One evaluation: independent variable, state and rate.
 type Evaluation<const N: usize> = (f64, [f64; N], [f64; N]);
 
 /// An equation of motion that remembers its last evaluations, so that the rates at the ends of a step cost nothing.
@@ -57,7 +58,7 @@ impl<F: Flow<N>, const N: usize> ODE<f64, [f64; N]> for Remembering<'_, F, N> {
 pub(super) struct Targets<'t>(&'t [f64]);
 
 impl<'t> Targets<'t> {
-    /// Those of `all`, which ascend, that lie beyond `x`.
+    /// The targets of the ascending list `all` that lie beyond `x`.
     pub(super) fn beyond(all: &'t [f64], x: f64) -> Self {
         Targets(&all[all.partition_point(|&target| target <= x)..])
     }
@@ -134,7 +135,7 @@ mod tests {
     use linkage::error::Error;
     use linkage::math::KeepNan;
 
-    /// A swing in a well that is no parabola, and so has all terms of every order.
+    /// An oscillation in a potential that is not a parabola. Its solution therefore has terms of every order.
     struct Swing;
 
     impl ODE<f64, [f64; 2]> for Swing {
@@ -156,7 +157,7 @@ mod tests {
         }
     }
 
-    /// Largest error inside one step of the length `h`, against steps that end there.
+    /// Largest error inside one step of the length `h`. The reference is steps that end there.
     fn error(h: f64) -> f64 {
         let start = [0.3, 1.1];
         let mut method = a_step(&Swing, 0.0, &start, h).unwrap();
@@ -171,7 +172,7 @@ mod tests {
     }
 
     fn method_end(x: f64, start: [f64; 2]) -> [f64; 2] {
-        // Eight short steps: exact to rounding at these lengths.
+        // Eight short steps, exact within rounding error at these lengths.
         (0..8).fold(start, |y, k| {
             let h = x / 8.0;
             *a_step(&Swing, h * f64::from(k), &y, h).unwrap().y()
@@ -183,7 +184,7 @@ mod tests {
         let ratio = error(0.8) / error(0.4);
         // One step: the error falls with the eighth power of its length.
         assert!(ratio > 150.0, "{ratio}");
-        // Order 4, as the library has it, errs by 1e-5 here.
+        // With the library's order 4, the error is 1e-5 here.
         assert!(error(0.4) < 1e-8, "{}", error(0.4));
     }
 }

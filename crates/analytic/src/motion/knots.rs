@@ -1,14 +1,14 @@
 //! The knots of the loads' tables, where a motion under forces ends a piece.
 //!
-//! A step over a knot meets a jump of some derivative, and is of a lower order there.
+//! Some derivative jumps at a knot, so a step over a knot has a lower order.
 
 use std::f64::consts::TAU;
 
 use linkage::case::Case;
 use linkage::math::KeepNan;
 
-/// How far beyond a knot a piece ends (rad). A motion that turns round on a knot then gets away from it.
-/// What the jump does over this way is far below rounding.
+/// Distance beyond a knot at which a piece ends (rad). A motion that reverses on a knot then leaves it.
+/// The effect of the jump over this distance is far below rounding error.
 const BEYOND: f64 = 1e-9;
 
 /// Crank angles (rad, as the scenario states them) at which the loads' tables have knots.
@@ -23,12 +23,13 @@ impl Knots {
         Knots(tables.map(|(knots, turns)| (knots.to_vec(), TAU * f64::from(turns))).collect())
     }
 
-    /// Crank angles between which all tables are smooth around a crank angle, each end a little beyond its knot.
+    /// Ends of the interval around a crank angle in which all tables are smooth. Each end lies a little beyond its
+    /// knot.
     pub(super) fn around(&self, crank: f64) -> [f64; 2] {
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
         for (knots, period) in &self.0 {
             for knot in knots {
-                // The last such angle that is not beyond the crank's, and the next.
+                // The last repetition of the knot that is not beyond the crank angle, and the next one.
                 let last = knot + period * ((crank - knot) / period).floor();
                 ends = [ends[0].larger(last), ends[1].smaller(last + period)];
             }

@@ -1,5 +1,5 @@
 //! Steps of DOP853 that end exactly where a piece of the equation of motion ends.
-//! Wanted instants lie inside the steps: they cost no step of their own.
+//! Requested instants lie inside the steps and need no additional step.
 //!
 //! An eighth-order step over a kink is of first order only.
 //! So the equations are written piece by piece, and each piece continues smoothly beyond its ends.
@@ -19,38 +19,38 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
 use linkage::work::{self, Count, WorkTally};
 
-/// Relative and absolute error allowed in each step, with the states inside it.
+/// Relative and absolute error allowed in each step, including the states inside it.
 /// The run-up of `crank_rocker` is then exact to 5e-12 rad, and to 1e-14 at its end.
 pub const ACCURACY: f64 = 1e-11;
-/// Share of it that a step's own estimate may have, which is about its end. Inside a step the order is lower by one, and
-/// errors are some hundred times larger: those of `crank_rocker_runup` are 40 to 400 times an estimate.
+/// Share of the allowed error that a step's own estimate may have. The estimate refers to the end of the step.
+/// Inside a step the order is lower by one, and errors are some hundred times larger.
+/// Those of `crank_rocker_runup` are 40 to 400 times an estimate.
 const ESTIMATED: f64 = 0.01;
-/// Least error that an estimate is asked for: with less, rounding shortens the steps, and many short steps add more of
-/// it than they save.
+/// Smallest tolerance for an estimate.
+/// Below it, rounding shortens the steps, and many short steps add more rounding error than they save.
 const LEAST_ESTIMATED: f64 = 2e-15;
-/// Places in a step, as shares of it, at which it is looked at whether a bound was passed.
+/// Positions in a step, as shares of it, at which passed bounds are checked.
 const LOOKED_AT: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
-/// Share of [`ACCURACY`] that the tighter runs allow, which show the error of the others. With still less, rounding
-/// takes over.
+/// Error allowed in the tighter runs, as a share of [`ACCURACY`]. These runs show the error of the others.
+/// Below this share, rounding error dominates.
 pub(crate) const TIGHTER: f64 = 0.01;
-/// Share of the windows around change points that the tighter runs have. Other poses then carry the motion over a
-/// change point, and the difference shows that error too.
+/// Width of the windows around change points in the tighter runs, as a share of the usual width.
+/// Other poses then carry the motion over a change point, and the difference shows that error too.
 pub(crate) const NARROWER: f64 = 0.8;
-/// Largest number of consecutive pieces that take no time. With more, the motion does not get away from a kink.
+/// Largest number of consecutive pieces of zero duration. With more, the motion is stuck at a kink.
 pub(crate) const MOST_EMPTY: usize = 8;
 /// Largest number of steps of one piece. A hundred turns of a mechanism take some ten thousand.
 const MOST_STEPS: usize = 3_000_000;
-/// Steps after which it is looked at whether the rest of the way can be gone within the largest number.
-/// Where a motor is much too strong for what it moves, the method's steps are as short as its own decay, not as the
-/// motion asks.
+/// Number of steps after which the total number of steps is predicted and compared with the largest one.
+/// If a motor is much too strong for what it moves, its decay limits the length of the steps, not the motion.
 const PREDICTED: usize = 50_000;
-/// Steps below this share of the way are short, and so many of them in a row end the march.
-/// They would never get past a singular pose, near which accelerations are rounding or errors.
+/// Steps below this share of the integration interval are short. A long sequence of them ends the march.
+/// They would never get past a singular pose, near which accelerations are rounding noise or errors.
 const SHORTEST: f64 = 1e-9;
 const MOST_SHORT: usize = 400;
 /// Factor by which a step may be longer than planned to reach a target at once, so that no tiny step is left.
 const STRETCH: f64 = 1.001;
-/// Bisections of a step for a first estimate of the place where a bound is passed.
+/// Number of bisections of a step for a first estimate of where a bound is passed.
 const BISECTIONS: usize = 40;
 /// Largest number of repetitions of a shortened step. Secants from the course inside the step take one or two.
 const CORRECTIONS: usize = 6;
@@ -75,7 +75,7 @@ pub(crate) struct Place<const N: usize> {
     pub(crate) h: f64,
 }
 
-/// Continues from `place` over all `targets`, which ascend, to the last of them or to the first bound.
+/// Integrates from `place` over the ascending `targets`, to the last target or to the first bound.
 /// `visit` receives every step, divided at the targets inside it.
 pub(crate) fn march<const N: usize, F: Flow<N>>(
     flow: &F,
@@ -154,8 +154,8 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     }
 }
 
-/// The first of some places in the last step that lies beyond a bound, with the state there.
-/// A bound that is passed and passed again within the step is seen inside it.
+/// The first checked position in the last step that lies beyond a bound, with the state there.
+/// A bound that is passed twice within the step is detected inside it.
 fn beyond<const N: usize, F: Flow<N>>(flow: &F, method: &mut Method<N>) -> Result<Option<(f64, [f64; N])>> {
     let (from, to) = (method.t_prev(), method.t());
     for share in LOOKED_AT {
@@ -169,12 +169,12 @@ fn beyond<const N: usize, F: Flow<N>>(flow: &F, method: &mut Method<N>) -> Resul
     Ok(None)
 }
 
-/// The state at a place in the last step, by the library's interpolation. It is of order 4 only.
+/// The state at a position in the last step, by the library's interpolation, which is of order 4 only.
 fn roughly<const N: usize>(method: &mut Method<N>, x: f64) -> Result<[f64; N]> {
     method.interpolate(x).map_err(|why| lost(x, &format!("{why:?}")))
 }
 
-/// Repeats the last step of a method so that it ends on the first bound that it passed before the place `beyond`.
+/// Repeats the last step of a method so that it ends on the first bound that it passed before the position `beyond`.
 fn end_on_bound<const N: usize, F: Flow<N>>(
     flow: &F,
     place: &mut Place<N>,
@@ -195,7 +195,7 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
         }
     }
     let before = (place.x, place.y);
-    // A bound that had nearly been reached before needs no separate step.
+    // A bound that was nearly reached at the beginning of the step needs no separate step.
     if at - place.x > 8.0 * f64::EPSILON * at.abs() {
         let known = (beyond.0 - place.x, passed.1);
         let mut found = shortened(flow, before, at - place.x, known, passed.0)?;
@@ -207,7 +207,7 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
     Ok(Stop::Bound(passed.0))
 }
 
-/// Place in its last step, before the place `beyond`, at which a method passes a bound: as exact as its course.
+/// Position in the last step, before `beyond`, at which the method passes a bound. It is as exact as the course.
 fn crossing<const N: usize, F: Flow<N>>(
     flow: &F,
     course: &Course<N>,
@@ -222,8 +222,8 @@ fn crossing<const N: usize, F: Flow<N>>(
     Ok(low)
 }
 
-/// A step of about the length `h` that ends on the bound, by secants between steps of that length. A longer step and
-/// the margin at its end are `known`.
+/// Takes a step of about the length `h` that ends on the bound, by secants between steps of that length.
+/// `known` holds a longer step and the margin at its end.
 fn shortened<const N: usize, F: Flow<N>>(
     flow: &F,
     (x, y): (f64, [f64; N]),
@@ -245,7 +245,7 @@ fn shortened<const N: usize, F: Flow<N>>(
 
 /// Largest number of pieces of one motion. A hundred turns of a mechanism under tables of loads take some thousand.
 const MOST_PIECES: usize = 3_000_000;
-/// Pieces after which it is looked at whether the rest of the way can be gone within the largest number.
+/// Number of pieces after which the total number of pieces is predicted and compared with the largest one.
 const JUDGED: usize = 5_000;
 
 /// Counts the pieces of a motion. A motion that runs away meets ever more of them.
@@ -253,10 +253,10 @@ const JUDGED: usize = 5_000;
 pub(crate) struct Pace(usize);
 
 impl Pace {
-    /// Counts a piece that ends at `x` of the way from 0 to `last`.
+    /// Counts a piece that ends at `x` on the way from 0 to `last`.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] where the motion would take too many of them.
+    /// [`ErrorKind::Numeric`] where the motion would take too many pieces.
     pub(crate) fn piece(&mut self, x: f64, last: f64) -> Result<()> {
         self.0 += 1;
         // Written so that NaN is refused.

@@ -31,14 +31,14 @@ pub(crate) struct Held {
     /// For every load that depends on the sense of a link: that sense (+1, -1, 0 for standstill). Not used for other
     /// loads.
     pub(crate) senses: Vec<f64>,
-    /// For every load against the motion of a point: the direction in which the point moved when the present step began,
-    /// a unit vector, or zero for standstill. Not used for other loads.
+    /// For every load against the motion of a point: direction of this motion at the beginning of the present step.
+    /// It is a unit vector, or zero for standstill. Not used for other loads.
     pub(crate) ways: Vec<Vec2>,
 }
 
 impl Held {
     /// Direction against which a load acts on a point with this velocity (m/s).
-    /// It turns with the velocity. Where the point reverses it goes on as if the point had not.
+    /// It turns with the velocity. Where the point reverses, it continues as if the point had not reversed.
     fn way(&self, load: usize, velocity: Vec2) -> Vec2 {
         let held = self.ways[load];
         let now = sense_of(velocity);
@@ -53,8 +53,8 @@ pub(crate) fn loads_held(case: &Case, motions: &[Motion], angles: &[f64], held: 
     case.loads_along(motions, angles, moment, |index, velocity| held.way(index, velocity), out);
 }
 
-/// Solves a side's equations of motion for the accelerations of the free driving links, whose numbers are `free`, and
-/// writes them to the inputs.
+/// Solves a side's equations of motion for the accelerations of the free driving links, and writes them to the inputs.
+/// `free` holds the indices of these links.
 pub(crate) fn embed(matrix: &mut Lu, right: &mut [f64], free: &[usize], inputs: &mut Inputs) -> Result<()> {
     if !matrix.factor() {
         let message = sentences::THE_EQUATIONS_OF_MOTION_ARE_SINGULAR;
@@ -69,8 +69,8 @@ pub(crate) fn embed(matrix: &mut Lu, right: &mut [f64], free: &[usize], inputs: 
 
 /// An analytic side's equations of motion in the coordinates of the driving links.
 pub(crate) trait Side {
-    /// Solves for the accelerations of the free driving links and writes them to the inputs. Those of the others are
-    /// known.
+    /// Solves for the accelerations of the free driving links and writes them to the inputs.
+    /// The accelerations of the other driving links are known.
     fn accelerate(&mut self, inputs: &mut Inputs, held: &Held) -> Result<()>;
 
     /// Angular velocity (rad/s) of a link at these angles and speeds.
@@ -85,7 +85,7 @@ pub(crate) trait Side {
     /// Angular velocity and acceleration of a link after the last call of [accelerate](Side::accelerate).
     fn link_rates(&self, link: LinkId) -> [f64; 2];
 
-    /// The whole state after the last call of [accelerate](Side::accelerate): turns of the links kept, reactions if
-    /// wanted.
+    /// The complete state after the last call of [accelerate](Side::accelerate), with the turns of the links kept.
+    /// It includes reactions if they are requested.
     fn fill(&mut self, inputs: &Inputs, state: &mut State) -> Result<()>;
 }

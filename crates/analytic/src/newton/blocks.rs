@@ -1,10 +1,13 @@
 //! The Jacobian of all constraints, block by block.
 //!
-//! Ordered by driving links and groups, it is block-triangular: a driving link does not depend on the groups, and no
-//! group on a later one. Elimination within the diagonal blocks alone keeps it so.
-//! A group near a singular pose then cannot spoil what does not depend on it: with one elimination over all rows,
-//! rounding of its large accelerations entered those of the crank's own pin.
-//! Every block also has a determinant of its own. That of the whole keeps its sign where two of them change theirs.
+//! Ordered by driving links and groups, it is block-triangular.
+//! A driving link does not depend on the groups, and a group does not depend on later groups.
+//! Elimination within the diagonal blocks alone keeps this structure.
+//! A group near a singular pose then cannot spoil results that do not depend on it.
+//! With one elimination over all rows, the rounding error of its large accelerations entered those of the crank's own
+//! pin.
+//! Every block also has its own determinant.
+//! The determinant of the whole matrix keeps its sign where two blocks change theirs.
 
 use linkage::case::Case;
 use linkage::math::KeepNan;
@@ -28,7 +31,7 @@ struct Block {
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     blocks: Vec<Block>,
-    /// Block and place in it of every row and of every column.
+    /// Block of every row and of every column, and the position in this block.
     of_row: Vec<(usize, usize)>,
     of_column: Vec<(usize, usize)>,
     solution: Vec<f64>,
@@ -91,13 +94,13 @@ impl Blocks {
         self.blocks.iter_mut().all(|block| block.matrix.factor())
     }
 
-    /// The smallest share that a block's determinant is of the largest one that columns of these lengths
-    /// can have. Unlike rows, a column has one unit.
+    /// Smallest ratio of a block's determinant to the largest determinant that columns of these lengths can have.
+    /// All entries of a column have the same unit, unlike those of a row.
     pub(super) fn smallest_share(&self) -> f64 {
         self.shares().map(f64::abs).fold(f64::INFINITY, f64::smaller)
     }
 
-    /// These shares of all blocks, with the signs of their determinants.
+    /// These ratios for all blocks, with the signs of the determinants.
     pub(super) fn shares(&self) -> impl Iterator<Item = f64> + '_ {
         self.blocks.iter().map(|block| {
             // The determinant itself could underflow.

@@ -20,7 +20,7 @@ use linkage::mechanism::LinkId;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Largest distance of a corrected angle or place from its prediction over one tracking step (rad, or share of the
+/// Largest distance of a corrected angle or position from its prediction over one tracking step (rad, or share of the
 /// mechanism's size).
 const JUMP: f64 = 10.0 * TRACKING_STEP;
 
@@ -35,13 +35,13 @@ pub(super) struct Embedded<'a> {
     force: Vec<f64>,
     matrix: Lu,
     right: Vec<f64>,
-    /// What the last accelerations beside a change point were found with.
+    /// Held actions at the last accelerations near a change point.
     held: Option<Held>,
     passing: Option<Passing>,
 }
 
 impl<'a> Embedded<'a> {
-    /// The equations of a system at its start pose, with its way through change points.
+    /// The equations of a system at its start pose, with its path through change points.
     pub(super) fn new(system: System<'a>, passing: Option<Passing>) -> Self {
         let n = system.q.len();
         let drives = system.inputs.len();

@@ -1,9 +1,10 @@
-//! Side 2 through change points: where the determinant of a block passes through zero although the mechanism goes on,
-//! it takes the branch on which velocities go on.
+//! Side 2 through change points: where the determinant of a block passes through zero although the mechanism moves on,
+//! side 2 follows the branch with continuous velocities.
 //!
-//! The way is followed over the crank's angle, with the first and second derivatives of all coordinates by it.
-//! Around a change point (a [`Window`]) no system of equations is solved: the coordinates are an osculating polynomial
-//! through poses on both sides, and velocities and accelerations follow by its derivatives.
+//! The path is followed over the crank angle, with the first and second derivatives of all coordinates by this angle.
+//! In a [`Window`] around a change point, no system of equations is solved.
+//! The coordinates there are an osculating polynomial through poses on both sides. Its derivatives give velocities and
+//! accelerations.
 //! See docs/numerics/change_points.md.
 
 mod multipliers;
@@ -21,34 +22,34 @@ use linkage::math::KeepNan;
 use spot::{Spot, place, walked};
 use window::Window;
 
-/// Largest estimated distance (rad) at which a change point is looked for.
+/// Largest estimated distance (rad) at which a change point is searched for.
 const LOOK: f64 = 0.8;
 /// Turn of the crank (rad) that shows the slope of the determinants at the start.
 const PROBE: f64 = 1e-4;
-/// A known change point up to this multiple of the estimated distance is the one that is meant, or comes before it:
-/// then what lies behind is looked for from there.
+/// Multiple of the estimated distance within which a known change point is the estimated one, or lies before it.
+/// Change points behind the known one are then searched for from there.
 const NEXT: f64 = 1.3;
-/// Distance (rad) up to which two change points are one, at which several groups are singular.
+/// Distance (rad) up to which two change points count as one, at which several groups are singular.
 const SAME: f64 = 1e-6;
-/// Windows that are kept, the nearest ones.
+/// Largest number of windows kept, the nearest ones.
 const MOST_WINDOWS: usize = 8;
-/// Number of intervals without a change point that are remembered: a motion of many small steps finds as many.
+/// Largest number of remembered intervals without a change point. A motion of many small steps finds as many.
 const MOST_CLEAR: usize = 256;
 
-/// The way of a mechanism with one driving link, and its change points as far as they have been met.
+/// The path of a mechanism with one driving link, and the change points found so far.
 #[derive(Clone, Debug)]
 pub(super) struct Passing {
     pub(super) spot: Spot,
-    /// Share of the usual half widths that windows have.
+    /// Half width of the windows, as a share of the usual half width.
     pub(super) share: f64,
     windows: Vec<Window>,
-    /// Intervals of the crank's angle in which a search of a block in this direction has found nothing.
+    /// Intervals of the crank angle in which a search has found nothing: block, direction, ends.
     clear: Vec<(usize, f64, [f64; 2])>,
     inside: Option<usize>,
 }
 
 impl Passing {
-    /// The way from the present pose of a system whose Jacobian is factored there.
+    /// The path from the present pose of a system, whose Jacobian is factored there.
     pub(super) fn from(system: &mut System) -> Self {
         Passing { spot: spot::spot(system), share: 1.0, windows: Vec::new(), clear: Vec::new(), inside: None }
     }
@@ -58,7 +59,7 @@ impl Passing {
         self.inside.map(|index| &self.windows[index])
     }
 
-    /// Follows the way to the crank's angle `target` (rad).
+    /// Follows the path to the crank angle `target` (rad).
     pub(super) fn travel(&mut self, system: &mut System, target: f64) -> Result<()> {
         if self.spot.shares.is_empty() {
             self.begin(system)?;
@@ -73,7 +74,7 @@ impl Passing {
                     let before = std::mem::replace(&mut self.spot, spot);
                     self.look(system, &before)?;
                     step = (2.0 * step).smaller(TRACKING_STEP);
-                    // A dead point at the very target shows only here.
+                    // A dead point exactly at the target shows only here.
                     if to == target && !self.enter(target) {
                         place(system, &self.spot)?;
                         return system.check_singular();
@@ -88,10 +89,10 @@ impl Passing {
         Ok(())
     }
 
-    /// The slopes of the determinants at the first pose.
+    /// Finds the slopes of the determinants at the first pose.
     fn begin(&mut self, system: &mut System) -> Result<()> {
         self.spot.shares = system.jacobian.shares().collect();
-        // The change point may lie between, on either side.
+        // A change point may lie within a probe, on either side.
         let probes = [PROBE, -PROBE, 0.01 * PROBE, -0.01 * PROBE];
         let mut found = probes.iter().map(|probe| walked(system, &self.spot, self.spot.angle + probe));
         let before = match found.find(Result::is_ok) {
@@ -102,7 +103,7 @@ impl Passing {
         place(system, &self.spot)
     }
 
-    /// Places the mechanism by a window, if there is one at this angle.
+    /// Places the mechanism by the window at this angle, if there is one.
     fn enter(&mut self, angle: f64) -> bool {
         self.inside = self.windows.iter().position(|window| (angle - window.at).abs() < window.reach);
         if let Some(index) = self.inside {
@@ -111,7 +112,7 @@ impl Passing {
         self.inside.is_some()
     }
 
-    /// Out of a window, or over it, towards an angle: on from its last pose on that side.
+    /// Leaves or passes over a window towards an angle: continues from the window's last pose on that side.
     fn leave(&mut self, target: f64) {
         let from = self.spot.angle;
         let over = |window: &&Window| {
@@ -124,13 +125,13 @@ impl Passing {
         }
     }
 
-    /// Looks for change points near the present pose; `before` is one near it.
+    /// Searches for change points near the present pose; `before` is a pose near it.
     fn look(&mut self, system: &mut System, before: &Spot) -> Result<()> {
         let turned = self.spot.angle - before.angle;
         if turned == 0.0 {
             return Ok(());
         }
-        // What is forgotten is only searched once more.
+        // A forgotten interval is only searched again.
         let old = self.clear.len().saturating_sub(MOST_CLEAR);
         self.clear.drain(..old);
         for block in 0..self.spot.shares.len() {
@@ -169,5 +170,5 @@ impl Passing {
     }
 }
 
-/// The way out where reactions have a pole.
+/// Advice where reactions have a pole.
 const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;

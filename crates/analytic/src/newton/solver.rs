@@ -66,7 +66,8 @@ impl Solver for NewtonSolver {
     }
 }
 
-/// Side 2 at another accuracy of the integration of motions under forces: see [`AssurAt`](crate::AssurAt).
+/// Side 2 with another error allowed per step in the integration of motions under forces: see
+/// [`AssurAt`](crate::AssurAt).
 #[derive(Clone, Copy, Debug)]
 pub struct NewtonAt(pub f64);
 

@@ -15,23 +15,25 @@ use linkage::work::{self, Count};
 
 /// Largest turn of the crank between two poses (rad). A prediction over this step stays on the branch.
 pub(super) const TRACKING_STEP: f64 = PI / 90.0;
-/// How often a failing step is halved. Near a dead point speeds grow without limit, and steps must shrink with what is
-/// left to it.
+/// Number of times a failing step is halved.
+/// Near a dead point speeds grow without limit, and steps must shrink with the remaining distance.
 pub(super) const HALVINGS: u32 = 40;
-/// Largest change of a link's velocity over a step beyond what its acceleration says, as a share of the largest
+/// Largest velocity change of a link over a step that its acceleration does not explain, as a share of the largest
 /// velocity.
-/// Where two branches cross, the velocity jumps from one to the other however small the step is.
+/// Where two branches cross, the velocity jumps from one branch to the other, however small the step is.
 const VELOCITY_JUMP: f64 = 0.1;
-/// Share of a block's determinant in the largest that columns of the same lengths can have, below which a pose is
+/// Ratio of a block's determinant to the largest one possible with columns of the same lengths, below which a pose is
 /// singular.
-/// A dyad's share is about a tenth of the sine of its transmission angle.
-/// Angles are known to about the rounding over this sine, so that below it the sine itself is mostly rounding.
+/// For a dyad the ratio is about a tenth of the sine of its transmission angle.
+/// Angles are known to about the rounding error divided by this sine. Below the limit the sine itself is mostly
+/// rounding error.
 const SINGULAR: f64 = 1e-8;
-/// Newton's method from a predicted pose converges in two or three iterations. If it needs more, something is wrong.
+/// Largest number of iterations. From a predicted pose, Newton's method converges in two or three.
+/// If it needs more, something is wrong.
 const MAX_ITERATIONS: usize = 12;
 
 impl System<'_> {
-    /// Corrects the pose at t = 0 to rounding and fixes the branch there.
+    /// Corrects the pose at t = 0 to rounding accuracy and fixes the branch there.
     pub(super) fn settle(&mut self) -> Result<()> {
         self.correct()?;
         self.branch = self.jacobian.signs().collect();
@@ -56,11 +58,11 @@ impl System<'_> {
     pub(super) fn follow_to(&mut self, t: f64) -> Result<()> {
         let turned = |drive: &Drive| match drive.constant_speed() {
             Some(_) => (drive.at(t).value - drive.at(self.time).value).abs(),
-            // The motion may go there and back in between.
+            // The drive may move there and back in between.
             None => drive.top_speed().abs() * (t - self.time).abs(),
         };
         let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
-        // A law whose top speed is reached for a moment only has no such bound by itself.
+        // For a law that reaches its top speed only for a moment, this angle has no other bound.
         if !(turn <= 2.0 * Grid::MOST_TURNS * TAU) {
             let turns = turn / TAU;
             return Err(self.lost(&sentences::up_to_turns_on_the_way_to_are_too(&format_args!("{turns:.1e}"), &t)));
@@ -74,7 +76,7 @@ impl System<'_> {
         self.step_to(t, HALVINGS)
     }
 
-    /// One step from a prediction. Where the branch cannot be followed over it, two steps of half the size.
+    /// Takes one step from a prediction, or two steps of half the size where the branch cannot be followed over it.
     pub(super) fn step_to(&mut self, t: f64, halvings: u32) -> Result<()> {
         work::spend(work::PLACED * self.case.mechanism.links().len() as f64)?;
         let (from, dt) = (self.time, t - self.time);
@@ -87,7 +89,8 @@ impl System<'_> {
         self.set_time(t);
         self.predicted.copy_from_slice(&self.q);
         let followed = self.correct().and_then(|()| self.check_branch(dt)).and_then(|()| {
-            // Where branches cross, velocities and accelerations are rounding, and jump or not by luck.
+            // Where branches cross, velocities and accelerations are mostly rounding error, and a check for jumps is a
+            // matter of luck.
             self.check_singular()?;
             self.differentiate();
             self.check_velocities(dt)
@@ -106,8 +109,8 @@ impl System<'_> {
         }
     }
 
-    /// Newton's method to rounding, from the pose in `q`. The factored Jacobian is that of the last pose but one (which
-    /// differs from the last by rounding).
+    /// Newton's method to rounding accuracy, from the pose in `q`.
+    /// The factored Jacobian is that of the last pose but one, which differs from the last pose by rounding error.
     pub(super) fn correct(&mut self) -> Result<()> {
         self.tally.one(Count::Poses);
         let size = self.case.mechanism.size();
@@ -125,7 +128,8 @@ impl System<'_> {
                 self.q[i] -= step;
                 change = change.larger(step.abs() / if i % 3 == 2 { 1.0 } else { size });
             }
-            // Quadratic convergence: once below 1e-9 the next change is rounding. One more step makes sure of it.
+            // Convergence is quadratic: once a change is below 1e-9, the next one is rounding error. One more step
+            // makes sure of it.
             if change < 1e-14 || last.larger(change) < self.settled {
                 return Ok(());
             }
@@ -174,7 +178,7 @@ impl System<'_> {
         }
     }
 
-    /// J^T lambda = M q'' - Q, with the loads found last.
+    /// Solves J^T lambda = M q'' - Q, with the loads found last.
     pub(super) fn multipliers(&mut self) {
         for (link, body) in self.case.mechanism.links().entries().skip(1) {
             let i = 3 * (link.index() - 1);
@@ -208,7 +212,7 @@ impl System<'_> {
     /// Refuses a pose on another branch: one beyond a singular pose, or one far from the prediction.
     pub(super) fn check_branch(&self, dt: f64) -> Result<()> {
         self.check_signs()?;
-        // Places are checked too: where axes become parallel, a slider returns from infinity on the other side.
+        // Positions are checked too: where axes become parallel, a slider returns from infinity on the other side.
         let size = self.case.mechanism.size();
         for (index, rate) in self.rate.iter().enumerate() {
             let allowed = (dt * rate).abs() + if index % 3 == 2 { TRACKING_STEP } else { size };
@@ -261,10 +265,10 @@ impl System<'_> {
     }
 }
 
-/// The way through a pose that may be a change point.
+/// Advice for passing a pose that may be a change point.
 fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
-        // It is passed already, or there are several drives, with which none is passed.
+        // The case passes change points already, or it has several drives and passes none.
         true => sentences::LET_THE_GRID_END_BEFORE_IT,
         false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }

@@ -10,7 +10,7 @@ use linkage::mechanism::{GROUND, Joint, JointSide, LinkId};
 use linkage::trajectory::Stage;
 use linkage::work::WorkTally;
 
-/// Change (rad, or share of the size) below which two iterations running end Newton's method.
+/// Change (rad, or share of the size) that ends Newton's method if two successive iterations stay below it.
 const SETTLED: f64 = 1e-9;
 
 /// The equations of one case and the state for which they are solved.
@@ -140,7 +140,7 @@ impl<'a> System<'a> {
         if link == GROUND { 0.0 } else { self.rate[3 * (link.index() - 1) + 2] }
     }
 
-    /// Velocity of a joint's place on a link.
+    /// Velocity of a joint's position on a link.
     pub(super) fn velocity(&self, side: JointSide) -> Vec2 {
         if side.link == GROUND {
             return Vec2::zeros();

@@ -1,7 +1,8 @@
 //! Whole turns of the crank on the way to a distant instant.
 //!
-//! With one drive a pose is a function of the crank angle and the branch. Where one whole turn, followed in small
-//! steps, brings every link back to where it was, the next turns are the same, and are not followed one by one.
+//! With one drive, a pose is a function of the crank angle and the branch.
+//! If one whole turn, followed in small steps, brings every link back, the next turns are the same.
+//! They are not followed one by one.
 //! See docs/numerics/change_points.md.
 
 use std::f64::consts::TAU;
@@ -9,15 +10,15 @@ use std::f64::consts::TAU;
 use super::system::System;
 use linkage::error::Result;
 
-/// Turns of the crank from which it is worth to look.
+/// Number of crank turns from which a check for equal turns pays off.
 const WORTH: f64 = 3.0;
-/// Largest difference of poses that are the same: of places in sizes of the mechanism, of angles in rad. Branches that
-/// are as close as that are refused as singular.
+/// Largest difference of equal poses: of positions in sizes of the mechanism, of angles in rad.
+/// Branches as close as that are refused as singular.
 const SAME: f64 = 1e-9;
 
 impl System<'_> {
-    /// Follows one whole turn towards `t` and skips those that are the same. What is left is at most a few turns; all
-    /// of them where a turn leads to another pose, or where there are several drives or another law.
+    /// Follows one whole turn towards `t` and skips the turns equal to it. At most a few turns then remain.
+    /// No turn is skipped where a turn leads to another pose, or with several drives or another law.
     pub(super) fn skip_turns(&mut self, t: f64) -> Result<()> {
         let [drive] = &self.case.drives.iter().collect::<Vec<_>>()[..] else { return Ok(()) };
         let Some(speed) = drive.constant_speed() else { return Ok(()) };

@@ -13,7 +13,7 @@ use linkage::mechanism::{GROUND, Group, Joint, JointSide, LinkId, LinkPose, Mech
 pub(super) struct Gearing {
     pub(super) crank: LinkId,
     pub(super) link: LinkId,
-    /// Turns of the link per turn of the crank, and its angle where the crank's is zero (rad).
+    /// Turns of the link per turn of the crank, and the link's angle at the crank's angle zero (rad).
     pub(super) ratio: f64,
     pub(super) offset: f64,
 }
@@ -22,8 +22,7 @@ pub(super) struct Gearing {
 #[derive(Debug)]
 pub(super) struct Constraints<'a> {
     mechanism: &'a Mechanism,
-    /// World place at which coordinates have their origin, so that a mechanism far from the world's origin loses no
-    /// digits (m).
+    /// World position of the coordinates' origin (m). With it, a mechanism far from the world's origin loses no digits.
     origin: Vec2,
     /// Length by which all lengths are divided (m).
     size: f64,
@@ -40,7 +39,7 @@ pub(super) struct Equations {
 }
 
 impl<'a> Constraints<'a> {
-    /// The equations of `mechanism`, with coordinates from the place `origin` (m).
+    /// The equations of `mechanism`, with coordinates relative to the position `origin` (m).
     pub(super) fn of(mechanism: &'a Mechanism, origin: Vec2, gearings: Vec<Gearing>) -> Self {
         let middle = |link: LinkId| {
             let locals: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
@@ -158,7 +157,7 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// Place of one side of a joint, and the vector to it from the middle of its link, in units of the mechanism's
+    /// Position of one side of a joint, and the vector to it from the middle of its link, in units of the mechanism's
     /// size.
     fn point(&self, side: JointSide, q: &ColumnVector) -> (Vec2, Vec2) {
         if side.link == GROUND {

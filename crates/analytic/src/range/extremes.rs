@@ -11,9 +11,10 @@ use super::constraints::Constraints;
 use super::singularity::{Singularity, SingularityKind, ValueAtCrank};
 use super::tracking::{Point, Tracker};
 
-/// Part of the tangent below which it is rounding and not motion, times the square of the smallest singular value.
-/// The error of a pose is rounding divided by that value; the error of its tangent is the error of the pose divided by
-/// it again.
+/// Bound on a tangent component times the square of the smallest singular value. Below it the component is rounding
+/// error, not motion.
+/// The error of a pose is the rounding error divided by the singular value.
+/// The error of its tangent is the error of the pose, divided by the singular value again.
 const STILL: f64 = 50.0 * f64::EPSILON;
 
 /// Extreme position of a link: its angular velocity changes sign.
@@ -131,7 +132,7 @@ pub(super) fn contacts(tracker: &Tracker, points: &[Point], closed: bool, bound:
         for place in range {
             let before = size(&points[if place == 0 { last - 1 } else { place - 1 }]);
             let (here, after) = (size(&points[place]), size(&points[place + 1]));
-            // A sample near a deep minimum. The place of the minimum itself is found below.
+            // A sample near a deep minimum. The position of the minimum itself is found below.
             if here < before && here <= after && here < 10.0 * bound {
                 let lowest = refined(tracker, points, closed, place, &size);
                 let contact = Singularity {

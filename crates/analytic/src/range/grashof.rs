@@ -1,9 +1,8 @@
 //! Grashof's type of a four-bar.
 //!
 //! With the shortest link s, the longest l and the others p, q:
-//! if s + l < p + q, the shortest link turns fully against all others, so that the type depends on which link is
-//! shortest.
-//! If s + l > p + q, no link does.
+//! if s + l < p + q, the shortest link turns fully against all others. The type depends on which link is shortest.
+//! If s + l > p + q, no link turns fully.
 //! If both sums are equal, all joints can come into one line, where branches cross.
 //! (Grashof 1883; for example Hunt, "Kinematic geometry of mechanisms", 1978, section 4.1.)
 
@@ -11,8 +10,8 @@ use crate::sentences;
 use linkage::case::Case;
 use linkage::mechanism::{GROUND, GroupKind, LinkId};
 
-/// Relative difference of the sums of lengths up to which they are equal: the rounding of four lengths read from
-/// decimal numbers.
+/// Relative difference up to which the sums of lengths count as equal: the rounding of four lengths read from decimal
+/// numbers.
 const EQUAL: f64 = 1e-14;
 
 /// Rotation of the links of a four-bar.

@@ -18,8 +18,8 @@ use linkage::mechanism::{Group, Mechanism, Pose};
 pub struct GroupCondition {
     /// Normalised determinant, from -1 to 1; zero in a singular pose.
     pub determinant: f64,
-    /// Condition number (2-norm) of the normalised equations: the factor from relative errors of position to those of
-    /// angular velocities.
+    /// Condition number (2-norm) of the normalised equations.
+    /// It is the factor from relative errors of position to relative errors of angular velocities.
     /// [`f64::MAX`] where the equations are singular to the last digit.
     pub condition: f64,
 }

@@ -6,7 +6,7 @@ use linkage::mechanism::GroupId;
 /// Kind of a singular pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SingularityKind {
-    /// Limit of rotation of the crank: two configurations of a group meet, and beyond there is none.
+    /// Limit of rotation of the crank: two configurations of a group meet, and none exists beyond.
     /// The determinant goes to zero as the square root of the remaining crank angle.
     DeadPoint,
     /// Branches cross: the determinant changes its sign, linear in the crank angle, and the crank can go on.

@@ -1,8 +1,8 @@
-//! The curve of all poses of a mechanism, followed by its length (pseudo-arclength continuation; Allgower and
-//! Georg, "Numerical continuation methods", 1990, chapters 2 to 4 and 8).
+//! The curve of all poses of a mechanism, followed by arc length (pseudo-arclength continuation; Allgower and Georg,
+//! "Numerical continuation methods", 1990, chapters 2 to 4 and 8).
 //!
-//! Along the length a limit of rotation is a regular point: the crank's component of the tangent changes its sign
-//! there, a simple zero.
+//! Along the arc length a limit of rotation is a regular point: the crank's component of the tangent has a simple zero
+//! there.
 //! As a function of the crank angle the pose has a square root there.
 //! Where branches cross, the rank of the equations drops.
 //! The smallest singular value of the Jacobian is a lower bound on the distance to another branch.
@@ -37,16 +37,16 @@ const SAFE: f64 = 0.5;
 /// Smallest cosine of the angle between tangents of neighbouring poses: at most 0.25 rad.
 const STRAIGHT: f64 = 0.969;
 /// Branches nearer than this to each other (in sizes and rad) count as meeting.
-/// Lengths rounded to 16 digits separate crossing branches by the square root of that, 1e-8.
+/// Lengths rounded to 16 digits separate crossing branches by the square root of the rounding error, 1e-8.
 const MEET: f64 = 1e-6;
 /// Shortest step. Below it branches count as meeting.
 const SHORTEST: f64 = 1e-9;
 /// Largest number of steps to a zero along the curve; it takes about eight.
 const STEPS_TO_ZERO: usize = 60;
-/// Largest number of poses. More mean that something is wrong.
+/// Largest number of poses. A larger number means that something is wrong.
 const MOST_POINTS: usize = 200_000;
-/// Work of an elimination, or of two solutions with a factored matrix, over the square of the number of coordinates, in
-/// the unit of budgets.
+/// Work of one elimination, or of two solutions with a factored matrix, in the unit of budgets.
+/// It is divided by the square of the number of coordinates.
 const SQUARE: f64 = 1e-3;
 /// Number of turns after which the search for the first pose ends.
 const MOST_TURNS: i32 = 12;
@@ -68,7 +68,7 @@ pub(super) struct Point {
 pub(super) enum End {
     /// The mechanism is back at its first pose after this number of turns of the crank.
     Closed(i32),
-    /// It cannot be followed any further.
+    /// The mechanism cannot be followed any further.
     Limit(Singularity),
 }
 
@@ -82,11 +82,11 @@ pub(super) struct Track {
 /// Distance from the crank's pivot, in sizes of the mechanism, beyond which a link counts as going to infinity.
 const FAR: f64 = 50.0;
 
-/// The same from which on steps grow with the distance. With the mechanism's extent as the unit of length, they stay as
-/// long as they are.
+/// Distance in the same unit from which steps grow with the distance. In units of the mechanism's extent, they keep
+/// their length.
 const NEAR: f64 = 2.0;
-/// Change of the extrapolated pose at which links go to infinity, when the nearest pose is left out (rad).
-/// Below it the poses farther out tell nothing more.
+/// Change of the extrapolated pose with links at infinity when the nearest pose is left out (rad).
+/// Below this change, poses farther out give no more information.
 const AGREED: f64 = 1e-9;
 /// Growth of the extent between two such extrapolations.
 const FARTHER: f64 = 1.2;
@@ -102,9 +102,9 @@ pub(super) struct Tracker<'a> {
     crank: usize,
     /// Signs that make every group's determinant positive at the start.
     signs: Vec<f64>,
-    /// Direction of the smallest singular value of the last pose, from which that of the next is found.
+    /// Direction of the smallest singular value at the last pose. The search at the next pose starts from it.
     weakest: RefCell<ColumnVector>,
-    /// Why no further pose is placed: the work that was allowed is done.
+    /// The error if the allowed work is used up. No further pose is then placed.
     over: OnceCell<Error>,
 }
 
@@ -112,7 +112,7 @@ impl<'a> Tracker<'a> {
     /// Starts at the start pose of a case.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if it is singular.
+    /// [`ErrorKind::Geometry`] if the start pose is singular.
     pub(super) fn new(case: &'a Case) -> Result<(Self, Point)> {
         let drive = case.crank();
         let joint = &case.mechanism.joints()[drive.joint];
@@ -142,17 +142,17 @@ impl<'a> Tracker<'a> {
         Ok((tracker, start))
     }
 
-    /// Takes the work of `squares` eliminations from what is allowed. `None` if no more is.
+    /// Takes the work of `squares` eliminations from the allowed work. `None` if that is used up.
     fn spend(&self, squares: usize) -> Option<()> {
         let size = self.constraints.coordinates() as f64;
         let spent = work::spend(SQUARE * squares as f64 * size * size);
         spent.map_err(|error| self.over.get_or_init(|| error).kind()).ok()
     }
 
-    /// What was found, unless a pose was missing for it because no more work is allowed.
+    /// Returns `found`, unless a pose was missing because the allowed work is used up.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] then, with a larger budget as the way out.
+    /// [`ErrorKind::Unsupported`] in that case, with the advice of a larger budget.
     pub(super) fn allowed<T>(&self, found: Result<T>) -> Result<T> {
         match self.over.get() {
             Some(error) => Err(error.clone()),
@@ -170,7 +170,7 @@ impl<'a> Tracker<'a> {
         lost(self.case.told(self.crank_of(q)))
     }
 
-    /// The crank's part of the tangent.
+    /// The crank's component of the tangent.
     pub(super) fn crank_rate(&self, point: &Point) -> f64 {
         point.tangent[self.crank]
     }
@@ -194,7 +194,8 @@ impl<'a> Tracker<'a> {
         let jacobian = self.constraints.at(&q).jacobian;
         let tangent = tangent(&jacobian, along);
         let (sigma, rounds) = smallest_singular_value(&bordered(&jacobian, &tangent), &mut self.weakest.borrow_mut());
-        // Two eliminations, for the tangent and here. Who asks for poses sees at the next one that no more is allowed.
+        // Two eliminations, for the tangent and here. If no more work is allowed, the caller learns this at the next
+        // pose.
         let _ = self.spend(2 + rounds);
         let groups = self.case.structure.groups.iter().zip(&self.signs);
         let pose = self.constraints.pose(&q);
@@ -254,8 +255,8 @@ impl<'a> Tracker<'a> {
         Some(self.point(q, &near.tangent))
     }
 
-    /// Zero of `f` between the neighbours `a` and `b`, where it has different signs. By the Illinois method in the
-    /// distance from `a`.
+    /// Zero of `f` between the neighbours `a` and `b`, where `f` has different signs.
+    /// It is found by the Illinois method in the distance from `a`.
     pub(super) fn zero(&self, a: &Point, b: &Point, f: impl Fn(&Point) -> f64) -> Point {
         let width = a.tangent.dot(&(&b.q - &a.q));
         let ends = [(0.0, f(a)), (width, f(b))];
@@ -274,10 +275,10 @@ impl<'a> Tracker<'a> {
         best.0
     }
 
-    /// Follows the curve with the crank turning in the sense of `sense` at first.
+    /// Follows the curve. The crank first turns in the sense of `sense`.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if it does not end, and those of [`Tracker::allowed`].
+    /// [`ErrorKind::Numeric`] if the curve does not end, and those of [`Tracker::allowed`].
     pub(super) fn follow(&self, start: &Point, sense: f64) -> Result<Track> {
         self.allowed(self.followed(start, sense))
     }
@@ -329,15 +330,16 @@ impl<'a> Tracker<'a> {
         Err(self.lost(&points[points.len() - 1].q))
     }
 
-    /// Distance of the farthest link from the crank's pivot, in [`NEAR`] sizes of the mechanism; at least 1.
+    /// Distance of the farthest link from the crank's pivot, divided by [`NEAR`] sizes of the mechanism; at least 1.
     fn extent(&self, q: &ColumnVector) -> f64 {
         q.iter().enumerate().filter(|(k, _)| k % 3 < 2).fold(1.0, |most, (_, x)| most.larger(x.abs() / NEAR))
     }
 
     /// Lower bound on the distance to another branch.
-    /// The smallest singular value is small where links are far away, although nothing is near: the axes that lead them
-    /// there are almost parallel. So it is taken times the extent. The groups without a far link are not
-    /// larger; their determinants bound them.
+    /// The smallest singular value is small where links are far away, even without a branch nearby: the axes that lead
+    /// these links are almost parallel.
+    /// It is therefore multiplied by the extent.
+    /// Groups without a far link do not grow with the extent; their determinants bound them.
     fn clearance(&self, here: &Point) -> f64 {
         let extent = self.extent(&here.q);
         let all = here.sigma * extent;
@@ -369,9 +371,9 @@ impl<'a> Tracker<'a> {
         None
     }
 
-    /// The end of a track at a pose where branches meet. Near it the equations lose digits.
-    /// Along the branch everything is a smooth function of the determinant that goes to zero.
-    /// So the value at zero is extrapolated from poses at a distance (Neville's scheme).
+    /// The end of a track at a pose where branches meet. Near this pose the equations lose digits.
+    /// Along the branch, everything is a smooth function of the determinant that goes to zero.
+    /// So the pose at determinant zero is extrapolated from poses at a distance (Neville's scheme).
     fn met(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(self.lost(&last.q)) };
@@ -391,8 +393,8 @@ impl<'a> Tracker<'a> {
         Ok(Track { points, end: End::Limit(singularity) })
     }
 
-    /// Whether the pose at which links go to infinity is known to rounding, so that nothing lies between: angles of
-    /// all links, and determinants, which have kept their signs.
+    /// Whether the pose with links at infinity is known to rounding accuracy, so that no singular pose lies in between.
+    /// This concerns the angles of all links, and the determinants, which must keep their signs.
     fn is_settled(&self, points: &[Point]) -> bool {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return false };
@@ -406,15 +408,17 @@ impl<'a> Tracker<'a> {
         (&now - before).amax() < AGREED && (0..last.measures.len()).all(|other| other == group || keeps_sign(other))
     }
 
-    /// What stays finite where links go to infinity: determinants of all groups, then angles of all links (rad).
+    /// Quantities that stay finite where links go to infinity: determinants of all groups, then angles of all links
+    /// (rad).
     fn finite(&self, point: &Point) -> ColumnVector {
         let angles = self.case.mechanism.links().ids().skip(1).map(|link| point.q[Constraints::angle(link)]);
         let all: Vec<f64> = point.measures.iter().map(|measure| measure.determinant).chain(angles).collect();
         ColumnVector::from_vec(all)
     }
 
-    /// The end of a track along which a slide grows without bound. The crank angle is a smooth function of the
-    /// determinant there too, and so are the angles of all links and the measures of the other groups.
+    /// The end of a track along which a slide grows without bound.
+    /// There too, the crank angle is a smooth function of the determinant.
+    /// So are the angles of all links and the measures of the other groups.
     fn escaped(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(self.lost(&last.q)) };
@@ -444,7 +448,7 @@ impl<'a> Tracker<'a> {
         Singularity { kind, crank: self.crank_of(&at.q), group: GroupId(group), determinant }
     }
 
-    /// Whether all links have the same place again, whole turns apart.
+    /// Whether all links have the same pose again, up to whole turns.
     fn is_same(&self, a: &Point, b: &Point) -> bool {
         self.case
             .mechanism
@@ -456,8 +460,8 @@ impl<'a> Tracker<'a> {
     }
 }
 
-/// The last regular poses by the determinant of a group.
-/// The nearest to zero comes first; each is half as far again as the one before.
+/// The last regular poses, with the determinant of a group.
+/// The determinant nearest to zero comes first; each is more than 1.5 times the one before.
 fn by_determinant(points: &[Point], group: GroupId) -> Vec<(f64, &Point)> {
     let mut known: Vec<(f64, &Point)> = Vec::new();
     for point in points.iter().rev().filter(|point| point.sigma > 1e-4) {
@@ -488,8 +492,8 @@ fn bordered(jacobian: &Matrix, row: &ColumnVector) -> Matrix {
     square
 }
 
-/// A factored matrix. Every joint has two links, so that few of its entries are not zero, and elimination skips the others:
-/// its effort grows with the square of the number of links, that of a dense decomposition with the cube.
+/// A factored matrix. Every joint has two links, so few entries are nonzero, and elimination skips the zeros.
+/// The effort grows with the square of the number of links. That of a dense decomposition grows with the cube.
 fn factored(matrix: &Matrix) -> Option<Lu> {
     let mut lu = Lu::new(matrix.nrows());
     for (column, entries) in matrix.column_iter().enumerate() {
@@ -500,7 +504,7 @@ fn factored(matrix: &Matrix) -> Option<Lu> {
     lu.factor().then_some(lu)
 }
 
-/// A direction that is orthogonal to none that occurs.
+/// A direction that is not orthogonal to any direction that occurs.
 fn any_direction(n: usize) -> ColumnVector {
     ColumnVector::from_fn(n, |row, _| 1.0 + (row as f64).sin()).normalize()
 }
@@ -511,11 +515,12 @@ fn solved(matrix: &Matrix, mut right: ColumnVector) -> Option<ColumnVector> {
     Some(right)
 }
 
-/// Smallest singular value, by inverse iteration, and the number of iterations; 0 for a matrix that is singular to
-/// working precision. The iteration starts from the direction `x` and leaves the one that belongs to the value.
+/// Smallest singular value, by inverse iteration, and the number of iterations.
+/// The value is 0 for a matrix that is singular to working precision.
+/// The iteration starts from the direction `x` and leaves the direction of the singular value there.
 fn smallest_singular_value(matrix: &Matrix, x: &mut ColumnVector) -> (f64, usize) {
     let Some(lu) = factored(matrix) else { return (0.0, 0) };
-    // A little of every direction, so that none is missed.
+    // Adds a little of every direction, so that none is missed.
     *x = (&*x + any_direction(matrix.nrows()) * 1e-3).normalize();
     let (mut largest, mut rounds) = (0.0f64, 0);
     for _ in 0..MOST_ITERATIONS {
@@ -537,7 +542,8 @@ fn smallest_singular_value(matrix: &Matrix, x: &mut ColumnVector) -> (f64, usize
     (1.0 / largest.sqrt(), rounds)
 }
 
-/// Unit vector that the Jacobian maps to zero, on the side of `along`; `along` itself if there are several.
+/// Unit vector that the Jacobian maps to zero, on the side of `along`; `along` itself if there are several such
+/// vectors.
 fn tangent(jacobian: &Matrix, along: &ColumnVector) -> ColumnVector {
     let mut ahead = ColumnVector::zeros(along.len());
     ahead[along.len() - 1] = 1.0;

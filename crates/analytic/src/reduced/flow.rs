@@ -1,8 +1,8 @@
 //! The equation of motion on one piece, in two independent forms.
 //!
 //! In time, for run-ups, which begin at rest: phi' = omega, omega' = (M - omega^2 / 2 dI*/dphi) / I*.
-//! Over the crank angle, for steady regimes, where the interval and the places of the kinks are known:
-//! with E = I* omega^2 / 2, dE/dphi = M and dt/dphi = 1 / omega.
+//! Over the crank angle, for steady regimes, where the interval and the positions of the kinks are known: with E = I*
+//! omega^2 / 2, dE/dphi = M and dt/dphi = 1 / omega.
 //! The second form does not contain dI*/dphi, so that each form checks the other.
 
 use std::cell::{Cell, RefCell};
@@ -60,7 +60,7 @@ impl<'m, 'a> Forces<'m, 'a> {
     }
 
     /// Reduced quantities on the present piece, with the inertia that turns with the crank.
-    /// NaN at crank angles too far away, so that the step is repeated, and after an error, which is kept.
+    /// NaN at crank angles too far away, so that the step is repeated. Also NaN after an error, which is kept.
     pub(crate) fn reduced(&self, crank: f64) -> Reduced {
         if !((crank - self.origin.get()).abs() <= FARTHEST) {
             return Reduced { inertia: f64::NAN, slope: f64::NAN, applied: f64::NAN };
@@ -81,7 +81,7 @@ impl<'m, 'a> Forces<'m, 'a> {
         self.branch.get().map_or(0.0, |branch| sense * branch.moment(sense * omega))
     }
 
-    /// Its derivative with respect to the crank's speed (N m s).
+    /// Derivative of the motor's moment with respect to the crank's speed (N m s).
     fn motor_slope(&self, omega: f64) -> f64 {
         self.branch.get().map_or(0.0, |branch| branch.slope(self.model.sense * omega))
     }
@@ -150,7 +150,7 @@ impl Flow<2> for InTime<'_, '_> {
 pub(crate) struct OverAngle<'m, 'a>(pub(crate) Forces<'m, 'a>);
 
 impl OverAngle<'_, '_> {
-    /// Speed of the crank (rad/s) at the place `x` of the way, where the energy is `energy` (J).
+    /// Speed of the crank (rad/s) at the position `x` on the path, where the energy is `energy` (J).
     pub(crate) fn speed(&self, x: f64, energy: f64) -> f64 {
         let way = self.0.way.get();
         way * (2.0 * energy / self.0.reduced(way * x).inertia).sqrt()

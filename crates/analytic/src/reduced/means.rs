@@ -57,7 +57,7 @@ pub struct Kinks {
 
 /// Largest number of turns after which the reduced quantities may repeat.
 const MOST_TURNS: u32 = 1000;
-/// Newton steps that improve a crank angle known to 1e-9 rad to rounding.
+/// Number of Newton steps that improve a crank angle from 1e-9 rad to rounding accuracy.
 const POLISHING: usize = 3;
 
 /// How far a crank turns, and the crank angles (rad) at which links with sensed loads reverse.

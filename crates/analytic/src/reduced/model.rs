@@ -45,7 +45,7 @@ pub(crate) struct Piece {
 }
 
 impl Piece {
-    /// The piece of all crank angles, for use before the first placing.
+    /// The piece of all crank angles, used before the mechanism is first placed.
     pub(crate) fn unbounded() -> Self {
         Piece { index: 0, ends: [f64::NEG_INFINITY, f64::INFINITY] }
     }
@@ -62,10 +62,11 @@ pub struct ReducedModel<'a> {
     /// Loads that depend only on the pose.
     steady: Vec<Load>,
     kinks: Kinks,
-    /// Crank angles between pieces: the kinks of one period, or its start if there are none; with limits also the
-    /// limits.
+    /// Crank angles between pieces: the kinks of one period, or its start if there are no kinks.
+    /// If the motion has limits, these are included.
     boundaries: Vec<f64>,
-    /// Sense of each such link's transfer function on each piece of one period: +1 or -1, one piece after the other.
+    /// Sense of the transfer function of each link in `sensed`, on each piece of one period: +1 or -1, one piece after
+    /// the other.
     senses: Vec<f64>,
     pub(crate) motor: Option<Motor>,
     /// Sense in which the motor drives the crank: that of the scenario's prescribed speed.
@@ -78,8 +79,8 @@ impl<'a> ReducedModel<'a> {
     /// The model of a case. Its motor drives in the sense of the prescribed speed, which is not used otherwise.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for mechanisms of several degrees of freedom, [`ErrorKind::Input`] for one without
-    /// masses, and those of [`Range::of`](crate::range::Range::of).
+    /// [`ErrorKind::Unsupported`] for mechanisms of several degrees of freedom, [`ErrorKind::Input`] for mechanisms
+    /// without masses, and those of [`Range::of`](crate::range::Range::of).
     pub fn of(case: &'a Case) -> Result<Self> {
         if !case.drives.further().is_empty() {
             let message = sentences::the_motion_under_forces_is_asked_for_but_the_mechanism(&case.drives.len());
@@ -114,13 +115,13 @@ impl<'a> ReducedModel<'a> {
         Ok(model)
     }
 
-    /// A pose solver of the case that makes use of what the model knows about the crank's way.
+    /// A pose solver of the case that uses what the model knows about the rotation of the crank.
     pub(crate) fn guided<'p>(&self, poses: PoseSolver<'p>) -> PoseSolver<'p> {
         if self.kinks.period.is_some() { poses.turning_fully() } else { poses }
     }
 
-    /// The same with a flywheel on the crank's shaft (kg m^2).
-    /// A negative value takes inertia away; the total must stay positive.
+    /// The same model with a flywheel on the crank's shaft (kg m^2).
+    /// A negative value removes inertia; the total must stay positive.
     #[must_use]
     pub fn with_flywheel(&self, inertia: f64) -> Self {
         ReducedModel { added: self.added + inertia, ..self.clone() }
@@ -227,7 +228,6 @@ impl<'a> ReducedModel<'a> {
         Ok(found)
     }
 
-    /// The state at a crank speed of 1 rad/s, with angles where a load asks for them.
     /// Moment of inertia reduced to the crank at its start angle, with what turns with the crank (kg m^2).
     ///
     /// # Errors

@@ -19,7 +19,7 @@ pub struct CrankState {
     pub t: f64,
     /// Crank angle (rad, as the scenario states it), turns kept.
     pub crank: f64,
-    /// The same without the completed whole periods, so that no digits are lost after many turns (rad).
+    /// Crank angle without the completed whole periods, so that no digits are lost after many turns (rad).
     pub within: f64,
     /// Angular velocity of the crank (rad/s).
     pub omega: f64,
@@ -36,7 +36,7 @@ pub struct CrankState {
 /// How a motion ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RunUpEnd {
-    /// At the last wanted instant.
+    /// At the last requested instant.
     Reached,
     /// At a standstill held by loads and losses, at this time (s) and crank angle (rad).
     Held(f64, f64),
@@ -44,8 +44,8 @@ pub enum RunUpEnd {
     Limit(f64, f64),
 }
 
-/// Motion of the crank at wanted times (s, from 0, ascending), from the start of the case with the speed `omega`
-/// (rad/s), and how it ended.
+/// Motion of the crank at the requested times (s, from 0, ascending), and how it ended.
+/// The motion begins at the start of the case with the speed `omega` (rad/s).
 /// Instants after the end are left out.
 ///
 /// # Errors
@@ -62,7 +62,8 @@ pub fn motion(model: &ReducedModel, omega: f64, times: &[f64], accuracy: f64) ->
     followed(model, omega, times, accuracy, Stage::BalancingMoment)
 }
 
-/// The same up to a stage. Before that of the accelerations they are not found: acceleration and moments are zero.
+/// Like `motion`, up to the stage `deepest`.
+/// For stages before the accelerations, acceleration and moments are not computed and are zero.
 pub(crate) fn followed(
     model: &ReducedModel,
     omega: f64,
@@ -82,7 +83,7 @@ struct Runner<'m, 'a> {
     place: Place<2>,
     /// Completed periods, as an angle of the crank (rad).
     gone: f64,
-    /// Whether accelerations are wanted at the instants.
+    /// Whether accelerations are requested at the instants.
     is_accelerated: bool,
 }
 
@@ -209,7 +210,7 @@ impl<'m, 'a> Runner<'m, 'a> {
         back
     }
 
-    /// Adds the instant at which a motion is held, if it is wanted.
+    /// Adds the instant at which a motion is held, if it is requested.
     fn held(&self, times: &[f64], found: &mut Vec<CrankState>, end: RunUpEnd) {
         if let RunUpEnd::Held(t, crank) = end
             && times.get(found.len()) == Some(&t)
@@ -231,8 +232,8 @@ fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64, is_accele
     CrankState { t, crank: crank + gone, within: crank, omega, alpha, motor, shaft: motor - flow.0.model.added * alpha }
 }
 
-/// Kinetostatics of a motion: the state at every instant, up to the stage that the case wants.
-/// The model is that of the motion; the case may have another grid and want less.
+/// Kinetostatics of a motion: the state at every instant, up to the stage that the case requests.
+/// The model is that of the motion. The case may have another grid and request less.
 pub(crate) fn states(model: &ReducedModel, case: &Case, motion: &[CrankState], visit: Visit) -> Result<()> {
     let mut poses = model.guided(PoseSolver::counting_turns(case)?);
     let deepest = case.wanted.deepest();
@@ -253,8 +254,8 @@ pub(crate) fn states(model: &ReducedModel, case: &Case, motion: &[CrankState], v
 pub struct RunUp {
     /// The crank at every instant.
     pub motion: Vec<CrankState>,
-    /// All wanted channels at these instants. `drive.torque_N_m` is the moment on the crank from its equilibrium with
-    /// the reactions.
+    /// All requested channels at these instants.
+    /// `drive.torque_N_m` is the moment on the crank from its equilibrium with the reactions.
     pub trajectory: Trajectory,
     /// How it ended.
     pub end: RunUpEnd,
@@ -263,8 +264,8 @@ pub struct RunUp {
 }
 
 impl RunUp {
-    /// Motion of the case's mechanism at the given times, with the case's wanted channels.
-    /// Kinetostatics with the true speed and acceleration.
+    /// Motion of the case's mechanism at the given times, with the channels that the case requests.
+    /// Kinetostatics uses the true speed and acceleration.
     ///
     /// # Errors
     /// Those of [`motion`].
@@ -290,7 +291,7 @@ impl RunUp {
     /// Largest difference between the shaft's moment and the moment from the crank's equilibrium.
     /// It is divided by the largest moment, or by the largest reaction times the mechanism's size.
     /// It compares the equation of motion with the reactions, which do not use reduced quantities.
-    /// `None` if the balancing moment is not wanted.
+    /// `None` if the balancing moment is not requested.
     #[must_use]
     pub fn power_residual(&self) -> Option<f64> {
         let asked = self.trajectory.column(&Channel::named("drive.torque_N_m")?)?;

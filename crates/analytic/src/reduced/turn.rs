@@ -1,7 +1,7 @@
 //! A crank that turns fully, and where links reverse on the way.
 //!
-//! The poses of a whole turn are enough to know that: the pose solver itself refuses dead points and change points.
-//! What limits a crank, and where, is a matter of the [range of motion](crate::range), which costs many times as much.
+//! The poses of one whole turn are enough, because the pose solver itself refuses dead points and change points.
+//! The limits of other cranks come from the [range of motion](crate::range), which costs many times as much.
 
 use std::f64::consts::TAU;
 
@@ -12,16 +12,16 @@ use linkage::math::root;
 use linkage::mechanism::{LinkId, PerLink};
 use linkage::trajectory::Stage;
 
-/// Poses of one turn of the crank, three degrees apart. Two reversals between two of them are still seen, by the
-/// slopes.
+/// Number of poses in one turn of the crank, three degrees apart.
+/// The slopes reveal even two reversals between neighbouring poses.
 const POSES: u32 = 120;
 /// Turns after which the search for the first pose ends, as in the range of motion.
 const MOST_TURNS: u32 = 12;
-/// Angular velocity of a link for a crank with 1 rad/s below which it is rounding and not motion.
+/// Angular velocity of a link, for a crank with 1 rad/s, below which it is rounding error and not motion.
 const STILL: f64 = 1e-11;
-/// Largest step of Newton's method that is the last one (rad). The method is quadratic.
+/// Step of Newton's method (rad) at or below which it ends. The method converges quadratically.
 const SETTLED: f64 = 1e-9;
-/// Largest number of halvings of the way between two poses where a link slows down and speeds up again.
+/// Largest number of halvings of the interval between two poses where a link slows down and speeds up again.
 const HALVINGS: u32 = 20;
 
 /// A crank that turns fully.
@@ -29,7 +29,7 @@ const HALVINGS: u32 = 20;
 pub(super) struct FullTurn {
     /// Turns of the crank after which the mechanism is back at its first pose.
     pub(super) turns: u32,
-    /// Crank angles (rad) at which one of the wanted links reverses, from the start on over these turns.
+    /// Crank angles (rad) at which one of the requested links reverses, from the start on over these turns.
     pub(super) reversals: Vec<f64>,
 }
 
@@ -44,7 +44,7 @@ struct Rate {
 
 impl FullTurn {
     /// Turns the crank of a case from its start on until the mechanism is back at its first pose.
-    /// `None` if it does not come there, or not without doubt.
+    /// `None` if it does not come back, or if this is in doubt.
     pub(super) fn of(case: &Case, links: &[LinkId]) -> Option<Self> {
         if case.crank().through {
             return None;
@@ -87,7 +87,8 @@ fn reversals_of(
     reversals: &mut Vec<f64>,
 ) -> Result<()> {
     let moving = || rates.iter().filter(|rate| rate.omega.abs() > STILL);
-    // Where the link is still at the start, that is between the last pose of a period and the first of the next.
+    // If the link is at rest at the start, the interval there extends from the last pose of a period to the first of
+    // the next.
     let is_still = rates.first().is_some_and(|rate| !(rate.omega.abs() > STILL));
     let next = moving().next().filter(|_| is_still).map(|first| Rate { crank: first.crank + period, ..*first });
     let all: Vec<Rate> = moving().copied().chain(next).collect();
@@ -97,7 +98,7 @@ fn reversals_of(
     Ok(())
 }
 
-/// The same between two poses at which the link turns.
+/// Adds the crank angles at which a link reverses, between two poses at which it turns.
 fn between(
     poses: &mut PoseSolver,
     link: LinkId,

@@ -2,16 +2,16 @@
 
 use linkage::drive::{Motor, MotorLaw};
 
-/// Relative amount by which a steady speed may lie beyond the end of the motor's line: rounding.
+/// Relative amount by which rounding may put a steady speed beyond the end of the motor's line.
 const SAME: f64 = 1e-12;
 
 /// Motion from rest under `I domega/dt = M0 - B omega - R`.
-/// I and R are the means of inertia and resistance over the turn, in place of their courses. M0 - B omega is the
-/// motor's straight line on the crank.
+/// I and R are the means of inertia and resistance over the turn, used instead of their variation.
+/// M0 - B omega is the motor's straight line on the crank.
 /// Then omega = omega_s (1 - exp(-t / T)) with T = I / B and omega_s = (M0 - R) / B.
 ///
-/// A linear law of the motor gives B = -slope ratio^2 efficiency, as long as the motor drives. Speeds and angles count
-/// positive in the motor's sense.
+/// A linear law of the motor gives B = -slope ratio^2 efficiency, as long as the motor drives.
+/// Speeds and angles count positive in the motor's sense.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Averaged {
     /// Time constant T (s). After this time the speed is 1 - 1 / e = 63.2 % of the steady speed.

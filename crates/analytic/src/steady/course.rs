@@ -24,12 +24,12 @@ pub struct ReducedRow {
     pub resistance: f64,
 }
 
-/// Least and greatest value of a quantity.
+/// Smallest and largest value of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extremes {
-    /// Crank angle (rad) and value of the least.
+    /// Crank angle (rad) and value of the minimum.
     pub least: (f64, f64),
-    /// Crank angle (rad) and value of the greatest.
+    /// Crank angle (rad) and value of the maximum.
     pub greatest: (f64, f64),
 }
 

@@ -44,8 +44,8 @@ pub struct Regime {
     pub fastest: SpeedAtCrank,
     /// Where it is slowest.
     pub slowest: SpeedAtCrank,
-    /// Share of a small deviation of the energy that remains after a period. Below 1; otherwise the motion would not be
-    /// stable.
+    /// Share of a small deviation of the energy that remains after a period.
+    /// It is below 1; otherwise the motion would not be stable.
     pub multiplier: f64,
     /// The crank at the requested crank angles.
     pub samples: Vec<SpeedAtCrank>,
@@ -64,8 +64,8 @@ impl Regime {
 impl ReducedModel<'_> {
     /// The steady periodic motion in the motor's sense.
     /// Newton's method finds the energy at the start of a period; its derivative is integrated along with the motion.
-    /// `cranks`: crank angles (rad) of one period from the start of the case, in the order of the motion, at which the
-    /// crank's speed is wanted.
+    /// `cranks` are the crank angles (rad) at which the crank's speed is requested.
+    /// They lie in one period from the start of the case, in the order of the motion.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] without a motor, [`ErrorKind::Geometry`] if the crank does not turn fully,
@@ -81,7 +81,8 @@ impl ReducedModel<'_> {
         let resistance = self.sense * means.resistance;
         let guess = motor.steady_speed(resistance).filter(|&speed| speed > 0.0);
         let Some(speed) = guess else { return Err(means::no_steady_speed(resistance)) };
-        // At the mean energy, not at the mean speed: the mechanism is fast where its reduced inertia is small.
+        // The search starts at the mean energy, not at the mean speed: the mechanism is fast where its reduced inertia
+        // is small.
         let mut energy = (means.inertia + self.added) * speed * speed / 2.0;
         let mut share = 0.0;
         for _ in 0..MOST_SHOTS {
@@ -122,7 +123,8 @@ impl<'m, 'a> Turn<'m, 'a> {
         Ok(Turn { flow, start: model.sense * model.case.crank().start, period })
     }
 
-    /// Energy, time and share at the end of a period that begins with `energy` (J). Targets divide the steps that are visited.
+    /// Energy, time and remaining share of a deviation at the end of a period that begins with `energy` (J).
+    /// The visited steps are divided at the targets.
     fn run(
         &self,
         energy: f64,
@@ -134,8 +136,8 @@ impl<'m, 'a> Turn<'m, 'a> {
         let (way, last) = (forces.way.get(), self.start + self.period);
         forces.begin_at(way * self.start);
         let mut place = Place { x: self.start, y: [energy, 0.0, 1.0], h: 0.0 };
-        // The speed at which a branch has just ended. Computed from the energy it would have a rounding error to one
-        // side or the other.
+        // The speed at which a branch has just ended.
+        // If it were computed from the energy, it would have a rounding error in one direction or the other.
         let mut reached: Option<f64> = None;
         let mut empty = 0;
         while place.x < last {
@@ -154,7 +156,7 @@ impl<'m, 'a> Turn<'m, 'a> {
             let stop = march(&self.flow, &mut place, &targets, accuracy, visit)
                 .map_err(|error| if error.kind() == ErrorKind::Numeric { stalled(way * from) } else { error })?;
             if let Stop::Bound(bound) = stop {
-                // Exactly to the speed at which the next branch begins.
+                // Sets the energy exactly to the speed at which the next branch begins.
                 let speeds = forces.branch.get().map_or([0.0; 2], |branch| branch.speeds);
                 let speed = speeds[1 - bound];
                 place.y[0] = forces.reduced(way * place.x).inertia * speed * speed / 2.0;
@@ -193,7 +195,7 @@ impl<'m, 'a> Turn<'m, 'a> {
             Ok(())
         };
         let [_, period, _] = self.run(energy, &targets, accuracy, &mut visit)?;
-        // Every target is the end of a visit. Both ends of the period are the same state.
+        // Every target is the end of a visited step. Both ends of the period are the same state.
         for &crank in cranks {
             let at = extremes.iter().find(|at| at.crank == crank);
             let ends = [self.start, last].map(|end| (way * crank - end).abs() < 1e-9);
@@ -213,7 +215,7 @@ impl<'m, 'a> Turn<'m, 'a> {
     }
 }
 
-/// The place in a step at which the acceleration changes its sign, by bisection.
+/// The position in a step at which the acceleration changes its sign, by bisection.
 fn extreme(
     flow: &OverAngle,
     &[(x, y), (end, _)]: &Step<3>,

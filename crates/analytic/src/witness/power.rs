@@ -5,7 +5,8 @@ use linkage::math::Motion;
 use linkage::mechanism::Link;
 use linkage::solver::State;
 
-/// Power of gravity, inertia and loads on all links (W): sum of m (g - a) . v - J alpha omega, and that of the loads.
+/// Power of gravity, inertia and loads on all links (W): sum of m (g - a) . v - J alpha omega, plus the power of the
+/// loads.
 #[must_use]
 pub fn of_known_forces(case: &Case, state: &State) -> f64 {
     let power = |(body, motion): (&Link, &Motion)| {
@@ -17,8 +18,9 @@ pub fn of_known_forces(case: &Case, state: &State) -> f64 {
 }
 
 /// Balancing moment on the crank (N m) for which the powers of all forces sum to zero.
-/// Those of further drives are reduced to it: the sum of their moments times the ratios of speed.
-/// Ideal joints do no work, so that no reaction enters. The crank must turn.
+/// The balancing moments of further drives are reduced to the crank: the result is the sum of all moments times their
+/// speed ratios.
+/// Ideal joints do no work, so reactions do not enter. The crank must turn.
 #[must_use]
 pub fn balancing_moment(case: &Case, state: &State) -> f64 {
     -of_known_forces(case, state) / state.motions[case.crank().link].omega

@@ -91,7 +91,7 @@ impl Triad {
         [self.leads[0].link, self.leads[1].link, self.leads[2].link, self.base]
     }
 
-    /// World places of feet and heads (m).
+    /// World positions of feet and heads (m).
     #[must_use]
     pub fn places(&self, motions: &[Motion]) -> Places {
         Places {
@@ -138,7 +138,7 @@ impl Triad {
     }
 }
 
-/// Places of the group's joints (m, world axes).
+/// Positions of the group's joints (m, world axes).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Places {
     /// Outer joints.
@@ -169,9 +169,9 @@ impl KnownResultant {
 /// Reactions in the six joints of the group (N, world axes).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reactions {
-    /// At the feet: of the support on the lead.
+    /// Forces of the supports on the leads, at the feet.
     pub feet: [Vec2; 3],
-    /// At the heads: of the lead on the base link.
+    /// Forces of the leads on the base link, at the heads.
     pub heads: [Vec2; 3],
 }
 

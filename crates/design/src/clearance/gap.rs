@@ -1,9 +1,9 @@
 //! Distance of two bodies at the middle of a part of the range, with a lower bound over the whole part.
 //!
-//! parry2d computes the nearest points. The bound uses only their direction: along any fixed direction the distance of
-//! two convex parts is that of their extreme corners, and these move evenly up to a proven error. A wrong pair of
-//! nearest
-//! points therefore weakens the bound but never invalidates it.
+//! parry2d computes the nearest points. The bound uses only their direction.
+//! Along any fixed direction, the distance of two convex parts is that of their extreme corners.
+//! These corners move uniformly up to a proven error.
+//! A wrong pair of nearest points therefore weakens the bound but never invalidates it.
 
 use linkage::math::{KeepNan, Vec2, turned};
 use linkage::mechanism::LinkId;
@@ -14,12 +14,12 @@ use parry2d_f64::shape::{ConvexPolygon, Segment, Shape};
 use super::tube::{Slice, Track};
 use scenario::clearance::Outline;
 
-/// Largest distance computed, in sizes of the mechanism.
+/// Largest distance that is computed, as a multiple of the mechanism's size.
 const FAR: f64 = 1e9;
 
-/// Distance of two parts, in sizes of the mechanism, below which the direction of their nearest points is too
-/// inaccurate
-/// on its own.
+/// Distance of two parts, as a multiple of the mechanism's size. Below it the direction of their nearest points alone
+/// is
+/// too inaccurate.
 const CLOSE: f64 = 1e-5;
 
 /// Outline of a body, prepared for distance queries.
@@ -55,9 +55,8 @@ struct PlacedPiece {
 /// Distance of two bodies over a part of the range.
 #[derive(Clone, Copy, Debug)]
 pub struct Gap {
-    /// Upper bound of the distance at the middle (m); 0 where the two meet, infinite if all pieces are farther apart
-    /// than
-    /// the distance asked for.
+    /// Upper bound of the distance at the middle (m).
+    /// It is 0 if the two meet, and infinite if all pieces are farther apart than the requested distance.
     pub now: f64,
     /// Nearest points at the middle, on the first and the second body (m).
     pub points: [Vec2; 2],
@@ -159,8 +158,8 @@ pub fn gap(
                 ask((p - q) / core);
             }
             if core < CLOSE * a.scale {
-                // For points this close the direction is only rounding error. A side's normal separates the two, if
-                // anything does.
+                // For points this close, the direction is only rounding error.
+                // If the two parts can be separated, the normal of a side separates them.
                 normals(&own.corners, -1.0, &mut ask);
                 normals(&other.corners, 1.0, &mut ask);
             }

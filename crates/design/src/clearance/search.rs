@@ -1,7 +1,7 @@
 //! Smallest distances and first meetings of pairs over the range, by bisection of the parts not yet proven clear.
 //!
-//! Each part of the range is either proven clear of the smallest distance found so far, or halved. The search ends when
-//! every part is proven, so that no instant is skipped; parts left at the smallest size are reported.
+//! A part of the range is halved until it is proven that no distance in it is smaller than the smallest found so far.
+//! The search ends when every part is proven, so no instant is skipped. Parts left at the smallest size are reported.
 
 use linkage::error::Result;
 use linkage::math::extremum::golden;
@@ -33,12 +33,11 @@ pub struct Smallest {
     pub points: [Vec2; 2],
 }
 
-/// First place where a pair comes as near as a given distance.
+/// First pose in which a pair comes as near as a given distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// Two crank angles (rad) in the direction of motion that enclose the meeting: the distance is proven larger up to
-    /// the
-    /// first, and reached at the second.
+    /// Two crank angles (rad), in the direction of motion, that enclose the meeting.
+    /// The distance is proven larger up to the first one, and is reached at the second one.
     pub cranks: [f64; 2],
     /// Point of the meeting at the second crank angle (m, world).
     pub place: Vec2,
@@ -84,7 +83,7 @@ impl DistanceSearch<'_, '_> {
         let mut parts: Vec<(RangePart, Vec<usize>)> =
             self.tubes.parts().map(|part| (part, (0..pairs.len()).collect())).collect();
         while !parts.is_empty() {
-            // First the distances of all pairs at this size: the smallest of them saves halvings.
+            // All pairs are evaluated at this size first: a small distance found here saves later halvings.
             let mut bounds: Vec<Bounds> = Vec::with_capacity(parts.len());
             for (part, alive) in parts {
                 let slice = self.tubes.at(part)?;
@@ -170,15 +169,15 @@ impl DistanceSearch<'_, '_> {
         Ok(())
     }
 
-    /// Finds where a pair first comes as near as `threshold` (m); `None` if it is proven farther apart over the whole
-    /// range.
+    /// Finds where a pair first comes as near as `threshold` (m).
+    /// Returns `None` if the pair is proven farther apart over the whole range.
     ///
     /// # Errors
     /// Those of the pose solver.
     pub fn first(&mut self, pair: [usize; 2], threshold: f64) -> Result<Option<Meeting>> {
         let enough = threshold + self.touch;
         let mut ahead: Vec<RangePart> = self.tubes.parts().rev().collect();
-        // End of the proven range.
+        // End of the part of the range that is proven clear.
         let mut clear = None;
         while let Some(part) = ahead.pop() {
             let slice = self.tubes.at(part)?;
@@ -188,7 +187,7 @@ impl DistanceSearch<'_, '_> {
                 clear = Some(to);
                 continue;
             }
-            // A sound part is halved until it moves by less than the contact distance.
+            // A part with proven bounds is halved until the motion within it is less than the contact distance.
             let narrow = part.halvings >= MOST_HALVINGS + if slice.sound { FURTHER } else { 0 };
             if narrow {
                 for crank in [slice.crank, to] {

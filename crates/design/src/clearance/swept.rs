@@ -1,10 +1,10 @@
 //! Area that a body sweeps: the union of all its positions over the range.
 //!
-//! The plane is divided into squares; a square neither proven covered nor proven free is divided into four.
+//! The plane is divided into squares. A square that is proven neither covered nor free is divided into four.
 //! A square is covered if it lies inside the outline at one instant or if a side of the outline passes over it.
 //! A square is free if the outline stays away from it over every part of the range, by the bounds of [`super::gap`].
-//! The remaining squares lie on the border. They give the error bound of the area, and a straight border gives their
-//! covered share.
+//! The remaining squares lie on the border. They give the error bound of the area.
+//! Their covered share is computed for a straight border.
 
 #[cfg(test)]
 mod tests;
@@ -180,9 +180,9 @@ impl<'a, 'c> Sweep<'a, 'c> {
         self.outline.sides().map(|side| side.map(|end| tube.point(end))).collect()
     }
 
-    /// Whether a side passes over a disc within a wider part around a node's middle or the middle of one of its
-    /// ancestors.
-    /// Over a part as short as the square is small, a side moves only into the square, not across it.
+    /// Whether a side passes over a disc within a wider part of the range.
+    /// The part is centred on the middle of a node or of one of its ancestors.
+    /// A wider part is needed because over a short one a side moves only into a small square, not across it.
     fn is_passed(&mut self, node: u32, centre: Vec2, about: f64) -> Result<bool> {
         let mut next = Some(node);
         for _ in 0..ANCESTORS {
@@ -273,8 +273,8 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(if kept.is_empty() { Square::Free } else { Square::Border(kept, share(lowest.0, lowest.1, half)) })
     }
 
-    /// Lower bound of the body's distance from a place over a part of the range (m); negative where the body may cover
-    /// it.
+    /// Lower bound of the body's distance from a point over a part of the range (m); negative if the body may cover the
+    /// point.
     fn least(&self, node: &Node, place: Vec2) -> f64 {
         let mut least = f64::INFINITY;
         for part in &node.parts {
@@ -295,9 +295,8 @@ impl<'a, 'c> Sweep<'a, 'c> {
     }
 }
 
-/// Returns the point of a convex part (point, segment or counter-clockwise polygon) nearest to a place; the place
-/// itself
-/// if it lies inside.
+/// Returns the point of a convex part (point, segment or counter-clockwise polygon) that is nearest to `place`.
+/// Returns `place` itself if it lies inside.
 fn nearest(part: &[Track], place: Vec2) -> Vec2 {
     let count = part.len();
     let side = |k: usize| [part[k].at, part[(k + 1) % count].at];
@@ -316,9 +315,9 @@ fn nearest(part: &[Track], place: Vec2) -> Vec2 {
     best.1
 }
 
-/// Whether a side passes over a whole disc within a part of the range: the disc lies on one side of it at the start, on
-/// the other at the end, and between the side's ends throughout. Every point of the disc is then on the side at some
-/// instant.
+/// Whether a side passes over a whole disc within a part of the range.
+/// The disc lies on one side of it at the start and on the other at the end, and always between the side's ends.
+/// Every point of the disc is then on the side at some instant.
 fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool {
     let error = from.error + to.error;
     let signed = |by: f64| {

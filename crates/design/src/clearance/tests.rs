@@ -168,7 +168,7 @@ fn the_first_of_all_collisions_is_the_first_on_the_way() {
     assert_eq!(range(&smooth.on(grid).unwrap()).unwrap(), [0.0, 3.0 * PI]);
 }
 
-/// A lever of zero width, ten times as long as the mechanism, passes a place almost instantly.
+/// A lever of zero width, ten times as long as the mechanism, passes a point almost instantly.
 #[test]
 fn a_long_lever_is_found_where_it_meets() {
     let case = slider_crank();
@@ -180,7 +180,7 @@ fn a_long_lever_is_found_where_it_meets() {
     assert!(found.open.is_empty() && (meeting.cranks[1] - 1.0).abs() < 1e-9, "{meeting:?}");
 }
 
-/// The proven bound leaves out what rounding may hide: rounding of the nearest points and of both tracks.
+/// The proven bound allows for rounding errors: those of the nearest points and of both tracks.
 #[test]
 fn a_distance_is_proven_but_for_rounding() {
     let case = slider_crank();
@@ -215,8 +215,8 @@ fn a_polygon_is_the_same_in_either_sense() {
     }
 }
 
-/// The rounding error of a place grows with its distance from the origin, of a body and of a link: at a thousand metres
-/// a double resolves a thousand times its epsilon.
+/// The rounding error of a position grows with its distance from the origin, both for a body and for a link.
+/// At a thousand metres, a double resolves a thousand times its epsilon.
 #[test]
 fn rounding_goes_with_the_farthest_place() {
     let case = slider_crank();
@@ -240,9 +240,9 @@ fn parts_that_touch_are_put_together_in_the_order_of_the_motion() {
     assert_eq!(merged(back, [0.0, -5.0]), [[-1.0, -2.5], [-3.0, -4.0]]);
 }
 
-/// Excluded pairs: two parts of the housing, joined links, which touch at their joint, and pairs named in the question
-/// in
-/// either order.
+/// Excluded pairs: two parts of the housing, joined links, which touch at their joint, and pairs that the question
+/// names.
+/// These pairs may be named in either order.
 #[test]
 fn pairs_that_cannot_meet_are_not_asked_for() {
     let case = four_bar();
@@ -279,9 +279,8 @@ fn pairs_that_cannot_meet_are_not_asked_for() {
     assert!(!are_joined(&mechanism, [1, 5].map(LinkId)) && !are_joined(&mechanism, [3, 5].map(LinkId)));
 }
 
-/// Without rounding, the direction of the nearest points is lost where two corners come close; the normals of their
-/// sides
-/// remain.
+/// Without rounding of the outlines, the direction of the nearest points is lost where two corners come close.
+/// The normals of their sides remain.
 #[test]
 fn sharp_corners_meet() {
     let case = slider_crank();
@@ -355,7 +354,7 @@ fn tubes_hold_the_motion() {
                 }
             }
         }
-        // Second order and hardly more: h^2 / 2 times accelerations of up to 0.5 m/rad2.
+        // The error is hardly larger than its second-order term: h^2 / 2 times accelerations of up to 0.5 m/rad2.
         assert!(widest < 0.005, "{widest}");
     }
 }

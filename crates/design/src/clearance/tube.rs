@@ -1,19 +1,19 @@
 //! Poses of all links over an interval of crank angles: side 1's pose at the middle and a proven bound over the rest.
 //!
-//! Over the interval the even motion approximates a link: its reference point moves along a straight line, its angle in
-//! proportion to the crank angle. The deviation of the true motion is bounded group by group, for all crank angles of
-//! the
-//! interval at once (Krawczyk 1969; Moore 1977). With x the poses of a group's links, F(x) = 0 its joint equations, x0
-//! the
-//! even motion and A an inverse of the derivative of F at the middle, T(x) = x - A F(x) maps the box |x - x0| <= r into
-//! itself and contracts if
+//! Over the interval, a uniform motion approximates the motion of each link.
+//! Its reference point moves along a straight line, and its angle changes in proportion to the crank angle.
+//! The deviation of the true motion is bounded group by group, for all crank angles of the interval at once
+//! (Krawczyk 1969; Moore 1977).
+//! Let x be the poses of a group's links, F(x) = 0 its joint equations and x0 the uniform motion.
+//! Let A be an inverse of the derivative of F at the middle.
+//! Then T(x) = x - A F(x) maps the box |x - x0| <= r into itself and contracts if
 //!
 //!   |A| |F(x0)| + (|1 - A F'(middle)| + |A| |F' - F'(middle)|) r <= r.
 //!
-//! Then the box contains exactly one pose for every crank angle, and this pose continues the pose at the middle: the
-//! branch is proven without sampling. F is linear except for the sines and cosines of the links' angles, so F(x0) and
-//! the
-//! change of F' have closed-form bounds: |exp(i a) - 1 - i a| <= a^2 / 2 and |exp(i a) - 1| <= |a|.
+//! The box then contains exactly one pose for every crank angle, and this pose continues the pose at the middle.
+//! The branch is thus proven without sampling.
+//! F is linear except for the sines and cosines of the links' angles.
+//! So F(x0) and the change of F' have closed-form bounds: |exp(i a) - 1 - i a| <= a^2 / 2 and |exp(i a) - 1| <= |a|.
 
 #[cfg(test)]
 mod tests;
@@ -32,10 +32,10 @@ use linkage::trajectory::Stage;
 const FIRST: f64 = std::f64::consts::PI / 24.0;
 /// Largest number of halvings of a first part, down to about 1.5e-8 of it.
 pub const MOST_HALVINGS: u32 = 26;
-/// Largest number of trials with a larger box, and the factor by which each trial widens it.
+/// Largest number of trials, and the factor by which each trial widens the box.
 const TRIALS: usize = 12;
 const WIDER: f64 = 1.1;
-/// Rounding error of a place, as a share of the lengths that enter it.
+/// Rounding error of a position, as a share of the lengths that enter it.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// Number of cached slices; further slices are recomputed on demand.
 const KEPT: usize = 20_000;
@@ -57,20 +57,20 @@ impl RangePart {
     }
 }
 
-/// Point of a link over a part of the range: `at` + `rate` d at the crank angle d from the middle (m, m/rad), with an
-/// error of at most `error` (m).
+/// Point of a link over a part of the range, as a function of the crank angle d from the middle.
+/// Its position is `at` + `rate` d (m, m/rad), with an error of at most `error` (m).
 #[derive(Clone, Copy, Debug)]
 pub struct Track {
     /// Position at the middle (m).
     pub at: Vec2,
     /// Derivative with respect to the crank angle (m/rad).
     pub rate: Vec2,
-    /// Largest deviation of the true position from the even motion (m).
+    /// Largest deviation of the true position from the uniform motion (m).
     pub error: f64,
 }
 
 impl Track {
-    /// Largest distance from the position at the middle (m), within `half` (rad) of it.
+    /// Largest distance from the position at the middle (m), for crank angles within `half` (rad) of the middle.
     #[must_use]
     pub fn reach(&self, half: f64) -> f64 {
         self.rate.norm() * half + self.error
@@ -161,9 +161,9 @@ pub struct Tubes<'a> {
 }
 
 impl<'a> Tubes<'a> {
-    /// Creates the tubes for the range between two crank angles (rad, in the direction of motion). `extent` is the
-    /// largest
-    /// distance of a queried point from the origin of its frame (m); the rounding bound grows with it.
+    /// Creates the tubes for the range between two crank angles (rad, in the direction of motion).
+    /// `extent` is the largest distance of a queried point from the origin of its frame (m).
+    /// The bound on rounding errors grows with it.
     ///
     /// # Errors
     /// Those of [`PoseSolver::new`].
@@ -251,8 +251,8 @@ impl<'a> Tubes<'a> {
             *tube = Tube { centre, at, rate, direction, spin, off: rounding, twist: ROUNDING, half };
         }
         for drive in case.drives.iter() {
-            // The crank turns evenly about its pivot on the ground: drives on moving links are free, and with several
-            // degrees of
+            // The crank turns uniformly about its pivot on the ground. Drives on moving links are free, and with
+            // several degrees of
             // freedom a single angle does not determine the pose.
             let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
             let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
@@ -319,9 +319,9 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
     false
 }
 
-/// Writes the derivative of a joint's two equations at the middle into `derivative`, and their largest residual under
-/// the
-/// even motion into `open`: links of the group move evenly, other links stay anywhere in their tubes.
+/// Writes the derivative of a joint's two equations at the middle into `derivative`.
+/// Writes their largest residual under the uniform motion into `open`.
+/// Links of the group move uniformly; other links are anywhere in their tubes.
 fn equations(
     joint: &Joint,
     tubes: &[Tube],

@@ -1,8 +1,8 @@
 //! The chord method and its inverse, graphical integration.
 //!
 //! The slope of the chord over an interval is the mean of the derivative over it.
-//! Assigned to the middle of the interval, it has the error h^2 f'''/24 and terms of higher order.
-//! For a sine of angular frequency k it is exactly the factor sin(k h/2) / (k h/2).
+//! Taken as the derivative at the middle of the interval, it has the error h^2 f'''/24 and terms of higher order.
+//! For a sine of angular frequency k, the slope is exactly sin(k h/2) / (k h/2) times the derivative.
 //! In the inverse, the value at the middle times the interval is the increment.
 
 /// Returns the midpoints of the intervals between `places`.
@@ -11,15 +11,15 @@ pub fn middles(places: &[f64]) -> Vec<f64> {
     places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect()
 }
 
-/// Returns the slopes of the chords between the points (`places`, `values`): the derivative at the midpoints of the
-/// intervals.
+/// Returns the slopes of the chords between the points (`places`, `values`).
+/// They approximate the derivative at the midpoints of the intervals.
 #[must_use]
 pub fn slopes(places: &[f64], values: &[f64]) -> Vec<f64> {
     places.windows(2).zip(values.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect()
 }
 
-/// Returns the values at `places` of the function that starts from `start` and has the derivatives `rates` at the
-/// midpoints.
+/// Returns the values at `places` of a function with the value `start` at the first place.
+/// Its derivatives at the midpoints are `rates`.
 #[must_use]
 pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
     let mut sum = start;
@@ -30,8 +30,8 @@ pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
     std::iter::once(start).chain(steps).collect()
 }
 
-/// Returns the slopes at the inner and the last of `places` of a curve that is periodic over them and has the values
-/// `rates` at the midpoints.
+/// Returns the slopes of a curve that is periodic over `places` and has the values `rates` at the midpoints.
+/// The slopes are those at the inner places and at the last one.
 #[must_use]
 pub fn closed_slopes(places: &[f64], rates: &[f64]) -> Vec<f64> {
     let mut middles = middles(places);

@@ -28,8 +28,8 @@ pub struct CrankGraph {
     pub mean_word: &'static str,
     /// Lowest and highest point on paper.
     pub marks: [GraphPoint; 2],
-    /// Reference size for the range of values: a range below a billionth of it is rounding error, and the quantity is
-    /// constant.
+    /// Reference size for the range of values.
+    /// If the range is below a billionth of it, the range is rounding error and the quantity is constant.
     pub size: f64,
 }
 

@@ -1,9 +1,9 @@
 //! Motion diagrams over one turn of the crank: displacement, velocity and acceleration, exact and by graphical methods.
 //!
-//! Differentiation: chords of the displacement give the velocity at the midpoints of the divisions, and chords of this
-//! velocity give the acceleration at the ends of the divisions.
-//! Integration: the exact velocity at the midpoints gives the displacement, and the exact acceleration there gives the
-//! velocity, each from its exact first value.
+//! Differentiation: chords of the displacement give the velocity at the midpoints of the divisions.
+//! Chords of this velocity give the acceleration at the ends of the divisions.
+//! Integration: the exact velocity at the midpoints gives the displacement.
+//! The exact acceleration at the midpoints gives the velocity. Each integration starts from the exact first value.
 
 use super::chord::{closed_slopes, integral, slopes};
 use crate::sentences;
@@ -15,13 +15,12 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, ChannelSubject, Stage};
 use std::f64::consts::TAU;
 
-/// Allowed number of divisions of the turn: fewer do not show the motion, more only take time.
+/// Allowed number of divisions of the turn. Fewer do not show the motion; more only take time.
 pub const DIVISIONS: std::ops::RangeInclusive<usize> = 4..=1000;
 /// Smallest number of points of the exact curves.
 const CURVE: usize = 720;
-/// Smallest scale of a derivative, as a share of its natural scale: the errors of a nearly constant derivative come
-/// from
-/// the displacement.
+/// Smallest scale of a derivative, as a share of its natural scale.
+/// The errors of a nearly constant derivative come from the displacement.
 const SMALLEST: f64 = 1e-3;
 /// Share of the half range below which errors are rounding errors and give no order.
 const ROUNDING: f64 = 1e-11;
@@ -119,13 +118,13 @@ pub struct MethodResult {
     /// Root mean square of the errors (SI).
     pub rms: f64,
     /// Largest error divided by half the range of the exact curve.
-    /// The divisor is at least a thousandth of the natural scale: the displacement's half range times the crank's
-    /// angular
-    /// velocity, once for the velocity and twice for the acceleration.
+    /// The divisor is at least a thousandth of the natural scale.
+    /// The natural scale is the displacement's half range times the crank's angular velocity, once for the velocity and
+    /// twice
+    /// for the acceleration.
     pub share: f64,
-    /// Observed orders of the error's root mean square: from `divisions` to twice as many, and from these to four times
-    /// as
-    /// many.
+    /// Observed orders of the error's root mean square.
+    /// The first is from `divisions` to twice as many, the second from these to four times as many.
     /// `None` where the error is rounding error.
     pub orders: [Option<f64>; 2],
 }
@@ -203,7 +202,7 @@ impl MotionDiagram {
         Ok(MotionDiagram { course: course.clone(), divisions, stride, cranks, times, exact, found })
     }
 
-    /// Half the range of the exact curve (SI); 0 displacement, 1 velocity, 2 acceleration.
+    /// Half the range of an exact curve (SI): 0 displacement, 1 velocity, 2 acceleration.
     #[must_use]
     pub fn half_range(&self, which: usize) -> f64 {
         half_range(&self.exact[which])

@@ -13,7 +13,7 @@ pub struct Stretch {
     pub rests: bool,
     /// Achieved motion, in a few characters.
     pub figure: String,
-    /// Smallest required travel: share of the stroke at the start, as achieved, and at the end.
+    /// Smallest required travel: the achieved share of the stroke at the start, and the required share at the end.
     pub least: [f64; 2],
 }
 

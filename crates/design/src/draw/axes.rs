@@ -40,7 +40,8 @@ pub fn stacked(title: &str, notes: &[String], room: &Room, panels: impl Iterator
     framed(&sheet, MARGIN, title)
 }
 
-/// Returns a sheet as a document; its upper left corner is the origin, `margin` (mm) the space on the right and below.
+/// Returns a sheet as a document. Its upper left corner is the origin; `margin` (mm) is the space on the right and
+/// below.
 pub fn framed(sheet: &DrawnFigure, margin: f64, title: &str) -> String {
     let [low, high] = sheet.bounds();
     document(sheet, [(high.x + margin).ceil(), (margin - low.y).ceil()], title)

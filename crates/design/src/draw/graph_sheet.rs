@@ -14,7 +14,7 @@ const HIGH: f64 = 56.0;
 const ROOM: Room = Room { gap: 3.0, left: 22.0, between: 6.0 };
 /// Space above and below a curve for the labels of its extremes, as a share of its range.
 const ASIDES: f64 = 0.2;
-/// Distance from an end of the axis (mm) below which the label of an extreme starts or ends there.
+/// If an extreme is nearer than this to an end of the axis (mm), its label starts or ends at the extreme.
 const ASIDE: f64 = 28.0;
 /// Line at the mean.
 const MEAN: Style = Style { colour: COLOURS[1], width: 0.3, dash: "2 1.2" };

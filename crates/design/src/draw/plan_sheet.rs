@@ -1,6 +1,5 @@
-//! Sheet of a mechanism's plans: kinematic diagram, velocity plan and acceleration plan below each other, each above
-//! its
-//! table. The narrow sheet keeps its letters legible at the width of a web page.
+//! Sheet of a mechanism's plans: kinematic diagram, velocity plan and acceleration plan below each other.
+//! Each has its table below it. The narrow sheet keeps its letters legible at the width of a web page.
 
 use super::scheme_figure;
 use crate::plan::Plans;
@@ -23,7 +22,7 @@ const TITLE: f64 = 18.0;
 const HEADING: f64 = 15.0;
 /// Points closer to each other on paper than this (mm) share one label.
 const ONE: f64 = 0.7;
-/// Distance between arrows that would coincide, and the common length from which they are set apart (mm).
+/// Distance between arrows that would coincide (mm), and the common length above which they are drawn apart (mm).
 const APART: f64 = 0.8;
 const SHARED: f64 = 1.0;
 /// Length below which an arrow is drawn as a point (mm).
@@ -151,7 +150,7 @@ fn beside(ends: [Vec2; 2], drawn: &[[Vec2; 2]]) -> [Vec2; 2] {
         let common = high.smaller((ends[1] - ends[0]).norm()) - low.larger(0.0);
         other.iter().all(|at| off(at) < APART / 2.0) && common > SHARED
     };
-    // To alternate sides, with growing distance.
+    // The shifts alternate between both sides, with growing distance.
     let shifts =
         (0..=2 * drawn.len()).map(|k| f64::from(k.div_ceil(2) as u32) * if k.is_multiple_of(2) { 1.0 } else { -1.0 });
     let mut places = shifts.map(|shift| ends.map(|end| end + aside * shift));
@@ -164,7 +163,7 @@ fn marks(plan: &VectorPlan) -> Vec<(Vec2, String)> {
     for tip in &plan.tips {
         let at = tip.at / plan.scale;
         match marks.iter_mut().find(|(place, _)| (place - at).norm() < ONE) {
-            // The end of a part that visibly coincides with another point needs no letter.
+            // The end of a normal or Coriolis part needs no letter if it visibly coincides with another point.
             Some(_) if matches!(tip.kind, TipKind::Normal | TipKind::Coriolis) => {}
             Some((_, text)) => *text += &format!(", {}", letters(tip)),
             None => marks.push((at, letters(tip))),

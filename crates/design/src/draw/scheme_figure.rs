@@ -66,7 +66,7 @@ fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2
 /// Table of the links with their numbers, angular velocities and angular accelerations.
 pub fn table(scheme: &Scheme) -> LegendTable {
     let driver = scheme.links.iter().find(|link| link.number == scheme.driver).map_or(0.0, |link| link.omega.abs());
-    // At a dead point only rounding error is left, relative to the crank's speed and its square.
+    // At a dead point the values are only rounding error. They are compared with the crank's speed and its square.
     let shown = |value: f64, scale: f64| significant(if value.abs() > ROUNDING * scale { value } else { 0.0 });
     let row = |link: &SchemeLink| {
         let (omega, alpha) = (shown(link.omega, driver), shown(link.alpha, driver * driver));

@@ -26,8 +26,8 @@ const CLOSE: f64 = 1e-12;
 
 impl Flywheel {
     /// The flywheel with which the steady motion has the coefficient of non-uniformity `wanted`.
-    /// There is none if the coefficient is smaller already.
-    /// It is found by regula falsi (Illinois) over true regimes.
+    /// If the coefficient is already smaller, the flywheel has no inertia.
+    /// It is found by regula falsi (Illinois); each step solves for the exact steady motion.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a coefficient that is not positive.
@@ -39,7 +39,8 @@ impl Flywheel {
             return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_NUMBER_ABOVE_ZERO));
         }
         let mut last = Flywheel { inertia: 0.0, regime: model.with_flywheel(0.0).regime(&[], accuracy)? };
-        // The inverse is nearly linear in the flywheel: delta J is about the largest surplus of work over omega^2.
+        // The inverse of the coefficient delta is nearly linear in the flywheel's inertia J.
+        // delta J is about the largest surplus of work divided by omega^2.
         let excess = |regime: &Regime| 1.0 / regime.non_uniformity() - 1.0 / wanted;
         let none = (0.0, excess(&last.regime));
         if none.1 >= 0.0 {

@@ -1,9 +1,9 @@
-//! Motors with the data of catalogues, and the choice of one from the peak of the reduced moment of resistance.
+//! Motors from catalogues, and the choice of a motor by the peak of the reduced moment of resistance.
 //!
-//! The required power is that of the peak on the crank's shaft at the wanted speed.
-//! Divided by the efficiency between motor and crank, it is the least rated power of the motor.
-//! Courses of machine design choose in this way.
-//! It is conservative, because inertia carries the crank over peaks.
+//! The required power is that on the crank's shaft at the peak, at the required speed.
+//! Divided by the efficiency between motor and crank, it is the smallest allowed rated power of the motor.
+//! Courses of machine design choose motors in this way.
+//! The rule is conservative, because inertia carries the crank over peaks.
 
 use crate::sentences;
 use analytic::AssurSolver;
@@ -53,8 +53,8 @@ impl CatalogueMotor {
     }
 }
 
-/// The motor of the least rated power that is not below `power` (W). Of equal ones the first in the catalogue is taken.
-/// `None` if all are too weak.
+/// The motor with the smallest rated power that is not below `power` (W).
+/// Of equal motors, the first in the catalogue is taken. `None` if all are too weak.
 #[must_use]
 pub fn weakest_sufficient(motors: &[CatalogueMotor], power: f64) -> Option<&CatalogueMotor> {
     motors.iter().filter(|motor| motor.power >= power).min_by(|a, b| a.power.total_cmp(&b.power))
@@ -63,19 +63,19 @@ pub fn weakest_sufficient(motors: &[CatalogueMotor], power: f64) -> Option<&Cata
 /// A motor chosen for a mechanism, and the resulting motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotorChoice {
-    /// Crank angle (rad) and value (N m) of the greatest reduced moment of resistance.
+    /// Crank angle (rad) and value (N m) of the largest reduced moment of resistance.
     pub peak: (f64, f64),
     /// Mean reduced moment of resistance (N m).
     pub mean: f64,
-    /// Wanted magnitude of the crank's speed (rad/s): that of the scenario.
+    /// Required magnitude of the crank's speed (rad/s): that of the scenario.
     pub wanted: f64,
     /// Power on the crank's shaft at the peak (W).
     pub power: f64,
-    /// Required power of the motor (W): that power divided by the efficiency.
+    /// Required power of the motor (W): the power on the crank's shaft divided by the efficiency.
     pub asked: f64,
     /// The motor.
     pub motor: CatalogueMotor,
-    /// The motor with a gearbox from its rated speed to the wanted one.
+    /// The motor with a gearbox from its rated speed to the required speed.
     pub geared: Motor,
     /// Magnitude of the crank's speed (rad/s) at which the averaged model is in equilibrium.
     pub averaged: f64,
@@ -84,7 +84,7 @@ pub struct MotorChoice {
 }
 
 impl MotorChoice {
-    /// The weakest motor of the catalogue that has the peak's power, for the crank's speed in the scenario.
+    /// The weakest motor of the catalogue with enough power for the peak, at the crank's speed in the scenario.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an efficiency that is not above 0 and at most 1, or if every motor is too weak.

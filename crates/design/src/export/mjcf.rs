@@ -7,16 +7,19 @@
 //!   They are the angle of the child minus that of its parent, and the slide of a prismatic joint as in its channel.
 //! - A joint that closes a loop is a `connect` of two sites.
 //!   Its third row, along z, is zero in a planar mechanism: it costs a little and has no effect.
-//! - A drive is a rotor ([`MjcfModel::rotor`]) on the driven hinge, with so much inertia that its speed is practically constant.
-//!   It changes by 1e-9, with any integrator and at any step.
+//! - A drive is a rotor ([`MjcfModel::rotor`]) on the driven hinge.
+//!   Its inertia is so large that the speed is practically constant: it changes by 1e-9.
+//!   This holds with any integrator and at any step.
 //!   A velocity actuator of that stiffness diverges (`implicitfast` solves the constraints without its damping).
-//!   A softer one lags.
+//!   A softer actuator lags.
 //!   The rotor does not enter the interaction forces that sensors read.
 //!   The torque sensor of the hinge therefore reads the driving moment.
-//! - A free link has no rotor but that of its motor, and the motor is an actuator whose moment falls with the speed.
-//!   Losses make two actuators of it: one drives, the other brakes.
-//! - Moments, forces and torsional springs and dampers are actuators on a hinge, on a fixed tendon whose length is an
-//!   angle or a difference of angles, or on a site; springs and dampers between points are spatial tendons.
+//! - A free link has no rotor except that of its motor.
+//!   The motor is an actuator whose moment falls with the speed.
+//!   With losses it becomes two actuators: one drives, the other brakes.
+//! - Moments, forces and torsional springs and dampers are actuators.
+//!   They act on a hinge, on a site, or on a fixed tendon whose length is an angle or a difference of angles.
+//!   Springs and dampers between points are spatial tendons.
 //! - A moment that resists the rotation of a link is dry friction.
 //!   It acts in the link's hinge if that is on the ground, else in a fixed tendon whose length is the link's angle.
 //!   At rest it holds the link, where [`Load::Resistance`](linkage::drive::Load::Resistance) is zero.

@@ -179,7 +179,7 @@ impl<'a> Builder<'a> {
         self.tips.iter().find(|tip| tip.letter == letter).map_or_else(Vec2::zeros, |tip| tip.at)
     }
 
-    /// Normal and tangential parts of every relative acceleration, and of those about a pivot on the ground.
+    /// Normal and tangential parts of every relative acceleration, and of every acceleration about a ground pivot.
     fn split(&mut self, scale: f64) {
         let mut number = 0;
         for link in self.mechanism.links().ids().skip(1) {
@@ -216,7 +216,9 @@ impl<'a> Builder<'a> {
 
     /// Pairs of points of a link.
     /// First come its ground pivot with every other point, and then the moving points with each other.
-    /// Last come the points under sliding points with its pivot or, without a pivot, with its moving points.
+    /// Last come the points that coincide with sliding points. Each is paired with the link's pivot or, without a
+    /// pivot, with
+    /// its moving points.
     /// A link that never turns has no pairs: all its points have the same motion.
     fn pairs(&self, link: LinkId) -> Vec<(On<'a>, On<'a>)> {
         if !self.mechanism.can_turn(link) {

@@ -1,5 +1,5 @@
-//! Letters of the plans: points A, B become a, b, mass centres s2, ends of normal parts n1. The pole has a reserved
-//! letter.
+//! Letters of the plans: points A, B become a, b, mass centres s2, ends of normal parts n1.
+//! The pole has a reserved letter.
 
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, JointSide, LinkId, Mechanism};
@@ -18,8 +18,8 @@ pub struct Named {
 pub struct NamedPoint {
     /// Name and letter.
     pub named: Named,
-    /// A link that contains the point, and its position on it (m); preferably a link on a ground pivot or in a fixed
-    /// guide.
+    /// A link that contains the point, and its position on it (m). A link on a ground pivot or in a fixed guide is
+    /// preferred.
     pub side: JointSide,
     /// Whether the point belongs to the ground.
     pub fixed: bool,
@@ -73,7 +73,7 @@ pub fn primed(mut name: String, taken: impl Fn(&str) -> bool) -> String {
     name
 }
 
-/// Joins two names side by side: BA, but P3,P2 where the letters alone would be ambiguous.
+/// Joins two names: BA, or P3,P2 where the letters alone would be ambiguous.
 pub fn pair(a: &str, b: &str) -> String {
     let single = |name: &str| name.chars().count() == 1;
     if single(a) && single(b) { format!("{a}{b}") } else { format!("{a},{b}") }

@@ -44,7 +44,7 @@ pub struct Plans {
 
 impl Plans {
     /// Draws the plans of a state with motions up to accelerations.
-    /// `solver` finds the travel of the sliders on the case's grid, which sets the length of the guides in the
+    /// `solver` finds the travel of the sliders on the case's grid. The travel sets the length of the guides in the
     /// kinematic
     /// diagram.
     #[must_use]
@@ -63,9 +63,8 @@ impl Plans {
         Plans { crank, scheme, velocity, acceleration, points }
     }
 
-    /// Keeps the plans of the points and links in `names`: a point with its vectors, a link with all its points and its
-    /// mass
-    /// centre.
+    /// Keeps the plans of the points and links in `names`.
+    /// A point keeps its vectors; a link keeps all its points and its mass centre.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a name of neither a point nor a link.

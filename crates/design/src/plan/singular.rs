@@ -49,8 +49,7 @@ impl SingularPoint {
     /// From `motions` it uses only the poses of the group's links and the motions of the links before the group.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the leads are parallel, or if the point is in line with the outer joints: a dead
-    /// point.
+    /// [`ErrorKind::Geometry`] at a dead point: the leads are parallel, or the point is in line with the outer joints.
     pub fn of(case: &Case, group: &Group, motions: &[Motion]) -> Result<Option<Self>> {
         let Some((bases, leads)) = parts(&case.mechanism, group, motions) else { return Ok(None) };
         let [first, second] = &leads;

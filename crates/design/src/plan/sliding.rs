@@ -16,7 +16,7 @@ pub struct Slide {
     pub guide: JointSide,
     /// The block's link and the sliding point on it.
     pub block: JointSide,
-    /// Sliding point; a ground point for a rod in a block that only swings.
+    /// Sliding point. It is a ground point if a rod slides in a block that only swings.
     pub place: NamedPoint,
     /// Coincident point of a moving guide's link; `None` for a fixed guide.
     pub under: Option<Named>,
@@ -90,8 +90,8 @@ fn unused(name: String, places: &[NamedPoint], others: &[Named]) -> Named {
     Named { letter: name.to_lowercase(), name }
 }
 
-/// Smallest and largest distance of every slide from the joint's point on its guide (m), over the case's grid as far as
-/// the solver gets, and at `state`.
+/// Smallest and largest distance of every slide from the joint's point on its guide (m).
+/// They cover the case's grid, as far as the solver gets, and `state`.
 pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]) -> Vec<[f64; 2]> {
     let mut travels: Vec<[f64; 2]> = slides.iter().map(|slide| [slide.way(&case.mechanism, state); 2]).collect();
     if slides.is_empty() {

@@ -60,8 +60,9 @@ linkage::words! {
         MassCentre = "centre",
         /// End of a normal part: n and a running number.
         Normal = "between",
-        /// Point of a moving guide's link that coincides with a sliding point: letter of that point and number of the
-        /// link, a3.
+        /// Point of a moving guide's link that coincides with a sliding point. Its name is the letter of that point and
+        /// the
+        /// number of the link: a3.
         Coincident = "coincident",
         /// End of a Coriolis part: k and a running number.
         Coriolis = "between",
@@ -136,9 +137,8 @@ pub struct VectorPlan {
 }
 
 impl VectorPlan {
-    /// Keeps only the vectors between the pole and these letters, at a separate scale. Ends of normal and Coriolis
-    /// parts and
-    /// coincident points stay if all their vectors stay.
+    /// Keeps only the vectors between the pole and these letters, at a separate scale.
+    /// Ends of normal and Coriolis parts and coincident points stay if all their vectors stay.
     pub(super) fn keep(&mut self, letters: &[String]) {
         let pole = self.quantity.pole();
         let kind = |letter: &str| self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.kind);

@@ -1,4 +1,4 @@
-//! The achieved motion of a mechanism compared with the wanted motion of its output, on a fine grid of its scenario.
+//! The achieved motion of a mechanism, compared with the required motion of its output, on a fine grid of its scenario.
 
 use crate::sentences;
 use linkage::math::KeepNan;
@@ -20,7 +20,7 @@ pub const BAND: f64 = 0.01;
 pub struct PhaseDone {
     /// Displacement from its beginning to its end, forward positive (share of the stroke).
     pub displacement: f64,
-    /// Greatest minus least position (share of the stroke); in a dwell it should be zero.
+    /// Largest minus smallest position (share of the stroke); in a dwell it should be zero.
     pub motion: f64,
     /// Distance travelled in the wrong sense (share of the stroke); 0 in a dwell.
     pub wrong: f64,
@@ -28,7 +28,8 @@ pub struct PhaseDone {
     pub level: f64,
     /// Crank angle (rad) at which the phase actually ends.
     /// Between two motions it is the extreme position.
-    /// At a dwell it is where the output departs from the middle of the dwell, or approaches it, by [`BAND`].
+    /// At a dwell it is where the output leaves or enters the band of half width [`BAND`] about the middle of the
+    /// dwell.
     /// `None` between two motions in one sense, and if there is no such point nearby.
     pub end: Option<f64>,
 }
@@ -81,7 +82,9 @@ impl Achieved {
         Ok(found)
     }
 
-    /// The same for the sense of the output that is closer to the timing, if the task leaves the sense open.
+    /// Achieved motion as in [`Achieved::of`]. If the task leaves the sense of the output open, the sense that is
+    /// closer to
+    /// the timing is taken.
     ///
     /// # Errors
     /// Those of [`Achieved::of`].
@@ -94,7 +97,7 @@ impl Achieved {
         Ok(if wrong(&ahead) <= wrong(&back) { ahead } else { back })
     }
 
-    /// Every phase as it is and as it is wanted, with the sense of the next one.
+    /// Every phase as achieved and as required, with the sense of the next phase.
     fn with_next<'a>(&'a self, task: &'a Task) -> impl Iterator<Item = (&'a PhaseDone, &'a Phase, Sense)> {
         let phases = task.timing.phases();
         let next = phases.iter().cycle().skip(1).map(|phase| phase.sense);
@@ -114,7 +117,8 @@ impl Achieved {
         self.phases.iter().map(|phase| phase.wrong).fold(0.0, f64::larger)
     }
 
-    /// Largest deviation (rad) of an extreme position from the limit between two opposite motions where it should be.
+    /// Largest deviation (rad) of an extreme position from its required crank angle, the limit between two opposite
+    /// motions.
     #[must_use]
     pub fn late(&self, task: &Task) -> f64 {
         let turns = self.with_next(task).filter(|(_, phase, next)| phase.sense.sign() * next.sign() < 0.0);
@@ -181,8 +185,8 @@ impl Achieved {
     }
 
     /// Row at which the output leaves the band about its dwell.
-    /// The search starts in the middle of the dwell between the rows `from` and `to`, and goes towards `to` and beyond.
     /// The band is centred between the dwell's extremes.
+    /// The search starts in the middle of the dwell between the rows `from` and `to`. It goes towards `to` and beyond.
     fn leaves(&self, from: i64, to: i64, way: i64) -> Option<f64> {
         let (first, last) = (from.min(to), from.max(to));
         let [low, high] = self.ends(first, last);

@@ -24,7 +24,7 @@ pub struct CrankRockerSpec {
     pub rocker: f64,
     /// Angle of the rocker C -> B in one extreme position (rad).
     pub extreme: f64,
-    /// Angle from there to the other extreme position (rad).
+    /// Angle from the rocker's angle `extreme` to its other extreme position (rad).
     /// It is positive counter-clockwise, not zero, and less than half a turn in either sense.
     pub swing: f64,
 }
@@ -55,7 +55,7 @@ pub struct CrankRocker {
     pub mode: AssemblyMode,
     /// Smallest transmission angle of the turn (rad), between coupler and rocker at B, at most a right angle.
     pub transmission: f64,
-    /// Crank angle (rad) at which it occurs: the crank is on the line of the pivots.
+    /// Crank angle (rad) at which it is smallest: the crank is on the line of the pivots.
     pub transmission_at: f64,
     /// Time of the slower swing divided by that of the faster one, at a constant speed of the crank.
     pub time_ratio: f64,
@@ -66,7 +66,7 @@ impl CrankRocker {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for lengths and angles that make no sense.
-    /// [`ErrorKind::Geometry`] if the two positions permit no crank that turns fully, with the distances and the way out.
+    /// [`ErrorKind::Geometry`] if the two positions permit no crank that turns fully, with the distances and help.
     pub fn of(wish: CrankRockerSpec) -> Result<Self> {
         check(&wish)?;
         let frame = wish.rocker_pivot - wish.crank_pivot;

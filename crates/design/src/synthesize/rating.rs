@@ -1,8 +1,8 @@
-//! Deviation of an output from the wanted motion: one number, zero for a perfect output.
+//! Deviation of an output from the required motion: one number, zero for a perfect output.
 //!
 //! The output is expressed as a share of its stroke, so that neither amplitude nor offset matters.
-//! The cost is a sum of squares of shares.
-//! They measure the motion in dwells, distances travelled in the wrong sense, levels missed, and moving phases that hardly move.
+//! The cost is a sum of squares of such shares.
+//! They measure motion in dwells, distances in the wrong sense, missed levels, and moving phases that hardly move.
 //! They also measure extreme positions that deviate from the limits of their phases.
 //! A cost of 1e-4 is about one hundredth of the stroke.
 
@@ -14,10 +14,10 @@ use linkage::math::statistics::ends;
 
 /// Weight of motion in the wrong sense, and of a moving phase that moves too little, relative to the motion in a dwell.
 const WRONG: f64 = 4.0;
-/// Crank angle (rad, 20 deg) that multiplies the output's rate at the limit of two opposite motions.
+/// Crank angle (rad, 20 deg) by which the output's rate is multiplied at the limit between two opposite motions.
 /// The product counts as a share of the stroke.
 const LATE: f64 = TAU / 18.0;
-/// Distance (rad, 0.25 deg) of the rows from which the rate at a limit is computed.
+/// Distance (rad, 0.25 deg) from a limit to the rows that give the rate at the limit.
 const BESIDE: f64 = TAU / 1440.0;
 /// Weight of violated limits, relative to shares of the stroke.
 const LIMIT: f64 = 10.0;
@@ -38,11 +38,11 @@ pub(super) struct Rater<'a> {
 }
 
 impl<'a> Rater<'a> {
-    /// With `count` equal parts of the turn; limits of phases are at the nearest row.
+    /// Divides the turn into `count` equal parts. Limits of phases are at the nearest row.
     pub(super) fn even(timing: &'a Timing, count: usize) -> Self {
         let turns: Vec<f64> = (0..=count).map(|row| TAU * (row as f64 / count as f64)).collect();
         let phases = timing.phases();
-        // However short a phase is, there is a row before its end, and one after it.
+        // Every phase, however short, has a row before its end and one after it.
         let end = |(index, phase): (usize, &Phase)| {
             let row = (phase.to / TAU * count as f64).round() as usize;
             row.clamp(index + 1, count + index + 1 - phases.len())
@@ -51,8 +51,9 @@ impl<'a> Rater<'a> {
         Rater::on(timing, turns, ends)
     }
 
-    /// With rows at most `step` (rad) apart, which include every limit of a phase.
-    /// Two more rows close to each limit give the rate there: over whole steps it would be off by a few hundredths of a degree.
+    /// Places rows at most `step` (rad) apart, which include every limit of a phase.
+    /// Two more rows close to each limit give the rate there.
+    /// Over whole steps, the rate would be off by a few hundredths of a degree.
     pub(super) fn fitted(timing: &'a Timing, step: f64) -> Self {
         let (mut turns, mut ends) = (vec![0.0], Vec::new());
         for phase in timing.phases() {

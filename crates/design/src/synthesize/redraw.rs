@@ -8,7 +8,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Link, LinkId};
 
-/// Decimals kept of millimetres and of degrees: the accuracy of a workshop.
+/// Parts per millimetre and per degree to which dimensions are rounded: the accuracy of a workshop.
 const DECIMALS: [f64; 2] = [1e3, 1e4];
 
 /// A number rounded to a multiple of 1 / `parts`.
@@ -27,14 +27,15 @@ pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
     values.iter().zip(&task.variables).map(round).collect()
 }
 
-/// Sections of a drawing that hold for its own dimensions only: published numbers, with the tables that they name, what
-/// formulas claim, and where the dimensions come from.
+/// Sections of a drawing that are valid for its original dimensions only.
+/// These are the published numbers with their tables, the claims of formulas, and the source of the dimensions.
 const OWN: [&str; 3] = ["oracle", "formula", "source"];
 
-/// The text of the drawing `text` with the dimensions that `values` (SI) give the task, under the task's name, with
-/// `comment` at the top. What holds for the drawing's own dimensions only is left out, and the comment says so. If the
-/// task states the mass of bars, every link gets the masses of slender bars from its first
-/// point to each of the others.
+/// The text of the drawing `text`, with the dimensions that `values` (SI) give the task.
+/// It gets the task's name, and `comment` at the top.
+/// What is valid only for the drawing's original dimensions is left out, and the comment says so.
+/// If the task states the mass of bars, every link gets the masses of slender bars from its first point to each of the
+/// others.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the text is not the scenario from which the task was read.
@@ -99,7 +100,7 @@ fn link_table<'a>(document: &'a mut DocumentMut, link: LinkId, name: &str) -> Re
     item.and_then(Item::as_table_like_mut).ok_or_else(|| foreign(name))
 }
 
-/// A place in its link (m).
+/// A position in the frame of its link (m).
 fn flat(place: Vec2) -> InlineTable {
     InlineTable::from_iter(
         [("x_mm", place.x), ("y_mm", place.y)].map(|(key, at)| (key, rounded(at * 1e3, DECIMALS[0]))),

@@ -25,7 +25,8 @@ use linkage::threads::{cores, made};
 const COARSE: usize = 72;
 /// Candidates per random stream.
 const BLOCK: usize = 4096;
-/// Blocks between two calls of the progress; a constant, so that the threads do not decide which candidates are kept.
+/// Number of blocks between two calls of `progress`.
+/// It is a constant, so that the number of threads does not decide which candidates are kept.
 const ROUND: usize = 16;
 /// Largest number of threads.
 const MOST_THREADS: usize = 256;
@@ -34,7 +35,7 @@ const RANDOM_SHARE: f64 = 0.5;
 /// Shifts of the crank's zero are tried in steps of this many rows, then row by row about the best.
 const STRIDE: usize = 3;
 
-/// Random candidates whose stroke or transmission sine violates its limits by more than this factor are dropped.
+/// Random candidates are dropped if their stroke or transmission sine violates its limits by more than this factor.
 /// Refinement would hardly repair them.
 const NEAR: f64 = 1.5;
 
@@ -49,7 +50,7 @@ pub struct SearchResult {
     pub cost: f64,
     /// Cost of the best candidate before refinement, on a coarser grid.
     pub random_cost: f64,
-    /// Number of random candidates, and of those among them that assemble over the whole turn and are at least near the limits.
+    /// Number of random candidates, and of those that assemble over the whole turn and are at least near the limits.
     pub candidates: [usize; 2],
     /// Costs of all refined candidates, ascending.
     pub refined: Vec<f64>,
@@ -102,7 +103,7 @@ fn none(task: &Task) -> Error {
     Error::new(ErrorKind::Numeric, message).help(sentences::DRAW_MORE_CANDIDATES_NARROW_THE_BOUNDS)
 }
 
-/// Keeps the cheapest `count`, in order; of equal ones the first drawn is first.
+/// Keeps the `count` candidates of lowest cost, in order. Of equal ones, the one drawn first comes first.
 fn keep(candidates: &mut Vec<Candidate>, count: usize) {
     candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.number.cmp(&b.number)));
     candidates.truncate(count);
@@ -216,7 +217,7 @@ mod tests {
 
     #[test]
     fn random_numbers_are_even_and_repeat() {
-        // A task's seed determines its result, in every version of the library.
+        // The seed of a task determines its result, in every version of the library.
         let draw = || {
             let mut rng = ChaCha8Rng::seed_from_u64(5);
             (0..10_000).map(|_| even(&mut rng)).collect::<Vec<_>>()

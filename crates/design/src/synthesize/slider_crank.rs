@@ -2,7 +2,7 @@
 //!
 //! With crank r, rod l and offset e (distance of the crank's pivot from the slider's line) the stroke is
 //! `s = sqrt((l + r)^2 - e^2) - sqrt((l - r)^2 - e^2)`.
-//! Squared twice it is linear in r^2: `r^2 = s^2 (4 (l^2 - e^2) - s^2) / (4 (4 l^2 - s^2))`.
+//! Squaring twice gives an equation that is linear in r^2: `r^2 = s^2 (4 (l^2 - e^2) - s^2) / (4 (4 l^2 - s^2))`.
 //! The crank turns fully if l > r + |e|.
 //! At equality `l = (|e| + sqrt(e^2 + s^2)) / 2`; no shorter rod is possible.
 //! With the time ratio K the directions of the extreme positions differ by theta = pi (K - 1) / (K + 1).
@@ -37,7 +37,7 @@ pub struct SliderCrank {
     pub rod: f64,
     /// Crank angle (rad, from 0 to a full turn) and position of the slider along its line (m) where it is farthest from the pivot.
     pub far: [f64; 2],
-    /// The same where it is nearest.
+    /// The same for the slider's nearest position.
     pub near: [f64; 2],
     /// Time of the slower stroke divided by that of the faster one.
     pub time_ratio: f64,

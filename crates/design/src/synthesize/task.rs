@@ -112,7 +112,7 @@ pub struct Task {
     pub starts: Vec<StartGroup>,
     /// The variable quantities.
     pub variables: Vec<Variable>,
-    /// Positions that follow from them, in the order in which they must be set.
+    /// Positions that depend on the variables, in the order in which they must be set.
     pub places: Vec<PointPosition>,
     /// World direction of the crank at crank angle zero (rad).
     pub zero: TaskNumber,
@@ -132,14 +132,17 @@ pub struct Task {
     pub bar: Option<f64>,
 }
 
-/// Limit of random candidates, of refinements and of evaluations of each: more is most likely a mistyped number.
+/// Largest number of random candidates, of refinements, and of evaluations per refinement.
+/// A larger number is most likely mistyped.
 pub const MOST: usize = 1_000_000_000;
 
 impl Task {
     /// Checks the consistency of the parts of a task.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for mechanisms with several degrees of freedom, or transmission angles of groups without any.
+    /// [`ErrorKind::Unsupported`] for mechanisms with several degrees of freedom, or if a transmission angle is limited
+    /// for
+    /// groups that have none.
     /// [`ErrorKind::Input`] if nothing may vary or the effort is zero.
     pub fn check(&self) -> Result<()> {
         let wrong = |kind: ErrorKind, key: &str, message: &'static str, help: &'static str| {

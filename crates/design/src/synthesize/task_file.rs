@@ -59,7 +59,7 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
 
     let beside = root.source().path.parent().unwrap_or(Path::new("")).join(&file);
     let drawing = Scenario::load(&beside).map_err(|error| {
-        // A missing drawing is an error of this file; an error in the drawing has its own place.
+        // A missing drawing is an error of this file. An error in the drawing has its own position.
         if error.place().is_some() {
             error
         } else {
@@ -225,7 +225,7 @@ fn free(variables: &mut Vec<Variable>, variable: Variable) -> TaskNumber {
     TaskNumber::Free(variables.len() - 1)
 }
 
-/// One `[[vary]]`: a point, by its coordinates or relative to another point of its link.
+/// One `[[vary]]`: a point, given by its coordinates or relative to another point of its link.
 fn place(
     mut table: TomlTable,
     mechanism: &Mechanism,

@@ -24,10 +24,10 @@ pub struct Bitmap {
     pub rgba: Vec<u8>,
 }
 
-/// A figure on white paper of this size (mm), so many pixels wide. The paper's upper left corner is the figure's origin.
+/// A figure on white paper of this size (mm), `pixels` wide. The paper's upper left corner is the figure's origin.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for more than forty million pixels, or none.
+/// [`ErrorKind::Input`] for more than forty million pixels, or for zero pixels.
 pub fn bitmap(figure: &DrawnFigure, [width, height]: [f64; 2], pixels: u32) -> Result<Bitmap> {
     let scale = f64::from(pixels) / width;
     let rows = (height * scale).round();
@@ -143,7 +143,7 @@ mod tests {
         figure.group(group, 0.5, "two squares".into());
         let bitmap = bitmap(&figure, [10.0, 10.0], 100).unwrap();
         let grey = |x: usize| bitmap.rgba[4 * (50 * 100 + x)];
-        // Beside them, in the first, in both.
+        // Beside both squares, in the first one, in both.
         assert_eq!(grey(5), 255);
         assert!(grey(20).abs_diff(128) <= 1 && grey(20) == grey(40), "{} {}", grey(20), grey(40));
     }

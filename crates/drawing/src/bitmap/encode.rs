@@ -4,7 +4,7 @@ use super::Bitmap;
 use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Effort of the palette's search: 1 is best, 30 fastest.
+/// Speed of the palette search: 1 is best, 30 fastest.
 const PALETTE: i32 = 10;
 
 fn unwritten(what: &str, error: &dyn std::fmt::Display) -> Error {
@@ -22,7 +22,7 @@ pub fn to_png(bitmap: &Bitmap) -> Result<Vec<u8>> {
     pixmap.encode_png().map_err(|error| unwritten("the PNG", &error))
 }
 
-/// An animated GIF that goes on for ever; every frame stands for `hundredths` of a second. All frames have one size.
+/// An animated GIF that repeats forever; every frame lasts `hundredths` of a second. All frames have the same size.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for frames of more than 65535 pixels in width or height; [`ErrorKind::Io`] if the picture
@@ -46,7 +46,7 @@ pub fn to_gif(frames: &[Bitmap], hundredths: u16) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// An animated WebP without loss that goes on for ever; every frame stands for `milliseconds`. All frames have one size.
+/// A lossless animated WebP that repeats forever; every frame lasts `milliseconds`. All frames have the same size.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] if the picture cannot be encoded.
@@ -54,7 +54,8 @@ pub fn to_webp(frames: &[Bitmap], milliseconds: u32) -> Result<Vec<u8>> {
     let Some(first) = frames.first() else { return Ok(Vec::new()) };
     let three = |number: u32| number.to_le_bytes()[..3].to_vec();
     let size = [three(first.width - 1), three(first.height - 1)].concat();
-    // No crate writes the container of an animation: flags say that it moves; background and endless loop follow.
+    // No crate writes the container of an animation.
+    // Its flags mark it as animated; background and endless loop follow.
     let mut body = chunk(*b"VP8X", &[&[0b0000_0010, 0, 0, 0], &size[..]].concat());
     body.extend(chunk(*b"ANIM", &[255, 255, 255, 255, 0, 0]));
     for frame in frames {
@@ -62,7 +63,8 @@ pub fn to_webp(frames: &[Bitmap], milliseconds: u32) -> Result<Vec<u8>> {
         image_webp::WebPEncoder::new(&mut still)
             .encode(&frame.rgba, frame.width, frame.height, image_webp::ColorType::Rgba8)
             .map_err(|error| unwritten("the WebP", &error))?;
-        // Behind the still picture's header of twelve bytes stands its one chunk. The frame replaces the one before.
+        // The single chunk of the still picture follows its header of twelve bytes. The frame replaces the previous
+        // one.
         let place = [vec![0; 6], size.clone(), three(milliseconds), vec![0b0000_0010]].concat();
         body.extend(chunk(*b"ANMF", &[&place[..], &still[12..]].concat()));
     }
@@ -70,7 +72,7 @@ pub fn to_webp(frames: &[Bitmap], milliseconds: u32) -> Result<Vec<u8>> {
     Ok([&b"RIFF"[..], &length.to_le_bytes(), b"WEBP", &body].concat())
 }
 
-/// A chunk of a RIFF file: its name, its length and its content, of an even number of bytes.
+/// A chunk of a RIFF file: its name, its length and its content, padded to an even number of bytes.
 fn chunk(name: [u8; 4], content: &[u8]) -> Vec<u8> {
     let length = (content.len() as u32).to_le_bytes();
     let pad: &[u8] = if content.len().is_multiple_of(2) { &[] } else { &[0] };

@@ -1,4 +1,4 @@
-//! Letters as paths, from the font that is part of the program.
+//! Letters as paths, from the bundled font.
 
 use tiny_skia::{Path, PathBuilder};
 use ttf_parser::{Face, OutlineBuilder};
@@ -8,7 +8,7 @@ use linkage::math::Vec2;
 
 /// DejaVu Sans Condensed, Latin and Greek: see `font/LICENSE`.
 const FONT: &[u8] = include_bytes!("../../font/DejaVuSansCondensed.ttf");
-/// How far an italic letter leans, and the thickness of the line around a bold one in font sizes.
+/// Slant of an italic letter, and outline thickness of a bold one in font sizes.
 const LEAN: f64 = 0.2;
 const BOLD: f64 = 0.045;
 

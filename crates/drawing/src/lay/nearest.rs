@@ -1,12 +1,12 @@
-//! Links as near to closed as it goes: the least squares of all gaps, after Levenberg and Marquardt.
+//! Poses of links as near to closed as possible: least squares of all gaps, after Levenberg and Marquardt.
 
 use linkage::math::{ColumnVector, KeepNan, Matrix, Vec2, cross, rotated, unit};
 use linkage::mechanism::{Joint, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
-/// Weight of joints with links that have their place: what is missing shows between the others.
+/// Weight of joints with placed links, so that the gaps appear between the other links.
 const HELD: f64 = 1000.0;
-/// Directions of the links from which it is tried, and steps from each. Many links are tried from fewer, so that no
-/// mechanism takes long; of more than `MOST`, none is placed.
+/// Number of start directions of the links, and steps from each.
+/// More than `FEW` links have fewer starts, which limits the time; of more than `MOST`, none is placed.
 const STARTS: usize = 12;
 const STEPS: usize = 60;
 const FEW: usize = 12;
@@ -14,7 +14,7 @@ const MOST: usize = 30;
 /// Step of the difference quotients, in radians and in sizes of the mechanism.
 const TINY: f64 = 1e-7;
 
-/// Places of the links `missing`, beside all others at `pose`.
+/// Poses of the links `missing`, with all others at `pose`.
 pub fn nearest(mechanism: &Mechanism, pose: &Pose, missing: &[LinkId]) -> Vec<(LinkId, LinkPose)> {
     let problem = Problem { mechanism, pose, missing, size: mechanism.size() };
     if missing.len() > MOST {
@@ -47,7 +47,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Links turned by a multiple of the same angle, each at a neighbour that has a place.
+    /// Start values: links turned by multiples of the same angle, each at a neighbour that is placed.
     fn start(&self, number: usize) -> ColumnVector {
         let mut unknowns = ColumnVector::zeros(3 * self.missing.len());
         for (k, &link) in self.missing.iter().enumerate() {
@@ -57,7 +57,7 @@ impl Problem<'_> {
                 let JointSide { link: base, local } = joint.other(link);
                 Some(LinkPose::through(joint.on(link)?, self.pose.0[base].point(local), angle).origin)
             });
-            // What hangs on nothing lies beside the others.
+            // A link without joints lies beside the others.
             let alone = || match self.mechanism.joints_on(link).is_empty() {
                 true => Vec2::new(k as f64, -1.0) * self.size,
                 false => Vec2::zeros(),
@@ -92,7 +92,7 @@ impl Problem<'_> {
         ColumnVector::from_vec(gaps)
     }
 
-    /// Unknowns with the least squares of the gaps that are found from a start, and their sum.
+    /// Unknowns with the least squares of the gaps that one start leads to, and the sum of the squares.
     fn solved(&self, start: usize) -> (ColumnVector, f64) {
         let mut at = self.start(start);
         let mut gaps = self.gaps(&at);

@@ -6,7 +6,7 @@ use svg::node::element::{Circle, Group, Line, Path, Title};
 
 use linkage::math::{KeepNan, Vec2, turned};
 
-/// Control characters: begin of a subscript, begin of a superscript, end of either.
+/// Control characters: start of a subscript, start of a superscript, end of either.
 const SUB: char = '\u{1}';
 const SUP: char = '\u{2}';
 const END: char = '\u{3}';
@@ -14,10 +14,10 @@ const END: char = '\u{3}';
 const LETTER: f64 = 0.56;
 /// Size of sub- and superscripts divided by the font size.
 const SMALL: f64 = 0.72;
-/// How far subscripts are lowered and superscripts lifted, divided by the font size.
+/// Distance by which subscripts are lowered and superscripts raised, divided by the font size.
 const LOW: f64 = 0.28;
 const HIGH: f64 = 0.36;
-/// Length of an arrow head (mm), and its largest share of the arrow.
+/// Length of an arrow head (mm), and its largest length as a share of the arrow.
 const HEAD: f64 = 2.8;
 const HEAD_SHARE: f64 = 0.45;
 
@@ -162,13 +162,13 @@ impl DrawnFigure {
         self.ink.push(Ink::Arrow(ends, style, name));
     }
 
-    /// A line through corners. What it and the way back to its first corner enclose may be covered.
+    /// A line through corners. The area between it and the straight line back to its first corner may be filled.
     pub fn curve(&mut self, corners: Vec<Vec2>, fill: Option<Tint>, style: Style) {
         corners.iter().for_each(|corner| self.reach(*corner));
         self.ink.push(Ink::Shape { corners, closed: false, fill, style });
     }
 
-    /// A polygon, and what covers it.
+    /// A polygon and its fill.
     pub fn area(&mut self, corners: Vec<Vec2>, fill: Option<Tint>, style: Style) {
         corners.iter().for_each(|corner| self.reach(*corner));
         self.ink.push(Ink::Shape { corners, closed: true, fill, style });
@@ -191,8 +191,8 @@ impl DrawnFigure {
         self.ink.push(Ink::Text { at, text, set });
     }
 
-    /// All of another figure as one element of this opacity, with a name that appears when the mouse points at it. What
-    /// overlaps in it is no darker.
+    /// All of another figure as one element of this opacity, with a name that appears when the mouse points at it.
+    /// Overlaps inside the element are not darker.
     pub fn group(&mut self, other: DrawnFigure, opacity: f64, name: String) {
         if let Some(bounds) = other.low {
             bounds.iter().for_each(|corner| self.reach(*corner));
@@ -377,7 +377,7 @@ fn text_element(at: Vec2, text: &str, set: &Type) -> String {
 mod tests {
     use super::*;
 
-    /// The wall of a cylinder is open at one end, and what lies beneath the cylinder must not be seen in it.
+    /// The wall of a cylinder is open at one end, and the cylinder hides whatever lies beneath it.
     #[test]
     fn an_open_line_may_cover_what_lies_beneath() {
         let mut figure = DrawnFigure::default();

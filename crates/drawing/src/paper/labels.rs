@@ -1,5 +1,5 @@
-//! Letters at points: they are placed so that they touch neither lines nor each other.
-//! Each label takes the cheapest position around its anchor, in a few rounds.
+//! Letters at points, placed so that they touch neither lines nor each other.
+//! Each label takes the position of lowest cost around its anchor, in a few rounds.
 
 use super::figure::{DrawnFigure, Type, solid, width, words};
 use super::style::GREY;
@@ -12,15 +12,15 @@ const AIR: f64 = 0.5;
 const DIRECTIONS: usize = 32;
 /// Distances tried (mm), nearest first.
 const DISTANCES: [f64; 9] = [0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0];
-/// Rounds after which nothing moves any more in practice.
+/// Largest number of rounds. After these, labels no longer move in practice.
 const ROUNDS: usize = 6;
 /// Largest distance (mm) of points whose labels may conflict.
 const NEIGHBOURS: f64 = 12.0;
 
-/// Comparisons of a label with what is around it, in all, after which labels take their first position: a drawing of
-/// hundreds of links has no room for their names anyway.
+/// Largest total number of comparisons of labels with their surroundings. Beyond it, labels take their first position.
+/// A drawing of hundreds of links has no space for their names anyway.
 const MOST_COMPARED: usize = 200_000_000;
-/// The same for one of many drawings that are made together, as frames are: it is no less than this.
+/// Lower limit of that number for one of many drawings made together, such as frames.
 const LEAST_COMPARED: usize = 10_000_000;
 
 /// Font size of labels (mm).
@@ -50,7 +50,7 @@ pub struct Obstacles {
     pub discs: Vec<(Vec2, f64)>,
 }
 
-/// Centres of the labels' boxes in one of so many drawings that are made together and share the work.
+/// Centres of the labels' boxes in one of several drawings that are made together and share the work.
 #[must_use]
 pub fn place_among(labels: &[PlacedLabel], obstacles: &Obstacles, drawings: usize) -> Vec<Vec2> {
     place_within(labels, obstacles, (MOST_COMPARED / drawings.max(1)).max(LEAST_COMPARED))
@@ -58,7 +58,7 @@ pub fn place_among(labels: &[PlacedLabel], obstacles: &Obstacles, drawings: usiz
 
 fn place_within(labels: &[PlacedLabel], obstacles: &Obstacles, most: usize) -> Vec<Vec2> {
     let mut places: Vec<Option<Vec2>> = vec![None; labels.len()];
-    // Calls of `cheapest` that are left.
+    // Remaining calls of `cheapest`.
     let each = DIRECTIONS * DISTANCES.len() * (labels.len() + obstacles.segments.len() + obstacles.discs.len());
     let mut left = most / each.max(1);
     for _ in 0..ROUNDS {
@@ -79,9 +79,9 @@ fn place_within(labels: &[PlacedLabel], obstacles: &Obstacles, most: usize) -> V
     places.into_iter().zip(labels).map(|(place, label)| place.unwrap_or(label.anchor)).collect()
 }
 
-/// Lets neighbours exchange positions if that is better for the two together.
+/// Lets neighbours exchange positions if that lowers their total cost.
 /// A single label would not leave a position that only it can take.
-/// Two of the calls that are `left` are used for each pair.
+/// Each pair uses two of the calls in `left`.
 fn trade(labels: &[PlacedLabel], places: &mut [Option<Vec2>], obstacles: &Obstacles, left: &mut usize) {
     let both = |a: usize, b: usize, places: &[Option<Vec2>]| {
         let one = |index: usize| places[index].map_or(f64::INFINITY, |at| cost(index, at, labels, places, obstacles));
@@ -160,7 +160,7 @@ fn cost(index: usize, place: Vec2, labels: &[PlacedLabel], places: &[Option<Vec2
                 + length_inside(&[other.anchor, *at], place, label.size / 2.0);
             cost += if crossed > 0.0 { 7.0 } else { 0.0 };
         }
-        // A label nearer to another point than to its own misleads.
+        // A label nearer to another point than to its anchor is misleading.
         if (other.anchor - place).norm() < distance {
             cost += 9.0;
         }
@@ -180,7 +180,7 @@ pub fn label_size(text: &str) -> Vec2 {
     Vec2::new(1.05 * width(text, LETTER), 1.15 * LETTER)
 }
 
-/// A label at its position, with a line to its point if that is far away.
+/// A label at its position, with a line to its point if the point is far away.
 pub fn letter(figure: &mut DrawnFigure, label: &PlacedLabel, at: Vec2, text: &str, paint: &'static str) {
     let toward = label.anchor - at;
     let half = label.size / 2.0;
@@ -211,7 +211,7 @@ mod tests {
             ([3.0, -5.0], [3.0, 5.0], 0.0),
             ([-5.0, 4.0], [5.0, 4.0], 0.0),
         ] {
-            // Rounding of two quotients, times the segment's length of ten at most.
+            // Rounding error of two quotients, times the segment's length of at most ten.
             assert!((inside(a, b) - length).abs() <= 20.0 * f64::EPSILON);
         }
     }
@@ -239,7 +239,8 @@ mod tests {
 
     #[test]
     fn more_labels_than_there_is_room_for_get_a_place_all_the_same() {
-        // Each of 2000 labels with 288 positions against all others, twice for every pair of neighbours: 1e12 and more.
+        // Each of 2000 labels compares 288 positions with all others, twice for every pair of neighbours: 1e12 and
+        // more.
         let crowd: Vec<PlacedLabel> = (0..2000).map(|k| label(0.01 * f64::from(k), 0.0)).collect();
         let places = place_within(&crowd, &Obstacles::default(), 10_000_000);
         assert!(places.iter().zip(&crowd).all(|(at, own)| (at - own.anchor).norm() < 25.0), "{places:?}");

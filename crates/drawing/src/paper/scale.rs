@@ -2,14 +2,15 @@
 
 use linkage::math::KeepNan;
 
-/// Share by which a number may exceed a round one and still count as round: rounding of the quotient.
+/// Share by which a number may exceed a round one and still count as round. It allows for the quotient's rounding
+/// error.
 const SAME: f64 = 1e-12;
 
-/// The smallest of the numbers 1, 2, 2.5 or 5 times a power of ten that is not below `least`.
+/// The smallest of the numbers 1, 2, 2.5 or 5 times a power of ten that is at least `least`.
 /// It is 1 if `least` is not positive and finite.
 ///
-/// Neighbours differ by a factor of two at most.
-/// A vector drawn with this number therefore fills more than half of the room that `least` corresponds to.
+/// Neighbouring numbers differ by a factor of two at most.
+/// A vector drawn with this number therefore fills more than half of the length that `least` corresponds to.
 #[must_use]
 pub fn round_up(least: f64) -> f64 {
     if !(least > 0.0 && least.is_finite()) {
@@ -22,7 +23,9 @@ pub fn round_up(least: f64) -> f64 {
     numbers.filter(|&number| number >= least * (1.0 - SAME)).fold(f64::INFINITY, f64::smaller)
 }
 
-/// Scale factor (units per millimetre) with which `largest` is at most `room` millimetres long, and more than half of that.
+/// Scale factor (units per millimetre) with which `largest` is drawn at most `room` millimetres long, and more than
+/// half
+/// as long.
 #[must_use]
 pub fn factor(largest: f64, room: f64) -> f64 {
     round_up(largest / room)

@@ -1,17 +1,17 @@
-//! Exact effort of a run: numbers that no clock enters.
+//! Exact effort of a run: numbers that do not depend on a clock.
 
-/// What a run has done, by name: `steps`, `sweeps`, `poses`, `evaluations`, `factorisations`, ...
+/// Counts of a run's operations, by name: `steps`, `sweeps`, `poses`, `evaluations`, `factorisations`, ...
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RunEffort(pub Vec<(String, u64)>);
 
-/// Counts of which each is one solution of the whole mechanism at one state, the first that there is. A step of a method
-/// of several stages has as many evaluations.
+/// Counts that each mean one solution of the whole mechanism at one state; the first available one is used.
+/// A step of a multistage method has one evaluation for each stage.
 const SOLUTIONS: [&[&str]; 3] = [&["evaluations"], &["steps", "probes"], &["poses"]];
-/// Counts of the inner work of such a solution, the first that there is.
+/// Counts of the inner work of such a solution; the first available one is used.
 const INNER: [&[&str]; 4] = [&["sweeps"], &["factorisations"], &["iterations"], &["groups"]];
 
 impl RunEffort {
-    /// How often something was done; `None` if nobody counted it.
+    /// Number of operations of this name; `None` if it was not counted.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<u64> {
         self.0.iter().find(|(own, _)| own == name).map(|&(_, times)| times)

@@ -1,4 +1,4 @@
-//! Pareto fronts: the points that no other beats in cost and error at once.
+//! Pareto fronts: the points that no other point beats in both cost and error.
 
 use super::point::BenchPoint;
 use linkage::trajectory::Stage;
@@ -17,7 +17,7 @@ linkage::words! {
 }
 
 impl CostAxis {
-    /// Cost of a point along the axis: seconds, or a count.
+    /// Cost of a point on this axis: seconds, or a count.
     #[must_use]
     pub fn of(self, point: &BenchPoint) -> Option<f64> {
         let effort = || point.run().map(|run| &run.effort);
@@ -29,8 +29,9 @@ impl CostAxis {
     }
 }
 
-/// Indices of the points that no other beats in a stage, the cheapest first. What is equal in both stays once.
-/// An error on the floor counts as the floor: below it nobody is better than another.
+/// Indices of the points that no other point beats in a stage, the cheapest first.
+/// Of points with equal cost and error only one is kept.
+/// An error below the floor counts as the floor: there, errors cannot be ranked.
 #[must_use]
 pub fn front(
     points: &[BenchPoint],
@@ -83,7 +84,7 @@ mod tests {
         }
     }
 
-    /// Against the definition: no other point is at least as good in both and better in one.
+    /// Compares with the definition: no other point is at least as good in both and better in one.
     #[test]
     fn the_front_is_what_nobody_beats() {
         let mut state = 1u64;

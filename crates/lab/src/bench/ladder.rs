@@ -1,4 +1,4 @@
-//! The ways that are measured: steps, sweeps, routes and extrapolations of every engine, accuracies of the sides.
+//! The methods that are measured: steps, sweeps, routes and extrapolations of every engine, accuracies of the sides.
 
 use super::options::BenchOptions;
 use super::peer::Way;
@@ -13,7 +13,7 @@ use linkage::solver::Solver;
 use linkage::trajectory::Stage;
 use prover::engines::{EngineName, usual_step, with_step};
 
-/// Steps of fixed-step engines over the usual one, the coarsest first.
+/// Steps of fixed-step engines, as multiples of the usual one, the coarsest first.
 const STEPS: [f64; 10] = [16.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
 const QUICK_STEPS: [f64; 3] = [8.0, 2.0, 0.5];
 /// Accuracies of engines that control their error.
@@ -21,7 +21,7 @@ const ACCURACIES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const QUICK_ACCURACIES: [f64; 2] = [1e-4, 1e-10];
 /// Accuracies of the sides' integration besides the usual one.
 const SIDES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
-/// Numbers of sweeps over the fewest that an engine thinks worth trying.
+/// Numbers of sweeps, as multiples of the smallest one that an engine considers useful.
 const SWEEPS: [usize; 3] = [1, 4, 16];
 /// Extrapolations.
 const TIMES: [usize; 4] = [0, 1, 2, 3];
@@ -32,11 +32,11 @@ pub(super) enum Runner {
     Side(Box<dyn Solver>),
     /// An engine.
     Engine(Box<dyn Engine>),
-    /// The peer with this number, and what it is told.
+    /// The peer with this index, and the method it is called with.
     Peer(usize, Way),
 }
 
-/// A way that is to be measured: its point, which has failed until it has run.
+/// A method to be measured: its point counts as failed until it has run.
 pub(super) struct Planned {
     pub(super) point: BenchPoint,
     pub(super) runner: Runner,
@@ -66,15 +66,15 @@ impl Planned {
     }
 }
 
-/// Everything that is to be measured of sides and engines.
+/// All sides and engines to be measured.
 pub(super) struct Plan {
     pub(super) points: Vec<Planned>,
     pub(super) left_out: usize,
     pub(super) versions: Vec<(String, String)>,
 }
 
-/// The ways of sides and engines. The budget is shared equally by all curves of engines; each takes ever finer steps
-/// until its share is used.
+/// The methods of sides and engines.
+/// All curves of engines share the budget equally; each curve takes ever finer steps until its share is used.
 pub(super) fn plan(case: &Case, options: &BenchOptions) -> Plan {
     let mut points = sides(case, options);
     let names = if options.engines.is_empty() { EngineName::ALL.to_vec() } else { options.engines.clone() };
@@ -94,7 +94,7 @@ pub(super) fn plan(case: &Case, options: &BenchOptions) -> Plan {
         for (rung, resolution) in resolutions(engine, curve.resolution, options).into_iter().enumerate() {
             let settings = Settings { resolution, ..curve };
             spent += work(case, engine, &settings);
-            // The coarsest run of a way is made in any case.
+            // The coarsest run of a curve is always made.
             if spent > share && rung > 0 {
                 left_out += 1;
                 continue;
@@ -126,7 +126,7 @@ fn sides(case: &Case, options: &BenchOptions) -> Vec<Planned> {
     points
 }
 
-/// All settings of an engine but its resolution.
+/// All settings of an engine except its resolution.
 fn curves(engine: &dyn Engine, case: &Case, options: &BenchOptions) -> Vec<Settings> {
     let own = engine.settings();
     let has_forces = case.wanted.deepest() >= Stage::Reactions;
@@ -145,7 +145,7 @@ fn curves(engine: &dyn Engine, case: &Case, options: &BenchOptions) -> Vec<Setti
     let mut curves = Vec::new();
     for &route in &routes {
         for &sweeps in &sweeps {
-            // Probes and impulses are read from single runs, or from two: the rest brings nothing that is new.
+            // Probes and impulses are read from one run or from two; further extrapolation gives nothing new.
             let worth = times.iter().filter(|&&times| route == Route::Differences || times < 2);
             curves.extend(worth.map(|&extrapolated| Settings { sweeps, route, extrapolated, ..own }));
         }
@@ -171,7 +171,7 @@ fn work(case: &Case, engine: &dyn Engine, settings: &Settings) -> f64 {
     work_of_run(case, engine, settings) + probes * (settings.extrapolated + 1) as f64
 }
 
-/// The settings besides the resolution, in words.
+/// The settings except the resolution, in words.
 fn told(engine: &dyn Engine, settings: &Settings, case: &Case) -> String {
     let mut words = Vec::new();
     if engine.routes().len() > 1 && case.wanted.deepest() >= Stage::Reactions {

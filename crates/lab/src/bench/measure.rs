@@ -1,5 +1,5 @@
-//! Runs and their times, in rounds: every way once, then every way again, so that what else the machine does falls on
-//! all of them.
+//! Runs and their times, in rounds: every method once, then every method again.
+//! Other load on the machine then affects all methods alike.
 
 use super::effort::RunEffort;
 use super::ladder::{Planned, Runner};
@@ -15,19 +15,19 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkage::work::{Count, Work, counted};
 
-/// A run shorter than this (s) is timed together with its repetitions, at most so many.
+/// Runs shorter than this (s) are repeated and timed together, and the largest number of repetitions.
 const SHORT: f64 = 5e-3;
 const MOST: f64 = 1000.0;
 /// Runs longer than this (s) are timed twice at most, those of peers once.
 const LONG: f64 = 0.2;
-/// Rounds of what is long, and of peers.
+/// Largest number of rounds for long runs, and for peers.
 const FEW: usize = 2;
 /// Longest text of a reason.
 const REASON: usize = 300;
-/// Relative difference of instants that are the same.
+/// Largest relative difference of instants that count as equal.
 const SAME: f64 = 1e-9;
 
-/// What runs are measured by.
+/// Everything needed to measure runs.
 pub(super) struct Desk<'a> {
     pub(super) case: &'a Case,
     pub(super) reference: &'a Trajectory,
@@ -37,7 +37,7 @@ pub(super) struct Desk<'a> {
 }
 
 impl Desk<'_> {
-    /// All points. Versions that peers tell are added to `versions`.
+    /// All points. Versions that peers report are added to `versions`.
     pub(super) fn measure(
         &self,
         mut planned: Vec<Planned>,
@@ -80,14 +80,14 @@ impl Desk<'_> {
         }
     }
 
-    /// One more round of what answered.
+    /// One more round of a method that has answered.
     fn again(&self, runner: &Runner, round: usize, run: &mut AnsweredRun) {
         let is_long = run.seconds.iter().any(|&seconds| seconds > LONG);
         match runner {
             Runner::Side(_) | Runner::Engine(_) | Runner::Peer(..) if is_long && round >= FEW => {}
             Runner::Side(solver) => run.seconds.extend(self.timed(solver.as_ref()).map(|(seconds, ..)| seconds)),
             Runner::Engine(engine) => run.seconds.extend(self.timed(engine.as_ref()).map(|(seconds, ..)| seconds)),
-            // A peer starts anew for every answer, and repeats short runs itself.
+            // A peer starts anew for every answer, and repeats short runs by itself.
             Runner::Peer(index, way) if round < FEW && !is_long => {
                 if let Ok(answer) = self.peers[*index].run(way) {
                     run.seconds.extend(answer.seconds.into_iter().filter(|seconds| *seconds > 0.0));
@@ -97,8 +97,8 @@ impl Desk<'_> {
         }
     }
 
-    /// Time of a solver in this round, its solution and its work. What is short is timed several times at once, because
-    /// the clock itself takes time.
+    /// Time of a solver in this round, its solution and its work.
+    /// Short runs are repeated and timed together, because reading the clock takes time.
     fn timed<S: Solver + ?Sized>(&self, solver: &S) -> Result<(f64, Trajectory, Work), Error> {
         let since = (self.clock)();
         let (found, work) = counted(|| solver.solve(self.case));
@@ -125,7 +125,7 @@ impl Desk<'_> {
         Ok(AnsweredRun { errors, failed: Vec::new(), without: Vec::new(), seconds: vec![seconds], effort })
     }
 
-    /// A peer's answer as a run; everything that is wrong with it is a reason.
+    /// A peer's answer as a run; any fault in it is the reason of a failure.
     fn judged(&self, answer: Answer) -> Result<AnsweredRun, String> {
         let column = |name: &str| answer.columns.iter().find(|(own, _)| own == name).map(|(_, values)| values);
         let times = column("t_s").ok_or(sentences::THE_ANSWER_HAS_NO_COLUMN)?;
@@ -162,7 +162,7 @@ impl Desk<'_> {
                 Err(error) => failed.push((stage, error.to_string())),
             }
         }
-        // A run without any channel is no run.
+        // An answer without any requested channel is a failure.
         match (errors.iter().any(Option::is_some), failed.first()) {
             (true, _) => Ok(AnsweredRun { errors, failed, without, seconds, effort: answer.effort }),
             (false, Some((_, reason))) => Err(reason.clone()),
@@ -175,7 +175,7 @@ fn and_more(more: usize) -> String {
     if more == 0 { String::new() } else { sentences::and_more(&more) }
 }
 
-/// The first line of a reason, not too long for a diagram.
+/// The first line of a reason, short enough for a diagram.
 fn short(reason: &str) -> String {
     let line = reason.lines().find(|line| !line.trim().is_empty()).unwrap_or(sentences::NO_REASON_WAS_GIVEN).trim();
     match line.char_indices().nth(REASON) {

@@ -2,14 +2,14 @@
 
 use super::effort::RunEffort;
 
-/// One way in which a peer wants to be run: it chooses its own ladder.
+/// One method of a peer: a peer chooses its methods and resolutions itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Way {
-    /// Settings besides the resolution, in words.
+    /// Settings except the resolution, in words.
     pub name: String,
     /// Step or accuracy, in words.
     pub resolution: String,
-    /// What the peer wants to be told when it is run, as it has said it.
+    /// The method as the peer has described it; it is passed back to the peer for a run.
     pub told: String,
 }
 
@@ -18,28 +18,28 @@ pub struct Way {
 pub struct Answer {
     /// Name and version of the software.
     pub version: String,
-    /// Columns by name, `t_s` among them. All are of the same length; numbers may be anything.
+    /// Columns by name, `t_s` among them. All have the same length; values are not checked.
     pub columns: Vec<(String, Vec<f64>)>,
-    /// Times that it has measured itself (s), at least one.
+    /// Times measured by the peer (s), at least one.
     pub seconds: Vec<f64>,
     /// What it has counted.
     pub effort: RunEffort,
 }
 
-/// Another program. Reasons are in words: they are shown on the diagram.
+/// Another program. Reasons are in words, because the diagram shows them.
 pub trait Peer {
     /// Name.
     fn name(&self) -> &str;
 
-    /// The ways in which it wants to be run.
+    /// The methods that the peer offers.
     ///
     /// # Errors
-    /// Why it cannot be asked.
+    /// The reason why it cannot be called.
     fn ways(&self) -> Result<Vec<Way>, String>;
 
-    /// Runs it once.
+    /// Runs the peer once.
     ///
     /// # Errors
-    /// Why there is no answer.
+    /// The reason why it gives no answer.
     fn run(&self, way: &Way) -> Result<Answer, String>;
 }

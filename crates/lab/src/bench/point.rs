@@ -1,4 +1,4 @@
-//! One way of solving a scenario, and what came of it.
+//! One method of solving a scenario, and its outcome.
 
 use super::effort::RunEffort;
 use linkage::engine::Settings;
@@ -18,26 +18,27 @@ linkage::words! {
     }
 }
 
-/// Errors of one stage of channels over their scales.
+/// Errors of one stage of channels, divided by their scales.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
     /// Largest over instants and channels.
     pub max: f64,
     /// Largest root mean square of a channel.
     pub rms: f64,
-    /// Whether the reference's own error is more than a hundredth of it.
+    /// Whether the reference's error is more than a hundredth of this error.
     pub is_limited: bool,
 }
 
 /// A run that answered.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnsweredRun {
-    /// Errors by stage, in the order of [`Stage::ALL`]; `None` where nothing was wanted, or a peer has no such channel.
+    /// Errors by stage, in the order of [`Stage::ALL`].
+    /// `None` where the stage was not requested, or where a peer has no such channel.
     pub errors: [Option<Errors>; Stage::ALL.len()],
-    /// Stages in which a peer's numbers are wrong, with what is wrong: they count as failures.
+    /// Stages with wrong numbers of a peer, and the fault in each: they count as failures.
     pub failed: Vec<(Stage, String)>,
-    /// Stages that are judged without some of their channels, with those that the peer does not give: one of an older
-    /// version does not know the newest.
+    /// Stages judged without some of their channels, and the channels that the peer does not give.
+    /// A peer of an older version does not know the newest channels.
     pub without: Vec<(Stage, String)>,
     /// Times of all rounds (s).
     pub seconds: Vec<f64>,
@@ -50,24 +51,24 @@ pub struct AnsweredRun {
 pub enum BenchOutcome {
     /// It answered.
     Answered(AnsweredRun),
-    /// It failed, for this reason.
+    /// The run failed, for this reason.
     Failed(String),
 }
 
-/// One way of solving a scenario.
+/// One method of solving a scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BenchPoint {
     /// Name of solver, engine or peer.
     pub program: String,
     /// Whose it is.
     pub party: MethodOwner,
-    /// Settings besides the resolution, in words.
+    /// Settings except the resolution, in words.
     pub way: String,
     /// Step or accuracy, in words.
     pub resolution: String,
     /// Settings of an engine.
     pub settings: Option<Settings>,
-    /// Whether the settings are those that the program has without being asked. Only sides say so.
+    /// Whether these are the program's default settings. Only sides set this.
     pub is_usual: bool,
     /// What came of it.
     pub outcome: BenchOutcome,
@@ -96,7 +97,7 @@ impl BenchPoint {
         self.run()?.errors[stage as usize]
     }
 
-    /// Why there is no error of a stage, if the stage was failed.
+    /// Reason why a stage has no error, if the stage failed.
     #[must_use]
     pub fn failure(&self, stage: Stage) -> Option<&str> {
         match &self.outcome {
@@ -107,13 +108,13 @@ impl BenchPoint {
         }
     }
 
-    /// The channels of a stage without which it is judged, in words, because the peer does not give them.
+    /// Channels that the peer does not give and without which the stage is judged, in words.
     #[must_use]
     pub fn without(&self, stage: Stage) -> Option<&str> {
         self.run()?.without.iter().find(|(own, _)| *own == stage).map(|(_, what)| what.as_str())
     }
 
-    /// Way and resolution in words.
+    /// Settings and resolution in words.
     #[must_use]
     pub fn told(&self) -> String {
         let comma = if self.way.is_empty() || self.resolution.is_empty() { "" } else { ", " };

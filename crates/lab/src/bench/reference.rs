@@ -1,4 +1,4 @@
-//! The reference, and how well it is known.
+//! The reference and its uncertainty.
 
 use super::options::CLEAR;
 use super::point::Errors;
@@ -12,8 +12,9 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
 use prover::bounds::residuals;
 
-/// Share of the difference between a run at the usual accuracy and the tighter reference that may be left in the
-/// reference: it allows a hundredth in every step, and four times that is the margin of `proof::known`.
+/// Share of the difference between a run at the usual accuracy and the tighter reference that may remain in the
+/// reference.
+/// The tighter reference allows a hundredth in every step; four times that is the margin of `proof::known`.
 const LEFT: f64 = 0.04;
 
 /// The reference's own error.
@@ -21,21 +22,21 @@ const LEFT: f64 = 0.04;
 pub struct Floor {
     /// The reference, in words.
     pub reference: &'static str,
-    /// How its error is known, in words.
+    /// Basis of its error, in words.
     pub basis: &'static str,
-    /// Error by stage over the scales, in the order of [`Stage::ALL`]; 0 for what is not wanted.
+    /// Error by stage over the scales, in the order of [`Stage::ALL`]; 0 for stages that are not requested.
     pub errors: [f64; Stage::ALL.len()],
 }
 
 impl Floor {
-    /// Marks an error that is not clear of the floor.
+    /// Marks an error that is too close to the floor.
     #[must_use]
     pub fn judged(&self, stage: Stage, [max, rms]: [f64; 2]) -> Errors {
         Errors { max, rms, is_limited: !(max >= CLEAR * self.errors[stage as usize]) }
     }
 }
 
-/// The reference of a case, and its own error.
+/// The reference of a case, and the reference's error.
 ///
 /// # Errors
 /// Those of the sides.

@@ -1,4 +1,4 @@
-//! What a fault changes in exact answers: a fault that changes nothing is none.
+//! Effect of a fault on exact answers. A fault without an effect does not count.
 
 use super::kinds::{FaultInstant, Plant};
 use super::planted::{Fault, Planted};
@@ -12,8 +12,9 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage as Of;
 use prover::bounds::magnitudes;
 
-/// Change, relative to the largest number of a quantity, that is rounding: of a case solved once more with other
-/// numbers, which follow from each other. It is a tenth and less of what the two sides are allowed to differ by.
+/// Largest change, relative to the largest number of a quantity, that counts as rounding error.
+/// Such a change occurs if a case is solved again with other input numbers that follow from each other.
+/// It is at most a tenth of the difference allowed between the two sides.
 pub(super) fn rounding(stage: Of) -> f64 {
     match stage {
         Of::Positions => 1e-13,
@@ -22,20 +23,20 @@ pub(super) fn rounding(stage: Of) -> f64 {
     }
 }
 
-/// What a fault does to a case.
+/// Effect of a fault on a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Effect {
-    /// The case has no part that the fault is in.
+    /// The case lacks the part that the fault affects.
     None,
-    /// Exact answers are the same to rounding: the largest change, relative to the largest number of the quantity.
+    /// Exact answers are the same up to rounding: the largest change, relative to the largest number of the quantity.
     Equivalent(f64),
-    /// Exact answers change, by so much at most.
+    /// Exact answers change, at most by this amount.
     Changes(f64),
-    /// There is no exact answer any more.
+    /// With the fault, no exact answer exists.
     Unsolved,
 }
 
-/// Whether a case has a part that a fault is in.
+/// Whether a case has the part that a fault affects.
 fn has_part(case: &Case, fault: Fault) -> Result<bool> {
     match fault.kind.plant {
         Plant::Case(change) => Ok(change(case, fault.size).is_some()),
@@ -54,7 +55,7 @@ fn has_part(case: &Case, fault: Fault) -> Result<bool> {
 }
 
 impl Stage<'_> {
-    /// What a fault changes in the exact answers of side 1.
+    /// Effect of a fault on the exact answers of side 1.
     pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
         if !has_part(&self.case, fault)? {
             return Ok(Effect::None);

@@ -16,7 +16,7 @@ use prover::check::{KnownTrajectory, planted};
 use prover::run::{Judgement, Reference, formula_checks};
 use scenario::{Claim, Formula, Formulas};
 
-/// Work of an operation of a formula at an instant, in steps of an engine's four-bar.
+/// Work of one operation of a formula at one instant, in steps of an engine's four-bar.
 const OPERATION: f64 = 0.04;
 
 /// A mistake, ready to be judged.
@@ -32,8 +32,8 @@ impl Stage<'_> {
         judged.filter_map(|all| Some(all.first()?.name.as_str())).collect()
     }
 
-    /// Indices of the formulas that claim an exact value, and of the steps that they use. What is claimed with an
-    /// error stays right within it.
+    /// Indices of the formulas that claim an exact value, and of the steps that they use.
+    /// A claim with a stated error stays right within that error and is left out.
     pub(super) fn formulas(&self) -> Vec<usize> {
         let all = &self.scenario.formulas.list;
         let judged = self.judged_formulas();
@@ -55,11 +55,11 @@ impl Stage<'_> {
         let formulas = &self.scenario.formulas;
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
         let operations = Program::of(&formulas.graph, &nodes).len() * self.case.grid.len();
-        // By value and twice by derivative.
+        // One evaluation by value and two by derivative.
         OPERATION * 2.0 * 6.0 * operations as f64
     }
 
-    /// A mistake in a formula; `None` if it has no place for it.
+    /// A mistake in a formula; `None` if the formula has no suitable position for it.
     pub(super) fn planting(&self, kind: &FaultKind, mistake: Mistake, of: usize, size: f64) -> Option<Planting> {
         let formulas = &self.scenario.formulas;
         let own = &formulas.list[of];
@@ -76,7 +76,8 @@ impl Stage<'_> {
             Some(Planting { what, formulas })
         };
         match mistake {
-            // One place of many, another one in every formula and for every kind, and the same in every run.
+            // One of many possible positions: it differs between formulas and between kinds, and is the same in every
+            // run.
             Mistake::Slip(slip) => {
                 let number = own.name.bytes().chain(kind.name.bytes()).map(usize::from).sum();
                 with_tree(planted(formulas, of, slip, number)?)
@@ -94,11 +95,11 @@ impl Stage<'_> {
         }
     }
 
-    /// The claim of another channel, the first after the claimed one that is meant.
+    /// The claim of another channel: the first one after the claimed channel for which `is_meant` holds.
     fn other(&self, own: &Formula, is_meant: &dyn Fn(&Channel, &Channel) -> bool) -> Option<Claim> {
         let claim = own.claim.as_ref()?;
         let [(name, claimed)] = claim.channels.as_slice() else { return None };
-        // The unit of its name stays, as `deg`.
+        // The unit in the name stays, such as `deg`.
         let unit = name.strip_prefix(&format!("{}.", claimed.channel.subject()))?;
         let is_si = unit == claimed.channel.kind.suffix;
         let all = self.right.channels();
@@ -109,7 +110,7 @@ impl Stage<'_> {
         is_named.then(|| Claim::of_channels(&format!("{}.{suffix}", other.subject()), all).ok()).flatten()
     }
 
-    /// What a mistake changes: in a value that is claimed, or in what is claimed.
+    /// Effect of a mistake: on a claimed value, or on the channel that is claimed.
     pub(super) fn formula_effect(&self, own: &Planting) -> Result<Effect> {
         let right = &self.scenario.formulas;
         self.sides.on_course(&self.case, Reference::Assur, |course: &KnownTrajectory| {
@@ -152,7 +153,7 @@ impl Stage<'_> {
         })
     }
 
-    /// What both sides make of it.
+    /// Result of both sides for the mistake.
     pub(super) fn formula_outcome(&self, own: &Planting) -> FaultyProof {
         let judged = self.sides.claimed(&self.case, &own.formulas).map(|sides| {
             let judgement = Judgement::of(sides);

@@ -1,5 +1,7 @@
-//! Judgement by part: one thing wrong at a time, by a size that no bound decides, and what must see it.
-//! A bound that is a thousand times too wide, or a comparison that is left out, fails here.
+//! Tests of the judgement, part by part.
+//! One quantity at a time is wrong, by an amount that does not depend on bounds; the test names the checks that must
+//! see it.
+//! A bound that is a thousand times too wide, or a missing comparison, fails here.
 
 use super::kinds::kinds;
 use super::mutant::FaultyParty;
@@ -51,14 +53,14 @@ kinds! { Judgement, Answer:
     };
 }
 
-/// A fault of its usual size for a side.
+/// A fault of its default size for a side.
 fn fault(name: &str) -> Fault {
     let kind = KINDS.iter().find(|kind| kind.name == name).unwrap_or_else(|| panic!("{name}"));
     Fault { kind, size: kind.size.expect("these faults have sizes") }
 }
 
 fn scenario(name: &str) -> Scenario {
-    // Numbers from outside are judged elsewhere.
+    // Other tests cover reference numbers from outside.
     Scenario { oracles: Vec::new(), ..of_repository(&format!("scenarios/{name}.toml")) }
 }
 
@@ -66,8 +68,9 @@ const SHAKING: &str = "shaking force and moment from reactions and from momentum
 const POWERS: &str = "balancing moment from equilibrium and from powers (assur)";
 const BETWEEN: &str = "assur against newton";
 
-/// Faults of side 1: scenario, fault, channels in which the sides part (0 where others hang on the number: those of the
-/// link, its mass centre and its points, the power that it takes), families of checks that see it.
+/// Faults of side 1: scenario, fault, number of channels in which the sides differ, families of checks that see it.
+/// The number is 0 where other channels depend on the wrong one: those of the link, its mass centre and its points, and
+/// the power that it takes.
 /// Lengths are tenths of a metre, speeds some rad/s, forces hundreds of newtons.
 static IN_A_SIDE: [(&str, &str, usize, &[&str]); 12] = [
     ("crank_rocker", "a closed loop is open (m)", 0, &["closure of all joints (assur)"]),
@@ -117,14 +120,15 @@ fn what_is_wrong_in_a_side_by_a_fixed_size_is_seen_by_every_check_that_must() {
     }
 }
 
-/// A fault of what an engine answers: scenario, fault, its size, channels that must disagree, families of checks that must.
+/// A fault in an engine's answer: scenario, fault, size, channels that must disagree, families of checks that must
+/// disagree.
 type InTheEngine = (&'static str, &'static str, f64, &'static [&'static str], &'static [&'static str]);
 
 static IN_THE_ENGINE: [InTheEngine; 8] = [
     ("crank_rocker", "an angle at the first instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angle at the last instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angular velocity", 1e-2, &["link.rocker.omega_rad_s"], &[OF_POWERS]),
-    // Forces follow from accelerations, right or wrong, and the powers with them.
+    // Forces and powers follow from accelerations, whether right or wrong.
     ("crank_rocker", "an angular acceleration", 1.0, &["link.rocker.alpha_rad_s2"], &[]),
     ("crank_rocker", "a reaction", 1.0, &["joint.B.fy_N"], &[]),
     ("crank_rocker", "the driving moment", 0.1, &["drive.torque_N_m", "frame.moment_N_m"], &[OF_POWERS]),
@@ -148,7 +152,8 @@ fn what_is_wrong_in_an_engine_by_a_fixed_size_decides_its_verdict() {
             let checks: Vec<&str> = checks.map(|own| own.family.as_str()).collect();
             assert_eq!(proof.verdict.word(), "disagree", "{name}: {wrong}: {channels:?} {:?}", proof.checks);
             for own in *must {
-                // Of a second drive only the end of the name is given, and the first one's is another.
+                // For a second drive only the end of the channel name is given. The first drive's channel must not
+                // match it.
                 let has = channels
                     .iter()
                     .any(|found| found.ends_with(own) && (own.contains('.') || *found != "drive.torque_N_m"));
@@ -161,7 +166,7 @@ fn what_is_wrong_in_an_engine_by_a_fixed_size_decides_its_verdict() {
     }
 }
 
-/// Only the balance of powers has the speeds, where the moment alone is wanted.
+/// If only the moment is requested, only the balance of powers contains the speeds.
 #[test]
 fn a_wrong_speed_that_no_channel_has_is_seen_by_the_balance_of_powers() {
     let wrong = fault("an angular velocity, by a share");
@@ -173,7 +178,7 @@ fn a_wrong_speed_that_no_channel_has_is_seen_by_the_balance_of_powers() {
     let FaultyProof::Detected { channels, checks, .. } = stage.proven(wrong, FaultyParty::Assur) else {
         panic!("it escapes from the sides")
     };
-    // The centre's acceleration goes with the square of the speed, and momentum with it.
+    // The mass centre's acceleration depends on the square of the speed, and so does the momentum balance.
     assert_eq!((channels, checks), (0, vec![POWERS.to_string(), SHAKING.to_string()]));
     let proof = stage.engine_proof(wrong).unwrap();
     assert_eq!(proof.verdict.word(), "disagree", "{:?}", proof.checks);
@@ -181,7 +186,7 @@ fn a_wrong_speed_that_no_channel_has_is_seen_by_the_balance_of_powers() {
     assert_eq!(powers.verdict.word(), "disagree");
 }
 
-/// Velocities do not show where a link is, and its loop is open all the same: the check alone decides the verdict.
+/// Velocities do not show where a link is, but its loop is open: the check alone decides the verdict.
 #[test]
 fn an_open_loop_that_no_channel_shows_decides_the_engine_s_verdict() {
     let whole = scenario("crank_rocker");

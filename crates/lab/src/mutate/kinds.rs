@@ -1,4 +1,4 @@
-//! Kinds of single faults: one row each, in the table of its family.
+//! Kinds of single faults: one row each, in the table of the family.
 
 mod accelerations;
 mod drives;

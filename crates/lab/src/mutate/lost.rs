@@ -1,24 +1,24 @@
-//! The size at which a fault is lost.
+//! Size below which a fault is not found any more.
 
 use linkage::math::KeepNan;
 
-/// Smallest size over the first one that is tried: nothing that small is above rounding.
+/// Smallest size that is tried, as a share of the first one. Effects that small are below rounding.
 const LEAST: f64 = 1e-16;
-/// Factor between sizes on the way down.
+/// Factor between successive sizes in the downward search.
 const STEP: f64 = 10.0;
-/// Factor to which the size is found.
+/// Factor within which the size is found.
 const FACTOR: f64 = 2.0;
-/// Proofs that are made for it at most.
+/// Largest number of proofs for one search.
 const MOST: usize = 24;
 
-/// The smallest size that `is_found`, to a factor of two; the `whole` one is found with `margin`.
+/// The smallest size for which `is_found` holds, to a factor of two. The size `whole` is found with `margin`.
 pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) -> f64 {
     let mut left = MOST;
     let mut is_found = |size: f64| {
         left = left.saturating_sub(1);
         left > 0 && is_found(size)
     };
-    // Most effects are proportional to the size, so that the margin says where it is lost.
+    // Most effects are proportional to the size, so the margin predicts the size at which the fault is lost.
     let guess = if margin.is_finite() && margin > 1.0 { whole / margin } else { whole / STEP };
     let mut found = whole;
     let mut lost = None;
@@ -32,7 +32,7 @@ pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) 
         }
     }
     let Some(mut lost) = lost else { return found };
-    // A guess that was too small: up again in steps, then by halves.
+    // If the guess was too small, the search goes up again in steps, then by halving.
     while found > STEP * lost {
         let size = lost * STEP;
         if is_found(size) {

@@ -1,4 +1,4 @@
-//! Planted faults and what came of them.
+//! Planted faults and their outcomes.
 
 use super::kinds::{FaultKind, Plant};
 use super::seen::FaultyProof;
@@ -13,7 +13,7 @@ linkage::words! {
         Newton = "newton",
         /// The engine.
         Engine = "engine",
-        /// All of them alike: what they share is wrong.
+        /// All of them alike: the code they share is wrong.
         All = "trunk",
         /// The formulas that are judged.
         Formulas = "formulas",
@@ -21,7 +21,7 @@ linkage::words! {
 }
 
 impl FaultyParty {
-    /// Whether it can have a fault of a kind.
+    /// Whether the party can have a fault of a kind.
     #[must_use]
     pub fn takes(self, kind: &FaultKind) -> bool {
         matches!(kind.plant, Plant::Formula(_)) == (self == FaultyParty::Formulas)
@@ -33,26 +33,26 @@ impl FaultyParty {
 pub struct Spoiled {
     /// Name of the formula.
     pub formula: String,
-    /// The formula, or what it claims, as it is in the file.
+    /// The formula, or its claim, as in the file.
     pub right: String,
     /// With the mistake.
     pub wrong: String,
 }
 
-/// One fault, planted in one party of one scenario's proof, and what came of it.
+/// One fault, planted in one party of one scenario's proof, and its outcome.
 #[derive(Clone)]
 pub struct Mutant {
     /// The kind of fault.
     pub kind: &'static FaultKind,
     /// Where it is planted.
     pub party: FaultyParty,
-    /// Of a mistake in a formula: which one, and how it reads.
+    /// For a mistake in a formula: the formula, and its text.
     pub formula: Option<Spoiled>,
     /// What came of it.
     pub outcome: FaultyProof,
-    /// Largest change of exact answers, relative to the largest number of a quantity; `None` where there is no answer.
+    /// Largest change of exact answers, relative to the largest number of a quantity; `None` without an exact answer.
     pub effect: Option<f64>,
-    /// Of a fault with a size that is found: the smallest size still found, to a factor of two.
+    /// For a detected fault with a size: the smallest size still found, to a factor of two.
     pub smallest: Option<f64>,
 }
 
@@ -67,10 +67,10 @@ pub struct Mutated {
     pub engine: &'static str,
     /// The faults, kind by kind.
     pub mutants: Vec<Mutant>,
-    /// Number of formulas that mistakes are planted in, steps of derivations among them.
+    /// Number of formulas in which mistakes are planted, including steps of derivations.
     pub formulas: usize,
-    /// Kinds that the scenario has no part for.
+    /// Kinds for which the scenario has no part.
     pub without: Vec<&'static str>,
-    /// Where no fault was planted that changes anything: the families of kinds that the scenario has parts for.
+    /// If no planted fault changes anything: the families whose kinds would change something in this scenario.
     pub instead: Vec<&'static str>,
 }

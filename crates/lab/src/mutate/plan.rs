@@ -1,4 +1,4 @@
-//! Which faults are planted where, and all of them at once.
+//! Choice of faults and parties, and planting all of them.
 
 use super::effect::Effect;
 use super::formulas;
@@ -21,9 +21,9 @@ pub struct MutationPlan {
     pub kinds: Vec<String>,
     /// Parties; all if empty.
     pub parties: Vec<FaultyParty>,
-    /// Whether the size is searched at which a fault is lost.
+    /// Whether to search the size at which a fault is lost.
     pub with_sizes: bool,
-    /// Number of threads; as many as there are cores if zero.
+    /// Number of threads; zero means the number of cores.
     pub jobs: usize,
     /// Options of the proofs.
     pub options: Options,
@@ -43,10 +43,10 @@ impl MutationPlan {
     }
 }
 
-/// Plants all faults that are asked for in a scenario. The result does not depend on the number of threads.
+/// Plants all requested faults in a scenario. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// Those of the proof without a fault; [`ErrorKind::Input`] if it disagrees.
+/// Those of the proof without a fault; [`ErrorKind::Input`] if that proof disagrees.
 pub fn mutate(scenario: &Scenario, asked: &MutationPlan, progress: &mut dyn FnMut(f64)) -> Result<Mutated> {
     let stage = Stage::new(scenario, &asked.options)?;
     if stage.verdict == "disagree" {
@@ -74,15 +74,16 @@ pub fn mutate(scenario: &Scenario, asked: &MutationPlan, progress: &mut dyn FnMu
     Ok(Mutated { scenario: scenario.name.clone(), verdict, engine, mutants, formulas, without, instead })
 }
 
-/// Work that all faults of a file may take, over what one proof may: shipped mechanisms take less than that of five.
+/// Work allowed for all faults of a file, as a multiple of the work allowed for one proof.
+/// Shipped mechanisms need less than five times that of a proof.
 const PROOFS: f64 = 10.0;
-/// Proofs that a size takes in which the fault is lost.
+/// Number of proofs needed to find the size at which a fault is lost.
 const SIZES: f64 = 8.0;
 
-/// Whether all faults that are asked for can be planted with the work that is allowed.
+/// Whether all requested faults can be planted with the allowed work.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] if not, with what it would take.
+/// [`ErrorKind::Unsupported`] if not, with the work needed.
 fn allowed(stage: &Stage, kinds: &[&'static FaultKind], asked: &MutationPlan) -> Result<()> {
     let [sides, engine] = stage.work;
     let formulas = stage.formulas().len() as f64 * stage.work_of_formulas();
@@ -113,7 +114,7 @@ fn allowed(stage: &Stage, kinds: &[&'static FaultKind], asked: &MutationPlan) ->
     Err(Error::new(ErrorKind::Unsupported, message).help(help).or_help(Advice::MoreWork { to: work / PROOFS }))
 }
 
-/// Names of the families of which a kind changes something in a scenario.
+/// Names of the families with a kind that changes something in a scenario.
 fn families(stage: &Stage) -> Result<Vec<&'static str>> {
     let mut names = Vec::new();
     for family in FaultFamily::ALL {
@@ -131,13 +132,12 @@ fn families(stage: &Stage) -> Result<Vec<&'static str>> {
     Ok(names)
 }
 
-/// A kind at the size that is tried first.
+/// A kind at its initial size.
 fn fault(kind: &'static FaultKind) -> Fault {
     Fault { kind, size: kind.size.unwrap_or(1.0) }
 }
 
-/// A mistake in every formula that has a place for it, with what it changes; if `only_real`, the first that changes
-/// something.
+/// A mistake in every formula with a suitable position, and its effect; if `only_real`, the first one with an effect.
 fn spoiled(
     stage: &Stage,
     kind: &'static FaultKind,
@@ -177,7 +177,7 @@ fn in_formulas(stage: &Stage, kind: &'static FaultKind, mistake: Mistake, asked:
     Ok(mutants)
 }
 
-/// What came of one kind: nothing where the scenario has no part for it.
+/// The outcomes of one kind; empty if the scenario has no part for it.
 fn of_kind(stage: &Stage, kind: &'static FaultKind, asked: &MutationPlan) -> Result<Vec<Mutant>> {
     if let Plant::Formula(mistake) = kind.plant {
         return in_formulas(stage, kind, mistake, asked);

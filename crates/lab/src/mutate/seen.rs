@@ -1,4 +1,4 @@
-//! Who sees a fault: channels and checks beyond their bounds, since when, by how much.
+//! Detection of a fault: channels and checks beyond their bounds, the first instant, and the margin.
 
 use crate::sentences;
 use linkage::math::statistics::ascending;
@@ -9,35 +9,35 @@ use prover::run::{ChannelProof, EngineProof, Judgement, ObservedSides};
 /// A channel or a check beyond its bound.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sight {
-    /// Name of the channel or check, and who compares.
+    /// Name of the channel or check, and of the comparison.
     pub what: String,
     /// First instant beyond the bound (s), and its crank angle (rad); `None` for a check of the whole run.
     pub since: Option<(f64, f64)>,
-    /// Largest difference over its bound.
+    /// Largest difference divided by its bound.
     pub margin: f64,
 }
 
-/// How a proof ended in which one party has a fault.
+/// Outcome of a proof with a fault in one party.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FaultyProof {
     /// Something disagrees.
     Detected {
-        /// What sees it first: the earliest instant, and of several the largest margin.
+        /// First detection: the earliest instant; among equal instants the largest margin.
         first: Sight,
-        /// What sees it most clearly.
+        /// Clearest detection: the largest margin.
         clearest: Sight,
         /// Number of channels beyond their bounds.
         channels: usize,
         /// Families of checks that disagree.
         checks: Vec<String>,
     },
-    /// A party has no answer; its message.
+    /// A party has no answer; this is its message.
     Refused(String),
-    /// Nothing is proven either way; the reason.
+    /// The proof decides nothing; this is the reason.
     Inconclusive(String),
     /// Everything agrees.
     Escaped,
-    /// Exact answers are the same to rounding: the largest change, relative to the largest number of a quantity.
+    /// Exact answers are the same up to rounding: the largest change, relative to the largest number of a quantity.
     Equivalent(f64),
 }
 
@@ -80,7 +80,7 @@ fn disagrees(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Disagree { .. })
 }
 
-/// Puts together what sees a fault.
+/// Collects the detections of a fault.
 #[derive(Default)]
 pub(super) struct Eyes {
     sights: Vec<Sight>,
@@ -90,7 +90,7 @@ pub(super) struct Eyes {
 }
 
 impl Eyes {
-    /// What the analytic sides see; `is_outside` leaves out what they see in each other.
+    /// Detections by the analytic sides; `is_outside` leaves out the comparison between the two.
     pub(super) fn sides(mut self, sides: &ObservedSides, is_outside: bool) -> Self {
         if !is_outside {
             let beyond = sides.beyond();
@@ -124,7 +124,7 @@ impl Eyes {
         self
     }
 
-    /// What the judgement of formulas sees; its `checks` are in its order.
+    /// Detections by the judgement of formulas; `checks` are in its order.
     pub(super) fn formulas(mut self, judgement: &Judgement, checks: &[Check]) -> Self {
         let judged = judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten());
         for (check, judged) in checks.iter().zip(judged) {
@@ -178,7 +178,7 @@ impl Eyes {
         self.verdicts.iter().any(disagrees)
     }
 
-    /// The outcome, all verdicts together.
+    /// The outcome of all verdicts together.
     pub(super) fn outcome(self) -> FaultyProof {
         match overall(&self.verdicts) {
             Verdict::Disagree { place } => {

@@ -1,4 +1,4 @@
-//! One scenario with its true parties, and proofs in which one of them has a fault.
+//! One scenario with its true parties, and proofs with a fault in one of them.
 
 use crate::sentences;
 use std::sync::OnceLock;
@@ -22,26 +22,26 @@ use prover::run::{
 };
 use scenario::Scenario;
 
-/// What stands around an engine.
+/// Wraps an engine.
 type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
 
-/// A scenario's proof without a fault, and what can be used again.
+/// A scenario's proof without a fault, and its reusable parts.
 pub(super) struct Stage<'a> {
     pub(super) scenario: &'a Scenario,
-    /// The part of its mechanism that is wanted.
+    /// The requested part of its mechanism.
     pub(super) case: Case,
     options: &'a Options,
     /// The analytic sides without a fault.
     pub(super) sides: ObservedSides,
-    /// Exact answers of side 1, and the error of its integration where forces decide the motion, channel by channel, in
-    /// their units.
+    /// Exact answers of side 1.
+    /// The integration errors are given channel by channel, in the channels' units, where forces determine the motion.
     pub(super) right: Trajectory,
     pub(super) integration: Vec<f64>,
     /// The engine's runs without a fault.
     runs: OnceLock<CachedEngine>,
     /// Work of both sides, and of the engine, without a fault (in steps of an engine's four-bar).
     pub(super) work: [f64; 2],
-    /// Verdict of the proof without a fault, and the engine.
+    /// Verdict of the proof without a fault, and name of the engine.
     pub(super) verdict: &'static str,
     pub(super) engine: &'static str,
 }
@@ -58,7 +58,7 @@ impl<'a> Stage<'a> {
         let of_sides = || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut Ledger::default());
         let (sides, done) = counted(|| limited(allowed, of_sides).0);
         let sides = sides?;
-        // Side 2 counts no groups; it places as many links.
+        // Side 2 does not count groups; it places as many links.
         let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
         let right = AssurSolver.solve(&case)?;
         let integration = sides.integration();
@@ -108,7 +108,7 @@ impl<'a> Stage<'a> {
         let around = |own: Box<dyn Engine>| -> Box<dyn Engine> {
             match fault.kind.plant {
                 Plant::Case(_) => kept_in(&runs, Box::new(Planted { hook: fault, inner: own })),
-                // Its runs are right; what it says of them is wrong.
+                // The engine's runs are right; its answer from them is wrong.
                 Plant::Answer(_) | Plant::Formula(_) => {
                     Box::new(Planted { hook: fault, inner: kept_in(&self.runs, own) })
                 }
@@ -117,14 +117,15 @@ impl<'a> Stage<'a> {
         self.judged(&self.sides, &around)
     }
 
-    /// The engine's own part of a proof in which what it answers has a fault.
+    /// The engine's part of a proof with a fault in the engine's answer.
     #[cfg(test)]
     pub(super) fn engine_proof(&self, fault: Fault) -> Result<EngineProof> {
         self.engine(&self.sides, &|own| Box::new(Planted { hook: fault, inner: kept_in(&self.runs, own) }), false)
     }
 
-    /// The engine against these sides. Its own forces are asked where its motion and their forces agree: no verdict on
-    /// them takes a disagreement back.
+    /// The engine against these sides.
+    /// The engine's own forces (`own_forces`) are requested only if the proof without them finds nothing.
+    /// No verdict on them can undo a disagreement.
     fn judged(&self, sides: &ObservedSides, around: Around) -> Result<FaultyProof> {
         let mut last = FaultyProof::Escaped;
         for own_forces in [false, true] {
@@ -140,7 +141,7 @@ impl<'a> Stage<'a> {
         Ok(last)
     }
 
-    /// The sides, of which some have a fault.
+    /// The sides, some of them with a fault.
     fn planted(&self, fault: Fault, faulty: &[Reference]) -> Result<ObservedSides> {
         let planted = |inner: Box<dyn Solver>| Planted { hook: fault, inner };
         let wrong = EachSide::new(
@@ -159,18 +160,19 @@ impl<'a> Stage<'a> {
         ObservedSides::of(problem, whole, entrants, self.options.reference, &mut Ledger::default())
     }
 
-    /// Whether a case differs in its instants only.
+    /// Whether a case differs only in its instants.
     fn is_late(&self, case: &Case) -> bool {
         let right = &self.case;
         case.grid != right.grid && case.on(right.grid.clone()).is_ok_and(|own| own == *right)
     }
 
-    /// The fault in what all parties share: no party can contradict another, and what comes from outside is asked.
+    /// The fault in the part that all parties share.
+    /// The parties then cannot contradict each other; only references from outside can.
     fn in_all(&self, fault: Fault) -> Result<FaultyProof> {
         let case = match fault.kind.plant {
             Plant::Case(change) => match change(&self.case, fault.size) {
                 None => return Ok(FaultyProof::Refused(sentences::THE_CASE_CANNOT_BE_PUT_TOGETHER.into())),
-                // Whoever asks names the instants. What is wrong is when the sides take them to be.
+                // The instants that the user requested stay. Only the instants that the sides solve at are wrong.
                 Some(case) if self.is_late(&case) => None,
                 Some(case) => Some(case),
             },
@@ -184,7 +186,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// The engine with the runs that are kept; they are those of the first engine that comes.
+/// The engine with cached runs; the first engine passed in makes them.
 fn kept_in(runs: &OnceLock<CachedEngine>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
     runs.get_or_init(|| CachedEngine::new(engine.as_ref())).with(engine.settings())
 }

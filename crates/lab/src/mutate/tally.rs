@@ -6,13 +6,13 @@ use super::seen::FaultyProof;
 /// Numbers of faults by outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Share {
-    /// Faults that a channel or check disagrees with.
+    /// Faults with a disagreeing channel or check.
     pub detected: usize,
-    /// Faults with which a party has no answer.
+    /// Faults that leave a party without an answer.
     pub refused: usize,
-    /// Faults after which nothing is proven either way.
+    /// Faults after which the proof decides nothing.
     pub inconclusive: usize,
-    /// Faults after which everything agrees.
+    /// Faults after which all comparisons agree.
     pub escaped: usize,
     /// Faults that change no exact answer.
     pub equivalent: usize,
@@ -52,32 +52,31 @@ pub struct FaultCounts {
     pub trunk: Share,
     /// Mistakes in formulas.
     pub formulas: Share,
-    /// Kinds that were planted in the trunk and change something there, and those that something outside finds in a
-    /// scenario at least.
+    /// Kinds that were planted in the shared trunk and change something there.
     pub trunk_kinds: Vec<&'static str>,
-    /// Those of them that are found.
+    /// Those of them that are found in at least one scenario.
     pub trunk_found: Vec<&'static str>,
     /// Kinds planted anywhere.
     pub kinds: Vec<&'static str>,
 }
 
-/// What planted faults come to.
+/// Summary of all planted faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FaultTally {
-    /// Every fault that changes something is found, in parties and in formulas.
+    /// Every fault with an effect is found, in parties and in formulas.
     AllFound,
-    /// None escapes, but some prove nothing either way.
+    /// No fault escapes, but some proofs decide nothing.
     NoneEscapes,
     /// Some escape.
     SomeEscape,
-    /// Faults in what all share only, some of which nothing from outside finds.
+    /// Only faults in the shared trunk have an effect, and some of them are not found.
     TrunkOpen,
-    /// No fault was planted that changes something: nothing is proven.
+    /// No planted fault has an effect: nothing is proven.
     Nothing,
 }
 
 impl FaultCounts {
-    /// What all faults come to. Those in what all share count where no others were planted.
+    /// Summary of all faults. Faults in the shared trunk count only if no other fault has an effect.
     #[must_use]
     pub fn end(&self) -> FaultTally {
         let FaultCounts { planted, formulas, trunk_kinds, trunk_found, .. } = self;

@@ -26,18 +26,18 @@ fn there_are_kinds_enough_and_each_has_a_name_and_a_sentence_of_its_own() {
     assert!(all().count() >= 60);
     assert_eq!((names.len(), sentences.len()), (all().count(), all().count()));
     assert!(all().all(|kind| kind.size.is_none_or(|size| size > 0.0)));
-    // Both are words of `--kind`.
+    // Kinds and families are both words of `--kind`.
     assert!(all().all(|kind| !names.contains(kind.family.name())));
 }
 
-/// What is used again changes nothing: outcomes with their margins are the same to the bit as from new runs.
+/// Reused runs change nothing: outcomes and margins are the same to the bit as from new runs.
 #[test]
 fn runs_that_are_used_again_give_the_outcome_of_new_ones() {
     let options = Options::default();
     for name in ["crank_rocker", "rotary_engine", "pendulum"] {
         let scenario = scenario(name);
         let used = Stage::new(&scenario, &options).unwrap();
-        // The second of these comes too late to find a run made, the first made them.
+        // Later faults reuse the runs that the first one makes.
         for (kind, size) in [("moment", Some(1e-7)), ("angle", None), ("reaction", Some(1e-9)), ("omega", Some(1e-6))] {
             for party in [FaultyParty::Newton, FaultyParty::Engine] {
                 let fault = fault(kind, size);
@@ -48,7 +48,7 @@ fn runs_that_are_used_again_give_the_outcome_of_new_ones() {
     }
 }
 
-/// At constant speed the crank's own moment of inertia acts on nothing, and a fault in it is none.
+/// At constant speed the crank's moment of inertia has no effect, so a fault in it does not count.
 #[test]
 fn a_fault_that_changes_no_exact_answer_is_not_counted() {
     let scenario = scenario("crank_rocker");
@@ -60,8 +60,8 @@ fn a_fault_that_changes_no_exact_answer_is_not_counted() {
     }
 }
 
-/// Symptom: the rods of a parallelogram only translate, and a fault in a rod's moment of inertia, which moved the steps
-/// of the integration, escaped as one that changes something.
+/// Symptom: the rods of a parallelogram only translate, so their moments of inertia have no effect.
+/// A fault in one moved the steps of the integration, and was counted as an escaped fault with an effect.
 #[test]
 fn regress_what_moves_an_integration_s_steps_only_changes_nothing() {
     let scenario = scenario("n_four_bar_1");
@@ -75,7 +75,7 @@ fn regress_what_moves_an_integration_s_steps_only_changes_nothing() {
     assert!(matches!(found.mutants[0].outcome, FaultyProof::Equivalent(_)), "{:?}", found.mutants[0].outcome);
 }
 
-/// The smallest size is found to a factor of two: it is found, and half of it is not.
+/// The smallest size is found to a factor of two: that size is detected, and half of it is not.
 #[test]
 fn the_smallest_size_is_found_and_half_of_it_is_lost() {
     let (scenario, options) = (scenario("crank_rocker"), Options::default());
@@ -94,8 +94,10 @@ fn the_smallest_size_is_found_and_half_of_it_is_lost() {
     }
 }
 
-/// Symptom: faults in what these three scenarios have went unseen by `run` over all scenarios, because no shipped file
-/// had a slider on a guide that moves, a guided moment in a higher group, or a slider of the tree that carries one.
+/// Symptom: `run` over all scenarios did not see faults in the features of these three scenarios.
+/// No shipped file had a slider on a moving guide, a guided moment in a higher group, or a slider of the tree that
+/// carries
+/// another one.
 #[test]
 fn sliders_on_moving_guides_and_their_moments_are_seen_in_every_party() {
     let kinds = ["coriolis-missing", "velocity-guide", "guide-moment-missing", "guide-moment-sign", "guide-aside"];
@@ -109,7 +111,7 @@ fn sliders_on_moving_guides_and_their_moments_are_seen_in_every_party() {
     }
 }
 
-/// No shipped crank turns back under a moment for one sense. A rocker does.
+/// No shipped crank reverses under a moment that acts in one sense. A rocker does.
 #[test]
 fn a_moment_for_one_sense_that_acts_always_is_seen_in_every_party() {
     let mut rocking = scenario("crank_rocker");
@@ -125,7 +127,7 @@ fn a_moment_for_one_sense_that_acts_always_is_seen_in_every_party() {
     }
 }
 
-/// Nothing inside a proof can see what all parties share; numbers from outside do.
+/// A proof cannot see a fault that all parties share; numbers from outside can.
 #[test]
 fn a_wrong_gravity_for_everybody_is_seen_by_numbers_from_outside_only() {
     let asked =

@@ -1,4 +1,4 @@
-//! What a peer says: its ways and its answer as JSON, its solution as CSV.
+//! Output of a peer: its methods and its answer as JSON, its solution as CSV.
 
 use crate::sentences;
 use std::ops::RangeInclusive;
@@ -9,16 +9,16 @@ use crate::bench::{Answer, RunEffort, Way};
 use columns::Twice;
 use files::visible;
 
-/// Most ways that a peer may have.
+/// Largest number of methods of a peer.
 const MOST: usize = 200;
-/// Most things that a peer may count.
+/// Largest number of counts of a peer.
 const COUNTED: usize = 50;
-/// Most columns of its table.
+/// Largest number of columns of its table.
 const COLUMNS: usize = 100_000;
-/// Times that a run can take (s): no clock tells shorter ones, and nobody waits for longer ones.
+/// Possible times of a run (s): clocks cannot resolve shorter ones, and nobody waits for longer ones.
 const TIMES: RangeInclusive<f64> = 1e-12..=1e9;
 
-/// The last line of a program's output, as JSON: libraries print what they like before it.
+/// The last line of a program's output, as JSON: libraries may print other lines before it.
 fn last(output: &str) -> Result<Value, String> {
     let line =
         output.lines().rev().find(|line| !line.trim().is_empty()).ok_or(sentences::IT_WROTE_NOTHING_TO_STANDARD)?;
@@ -29,15 +29,15 @@ fn word(object: &Map<String, Value>, key: &str) -> Option<String> {
     object.get(key).and_then(Value::as_str).map(visible)
 }
 
-/// The refusal in a peer's words, if it is one.
+/// The peer's reason, if its answer is a refusal.
 fn refused(value: &Value) -> Option<String> {
     value.as_object().and_then(|object| word(object, "refused"))
 }
 
-/// Ways in which a peer wants to be run.
+/// Methods that a peer offers.
 ///
 /// # Errors
-/// Why they are none.
+/// The reason why the output is not a list of methods.
 pub(super) fn ways(output: &str) -> Result<Vec<Way>, String> {
     let value = last(output)?;
     if let Some(reason) = refused(&value) {
@@ -57,7 +57,7 @@ pub(super) fn ways(output: &str) -> Result<Vec<Way>, String> {
 /// A peer's answer, from its output and its table.
 ///
 /// # Errors
-/// Why it is none.
+/// The reason why the output is not an answer.
 pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String>) -> Result<Answer, String> {
     let value = last(output)?;
     if let Some(reason) = refused(&value) {
@@ -75,7 +75,7 @@ pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String
 
 /// A time that a program can have measured (s).
 fn seconds(value: &Value) -> Result<f64, String> {
-    // A coarse clock says zero; such a time is left out.
+    // A coarse clock gives zero; such a time is ignored later.
     let found = value.as_f64().filter(|seconds| TIMES.contains(seconds) || *seconds == 0.0);
     found.ok_or_else(|| {
         let [least, most] = [TIMES.start(), TIMES.end()];
@@ -83,7 +83,7 @@ fn seconds(value: &Value) -> Result<f64, String> {
     })
 }
 
-/// What a program has counted; nothing if it says nothing of it.
+/// Counts reported by a program; empty if it reports none.
 fn counts(work: Option<&Value>) -> Result<Vec<(String, u64)>, String> {
     let Some(work) = work.filter(|work| !work.is_null()) else { return Ok(Vec::new()) };
     let all = work.as_object().ok_or(sentences::ITS_WORK_IS_NO_JSON_OBJECT)?;

@@ -1,4 +1,4 @@
-//! The machine, in words: times mean something only beside it.
+//! The machine, in words. Times are meaningless without it.
 
 use crate::sentences;
 use std::collections::BTreeSet;
@@ -30,7 +30,7 @@ fn value(line: &str) -> Option<&str> {
     line.split_once(':').map(|(_, value)| value.trim())
 }
 
-/// Processor time (s) that the present thread has used, where Linux tells it.
+/// Processor time (s) used by the present thread, if Linux provides it.
 pub fn processor_time() -> Option<f64> {
     let told = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     Some(told.split_whitespace().next()?.parse::<f64>().ok()? * 1e-9)

@@ -1,4 +1,4 @@
-//! A peer: a command that is given a scenario and answers with a solution. docs/peers.md is the protocol.
+//! A peer: a command that is given a scenario and answers with a solution. docs/peers.md describes the protocol.
 
 use crate::sentences;
 use std::cell::RefCell;
@@ -16,16 +16,16 @@ use files::visible;
 /// Version of the protocol.
 const PROTOCOL: u32 = 1;
 
-/// A scenario as other programs get it.
+/// A scenario in the form given to other programs.
 #[derive(Clone, Debug)]
 pub struct Exports {
     /// Name.
     pub name: String,
     /// The case as JSON.
     pub case: String,
-    /// The case as MJCF, or why there is none.
+    /// The case as MJCF, or the reason why it has no such form.
     pub mjcf: Result<String, String>,
-    /// Whether a coarse picture is enough.
+    /// Whether a rough measurement is enough.
     pub is_quick: bool,
 }
 
@@ -34,21 +34,21 @@ pub struct Command<'a> {
     name: String,
     command: String,
     exports: &'a Exports,
-    /// Longest time of a call (s).
+    /// Longest duration of a call (s).
     limit: f64,
     clock: Clock<'a>,
-    /// Made where it is first needed, and removed with the peer.
+    /// Created when first needed, and removed with the peer.
     place: RefCell<Option<TempDir>>,
 }
 
 impl<'a> Command<'a> {
-    /// The peer `name`, called as `command`, which may take `limit` (s) a call.
+    /// The peer `name`, called as `command`. One call may take `limit` (s).
     pub fn new(name: &str, command: &str, exports: &'a Exports, limit: f64, clock: Clock<'a>) -> Self {
         let (name, command) = (name.to_string(), command.to_string());
         Command { name, command, exports, limit, clock, place: RefCell::new(None) }
     }
 
-    /// Calls the command with a request and gives its output and the directory to `read`.
+    /// Calls the command with a request, and passes its output and the directory to `read`.
     fn call<T>(
         &self,
         what: &str,
@@ -62,7 +62,8 @@ impl<'a> Command<'a> {
         let directory = place.as_ref().expect("it was made").path();
         let table = directory.join("answer.csv");
         let request = directory.join("request.json");
-        // A table of an earlier run is no answer, and a link in the place of the request is not followed.
+        // A table from an earlier run is not an answer. A symbolic link at the path of the request must not be
+        // followed.
         for old in [&table, &request] {
             let _ = fs::remove_file(old);
         }
@@ -76,7 +77,7 @@ impl<'a> Command<'a> {
         fs::write(&request, value.to_string()).map_err(|error| sentences::the_request_cannot_be_written(&error))?;
         let request = request.to_string_lossy();
         let output = process::run(&self.command, &[what, &request], directory, self.limit, self.clock);
-        // Whatever it says of its failure is shown to people.
+        // Users see the message of a failed peer.
         output.and_then(|output| read(&output, directory)).map_err(|reason| visible(&reason))
     }
 

@@ -1,4 +1,4 @@
-//! A program with a time limit. What it writes goes to files, so that it can neither block nor fill the memory.
+//! A program with a time limit. Its output goes to files, so that it can neither block nor fill the memory.
 
 use crate::sentences;
 use std::fs::{self, File};
@@ -9,17 +9,17 @@ use std::time::Duration;
 
 use crate::bench::Clock;
 
-/// Pauses between two looks at a program that runs: short at first, so that a quick one is not kept waiting.
+/// Pauses between two checks of a running program: short at first, so that a quick program does not wait.
 const PAUSES: [Duration; 2] = [Duration::from_millis(2), Duration::from_millis(20)];
-/// Most bytes that are taken from a program.
+/// Largest number of bytes read from a program.
 const MOST: u64 = 64 << 20;
-/// Characters of standard error that are told.
+/// Number of characters of standard error that are shown.
 const TOLD: usize = 200;
 
-/// Runs a shell command with arguments in a directory, and returns what it has written to standard output.
+/// Runs a shell command with arguments in a directory, and returns its standard output.
 ///
 /// # Errors
-/// Why there is none: it cannot be started, takes too long, writes too much, or ends with an error.
+/// The reason of a failure: it cannot be started, takes too long, writes too much, or ends with an error.
 pub(super) fn run(
     command: &str,
     arguments: &[&str],
@@ -29,19 +29,19 @@ pub(super) fn run(
 ) -> Result<String, String> {
     let [out, err] = ["stdout", "stderr"].map(|name| directory.join(name));
     let file = |path: &Path| {
-        // What an earlier call has put there is not followed.
+        // A symbolic link left by an earlier call must not be followed.
         let _ = fs::remove_file(path);
         File::create_new(path).map_err(|error| format!("{}: {error}", path.display()))
     };
     let mut shell = Command::new("sh");
-    // The first word after the script is its name; arguments are never read as a script.
+    // The first word after the script is its name; arguments are never parsed as a script.
     shell.arg("-c").arg(format!("exec {command} \"$@\"")).arg("peer").args(arguments);
     shell.stdin(Stdio::null()).stdout(file(&out)?).stderr(file(&err)?);
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut shell, 0);
     let mut child = shell.spawn().map_err(|error| sentences::it_cannot_be_started(&error))?;
     let status = wait(&mut child, &[&out, &err], limit, clock)?;
-    // What it has left running can no longer change its answer while that is read.
+    // Processes left running can then no longer change the answer while it is read.
     end_group(&child);
     let written = text(&out)?;
     if status.success() {
@@ -76,25 +76,25 @@ fn wait(child: &mut Child, files: &[&Path], limit: f64, clock: Clock) -> Result<
     }
 }
 
-/// Ends those that a program has started: it leads a process group of its own.
+/// Ends the processes that a program has started. The program leads a separate process group.
 fn end_group(child: &Child) {
     if cfg!(unix) {
         let group = format!("-{}", child.id());
-        // That there is nobody left is no failure, and not worth a word.
+        // An empty process group is not a failure and gives no message.
         let _ = Command::new("kill").args(["-KILL", "--", &group]).stderr(Stdio::null()).status();
     }
 }
 
-/// Ends a program and those that it has started.
+/// Ends a program and the processes that it has started.
 fn stop(child: &mut Child) {
     end_group(child);
-    // What has ended meanwhile need not be ended.
+    // The program may have ended already.
     let _ = child.kill();
     let _ = child.wait();
 }
 
-/// Text of a file that a program was to write; bytes that are no text are replaced. A pipe, a device or a link might
-/// never end, or lead elsewhere.
+/// Text of a file that a program should have written; bytes that are not text are replaced.
+/// Only regular files are read: a pipe or a device might never end, and a link might lead elsewhere.
 pub(super) fn text(path: &Path) -> Result<String, String> {
     let found = fs::symlink_metadata(path).map_err(|error| sentences::is_not_there(&name(path), &error))?;
     if !found.is_file() {
@@ -104,7 +104,7 @@ pub(super) fn text(path: &Path) -> Result<String, String> {
     taken(file).map_err(|error| format!("{} {error}", name(path)))
 }
 
-/// Text of what is open, of bounded length.
+/// Text of an open file, of bounded length.
 fn taken(file: File) -> Result<String, String> {
     let mut bytes = Vec::new();
     file.take(MOST + 1).read_to_end(&mut bytes).map_err(|error| sentences::cannot_be_read(&error))?;

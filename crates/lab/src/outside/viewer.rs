@@ -1,4 +1,4 @@
-//! Rerun: its recordings, written by its own library for Python, and its viewer.
+//! Rerun: its recordings, written by Rerun's library for Python, and its viewer.
 
 use crate::sentences;
 use std::fs;
@@ -8,19 +8,19 @@ use std::process::Command;
 use super::process;
 use crate::bench::Clock;
 
-/// Writes a film as a recording of Rerun. Its own library is the only thing that knows the format.
+/// Writes a film as a recording of Rerun. Only Rerun's library knows the format.
 const SCRIPT: &str = include_str!("rerun.py");
-/// Longest time for that (s).
+/// Longest duration of that conversion (s).
 const LIMIT: f64 = 120.0;
 
-/// Makes a recording of Rerun with its blueprint of a film (JSON), by way of a Python that has Rerun's library.
+/// Converts a film (JSON) to a recording of Rerun with its blueprint, using a Python that has Rerun's library.
 ///
 /// # Errors
-/// Why there is none, with the last words of Python.
+/// The reason of a failure, with the last words of Python.
 pub fn converted(film: &str, python: &str, clock: Clock) -> Result<Vec<u8>, String> {
     let own = tempfile::tempdir().map_err(|error| error.to_string())?;
     let at = |name: &str| own.path().join(name);
-    // A script called like the library would be taken for it.
+    // A script with the name of the library would be imported in its place.
     for (name, text) in [("show.py", SCRIPT), ("film.json", film)] {
         fs::write(at(name), text).map_err(|error| error.to_string())?;
     }
@@ -29,10 +29,10 @@ pub fn converted(film: &str, python: &str, clock: Clock) -> Result<Vec<u8>, Stri
     fs::read(at("film.rrd")).map_err(|error| error.to_string())
 }
 
-/// Opens a recording in Rerun's viewer, and waits until it is closed.
+/// Opens a recording in Rerun's viewer, and waits until the viewer is closed.
 ///
 /// # Errors
-/// Why it cannot be started, or how it ended.
+/// The reason why it cannot be started, or its exit status.
 pub fn opened(recording: &Path, python: &str) -> Result<(), String> {
     let script = sentences::exec_rerun(&python);
     let status = Command::new("sh").args(["-c", &script, "rerun"]).arg(recording).status();

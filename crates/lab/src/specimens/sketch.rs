@@ -1,5 +1,6 @@
-//! Mechanisms drawn at random in their start pose. Links have any place and direction, and a joint is put at the
-//! present place of its two links. So every drawing can be assembled, and its start pose is known without any formula.
+//! Random mechanisms in their start pose.
+//! Links have any position and direction, and each joint is placed at the present position of its two links.
+//! So every mechanism can be assembled, and its start pose is known without a formula.
 
 use chacha20::ChaCha20Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -41,12 +42,12 @@ impl RandomSource {
         self.number(0.0, count as f64) as usize
     }
 
-    /// A toss of a coin.
+    /// True or false with equal probability.
     pub fn yes(&mut self) -> bool {
         self.number(0.0, 1.0) < 0.5
     }
 
-    /// An angle (rad), not quite a turn wide.
+    /// An angle (rad) from a range slightly smaller than a full turn.
     pub fn angle(&mut self) -> f64 {
         self.number(-3.1, 3.1)
     }
@@ -57,26 +58,26 @@ impl RandomSource {
     }
 }
 
-/// A joint of a drawing.
+/// A joint of a random mechanism.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnJoint {
-    /// Its world places on the two links, in the order asked for: one point, or two along the axis.
+    /// Its world positions on the two links, in the order of the arguments: one point, or two along the axis.
     pub places: [Vec2; 2],
     /// World direction of a prismatic joint's axis; zero for a revolute joint.
     pub axis: Vec2,
-    /// Which of the two links the joint names first.
+    /// The link that the joint names first.
     pub first: usize,
 }
 
 /// A mechanism under construction. Link 0 is the ground, link 1 the crank.
 pub struct SpecimenSketch<'a> {
-    /// Where its numbers come from.
+    /// Source of its random numbers.
     pub random: &'a mut RandomSource,
-    /// What is drawn so far.
+    /// The mechanism so far.
     pub spec: Spec,
     /// Pose of the ground and of every link.
     pub poses: Vec<LinkPose>,
-    /// For every link, one link that turns with it; the same one for all links that turn together.
+    /// For every link, one representative link; links that turn together share the same one.
     turning: Vec<usize>,
     joints: usize,
 }
@@ -85,7 +86,7 @@ pub struct SpecimenSketch<'a> {
 const SLIDE: f64 = 0.5;
 
 impl<'a> SpecimenSketch<'a> {
-    /// A crank on the ground with a length between the given ones (m).
+    /// A crank on the ground, with a length between the two values given (m).
     pub fn new(random: &'a mut RandomSource, crank: [f64; 2]) -> Self {
         let start = random.angle();
         let speed = random.number(0.5, 30.0) * if random.yes() { 1.0 } else { -1.0 };
@@ -103,7 +104,7 @@ impl<'a> SpecimenSketch<'a> {
         sketch
     }
 
-    /// World place of the crank's end.
+    /// World position of the crank's end.
     pub fn crank_end(&self) -> Vec2 {
         let (_, end) = &self.spec.links[0].points[1];
         self.poses[1].point(*end)
@@ -139,7 +140,7 @@ impl<'a> SpecimenSketch<'a> {
         points.push((point.into(), local));
     }
 
-    /// Joins links `a` and `b`, either of which may be named first, at the place `at` of `a`.
+    /// Joins links `a` and `b`, either of which may be named first, at the position `at` on `a`.
     pub fn join(&mut self, slides: bool, a: usize, b: usize, at: Vec2) -> DrawnJoint {
         let name = self.next_joint();
         self.joints += 1;

@@ -6,12 +6,12 @@ use std::path::Path;
 use linkage::math::{Vec2, rotated, unit};
 use scenario::Scenario;
 
-/// A link with its own points.
+/// A link with its points.
 #[derive(Clone, Debug)]
 pub struct SpecimenLink {
     /// Name.
     pub name: String,
-    /// Names and places of its points, in its frame (m).
+    /// Names and positions of its points, in its frame (m).
     pub points: Vec<(String, Vec2)>,
     /// Mass, mass centre and moment of inertia; `None` for a massless link.
     pub mass: Option<(f64, Vec2, f64)>,
@@ -55,7 +55,7 @@ pub enum Ask {
     Ahead,
     /// The one behind.
     Behind,
-    /// Points and their rough places.
+    /// Points and their approximate positions.
     Near(Vec<(String, Vec2)>),
 }
 
@@ -103,7 +103,7 @@ pub struct Spec {
     pub guides_first: bool,
     /// Speed of the crank (rad/s).
     pub speed: f64,
-    /// Direction from which crank angles count (rad).
+    /// Direction in which the crank angle is zero (rad).
     pub zero: f64,
     /// Crank angle at t = 0 (rad).
     pub start: f64,
@@ -119,11 +119,11 @@ pub struct Spec {
     pub grid: (f64, f64, usize),
     /// The engine's step; `None` leaves the section out.
     pub dt: Option<f64>,
-    /// What only some mechanisms have.
+    /// Parts that only some mechanisms have.
     pub other: Other,
 }
 
-/// What only some mechanisms have.
+/// Parts that only some mechanisms have.
 #[derive(Clone, Debug, Default)]
 pub struct Other {
     /// Name of the scenario; "test" if it is empty.
@@ -218,7 +218,7 @@ impl Spec {
         Scenario::parse(&self.toml(), Path::new("test.toml"))
     }
 
-    /// The same mechanism at another place and turned as a whole, gravity included.
+    /// The same mechanism, moved and turned as a whole, gravity included.
     pub fn moved(&self, by: Vec2, turn: f64) -> Spec {
         let mut other = self.clone();
         let carried = |at: Vec2| by + rotated(unit(turn), at);
@@ -233,7 +233,7 @@ impl Spec {
         other
     }
 
-    /// The mirror image about the x axis: places, angles, senses, gravity and assembly modes.
+    /// The mirror image about the x axis: positions, angles, senses of rotation, gravity and assembly modes.
     pub fn mirrored(&self) -> Spec {
         let mut other = self.with_places(|at| Vec2::new(at.x, -at.y));
         (other.zero, other.start, other.speed) = (-self.zero, -self.start, -self.speed);
@@ -245,7 +245,7 @@ impl Spec {
         other
     }
 
-    /// The same mechanism with all lengths times `factor`, masses unchanged. Sections of text keep their numbers.
+    /// The same mechanism with all lengths times `factor`, masses unchanged. Numbers in text sections stay unchanged.
     pub fn larger(&self, factor: f64) -> Spec {
         let mut other = self.with_places(|at| at * factor);
         for (_, _, inertia) in other.links.iter_mut().filter_map(|body| body.mass.as_mut()) {
@@ -254,7 +254,7 @@ impl Spec {
         other
     }
 
-    /// The same with other places of all points and mass centres.
+    /// The same with other positions of all points and mass centres.
     fn with_places(&self, to: impl Fn(Vec2) -> Vec2) -> Spec {
         let mut other = self.clone();
         let points = other.links.iter_mut().flat_map(|body| &mut body.points).chain(&mut other.ground);

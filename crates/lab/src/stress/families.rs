@@ -1,4 +1,4 @@
-//! The table of families. One more family is one more entry, and a function that makes its case.
+//! The table of families. A new family needs one more entry, and a function that makes its case.
 
 mod chain;
 mod four_bar;

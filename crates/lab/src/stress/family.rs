@@ -1,17 +1,17 @@
-//! A family: its dial, and what runs at a point of it.
+//! A family: its parameter (the dial), and the solvers and engines that run at each of its points.
 //! See docs/numerics/laboratory.md.
 
 use linkage::case::Case;
 use linkage::error::Result;
 
-/// What engines do at a point.
+/// Use of the engines at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EngineUse {
-    /// None runs: the analytic sides alone.
+    /// No engine runs, only the analytic sides.
     None,
-    /// They find their settings with this work, in steps without sweeps.
+    /// Engines find their settings with this work, in steps without sweeps.
     Found(f64),
-    /// They run at this step (s) and number of sweeps.
+    /// Engines run at this step (s) and number of sweeps.
     Given {
         /// Time step (s).
         step: f64,
@@ -20,25 +20,25 @@ pub enum EngineUse {
     },
 }
 
-/// A case and what runs on it.
+/// A case, and the solvers and engines that run on it.
 #[derive(Clone, Debug)]
 pub struct Setup {
     /// The case.
     pub case: Case,
     /// What engines do.
     pub engines: EngineUse,
-    /// Whether the sides are held against numbers in double-double.
+    /// Whether the sides are compared with numbers in double-double.
     pub precise: bool,
 }
 
 impl Setup {
-    /// A case that engines find their own settings for, with numbers in double-double beside it.
+    /// A case whose engine settings are found by search, with a double-double reference.
     pub(super) fn usual(case: Case) -> Setup {
         Setup { case, engines: EngineUse::Found(WORK), precise: true }
     }
 }
 
-/// Work of an engine that finds its settings at one point, in steps without sweeps: a hundredth of a proof's.
+/// Work allowed for an engine that finds its settings at one point, in steps without sweeps: a hundredth of a proof's.
 pub const WORK: f64 = 2e5;
 
 /// A family: one dial.
@@ -46,16 +46,16 @@ pub const WORK: f64 = 2e5;
 pub struct StressFamily {
     /// Name, as on the command line and in files.
     pub name: &'static str,
-    /// What the dial turns, with its unit.
+    /// Meaning of the dial, with its unit.
     pub dial: &'static str,
-    /// What the family is, in a sentence.
+    /// Description of the family, in a sentence.
     pub title: &'static str,
     /// Values of the dial, in ascending order.
     pub points: &'static [f64],
     /// The values of a quick run.
     pub quick: &'static [f64],
-    /// Number of mechanisms at each value; more than one only where they are drawn at random.
+    /// Number of mechanisms at each value; more than one only for random mechanisms.
     pub samples: u64,
-    /// The case and settings at a value of the dial; the number of the sample and the seed count for random ones.
+    /// The case and settings at a value of the dial. Sample number and seed matter only for random mechanisms.
     pub setup: fn(dial: f64, sample: u64, seed: u64) -> Result<Setup>,
 }

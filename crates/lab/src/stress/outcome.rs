@@ -1,5 +1,5 @@
-//! What came of a point, in the words and the order in which it is kept as JSON. Numbers that are not finite are `null`
-//! there and are read back as infinite.
+//! Outcome of a point, in the words and the order of its JSON form.
+//! Numbers that are not finite are `null` in JSON and are read back as infinite.
 
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -18,13 +18,13 @@ linkage::words! {
 }
 
 linkage::words! {
-    /// How a solver or an engine ends at a point, the best first.
+    /// Outcome of a solver or an engine at a point, the best first.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
     pub enum PointEnd: word {
         /// It agrees.
         Agree = "agree",
-        /// Nothing is proven either way.
+        /// The proof decides nothing.
         Inconclusive = "inconclusive",
         /// It disagrees.
         Disagree = "disagree",
@@ -47,7 +47,7 @@ pub struct WorstOfGroup {
     pub bound: f64,
     /// The channel.
     pub channel: String,
-    /// Largest error over bound of any channel of the group.
+    /// Largest ratio of error to bound over the channels of the group.
     #[serde(deserialize_with = "number")]
     pub used: f64,
 }
@@ -66,15 +66,15 @@ pub struct PartyAtPoint {
     /// Reason of a verdict other than agreement.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub why: String,
-    /// What its errors are against, in words; empty if it has none.
+    /// Reference of its errors, in words; empty if it has no errors.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub against: String,
-    /// Groups of channels, in order; none if it failed.
+    /// Groups of channels, in order; empty if it failed.
     #[serde(rename = "groups")]
     pub reached: Vec<WorstOfGroup>,
-    /// Largest opening of a joint over the mechanism's size.
+    /// Largest opening of a joint, divided by the mechanism's size.
     pub closure: Option<f64>,
-    /// Balancing moment from reactions less that from powers, over the moments in the balance.
+    /// Balancing moment from reactions minus that from powers, divided by the moments in the balance.
     pub balance: Option<f64>,
     /// Step (s) of the run that is judged.
     #[serde(rename = "step_s")]
@@ -83,21 +83,22 @@ pub struct PartyAtPoint {
     pub sweeps: Option<usize>,
     /// Its extrapolations.
     pub extrapolated: Option<usize>,
-    /// Steps over the duration of the grid.
+    /// Number of steps for the duration of the grid.
     pub steps: Option<f64>,
     /// Runs of its search for settings.
     pub runs: Option<usize>,
     /// Work of that search, in steps without sweeps.
     pub work: Option<f64>,
-    /// What was counted, in the order of [`Count::ALL`](linkage::work::Count::ALL): a side's run, all runs of an engine.
+    /// Counted operations, in the order of [`Count::ALL`](linkage::work::Count::ALL): a side's run, all runs of an
+    /// engine.
     #[serde(default)]
     pub done: Vec<(String, u64)>,
-    /// Channels beyond their bound although the verdict agrees: wrong numbers that nobody is told of.
+    /// Channels beyond their bound although the verdict agrees: wrong numbers without a warning.
     pub silent: usize,
 }
 
 impl PartyAtPoint {
-    /// One that has no numbers, with the reason.
+    /// A solver or engine without numbers, with the reason.
     pub(super) fn failed(name: &str, why: &str) -> PartyAtPoint {
         PartyAtPoint { name: name.into(), why: why.into(), ..PartyAtPoint::default() }
     }
@@ -110,16 +111,16 @@ pub struct StressOutcome {
     pub dial: f64,
     /// Number of the sample.
     pub sample: u64,
-    /// Identifies the program, the family's inputs and the case: a result with another key is made anew.
+    /// Identifies the program, the family's inputs and the case: a result with another key is computed again.
     pub key: String,
-    /// Why there is no case, if there is none.
+    /// Reason why the case does not exist; empty if it exists.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub refused: String,
     /// The sides and engines.
     pub parties: Vec<PartyAtPoint>,
 }
 
-/// A number as it is kept: four digits, so that it is read back as it was written. NaN stays NaN.
+/// A number in its stored form: four digits, so that it is read back as it was written. NaN stays NaN.
 pub(super) fn rounded(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

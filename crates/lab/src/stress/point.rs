@@ -18,7 +18,7 @@ use prover::run::beside::{AnalyticSide, BothSides, Deviation, sides};
 use prover::run::{EngineProof, Options, prove};
 use scenario::Scenario;
 
-/// Solves a family's point with everything that this build has. A panic is a failure of the point like any other.
+/// Solves a family's point with all solvers and engines of this build. A panic counts as a failure of the point.
 #[must_use]
 pub fn run(family: &StressFamily, dial: f64, sample: u64, seed: u64) -> StressOutcome {
     let setup = (family.setup)(dial, sample, seed);
@@ -40,7 +40,8 @@ pub(super) fn key_of(family: &StressFamily, dial: f64, sample: u64, seed: u64) -
     key(family, (family.setup)(dial, sample, seed).as_ref().ok(), seed)
 }
 
-/// FNV-1a of what the result depends on: the program's version, its engines, and the case with what runs on it.
+/// FNV-1a of everything that the result depends on.
+/// This is the program's version, its engines, and the case with its solvers and engines.
 fn key(family: &StressFamily, setup: Option<&Setup>, seed: u64) -> String {
     let engines: Vec<String> =
         built().map(|name| engines::with_step(name, 1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
@@ -58,9 +59,9 @@ fn built() -> impl Iterator<Item = EngineName> {
     EngineName::ALL.into_iter().filter(|name| engines::is_built(*name))
 }
 
-/// An error as one line, with the input where it is.
+/// An error as one line, with its input value.
 fn told(error: &Error) -> String {
-    // Some messages tell it themselves.
+    // Some messages contain the input value already.
     let at = error.input().filter(|at| !error.message().contains(at.input.noun()));
     format!("{}{}", error.message(), at.map_or_else(String::new, |at| format!(" at {at}")))
 }
@@ -116,7 +117,7 @@ fn of_engine(
 ) -> PartyAtPoint {
     let options = match setup.engines {
         EngineUse::None | EngineUse::Found(_) => Options::default(),
-        // What a search with free settings would bring is not asked here.
+        // No settings are searched here.
         EngineUse::Given { step, sweeps } => Options::default().step(step).sweeps(sweeps).budget(1.0),
     };
     let options = match setup.engines {
@@ -129,7 +130,7 @@ fn of_engine(
     let done = own.map(|what| (what.name().to_string(), work.of(what))).into_iter().filter(|(_, times)| *times > 0);
     let party = match proof {
         Err(error) => PartyAtPoint::failed(name.name(), &told(&error)),
-        // An engine that agrees with a reference which disagrees with itself is not told as agreeing.
+        // An engine may agree with a reference that disagrees with itself. This must not count as agreement.
         Ok(proof) => of_proof(&setup.case, proof.engine(), &proof.verdict, truth),
     };
     PartyAtPoint { done: done.collect(), ..party }
@@ -178,7 +179,7 @@ fn of_proof(case: &Case, proof: &EngineProof, whole: &Verdict, truth: Option<(&T
     }
 }
 
-/// Every channel of an engine that is judged, beside its truth, where nothing is left out.
+/// Error against the reference of every judged channel of an engine, in the rows that are not left out.
 fn deviations(truth: &Trajectory, own: &Trajectory, proof: &EngineProof) -> Result<Vec<Deviation>> {
     let (errors, scales) = (difference(truth, own)?, scales(truth));
     let of = |((channel, values), scale): ((&Channel, &[f64]), f64)| {
@@ -220,7 +221,8 @@ fn reached(deviations: &[Deviation]) -> Vec<WorstOfGroup> {
     QuantityGroup::ALL.into_iter().filter_map(of).collect()
 }
 
-/// A verdict as it is counted. Cases of families have no numbers that are known to be wrong: none is expected.
+/// A verdict in the form that is counted.
+/// Cases of families have no numbers that are known to be wrong, so no expected disagreement occurs.
 fn end(verdict: &Verdict) -> PointEnd {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => PointEnd::Agree,
@@ -229,7 +231,7 @@ fn end(verdict: &Verdict) -> PointEnd {
     }
 }
 
-/// The reason of a verdict, without advice: what helps depends on who asks.
+/// The reason of a verdict, without advice, which depends on the command.
 fn reason(verdict: &Verdict) -> String {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => String::new(),

@@ -7,7 +7,7 @@ use super::outcome::StressOutcome;
 use super::point::{key_of, run};
 use linkage::threads::side_by_side;
 
-/// A point that is to be done, or is done already.
+/// A point to be solved, or already solved.
 #[derive(Clone, Debug)]
 pub struct Job {
     /// The family.
@@ -16,12 +16,12 @@ pub struct Job {
     pub dial: f64,
     /// Number of the sample.
     pub sample: u64,
-    /// The result, if there is one.
+    /// The result, if it exists.
     pub outcome: Option<StressOutcome>,
 }
 
-/// The points of a family, with the results that are kept and still hold. A quick run has its few points and those that
-/// are kept.
+/// The points of a family, with the stored results that are still valid.
+/// A quick run has its few points and those with a stored result.
 #[must_use]
 pub fn jobs(family: &'static StressFamily, quick: bool, seed: u64, kept: &[StressOutcome]) -> Vec<Job> {
     let all = family.points.iter().flat_map(|&dial| (0..family.samples).map(move |sample| (dial, sample)));
@@ -34,8 +34,9 @@ pub fn jobs(family: &'static StressFamily, quick: bool, seed: u64, kept: &[Stres
     all.filter_map(job).collect()
 }
 
-/// Does what is open, on so many threads. `done` is called after each point with all jobs as they stand and the number
-/// of those that are finished; an error that it returns ends the work.
+/// Solves the open points on `threads` threads.
+/// `done` is called after each point with all jobs and the number of finished ones; an error that it returns ends the
+/// work.
 ///
 /// # Errors
 /// Those of `done`.

@@ -18,15 +18,16 @@ use prover::run::Options;
 const COARSEST: f64 = 0.1;
 /// Number of sweeps that is tried first.
 const ENOUGH: usize = 64;
-/// First step that is tried, as a multiple of the step asked for. A coarse step is cheap, and its price predicts that
-/// of other steps.
+/// First step that is tried, as a multiple of the requested step.
+/// A coarse step is cheap, and its cost predicts that of other steps.
 const COARSE_START: f64 = 4.0;
 /// Factor from the step found with some number of sweeps to the first step tried with twice as many.
 const COARSER: f64 = 1.4;
-/// Settings are of interest only if they cost less than this share of the cheapest known price.
+/// Settings are of interest only if they cost less than this share of the cheapest known settings.
 const GAIN: f64 = 0.95;
-/// Turns of the fastest driving link (rad) in one step. The steps are so coarse that a run costs little more than its
-/// readings. The first step at which the engine runs is used.
+/// Rotation of the fastest driving link (rad) in one step.
+/// The steps are so coarse that a run costs little more than its readings.
+/// The first step at which the engine runs is used.
 const ROUGH: [f64; 3] = [PI / 6.0, PI / 18.0, PI / 54.0];
 
 /// Result of the search with one engine.
@@ -35,7 +36,7 @@ pub(super) enum Outcome {
     Met(Candidate),
     /// The smallest error found.
     TooCoarse(f64),
-    /// The engine could meet the wish, but at a higher price than another engine.
+    /// The engine could meet the request, but at a higher cost than another engine.
     TooDear,
 }
 
@@ -46,21 +47,21 @@ pub(super) struct Bench<'a> {
     pub(super) wanted: &'a [Channel],
     pub(super) price: Price<'a>,
     pub(super) runs: usize,
-    /// Whether the engine has refused the last way of setting it. No step and no number of sweeps can change that.
+    /// Whether the engine has refused the last method. Other steps or numbers of sweeps cannot change that.
     pub(super) refused: bool,
-    /// Work done so far and allowed in all, in steps without sweeps.
+    /// Work done so far, and total work allowed, in steps without sweeps.
     pub(super) effort: f64,
     pub(super) budget: f64,
-    /// Whether a run was not made because its work is not allowed any more.
+    /// Whether a run was omitted because its work exceeds the allowance.
     pub(super) is_spent: bool,
 }
 
-/// Least price of a run, however coarse its step: instants are read, and some routes do all sweeps at each of them.
-/// Known for some numbers of sweeps, in ascending order.
+/// Lower limit of a run's cost at any step: instants are read, and some routes do all sweeps at each of them.
+/// It is known for some numbers of sweeps, in ascending order.
 struct Floor(Vec<(usize, f64)>);
 
 impl Floor {
-    /// With `sweeps`, a run costs a constant and a part proportional to the sweeps; neither is negative.
+    /// A run costs a constant and a part proportional to `sweeps`; neither is negative.
     fn at(&self, sweeps: usize) -> f64 {
         let sweeps = sweeps.max(1) as f64;
         let of = |&(many, price): &(usize, f64)| price * (sweeps / many.max(1) as f64).smaller(1.0);
@@ -70,11 +71,11 @@ impl Floor {
     }
 }
 
-/// State of the search through the numbers of sweeps of one way.
+/// State of the search through the numbers of sweeps of one method.
 struct Row {
     /// The first step to try.
     start: f64,
-    /// Error with the last number of sweeps within the cheapest price, and how often in a row it has risen.
+    /// Error with the last number of sweeps within the lowest known cost, and how many times in a row it has risen.
     last: f64,
     rising: usize,
 }
@@ -83,17 +84,17 @@ struct Row {
 struct Search<'e> {
     engine: &'e dyn Engine,
     within: f64,
-    /// Lowest price of the other engines.
+    /// Lowest cost of the other engines.
     others: f64,
     best: Option<Candidate>,
-    /// Smallest error of the settings that do not meet the wish at any price.
+    /// Smallest error of the settings that do not meet the request at any cost.
     least: f64,
-    /// Whether some settings would, or might, meet the wish at a higher price.
+    /// Whether some settings would, or might, meet the request at a higher cost.
     dear: bool,
 }
 
 impl Search<'_> {
-    /// Highest price at which a run is still of interest.
+    /// Highest cost at which a run is still of interest.
     fn limit(&self) -> f64 {
         self.best.as_ref().map_or(self.others, |best| best.price.smaller(self.others)) * GAIN
     }
@@ -122,8 +123,8 @@ impl Bench<'_> {
         }
     }
 
-    /// One way of setting an engine, with all numbers of sweeps that may be of interest, in ascending order. Within the
-    /// cheapest price, the error first falls with more sweeps; beyond the needed number it rises again.
+    /// One method with all numbers of sweeps that may be of interest, in ascending order.
+    /// Within the lowest known cost, the error first falls with more sweeps; beyond the needed number it rises again.
     fn through_sweeps(&mut self, search: &mut Search, way: &Settings, sweeps: &[usize]) {
         let unlimited = search.limit().is_infinite();
         self.refused = false;
@@ -142,7 +143,7 @@ impl Bench<'_> {
             }
             let error = self.largest_step(search, &mut row, Settings { sweeps, ..*way });
             if !search.engine.controls_error() {
-                // More sweeps cost more, so only a larger step stays within the price.
+                // More sweeps cost more, so only a larger step stays within the cost limit.
                 row.start *= COARSER;
             }
             row.rising = if error > row.last { row.rising + 1 } else { 0 };
@@ -153,7 +154,8 @@ impl Bench<'_> {
         }
     }
 
-    /// Searches the largest step at which the settings meet the wish. Returns their error within the cheapest price.
+    /// Searches the largest step at which the settings meet the request. Returns their error within the lowest known
+    /// cost.
     fn largest_step(&mut self, search: &mut Search, row: &mut Row, settings: Settings) -> f64 {
         let Search { engine, within, .. } = *search;
         let limit = search.limit();
@@ -188,8 +190,8 @@ impl Bench<'_> {
         }
     }
 
-    /// Least price of one way of setting an engine, from runs so coarse that they cost little more than their readings.
-    /// It stops as soon as the price is known to exceed `limit`.
+    /// Lower limit of the cost of one method, from runs so coarse that they cost little more than their readings.
+    /// It stops as soon as the cost is known to exceed `limit`.
     fn floor(&mut self, engine: &dyn Engine, way: &Settings, sweeps: &[usize], limit: f64) -> Floor {
         let rough = match engine.controls_error() {
             true => vec![COARSEST],
@@ -244,17 +246,18 @@ impl Bench<'_> {
                 (error, worst) = (own, residual.channel.to_string());
             }
         }
-        // An engine without a wanted channel does not meet the wish.
+        // An engine without a requested channel does not meet the request.
         if seen < self.wanted.len() { failed(price) } else { Measured { error, worst, price } }
     }
 
-    /// Error that is expected from the engine's own runs.
+    /// Error predicted from runs of the engine alone.
     pub(super) fn predicted(&mut self, engine: &dyn Engine) -> Result<f64> {
         let settings = engine.settings();
         let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
         let mut rungs = vec![at(2.0), settings, at(0.5)];
-        // Compared with twice the sweeps. The error left then is small against the present one, so the difference is
-        // the error itself. (A proof uses half of the sweeps, which costs a quarter and errs on the safe side.)
+        // The comparison run has twice the sweeps.
+        // Its iteration error is small against the present one, so the difference is the error itself.
+        // (A proof uses half of the sweeps, which costs a quarter and errs on the safe side.)
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }

@@ -1,9 +1,9 @@
-//! Settings that were tried, and their cost.
+//! Tried settings and their cost.
 
 use linkage::engine::{Engine, Settings};
 use linkage::error::Result;
 
-/// One way of setting an engine, at the largest step that meets the wish.
+/// One method of an engine, at the largest step that meets the request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
     /// Name of the engine.
@@ -16,22 +16,22 @@ pub struct Candidate {
     pub verified: f64,
     /// Channel with the largest error.
     pub worst: String,
-    /// Price of the run, in the unit of the price given to [`tune`](super::tune).
+    /// Cost of the run, in the unit of the [`tune`](super::tune) argument `price`.
     pub price: f64,
-    /// Whether a proof at these settings agrees in everything that is wanted.
+    /// Whether a proof at these settings agrees in all requested channels.
     pub is_proven: bool,
 }
 
 /// Measures the cost of a run. It gets the engine and the run, which it must call at least once.
 pub type Price<'a> = &'a mut dyn FnMut(&dyn Engine, &mut dyn FnMut() -> Result<()>) -> Result<f64>;
 
-/// Error and price of one run.
+/// Error and cost of one run.
 #[derive(Clone, Debug)]
 pub(super) struct Measured {
     /// Largest error over the channel's scale; infinite if the run failed.
     pub(super) error: f64,
     /// Channel with the largest error.
     pub(super) worst: String,
-    /// Price of the run; infinite if the run failed.
+    /// Cost of the run; infinite if the run failed.
     pub(super) price: f64,
 }

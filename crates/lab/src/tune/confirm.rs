@@ -1,5 +1,6 @@
-//! Settings that a proof confirms. The error measured against the reference may be small by chance, or where an engine's
-//! own runs show no order: then the same settings prove nothing.
+//! Settings confirmed by a proof.
+//! The error measured against the reference may be small by chance, or where an engine's runs show no order.
+//! Then the same settings prove nothing.
 
 use linkage::engine::Engine;
 use linkage::error::{Advice, Result};
@@ -13,12 +14,12 @@ use scenario::Scenario;
 
 /// Largest number of refinements.
 const MOST: usize = 16;
-/// Factor on the step, or on the accuracy of an engine that chooses its steps, from one trial to the next.
+/// Factor from one trial to the next, on the step, or on the accuracy of an engine that chooses its steps itself.
 const FINER: f64 = 0.7;
 const TIGHTER: f64 = 0.1;
 
-/// The candidate at settings that a proof confirms, refined as little as it takes. What cannot be confirmed stays as it is
-/// and says so.
+/// The candidate at settings that a proof confirms, refined as little as possible.
+/// A candidate that cannot be confirmed is returned unchanged and is marked so.
 ///
 /// # Errors
 /// Those of [`prove`].
@@ -31,7 +32,7 @@ pub(super) fn confirmed(
 ) -> Result<Candidate> {
     let mut now = candidate.clone();
     for _ in 0..MOST {
-        // No settings are searched for: the budget is none.
+        // No settings are searched, so the budget is minimal.
         let options = Options::exactly(engine.with(now.settings).as_ref());
         let Some(options) = options.map(|options| options.reference(reference).budget(1.0)) else { break };
         let proof = prove(scenario, &options)?;
@@ -54,8 +55,9 @@ pub(super) fn confirmed(
     Ok(candidate)
 }
 
-/// Advice of the wanted channels that the proof leaves open, and of its checks where everything is wanted; `None` if all
-/// agree.
+/// Advice of the requested channels that the proof leaves open.
+/// If all channels are requested, the advice of its checks is included.
+/// `None` if all agree.
 fn open(proof: &EngineProof, wanted: &[Channel], scenario: &Scenario) -> Option<Vec<Advice>> {
     if proof.channels.is_empty() {
         return Some(Vec::new());

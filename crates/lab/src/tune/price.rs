@@ -1,4 +1,4 @@
-//! The cost of a run, counted as work by its settings, so that no clock decides the result.
+//! The cost of a run, counted as work from its settings, so that the result does not depend on a clock.
 //! See docs/numerics/laboratory.md.
 
 use crate::steps::span;
@@ -9,14 +9,14 @@ use linkage::mechanism::SpanningTree;
 use linkage::work::{Count, counted};
 use prover::engines::EngineName;
 
-/// Steps of a run besides those between the first and the last instant: a few backwards, the same number forwards, and
-/// some beyond the end.
+/// Additional steps of a run outside the interval from the first to the last instant.
+/// They are a few backwards, the same number forwards, and some beyond the end.
 const EXTRA_STEPS: f64 = 16.0;
-/// Tiny steps of a probe in every world.
+/// Number of tiny steps of a probe in every world.
 const TINY_STEPS: f64 = 5.0;
 
-/// Costs of an engine, in units of a step of `rapier` without sweeps on the same mechanism (4.9 us on the machine of the
-/// measurement).
+/// Costs of an engine, in units of a step of `rapier` without sweeps on the same mechanism (4.9 us on the measuring
+/// machine).
 struct Costs {
     /// A step, without its substeps.
     step: f64,
@@ -25,15 +25,15 @@ struct Costs {
     sweep: f64,
     /// Reading all channels at an instant.
     instant: f64,
-    /// A step in a world whose reactions are read, as a ratio to any other step.
+    /// A step in a world whose reactions are read, relative to any other step.
     native: f64,
-    /// A tiny step of a probe, as a ratio to any other step.
+    /// A tiny step of a probe, relative to any other step.
     tiny: f64,
 }
 
-/// Measured once on `crank_rocker` by `cargo bench --bench tune -- prices`. The costs with one and with two substeps
-/// show which part of a step happens once and which happens in every substep.
-/// Simbody's are those of its own steps and readings, from runs of `bench` on the same file at 1e-4 and 1e-10.
+/// Measured once on `crank_rocker` by `cargo bench --bench tune -- prices`.
+/// The costs with one and with two substeps show which part of a step happens once and which happens in every substep.
+/// Simbody's costs are those of its steps and readings, from runs of `bench` on the same file at 1e-4 and 1e-10.
 fn costs(engine: EngineName) -> Costs {
     match engine {
         EngineName::Rapier => Costs { step: 0.47, substep: 0.53, sweep: 0.028, instant: 0.26, native: 1.03, tiny: 1.1 },
@@ -50,8 +50,8 @@ fn costs(engine: EngineName) -> Costs {
     }
 }
 
-/// Makes a run of an engine on a case and tells what it costs, in steps of `rapier` without sweeps.
-/// Only of an engine that chooses its own steps they are counted in the run.
+/// Runs an engine on a case and returns the cost, in steps of `rapier` without sweeps.
+/// The steps are counted in the run only for an engine that chooses its steps itself.
 ///
 /// # Errors
 /// Those of the run.
@@ -71,10 +71,10 @@ fn named(engine: &dyn Engine) -> Costs {
     costs(EngineName::named(engine.name()).expect("engines are made by their names"))
 }
 
-/// Price of a run of an engine with a fixed step, by its settings.
+/// Cost of a run of an engine with a fixed step, from its settings.
 ///
 /// # Panics
-/// If the engine is none of [`EngineName::ALL`].
+/// If the engine is not in [`EngineName::ALL`].
 #[must_use]
 pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
     let settings = engine.settings();

@@ -5,10 +5,11 @@ use linkage::math::KeepNan;
 
 /// Largest number of runs in one search.
 const MOST_RUNS: usize = 9;
-/// An error of at least this share of the wanted one is close enough: a larger step would save less than an eighth at
+/// An error of at least this share of the requested one is close enough: a larger step would save less than an eighth
+/// at
 /// order 2.
 const NEAR_ENOUGH: f64 = 0.8;
-/// Target of the search, as a share of the wanted error.
+/// Target of the search, as a share of the requested error.
 const AIM: f64 = 0.92;
 /// If a step is known to be too large by at most this factor, no further run is made.
 const CLOSE: f64 = 1.06;
@@ -31,7 +32,8 @@ pub(super) enum Found {
         /// Its run.
         measured: Measured,
     },
-    /// The wish would cost more than the limit: the finest affordable step, and the error there, measured or expected.
+    /// The request would cost more than the limit: the finest affordable step, and the error there, measured or
+    /// expected.
     TooDear {
         /// The step.
         resolution: f64,
@@ -42,8 +44,9 @@ pub(super) enum Found {
     TooCoarse(f64),
 }
 
-/// Searches from `start` for the largest step, up to `most`, whose error is at most `within`; `order` is that of the
-/// method. No step is run if its expected price exceeds `limit`.
+/// Searches from `start` for the largest step, up to `most`, whose error is at most `within`.
+/// `order` is the formal order of the method.
+/// A step is not run if its expected cost exceeds `limit`.
 pub(super) fn largest_step(
     [start, most]: [f64; 2],
     order: f64,
@@ -58,8 +61,9 @@ pub(super) fn largest_step(
     for _ in 0..MOST_RUNS {
         let measured = run(step);
         let (error, price) = (measured.error, measured.price);
-        // A price is a constant and a part proportional to the number of steps; after one run the constant is taken as
-        // zero. The price of a run that failed is not known.
+        // The cost is a constant and a part proportional to the number of steps.
+        // After one run the constant is taken as zero.
+        // The cost of a failed run is unknown.
         let mut affordable = if price.is_finite() { step * price / limit } else { 0.0 };
         if let Some([before, _, its_price]) = last {
             let per_step = (price - its_price) / (1.0 / step - 1.0 / before);
@@ -135,7 +139,7 @@ fn settled(met: Option<(f64, Measured)>, least: f64) -> Found {
 mod tests {
     use super::*;
 
-    /// An error that falls with a power of the step down to a floor; the price is 1 over the step.
+    /// An error that falls with a power of the step down to a floor; the cost is 1 over the step.
     fn model(order: f64, floor: f64) -> impl FnMut(f64) -> Measured {
         move |step: f64| Measured { error: (step.powf(order)).larger(floor), worst: "x".into(), price: 1.0 / step }
     }

@@ -1,4 +1,4 @@
-//! Settings of an engine besides its step.
+//! Settings of an engine except its step.
 
 use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
@@ -10,8 +10,8 @@ const SWEEPS: [usize; 11] = [4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
 /// Numbers of substeps that are tried.
 const SUBSTEPS: [usize; 2] = [1, 2];
 
-/// All ways of setting an engine, except its sweeps and its resolution. Those that are usually cheapest come first, so
-/// that ways above the known price are given up early.
+/// All methods of an engine: its settings except sweeps and resolution.
+/// The methods that are usually cheapest come first, so that methods above the known cost are abandoned early.
 pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> {
     let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
     let forces = case.wanted.deepest() >= Stage::Reactions;

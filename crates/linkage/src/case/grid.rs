@@ -80,7 +80,7 @@ impl Grid {
         Err(sentences::the_grid_leads_turns_away(&format_args!("{most:.1e}"), &format_args!("{:e}", Self::MOST_TURNS)))
     }
 
-    /// Rows of the grid in ascending order of time.
+    /// Rows of the grid, sorted by ascending time.
     #[must_use]
     pub fn ascending(&self) -> Vec<usize> {
         ascending(&self.times)

@@ -1,4 +1,4 @@
-//! Selection of a case's channels by the words of a user.
+//! Selection of a case's channels by words that a user writes.
 
 use super::Case;
 use crate::trajectory::{Channel, Stage};

@@ -9,7 +9,7 @@ use crate::mechanism::{
 };
 use crate::trajectory::{Channel, Stage};
 
-/// Letters kept of a point's name to which a number is appended.
+/// Number of characters kept of a point's name to which a number is appended.
 const SHORT: usize = 80;
 
 /// The part of a case that its wanted channels depend on.
@@ -17,7 +17,7 @@ const SHORT: usize = 80;
 pub struct Scene {
     /// The needed part as a separate case; the whole case if everything is needed.
     pub case: Case,
-    /// The parts on which no wanted channel depends.
+    /// Parts that affect no wanted channel.
     pub left_out: LeftOut,
 }
 
@@ -112,8 +112,8 @@ impl<'a> Needs<'a> {
         own.min_by_key(|&link| self.upstream[link].len()).expect("a channel of the case")
     }
 
-    /// Of the joint's two links the one solved later: a link of the group, or the driving link, to which the joint
-    /// belongs.
+    /// Of the joint's two links, the one solved later.
+    /// It is the link of the group, or the driving link, to which the joint belongs.
     fn owner(&self, joint: JointId) -> LinkId {
         let joint = &self.case.mechanism.joints()[joint];
         let place = |link: LinkId| match self.case.structure.drivers.iter().position(|&(own, _)| own == link) {

@@ -1,4 +1,4 @@
-//! The subjects of a case's channels and their places in the mechanism.
+//! The subjects of a case's channels and their locations in the mechanism.
 
 use std::collections::BTreeMap;
 
@@ -6,9 +6,9 @@ use super::Case;
 use crate::mechanism::{JointId, JointSide, LinkId};
 use crate::trajectory::{Channel, ChannelSubject, Stage};
 
-/// Place of a channel's subject in the mechanism. It determines what the channel's values depend on and what they
-/// describe.
-/// A new subject takes one of these seats: see [`Case::seats`].
+/// Location of a channel's subject in the mechanism.
+/// It determines what the channel's values depend on and what they describe.
+/// A new kind of subject takes one of these seats: see [`Case::seats`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Seat {
     /// On the link with this number.
@@ -36,7 +36,7 @@ impl Seats<'_> {
 }
 
 impl Case {
-    /// All subjects of channels, in the order of columns: sort, name and seat.
+    /// All subjects of channels, in the order of columns: kind, name and seat.
     pub(crate) fn subjects(&self) -> impl Iterator<Item = (ChannelSubject, &str, Seat)> {
         let (links, joints) = (self.mechanism.links(), self.mechanism.joints());
         let links =

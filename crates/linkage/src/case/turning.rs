@@ -1,20 +1,21 @@
 //! Which links can turn, derived from the joints and the start pose.
 //!
-//! Links connected by a prismatic joint have the same angle up to a constant. So do opposite links of a parallelogram
-//! and any chain of these.
-//! A link connected with the ground in this way only translates: its angular velocity is zero, and a value that a
-//! solver finds there is rounding error. No load may take a sense of rotation from it.
+//! Links connected by a prismatic joint have the same angle up to a constant.
+//! The same holds for opposite links of a parallelogram, and for any chain of such links.
+//! A link connected with the ground in this way only translates: its angular velocity is zero.
+//! A nonzero value that a solver computes there is rounding error.
+//! No load may take a sense of rotation from it.
 
 use super::CaseParts;
 use crate::math::Vec2;
 use crate::mechanism::{GROUND, Joint, LinkId};
 
-/// Difference of two opposite sides of a parallelogram, relative to the mechanism's size, that counts as rounding
-/// error.
+/// Largest difference of two opposite sides of a parallelogram that counts as rounding error, relative to the
+/// mechanism's size.
 const EQUAL: f64 = 1e-12;
 
-/// A link that connects two other links by revolute joints: these two links in ascending order, the world coordinates
-/// of the joints, and the link itself.
+/// A link that connects two other links by revolute joints.
+/// Fields: the two links in ascending order, the world coordinates of the joints, and the connecting link.
 struct Bridge {
     ends: [LinkId; 2],
     places: [Vec2; 2],

@@ -14,7 +14,7 @@ impl Curve {
     pub(super) fn torque(&self, omega: f64) -> f64 {
         match *self {
             Curve::Line { at_rest, slope } => at_rest + slope * omega,
-            // Multiplied out, so that zero slip needs no special case.
+            // Written without a division by the slip, so that zero slip needs no special case.
             Curve::Kloss { breakdown_torque, breakdown_slip: b, synchronous_speed } => {
                 let slip = 1.0 - omega / synchronous_speed;
                 2.0 * breakdown_torque * slip * b / (slip * slip + b * b)
@@ -34,7 +34,7 @@ impl Curve {
         }
     }
 
-    /// Speed at which the torque is zero; `None` if it never is.
+    /// Speed at which the torque is zero; `None` if there is no such speed.
     pub(super) fn root(&self) -> Option<f64> {
         match *self {
             Curve::Line { slope: 0.0, .. } => None,
@@ -65,12 +65,13 @@ pub struct MotorBranch {
     ratio: f64,
     /// Share of the static torque that reaches the crank; its inverse where power flows back to the motor.
     factor: f64,
-    /// Speeds of the crank (rad/s) between which the piece is valid. Beyond them it continues smoothly.
+    /// Speeds of the crank (rad/s) between which the piece is valid. Outside this interval the piece continues
+    /// smoothly.
     pub speeds: [f64; 2],
 }
 
 impl MotorBranch {
-    /// Piece of a curve between two speeds of the motor (rad/s), behind a reducer of this ratio and efficiency.
+    /// Piece of a curve between two speeds of the motor (rad/s), seen through a reducer of this ratio and efficiency.
     /// Torque and speed keep their signs on the piece.
     pub(super) fn of(ratio: f64, efficiency: f64, curve: Curve, ends: [f64; 2]) -> Self {
         let inside = match ends {

@@ -8,7 +8,7 @@ use crate::math::Piecewise;
 /// A constant, or a table over the crank angle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Course {
-    /// The value, equal at every crank angle.
+    /// The value, the same at every crank angle.
     Constant(f64),
     /// A periodic function of the crank angle (rad, as the scenario states it).
     Table {
@@ -49,7 +49,7 @@ impl Course {
         }
     }
 
-    /// Returns this course times `factor`.
+    /// Returns this quantity times `factor`.
     #[must_use]
     pub fn times(&self, factor: f64) -> Self {
         match self {
@@ -60,7 +60,8 @@ impl Course {
         }
     }
 
-    /// Crank angles (rad) between which the function is one polynomial, over one period, and the period in turns.
+    /// Breakpoints of the function (crank angles) over one period, and the period in turns.
+    /// Between two breakpoints the function is one polynomial.
     /// `None` for a constant.
     #[must_use]
     pub fn knots(&self) -> Option<(&[f64], u32)> {

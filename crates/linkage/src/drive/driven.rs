@@ -7,7 +7,7 @@ use crate::mechanism::{JointId, LinkId};
 /// Kind of motion of a driving link.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DriveMotion {
-    /// Motion prescribed by a law. The drive supplies the moment that this takes.
+    /// Motion prescribed by a law. The drive supplies the moment that this motion requires.
     Prescribed {
         /// The motion law.
         law: MotionLaw,
@@ -19,7 +19,7 @@ pub enum DriveMotion {
         /// Speed at t = 0 (rad/s), counter-clockwise positive.
         initial_speed: f64,
         /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive.
-        /// Its sign is the motor's sense of rotation, and its size is the scale for speeds.
+        /// Its sign is the motor's sense of rotation. Its size is the reference for speeds.
         /// Crank angles refer to the nominal motion.
         nominal_speed: f64,
         /// Motor that drives the link.
@@ -36,7 +36,7 @@ pub struct Drive {
     pub joint: JointId,
     /// Link moved by the drive.
     pub link: LinkId,
-    /// Zero of the input. For an angle: the world angle of the link's x axis there (rad).
+    /// Zero of the input. For an angle: the world angle of the link's x axis at zero input (rad).
     pub zero: f64,
     /// Input at t = 0 (SI unit).
     pub start: f64,
@@ -166,7 +166,7 @@ impl Drive {
         }
     }
 
-    /// The motor, whether it drives the link or only its speed is wanted.
+    /// The motor, whether it drives the link or only its speed under load is wanted.
     #[must_use]
     pub fn motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -240,8 +240,8 @@ impl Drive {
         coordinate - self.zero
     }
 
-    /// Angle of the driving link's frame (rad, turns kept) at the coordinate of [`Drive::world_angle`]; `None` if the
-    /// drive does not turn the link.
+    /// Angle of the driving link's frame (rad, unwrapped) at the coordinate of [`Drive::world_angle`].
+    /// `None` if the drive does not turn the link.
     #[inline]
     #[must_use]
     pub fn link_angle(&self, coordinate: f64) -> Option<f64> {

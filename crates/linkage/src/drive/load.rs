@@ -1,8 +1,8 @@
 //! Loads on links other than gravity and inertia.
 //!
-//! A sort of load is defined in this file only: its variant, its action on the links ([`Load::act`]), its dependencies
+//! A kind of load is defined in this file only: its variant, its action on the links ([`Load::act`]), its dependencies
 //! ([`Load::nature`]) and its numbers ([`Load::parts`]).
-//! All other code queries these methods. The syntax in files belongs to the scenario reader.
+//! All other code queries these methods. The scenario reader defines the syntax in files.
 
 mod change;
 mod parts;
@@ -139,8 +139,8 @@ impl Load {
         }
     }
 
-    /// Name of the load, its place, and the quantities on which it depends.
-    /// Code that needs to distinguish loads uses this rather than the variant where it can.
+    /// Name of the load, its place of action, and the quantities on which it depends.
+    /// Where possible, code that distinguishes loads uses this instead of the variant.
     #[inline]
     #[must_use]
     pub fn nature(&self) -> LoadNature<'_> {
@@ -261,9 +261,10 @@ impl Load {
         if let Load::ResistingForce { force, .. } = self { way * -force } else { Vec2::zeros() }
     }
 
-    /// Jump of the load where the motion it senses reverses, at the crank angle `crank` (rad); in N m, or N for a
-    /// force; not negative.
-    /// Zero for a load that senses no motion, or vanishes with the speed or at that crank angle: it has a kink at most.
+    /// Jump of the load where the sensed motion reverses, at the crank angle `crank` (rad).
+    /// It is in N m, or in N for a force, and not negative.
+    /// It is zero for a load that senses no motion, or that vanishes with the speed or at that crank angle; such a load
+    /// has at most a kink.
     #[must_use]
     pub fn jump(&self, crank: f64) -> f64 {
         match self.nature().senses {
@@ -280,15 +281,14 @@ impl Load {
     }
 
     /// For a [resistance](Load::Resistance): the loaded link and the size of the moment (N m).
-    /// It is the only load that some engines and formats have built in.
+    /// It is the only load that some engines and formats support directly.
     #[inline]
     #[must_use]
     pub fn resistance(&self) -> Option<(LinkId, f64)> {
         if let &Load::Resistance { link, moment } = self { Some((link, moment)) } else { None }
     }
 
-    /// For a [resistance](Load::Resistance): the loaded link and the size of the moment (N m).
-    /// Some engines and formats have only this load built in.
+    /// Whether the load depends on the size of speeds, not only on their senses.
     #[must_use]
     pub fn is_viscous(&self) -> bool {
         self.nature().is_viscous
@@ -305,7 +305,7 @@ impl Load {
         self.nature().courses.iter()
     }
 
-    /// Name of the load's sort in scenario files.
+    /// Name of this kind of load in scenario files.
     #[must_use]
     pub fn sort(&self) -> &'static str {
         self.nature().sort

@@ -6,12 +6,13 @@ use std::sync::Arc;
 
 use crate::math::{Piecewise, root};
 
-/// An input with its rate and acceleration: rad, rad/s, rad/s^2 for an angle; m, m/s, m/s^2 for a length. Its kind:
-/// [`Input`](crate::input::Input).
+/// An input with its rate and acceleration.
+/// The units are rad, rad/s, rad/s^2 for an angle; m, m/s, m/s^2 for a length.
+/// [`Input`](crate::input::Input) is its kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InputState {
-    /// Value as the scenario states it. An angle is measured from the drive's zero direction, counter-clockwise, turns
-    /// counted.
+    /// Value as the scenario states it.
+    /// An angle is measured counter-clockwise from the drive's zero direction, and whole turns count.
     pub value: f64,
     /// Rate, counter-clockwise positive.
     pub rate: f64,
@@ -88,7 +89,7 @@ impl MotionLaw {
     }
 
     /// Angle, speed and acceleration at time `t` (s) of a motion with the input `start` (rad) at t = 0.
-    /// Times beyond the law's end are allowed, for callers that approach the end: the formula continues smoothly.
+    /// Beyond the law's end the formula continues smoothly, for callers that approach the end.
     #[inline]
     #[must_use]
     pub fn at(&self, start: f64, t: f64) -> InputState {
@@ -148,11 +149,11 @@ impl MotionLaw {
     }
 }
 
-/// Number of bisections of the whole time, enough to reach rounding error.
+/// Number of bisections of the whole duration, enough to reach rounding error.
 const HALVINGS: usize = 60;
 
-/// Share s of the time at which s - sin(2 pi s) / 2 pi is `gone`. Found by bisection, because the function is flat at
-/// both ends.
+/// Fraction s of the duration at which s - sin(2 pi s) / 2 pi equals `gone`.
+/// It is found by bisection, because the function is flat at both ends.
 fn cycloid(gone: f64) -> f64 {
     // A rounding error beyond the last angle is allowed.
     if !(-1e-15..=1.0 + 1e-15).contains(&gone) {

@@ -122,7 +122,7 @@ pub struct Motor {
 }
 
 impl Motor {
-    /// Returns a motor behind a reducer without losses and inertia.
+    /// Returns a motor with a reducer that has neither losses nor inertia.
     #[must_use]
     pub fn ideal(law: MotorLaw, ratio: f64) -> Self {
         Motor { law, ratio, efficiency: 1.0, inertia: ShaftInertia::default() }
@@ -179,7 +179,7 @@ impl Motor {
 
     /// Speed of the crank (rad/s) at stable equilibrium: the motor's moment equals `resistance` (N m) and falls with
     /// increasing speed.
-    /// The largest of several speeds; `None` if there is no such speed.
+    /// If there are several such speeds, the largest one; `None` if there is none.
     #[must_use]
     pub fn steady_speed(&self, resistance: f64) -> Option<f64> {
         self.branches().iter().rev().find_map(|branch| branch.steady_speed(resistance))

@@ -5,10 +5,10 @@ use crate::error::{Advice, Error, ErrorKind, Result};
 use crate::mechanism::LinkId;
 use crate::sentences;
 
-/// Mass (kg) and moment of inertia (kg m^2) that engines add to a link that lacks them; 0 for a quantity that the link
+/// Mass (kg) and moment of inertia (kg m^2) that engines add to a link without them; 0 for a quantity that the link
 /// already has.
-/// The mass is the mean mass of all links; the moment of inertia is that of a rod with this mass and the mechanism's
-/// size.
+/// The mass is the mean mass of all links.
+/// The moment of inertia is that of a rod with this mass and the mechanism's size.
 pub fn stand_in(case: &Case, link: LinkId) -> [f64; 2] {
     let moving = &case.mechanism.links()[1..];
     let total: f64 = moving.iter().map(|link| link.mass).sum();
@@ -18,7 +18,8 @@ pub fn stand_in(case: &Case, link: LinkId) -> [f64; 2] {
     [mass, if own.inertia > 0.0 { 0.0 } else { (own.mass + mass) * size * size / 12.0 }]
 }
 
-/// Checks that every link has a mass and a moment of inertia, as a free motion requires: substitutes would change it.
+/// Checks that every link has a mass and a moment of inertia.
+/// A free motion requires both, because substitutes would change the motion.
 /// `software` is the engine's name as users know it.
 ///
 /// # Errors

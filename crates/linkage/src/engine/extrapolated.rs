@@ -296,8 +296,8 @@ mod tests {
         case.on(Grid::of_times(case.crank(), vec![0.2, 0.0, 0.1])).unwrap()
     }
 
-    /// Rows and angles that an engine delivers, in its order, and the result of the run. Progress must rise from 0 to
-    /// 1.
+    /// Rows and angles in the order in which an engine delivers them, and the result of the run.
+    /// Progress must rise from 0 to 1.
     fn run(engine: &dyn Engine, case: &Case) -> (Vec<(usize, f64)>, Result<()>) {
         let (mut seen, mut far) = (Vec::new(), 0.0);
         let mut visit = |row: usize, state: &State| {

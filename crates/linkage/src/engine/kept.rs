@@ -71,9 +71,9 @@ impl CachedEngine {
         missing
     }
 
-    /// Makes the runs that are [missing](CachedEngine::missing), on as many threads as the machine has cores.
-    /// Their results do not depend on the number of threads. A run that fails is kept with its failure.
-    /// `progress` receives the finished share of all of them.
+    /// Makes the [missing](CachedEngine::missing) runs, on as many threads as the machine has cores.
+    /// Their results do not depend on the number of threads. A failed run is kept with its error.
+    /// `progress` receives the completed fraction of all these runs.
     pub fn prepare(&self, case: &Case, mut missing: Vec<Settings>, progress: Progress) {
         // The longest run starts first, so that the other cores do not wait for it at the end.
         missing.sort_by(|a, b| b.work().total_cmp(&a.work()));
@@ -108,7 +108,7 @@ impl CachedEngine {
     }
 }
 
-/// Settings of the plain runs from which an engine with `settings` is combined.
+/// Settings of the plain runs that an engine with `settings` combines.
 #[must_use]
 pub fn plain_runs(settings: Settings) -> Vec<Settings> {
     let at = |time| settings.resolution * 0.5f64.powi(time);

@@ -1,7 +1,7 @@
 //! The states of a whole run in one flat block of memory, reduced to the numbers that the wanted channels need.
 //!
-//! A [`State`] has five separate lists, with room for every stage. For a run of many instants these would take more
-//! memory than the numbers.
+//! A [`State`] has five separate lists with memory for every stage.
+//! For a run of many instants these lists would take more memory than the numbers.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -32,14 +32,15 @@ struct Layout {
     accelerations: bool,
     /// Joints whose forces are kept.
     joints: usize,
-    /// Joints among them that carry a moment.
+    /// Those of these joints that carry a moment.
     sliding: Vec<JointId>,
     drives: usize,
 }
 
 impl Layout {
-    /// Layout of the numbers that the wanted channels of a case need. Forces depend on the whole motion, so then all
-    /// velocities are kept: a load may depend on a velocity that is not wanted itself.
+    /// Layout of the numbers that the wanted channels of a case need.
+    /// With forces all velocities are kept, because forces depend on the whole motion.
+    /// A load may depend on a velocity that is not itself wanted.
     fn of(case: &Case) -> Self {
         let deepest = case.wanted.deepest();
         let with_forces = deepest >= Stage::Reactions;
@@ -118,8 +119,8 @@ impl Rows {
         self.passing.extend(state.passing.map(|condition| (row, condition)));
     }
 
-    /// Copies the stored row into `state`, a state of the same case, and returns `true`; returns `false` and leaves
-    /// `state` unchanged if the run has not reached the row.
+    /// Copies the stored row into `state`, a state of the same case, and returns `true`.
+    /// If the run has not reached the row, returns `false` and leaves `state` unchanged.
     pub fn get(&self, row: usize, state: &mut State) -> bool {
         if !self.reached[row] {
             return false;
@@ -164,7 +165,7 @@ impl Rows {
         outcome.map(|()| Arc::new(rows))
     }
 
-    /// Collects the states that `sweep` visits. On failure the states visited before it are returned with the error.
+    /// Collects the states that `sweep` visits. On failure, returns the states visited so far with the error.
     pub(super) fn of_run(
         case: &Case,
         sweep: impl FnOnce(&mut dyn FnMut(usize, &State) -> Result<()>) -> Result<()>,
@@ -191,7 +192,7 @@ mod tests {
         case.on(Grid::of_times(case.crank(), vec![0.0, 0.1])).unwrap()
     }
 
-    /// A state of numbers that are all different.
+    /// A state whose numbers are all different.
     fn numbered(case: &Case) -> State {
         let mut state = State::at_rest(case);
         let mut next = 0.0;

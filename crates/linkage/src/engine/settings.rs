@@ -5,14 +5,14 @@ use std::fmt;
 use crate::case::Case;
 use crate::math::KeepNan;
 
-/// A route to reactions and balancing moment.
+/// A method for reactions and balancing moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Route {
     /// Newton-Euler equations on centred second differences of the engine's own positions.
     Differences,
     /// Values that the engine itself reports for the running trajectory: impulses, multipliers.
     Native,
-    /// Values that the engine reports for one tiny step that starts on its own trajectory.
+    /// Values that the engine reports for one tiny step from a state on its own trajectory.
     Probe,
 }
 
@@ -43,42 +43,45 @@ impl fmt::Display for Route {
     }
 }
 
-/// Settings of an engine. All influence results. An engine lists in [`told`](super::Engine::told) those that it uses.
+/// Settings of an engine. All of them influence results.
+/// An engine lists the settings that it uses in [`told`](super::Engine::told).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Time step (s) of an engine with a fixed step; relative accuracy of an engine that controls its error.
     pub resolution: f64,
-    /// Iteration sweeps over all constraints in a step; 0 in an engine that does not iterate.
+    /// Iteration sweeps over all constraints per step; 0 in an engine that does not iterate.
     pub sweeps: usize,
     /// Number of parts into which the engine itself divides a step.
     pub substeps: usize,
     /// The route to reactions and balancing moment.
     pub route: Route,
-    /// How often the state is extrapolated to step zero: `n` combines runs at h, h / 2, ..., h / 2^n, so that the `n`
-    /// leading errors cancel. 0 for a plain run.
+    /// Number of Richardson extrapolations to step zero; 0 for a plain run.
+    /// `n` extrapolations combine runs at h, h / 2, ..., h / 2^n, so that the `n` leading error terms cancel.
     pub extrapolated: usize,
 }
 
-/// Moving links up to which a step costs about what it costs on a four-bar.
+/// Number of moving links up to which a step costs about as much as on a four-bar.
 const SMALL: f64 = 6.0;
 
-/// Work of a step on a case, over that on a four-bar: the mass matrix of a multibody is full. Measured on chains: at 21,
-/// 61 and 201 moving links a step costs 12, 250 and 5000 times as much, a sweep 12, 100 and 800 times.
+/// Work of a step on a case, relative to a four-bar. It grows because the mass matrix of a multibody is full.
+/// Measured on chains of 21, 61 and 201 moving links: a step costs 12, 250 and 5000 times as much, a sweep 12, 100 and
+/// 800 times.
 #[must_use]
 pub fn size_of_step(case: &Case) -> f64 {
     let moving = case.mechanism.links().len().saturating_sub(1) as f64;
     (moving / SMALL).larger(1.0).powi(2)
 }
 
-/// Work of a sweep, in units of the work of a step without sweeps: measured on a four-bar, where the sweeps of a step
-/// cost as much as its rest at about twenty of them.
+/// Work of one sweep, relative to a step without sweeps.
+/// Measured on a four-bar: about twenty sweeps cost as much as the rest of the step.
 const SWEEP: f64 = 0.05;
 
 impl Settings {
-    /// Work of a plain run over one second of the motion, in steps without sweeps. It is counted, not timed.
+    /// Work of a plain run over one second of motion, in steps without sweeps. It is computed from the settings, not
+    /// timed.
     #[must_use]
     pub fn work(&self) -> f64 {
-        // Every substep has all sweeps.
+        // Every substep makes all sweeps.
         self.substeps.max(1) as f64 * (1.0 + SWEEP * self.sweeps as f64) / self.resolution
     }
 }

@@ -1,5 +1,5 @@
-//! What stands for another engine: everything that it does not change itself is asked of that engine, here and nowhere
-//! else.
+//! Stand-ins for an engine.
+//! Only this module forwards to the original engine what a stand-in does not change.
 
 use std::sync::Arc;
 
@@ -9,21 +9,22 @@ use crate::error::Result;
 use crate::solver::{Progress, Solver};
 use crate::trajectory::ChannelKind;
 
-/// A solver that stands for an engine, and so is one. It says what it changes; a new question of [`Engine`] is asked
-/// for by the compiler in one place, and passed on from there.
+/// A solver that replaces an engine and therefore is an engine.
+/// It overrides only what it changes.
+/// A new method of [`Engine`] needs forwarding in one place, and the compiler asks for it.
 pub trait StandIn: Solver {
-    /// The engine that it stands for.
+    /// The engine that the stand-in replaces.
     fn original(&self) -> &dyn Engine;
 
     /// [`Engine::with`] of the stand-in.
     fn renewed(&self, settings: Settings) -> Box<dyn Engine>;
 
-    /// [`Engine::settings`], where they are not those of the original.
+    /// [`Engine::settings`] of the stand-in. Default: those of the original.
     fn own_settings(&self) -> Settings {
         self.original().settings()
     }
 
-    /// [`Engine::rows`], where they need not be made by [`Solver::sweep`].
+    /// [`Engine::rows`] of the stand-in. Default: collected by [`Solver::sweep`].
     ///
     /// # Errors
     /// Those of [`Solver::sweep`].
@@ -31,22 +32,22 @@ pub trait StandIn: Solver {
         Rows::of_solver(self, case, progress)
     }
 
-    /// [`Engine::statics`], where they are not those of the original.
+    /// [`Engine::statics`] of the stand-in. Default: those of the original.
     fn own_statics(&self, case: &Case) -> Option<Statics> {
         self.original().statics(case)
     }
 
-    /// [`Engine::formal_order`], where it is not that of the original.
+    /// [`Engine::formal_order`] of the stand-in. Default: that of the original.
     fn own_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         self.original().formal_order(case, channel)
     }
 
-    /// [`Engine::noise`], where it is not that of the original.
+    /// [`Engine::noise`] of the stand-in. Default: that of the original.
     fn own_noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
         self.original().noise(case, channel)
     }
 
-    /// [`Engine::told`], where it is not that of the original.
+    /// [`Engine::told`] of the stand-in. Default: that of the original.
     fn own_told(&self) -> Vec<(&'static str, String)> {
         self.original().told()
     }

@@ -1,4 +1,4 @@
-//! A solver or an engine that stands for another one and changes what it answers.
+//! A solver or an engine that wraps another one and changes its results.
 
 use super::{Engine, Settings, StandIn, Statics};
 use crate::case::Case;
@@ -6,21 +6,21 @@ use crate::error::Result;
 use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::trajectory::Channel;
 
-/// What a [`Wrapped`] solver or engine does differently from the one it stands for.
+/// The changes that a [`Wrapped`] solver or engine makes to the wrapped one.
 pub trait Hook: Clone + Send + Sync + 'static {
-    /// The case that is solved instead of `case`; `None` if it is `case` itself.
+    /// The case to solve instead of `case`; `None` to solve `case` itself.
     ///
     /// # Errors
-    /// Where there is no such case: nothing is solved then.
+    /// If there is no such case. Nothing is solved then.
     fn case(&self, case: &Case) -> Result<Option<Case>> {
         let _ = case;
         Ok(None)
     }
 
-    /// Changes a state on its way out. `case` is the one that was asked, `row` the row of its grid.
+    /// Changes a state before it is returned. `case` is the requested case, `row` the row of its grid.
     fn answer(&self, case: &Case, row: usize, state: &mut State);
 
-    /// The hook of the same engine when its settings change.
+    /// The hook for the same engine after a change of its settings.
     #[must_use]
     fn with(&self, from: Settings, to: Settings) -> Self {
         let _ = (from, to);
@@ -28,7 +28,7 @@ pub trait Hook: Clone + Send + Sync + 'static {
     }
 }
 
-/// A solver, or an engine, with a [`Hook`]. In everything else it is the one that it stands for.
+/// A solver or an engine with a [`Hook`]. Apart from the hook it behaves as the wrapped one.
 #[derive(Clone, Debug)]
 pub struct Wrapped<H, S: ?Sized> {
     /// What it does differently.
@@ -72,7 +72,7 @@ impl<H: Hook> StandIn for Wrapped<H, dyn Engine> {
         let mut inner = self.inner.statics(changed.as_ref().unwrap_or(case))?;
         Some(Box::new(move |case, row, state| {
             inner(changed.as_ref().unwrap_or(case), row, state)?;
-            // The motion is changed already; the forces are changed here.
+            // The motion was changed before, so only the changed forces are kept.
             let motion = (state.motions.clone(), state.angles.clone());
             hook.answer(case, row, state);
             (state.motions, state.angles) = motion;

@@ -1,4 +1,5 @@
-//! The remedy for an error, as data. Its text names no option of any program; a program with options adds them.
+//! The remedy for an error, as data.
+//! Its text names no option of any program. A program with options adds them.
 
 use crate::sentences;
 use std::fmt;
@@ -35,7 +36,7 @@ pub enum Advice {
         /// A number to try, if the present one is known.
         to: Option<usize>,
     },
-    /// Settings left for the proof to choose, instead of given ones.
+    /// Settings chosen by the proof instead of given ones.
     FreeSettings,
     /// More work for the search of settings.
     MoreWork {
@@ -53,9 +54,9 @@ pub enum Advice {
     DoublePrecision,
     /// Another engine.
     OtherEngine,
-    /// Another route to the reactions.
+    /// Another method for the reactions.
     OtherRoute {
-        /// Names of the routes that work.
+        /// Names of the methods that work.
         routes: &'static [&'static str],
     },
     /// Another analytic side as the reference of a proof.
@@ -72,7 +73,7 @@ pub enum Advice {
     ShortenGrid,
     /// An analysis of the range of motion, which shows what limits the crank and which links turn fully.
     LookAtRange,
-    /// Another of the configurations of a group.
+    /// Another configuration of a group.
     Configuration {
         /// What the user can specify, in words.
         give: String,
@@ -81,10 +82,10 @@ pub enum Advice {
     SolutionTable,
     /// Channels that exist.
     OtherChannel {
-        /// Groups of channels, in words.
+        /// Names of the groups of channels, in words.
         groups: String,
     },
-    /// A larger error, other channels or more engines instead of a request that no engine meets.
+    /// A weaker request, because no engine meets this one: a larger error, other channels or more engines.
     WeakerWish,
     /// The complete results instead of an extract.
     AllResults,
@@ -92,8 +93,8 @@ pub enum Advice {
 
 impl Advice {
     /// The same advice with a number to try.
-    /// It follows from the engine's present `resolution` (time step in s, or relative accuracy if the engine
-    /// `controls_error`) and its present number of `sweeps`.
+    /// The number follows from the engine's present settings: `resolution` (time step in s, or relative accuracy if the
+    /// engine `controls_error`) and number of `sweeps`.
     #[must_use]
     pub fn from_settings(self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
         let (half, double) = (rounded(resolution / 2.0), rounded(resolution * 2.0));
@@ -105,12 +106,12 @@ impl Advice {
             _ if matches!(self, Advice::SmallerStep { .. }) => Advice::SmallerStep { to: Some(half) },
             _ if matches!(self, Advice::LargerStep { .. }) => Advice::LargerStep { to: Some(double) },
             _ if matches!(self, Advice::MoreSweeps { .. }) => Advice::MoreSweeps { to: Some(2 * sweeps) },
-            // The others contain no number of an engine's settings.
+            // The other variants contain no number of an engine's settings.
             _ => self,
         }
     }
 
-    /// Alternatives as one sentence; `tell` puts each into words. `None` if there are none.
+    /// Alternatives as one sentence; `None` if the list is empty. `tell` puts each of them into words.
     #[must_use]
     pub fn sentence(all: &[Advice], tell: impl Fn(&Advice) -> String) -> Option<String> {
         (!all.is_empty()).then(|| all.iter().map(tell).collect::<Vec<_>>().join(", or "))

@@ -1,15 +1,15 @@
-//! Several errors that were found at once: the first of them carries the others.
+//! Several errors found at once: the first one carries the others.
 
 use super::{Advice, Error};
 use crate::sentences;
 
-/// Most errors that are kept; the others are counted.
+/// Largest number of errors that are kept. Further errors are only counted.
 const MOST: usize = 20;
 
 impl Error {
-    /// The error that carries all of these: the first, with the others behind it. `None` without any.
+    /// Combines errors into one: the first carries the others. `None` if the list is empty.
     ///
-    /// Twenty are kept, and the others counted.
+    /// Twenty errors are kept. Further errors are only counted.
     #[must_use]
     pub fn all(errors: impl IntoIterator<Item = Error>) -> Option<Error> {
         let mut kept: Vec<Error> = Vec::new();
@@ -30,18 +30,18 @@ impl Error {
         Some(first)
     }
 
-    /// This error, then those that were found with it.
+    /// This error, followed by those found together with it.
     pub fn each(&self) -> impl Iterator<Item = &Error> {
         [self].into_iter().chain(&self.0.further)
     }
 
-    /// Number of errors that were found beyond those that are kept.
+    /// Number of errors that were found but not kept.
     #[must_use]
     pub fn left_out(&self) -> usize {
         self.0.left_out
     }
 
-    /// What stands for the errors that are not kept; `None` if all are.
+    /// Sentence about the errors that are not kept; `None` if all are kept.
     #[must_use]
     pub fn rest(&self) -> Option<String> {
         match self.0.left_out {
@@ -51,20 +51,21 @@ impl Error {
         }
     }
 
-    /// The same errors, each as `change` makes it, in the order of the lines that they are about.
+    /// Applies `change` to every error and sorts the results by their position in the file.
     #[must_use]
     pub fn each_in_order(mut self, change: impl FnMut(Error) -> Error) -> Error {
         let left_out = std::mem::take(&mut self.0.left_out);
         let further = std::mem::take(&mut self.0.further);
         let mut all: Vec<Error> = [self].into_iter().chain(further).map(change).collect();
-        // Stable: what has no place, or the same, stays in the order in which it was found.
+        // The sort is stable: errors with the same position, or without one, stay in the order in which they were
+        // found.
         all.sort_by_key(|error| error.place().map_or(0, |place| place.span.start));
         let mut first = Error::all(all).expect("one error at least");
         first.0.left_out = left_out;
         first
     }
 
-    /// All errors, one a line, as the `Display`. `tell` puts each advice into words.
+    /// All errors, one per line, as in `Display`. `tell` puts each piece of advice into words.
     #[must_use]
     pub fn lines_by(&self, tell: impl Fn(&Advice) -> String) -> String {
         let lines = self.each().map(|error| error.line_by(&tell));
@@ -84,7 +85,7 @@ mod tests {
         let pair = Error::all([one(1), one(2)]).unwrap();
         assert_eq!(pair.to_string(), "mistake 1\nmistake 2");
         let many = Error::all((0..30).map(one)).unwrap();
-        // What was counted before is counted on.
+        // Errors that were only counted before are added to the count.
         let more = Error::all([pair, many]).unwrap();
         let told = more.to_string();
         assert!(

@@ -1,4 +1,4 @@
-//! Angles that keep their turns.
+//! Angles with whole turns.
 
 use std::f64::consts::TAU;
 
@@ -8,14 +8,15 @@ fn nearest(angle: f64, near: f64) -> f64 {
     angle + TAU * ((near - angle) / TAU).round()
 }
 
-/// `angle` brought into (-pi, pi], in rad.
+/// `angle` reduced to (-pi, pi], in rad.
 #[must_use]
 pub fn wrapped(angle: f64) -> f64 {
     let wrapped = nearest(angle, 0.0);
     if wrapped <= -TAU / 2.0 { wrapped + TAU } else { wrapped }
 }
 
-/// Arc tangent (rad). Uses its series where five terms give all digits: a quarter of the cost.
+/// Arc tangent (rad).
+/// Where five terms of its series give all digits, the series is used, at a quarter of the cost.
 #[inline]
 #[must_use]
 pub fn arc_tangent(x: f64) -> f64 {

@@ -1,15 +1,16 @@
-//! Dense linear systems that are factored in place, again and again, without allocation.
+//! Dense linear systems that are factored in place, repeatedly and without allocation.
 
 mod fixed;
 
-/// Square system A x = b by LU decomposition with partial pivoting; the storage is reused between poses.
+/// Square system A x = b, solved by LU decomposition with partial pivoting. The storage is reused between poses.
 ///
-/// nalgebra's own LU takes its matrix by value and so allocates in every pose, and it has no solve with the transpose.
+/// nalgebra's LU takes its matrix by value, so it allocates in every pose. It cannot solve with the transpose.
 #[derive(Clone, Debug)]
 pub struct Lu {
     n: usize,
     a: Vec<f64>,
-    /// The row with which each was exchanged; for orders known in advance, the row that has come to each place.
+    /// For the general elimination: the row with which each row was exchanged.
+    /// For the fixed orders 4 and 6: the original row at each position.
     pivot: Vec<usize>,
     /// Inverses of the factored matrix's diagonal.
     inverse: Vec<f64>,
@@ -18,7 +19,7 @@ pub struct Lu {
 }
 
 impl Lu {
-    /// Storage for `n` equations; all coefficients zero.
+    /// Storage for `n` equations. All coefficients are zero.
     #[must_use]
     pub fn new(n: usize) -> Self {
         Lu { n, a: vec![0.0; n * n], pivot: vec![0; n], inverse: vec![0.0; n], swap_sign: 1.0, determinant: f64::NAN }
@@ -42,7 +43,7 @@ impl Lu {
         self.a[row * self.n..][..2 * self.n].split_at_mut(self.n)
     }
 
-    /// Factors the matrix in place. Returns false if it is singular to working precision (or not finite).
+    /// Factors the matrix in place. Returns false if it is singular to working precision, or not finite.
     #[must_use]
     pub fn factor(&mut self) -> bool {
         let Lu { n, a, pivot, inverse, swap_sign, determinant } = self;
@@ -67,7 +68,7 @@ impl Lu {
         (0..self.n).map(|k| self.a[k * self.n + k])
     }
 
-    /// Sign of the determinant of the factored matrix, +1 or -1. Correct even where the determinant itself would
+    /// Sign of the determinant of the factored matrix, +1 or -1. It is correct even if the determinant itself would
     /// underflow.
     #[must_use]
     pub fn determinant_sign(&self) -> f64 {
@@ -93,7 +94,7 @@ impl Lu {
     }
 }
 
-/// Factors a matrix of any order in place. Returns the sign of the exchange of rows, and the determinant.
+/// Factors a matrix of any order in place. Returns the sign of the row permutation, and the determinant.
 fn factor(a: &mut [f64], pivots: &mut [usize], inverse: &mut [f64]) -> Option<(f64, f64)> {
     let n = pivots.len();
     let (mut sign, mut product) = (1.0, 1.0);
@@ -167,9 +168,9 @@ fn solve_transposed(a: &[f64], pivots: &[usize], inverse: &[f64], y: &mut [f64])
     }
 }
 
-/// Solves two equations A x = b by elimination with partial pivoting; `None` if A is singular to working precision (or
-/// not finite).
-/// The same method as [`Lu`], for systems solved so often that its loops would cost more than the arithmetic.
+/// Solves two equations A x = b by elimination with partial pivoting.
+/// Returns `None` if A is singular to working precision, or not finite.
+/// It is the method of [`Lu`] without loops: for systems solved this often, loops would cost more than the arithmetic.
 #[inline]
 #[must_use]
 pub fn solve_pair(a: [[f64; 2]; 2], b: [f64; 2]) -> Option<[f64; 2]> {
@@ -217,7 +218,7 @@ mod tests {
     }
 
     proptest! {
-        /// Singular and not finite matrices included.
+        /// Includes singular and non-finite matrices.
         #[test]
         fn orders_known_in_advance_have_the_bits_of_any_order(
             values in prop::collection::vec(-4i8..5, 36),
@@ -247,7 +248,7 @@ mod tests {
             }
             compare::<4>(&values)?;
             compare::<6>(&values)?;
-            // Any order passes over NaN beside a zero factor; a known one always refuses it.
+            // The general elimination misses a NaN whose factor is zero; the fixed-order one always rejects it.
             values[7] = f64::NAN;
             let (mut own, mut pivots, mut inverse) = (values[..16].to_vec(), [0; 4], [0.0; 4]);
             prop_assert!(fixed::factor::<4>(&mut own, &mut pivots, &mut inverse).is_none());

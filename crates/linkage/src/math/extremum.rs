@@ -1,16 +1,17 @@
-//! Extremes of a function of one variable between bounds. All such searches of the project are here.
+//! Extremes of a function of one variable between bounds. All searches for extremes in the project are in this module.
 
-/// Golden section steps of [`greatest`]. The interval shrinks to 1e-9 of the distance of two samples, where the value
-/// is exact to rounding.
+/// Golden section steps of [`greatest`]. They shrink the interval to 1e-9 of the distance between two samples.
+/// There the value is exact up to rounding error.
 const REFINEMENTS: usize = 44;
 
-/// The interval from `low` to `high` about the greatest value, after `steps` steps of golden section (Kiefer 1953).
+/// Encloses the largest value between `low` and `high` by `steps` steps of golden section (Kiefer 1953).
 /// Each step leaves 0.618 of the interval. Returns both ends of the remaining interval.
-/// The result is certain for a function with one extreme in the interval; for others it is one of their extremes.
-/// About 40 steps reach the square root of rounding; more steps gain nothing. NaN counts as less than any number.
+/// The result is certain for a function with one extreme in the interval; otherwise it is one of the extremes.
+/// About 40 steps reach the square root of the rounding error; more steps gain nothing.
+/// NaN counts as less than any number.
 ///
 /// # Errors
-/// The first of `value`.
+/// The first error of `value`.
 pub fn golden<E>(
     [mut low, mut high]: [f64; 2],
     steps: usize,
@@ -33,16 +34,16 @@ pub fn golden<E>(
     Ok([low, high])
 }
 
-/// Place and value of the greatest sample or, by golden section between its neighbours, of the greatest value found
-/// there.
+/// Position and value of the largest value found.
+/// The search starts from the largest sample and uses golden section between its neighbours.
 /// `places` ascend, `samples` are the values there. `value` may fail, for example at a pose that cannot be reached.
-/// If a sample or a computed value is NaN, the result is NaN, because the greatest value is then unknown.
+/// If a sample or a computed value is NaN, the result is NaN, because the largest value is then unknown.
 ///
 /// # Errors
-/// The first of `value`.
+/// The first error of `value`.
 ///
 /// # Panics
-/// Without a sample.
+/// If there is no sample.
 pub fn greatest<E>(
     places: &[f64],
     samples: &[f64],
@@ -79,7 +80,7 @@ mod tests {
         let places = [-1.0, 0.0, 1.0, 2.0];
         let samples = places.map(|x| value(x).unwrap());
         let (place, peak) = greatest(&places, &samples, &mut value).unwrap();
-        // The function is flat at the top: half the digits of the place, all digits of the value.
+        // The function is flat at the top: the position has half its digits, the value all of them.
         assert!((place - 0.3).abs() < 1e-7 && (peak - 3.0).abs() < 1e-15, "{place} {peak}");
         assert_eq!(greatest(&places, &samples, &mut |_| Err("out of reach")), Err("out of reach"));
     }
@@ -91,7 +92,7 @@ mod tests {
             let found = greatest(&[0.0, 1.0, 2.0], &[0.0, unknown, 2.0], &mut value).unwrap();
             assert!(found.0 == 1.0 && found.1.is_nan(), "{found:?}");
         }
-        // Only one value is NaN, the second: those after it do not hide it.
+        // Only the second value is NaN. The values after it do not hide it.
         let mut count = 0;
         let mut gap = |x: f64| {
             count += 1;
@@ -101,7 +102,7 @@ mod tests {
     }
 
     proptest! {
-        /// The greatest value lies in the remaining interval, wherever it is, also at an end.
+        /// The largest value lies in the remaining interval, wherever it is, even at an end.
         #[test]
         fn golden_section_keeps_the_peak(low in -5.0f64..5.0, width in 0.1f64..10.0, share in 0.0f64..=1.0, sharp in 0.1f64..4.0) {
             let (high, peak) = (low + width, low + share * width);
@@ -111,7 +112,7 @@ mod tests {
             prop_assert!(b - a < 2e-6 * width, "{}", b - a);
         }
 
-        /// Never less than any sample, nor than the true value.
+        /// The result is not less than any sample, nor than the true largest value up to a bound.
         #[test]
         fn the_greatest_is_not_below_any_sample(c in prop::collection::vec(-1.0f64..1.0, 6), count in 40usize..80) {
             let f = |x: f64| (0..3).map(|k| c[2 * k] * (k as f64 * x + c[2 * k + 1]).sin()).sum::<f64>();
@@ -120,8 +121,8 @@ mod tests {
             let (place, value) = greatest(&places, &samples, &mut |x| Ok::<f64, ()>(f(x))).unwrap();
             prop_assert!(samples.iter().all(|&sample| value >= sample) && value == f(place));
             let dense = (0..7000).map(|k| f(k as f64 * 1e-3)).fold(f64::NEG_INFINITY, f64::larger);
-            // Of two peaks of nearly the same height the samples may choose the wrong one, by a parabola's height
-            // between two of them.
+            // Of two peaks of nearly the same height the samples may select the wrong one.
+            // The error is then at most the height of a parabola between two samples.
             prop_assert!(value >= dense - 5.0 * (7.0 / count as f64).powi(2), "{value} {dense}");
         }
     }

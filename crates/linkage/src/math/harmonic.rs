@@ -2,9 +2,9 @@
 //!
 //! Between two neighbouring extrema a function has one zero if its signs there differ, otherwise none.
 //! The extrema are the zeros of the derivative, which are computed from eigenvalues.
-//! Where two zeros meet, the zeros themselves move by the square root of the rounding, but the extremum between them
-//! stays simple.
-//! Its sign distinguishes a close pair of zeros from a near miss.
+//! Where two zeros meet, rounding moves them by its square root, but the extremum between them stays a simple zero of
+//! the derivative.
+//! The sign at that extremum distinguishes a close pair of zeros from a near miss.
 
 use crate::math::KeepNan;
 use nalgebra::{Complex, DMatrix, linalg::Schur};
@@ -15,22 +15,23 @@ use super::root;
 
 type Coefficients = Vec<Complex<f64>>;
 
-/// Roots of the derivative farther than this from the unit circle are not angles. Simple roots move by rounding only; a
-/// root that is nearly double moves by its square root, 1e-8, times its condition number.
-/// Too many roots do no harm: each is only one more candidate.
+/// Largest distance of a root of the derivative from the unit circle; roots farther away are not angles.
+/// Rounding moves a simple root only by its own size.
+/// It moves a nearly double root by its square root, 1e-8, times the condition number of the root.
+/// Superfluous roots do no harm: each is only one more candidate.
 const ON_CIRCLE: f64 = 1e-3;
-/// Below this share of the scale a value counts as zero: it is the rounding of the coefficients with a margin of two
-/// digits.
+/// Fraction of the scale below which a value counts as zero.
+/// It is the rounding error of the coefficients with a margin of two digits.
 const ZERO: f64 = 1e-14;
-/// Zeros nearer to each other than this (rad) are one touching zero: a parabola of height `ZERO` has this width.
+/// Zeros closer together than this (rad) count as one touching zero: a parabola of height `ZERO` has this width.
 const APART: f64 = 1e-7;
 
-/// Real zeros in [0, 2 pi) of the trigonometric polynomial of at most degree `degree` (1 or more) that equals `f`, in
-/// ascending order.
-/// `scale` is the size of the terms that `f` sums up; it sets the limit for rounding.
+/// Real zeros in [0, 2 pi), in ascending order, of the trigonometric polynomial that equals `f`.
+/// Its degree is at most `degree` (1 or more).
+/// `scale` is the size of the terms that `f` sums up; it sets the limit for rounding errors.
 /// Touching zeros count once. Leading coefficients may be zero.
 ///
-/// Returns `None` if `f` is zero everywhere to rounding, or not finite.
+/// Returns `None` if `f` is zero everywhere up to rounding error, or not finite.
 pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f64>> {
     let coefficients = coefficients(degree, f);
     let largest = coefficients.iter().map(|c| c.norm()).fold(0.0, f64::larger);
@@ -39,7 +40,7 @@ pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f6
         return None;
     }
     let small = ZERO * scale;
-    // An even grid in addition: even if an extremum were missed, the zeros next to it would be found.
+    // An even grid in addition: if an extremum is missed, the zeros next to it are still found.
     let even = (0..4 * degree).map(|k| TAU * (k as f64 + 0.37) / (4 * degree) as f64);
     let mut places: Vec<f64> = extrema(&coefficients)?.into_iter().chain(even).collect();
     places.sort_by(f64::total_cmp);
@@ -49,7 +50,7 @@ pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f6
         let to = places.get(index + 1).copied().unwrap_or(places[0] + TAU);
         let ends = [value(from), value(to)];
         if ends[0].abs() <= small {
-            // Neighbouring places with values of zero belong to one multiple zero.
+            // Neighbouring positions with zero values belong to one multiple zero.
             let before = places[(index + places.len() - 1) % places.len()];
             if value(before).abs() > small {
                 found.push(from);
@@ -73,7 +74,7 @@ fn coefficients(degree: usize, f: impl Fn(f64) -> f64) -> Coefficients {
     let values: Vec<f64> = (0..count).map(|j| f(TAU * j as f64 / count as f64)).collect();
     let coefficient = |k: i64| {
         let term = |(j, &value): (usize, &f64)| {
-            // The product is reduced before it becomes an angle, so that no digits are lost.
+            // The product is reduced before it becomes an angle, so that it loses no digits.
             let turn = (k * j as i64).rem_euclid(count as i64) as f64 / count as f64;
             Complex::from_polar(value / count as f64, -TAU * turn)
         };
@@ -94,7 +95,7 @@ fn evaluate(coefficients: &[Complex<f64>], x: f64) -> (f64, f64) {
     (value, slope)
 }
 
-/// Places in [0, 2 pi) of the extrema; an empty list for a constant.
+/// Positions of the extrema in [0, 2 pi); an empty list for a constant.
 fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     let degree = (coefficients.len() / 2) as f64;
     let slope = |(index, c): (usize, &Complex<f64>)| c * Complex::new(0.0, index as f64 - degree);
@@ -105,8 +106,8 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     let near = roots(&derivative)?.into_iter().filter(|found| (found.norm() - 1.0).abs() < ON_CIRCLE);
     let polished = near.map(|found| {
         let (mut best, mut least) = (found.arg(), f64::INFINITY);
-        // Near a multiple root Newton's method may diverge. The place with the smallest slope is kept, including the
-        // fifth step.
+        // Near a multiple root Newton's method may diverge.
+        // The iterate with the smallest slope is kept; the fifth step counts too.
         let Ok(_) = root::polished(found.arg(), 5, f64::INFINITY, |x| {
             let (value, slope) = evaluate(&derivative, x);
             if value.abs() < least && (x - found.arg()).abs() < ON_CIRCLE {
@@ -119,8 +120,8 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     Some(polished.collect())
 }
 
-/// The single zero between two places where the signs differ. Newton's method; bisection where it would leave the
-/// interval.
+/// The single zero between two positions where the signs differ.
+/// It uses Newton's method, with bisection where a step would leave the interval.
 fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
     let rises = evaluate(coefficients, to).0 > 0.0;
     let middle = f64::midpoint(from, to);
@@ -129,17 +130,17 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
     found.expect("coefficients are finite, and so are the values")
 }
 
-/// Roots of a polynomial (lowest power first) whose coefficients are their own mirror image, except for conjugation and
-/// a sign, so that roots come in pairs z, 1 / conj(z).
+/// Roots of a polynomial (lowest power first) with mirror-symmetric coefficients, up to conjugation and a sign.
+/// Such roots come in pairs z, 1 / conj(z).
 ///
-/// The map z = (w + a) / (1 + conj(a) w), |a| < 1, keeps the unit circle and moves roots at infinity, which correspond
-/// to zero leading coefficients, to -1 / conj(a).
-/// Its leading coefficient has the size of the polynomial's value at a.
+/// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.
+/// It moves roots at infinity, which correspond to zero leading coefficients, to -1 / conj(a).
+/// The leading coefficient of the mapped polynomial has the size of the polynomial's value at a.
 /// So a is chosen to make this value large; the companion matrix is then well scaled.
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
     let n = polynomial.len() - 1;
     let value = |a: Complex<f64>| polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * a + c).norm();
-    // One candidate more than there are roots inside the circle: at least one candidate is far from all roots.
+    // There is one more candidate than roots inside the circle, so at least one candidate is far from all roots.
     let candidates = (0..n + 1).map(|k| Complex::from_polar(0.5, TAU * k as f64 / (n + 1) as f64));
     let a = candidates.max_by(|&a, &b| value(a).total_cmp(&value(b)))?;
     let mut mapped = vec![Complex::new(0.0, 0.0); n + 1];
@@ -193,8 +194,8 @@ mod tests {
         assert!(zeros(3, 1.0, |x| if x > 5.0 { f64::NAN } else { x.cos() }).is_none());
     }
 
-    /// Two zeros at the distance d make a parabola of depth d^2 / 4 (times 1/2 here). It is distinguished from a near
-    /// miss as long as this is above `ZERO`.
+    /// Two zeros at the distance d form a parabola of depth d^2 / 4 (times 1/2 here).
+    /// They are distinguished from a near miss as long as this depth is above `ZERO`.
     #[test]
     fn a_close_pair_is_told_from_a_near_miss() {
         for d in [1e-2, 1e-4, 1e-6] {
@@ -205,8 +206,8 @@ mod tests {
         }
     }
 
-    /// Where four zeros coincide, the three zeros of the derivative are known to a third of the digits: f is flat
-    /// enough for that.
+    /// Where four zeros coincide, the three zeros of the derivative are accurate to a third of the digits.
+    /// That is enough, because f is flat there.
     #[test]
     fn a_fourfold_zero_is_found_once() {
         for k in 0..20 {
@@ -216,7 +217,7 @@ mod tests {
         }
     }
 
-    /// A zero at the ends of the turn, or at any place of the even grid, is found once.
+    /// A zero at the ends of the period, or anywhere on the even grid, is found once.
     #[test]
     fn zeros_anywhere_are_found_once() {
         for k in 0..48 {
@@ -231,7 +232,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
         #[test]
         fn as_many_as_a_dense_scan_finds(c in prop::collection::vec(-1.0f64..1.0, 7), small in 0..3usize) {
-            // From degree 3 down to 1, with leading coefficients that are rounding, and with some that are only small.
+            // Degrees from 3 down to 1, with leading coefficients that are rounding errors or only small.
             let size = [1.0, 1e-15, 1e-8];
             let (two, three) = (if c[0] > 0.5 { size[small] } else { 1.0 }, size[small]);
             let f = |x: f64| c[0] + c[1] * x.cos() + c[2] * x.sin() + two * (c[3] * (2.0 * x).cos() + c[4] * (2.0 * x).sin())
@@ -243,7 +244,7 @@ mod tests {
             let n = 20_000;
             let value = |k: usize| f(TAU * k as f64 / n as f64);
             let changes = (0..n).filter(|&k| value(k) * value(k + 1) < 0.0).count();
-            // Where two sign changes are closer than the scan's spacing, only the scan can be wrong.
+            // Where two sign changes are closer than the spacing of the scan, only the scan can be wrong.
             let close = found.windows(2).any(|pair| pair[1] - pair[0] < TAU / n as f64);
             prop_assert!(found.len() == changes || close && found.len() == changes + 2, "{found:?} against {changes}");
         }

@@ -3,10 +3,11 @@
 /// Number of samples that one interpolation uses.
 pub const POINTS: usize = 6;
 
-/// Lagrange weights of six equally spaced samples for the place `s`, counted in spacings from the first sample.
+/// Lagrange weights of six equally spaced samples at the position `s`, counted in spacings from the first sample.
 ///
-/// Between the two middle samples (2 <= s <= 3) the error is below 0.005 h^6 times the sixth derivative; on a sample
-/// the weights are exactly zero and one. Berrut and Trefethen, "Barycentric Lagrange interpolation", SIAM Review 2004.
+/// Between the two middle samples (2 <= s <= 3) the error is below 0.005 h^6 times the sixth derivative.
+/// At a sample the weights are exactly zero and one.
+/// Berrut and Trefethen, "Barycentric Lagrange interpolation", SIAM Review 2004.
 #[must_use]
 pub fn lagrange_weights(s: f64) -> [f64; POINTS] {
     const BARYCENTRIC: [f64; POINTS] = [-1.0, 5.0, -10.0, 10.0, -5.0, 1.0];

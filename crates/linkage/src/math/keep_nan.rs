@@ -5,19 +5,19 @@
 
 /// The larger and the smaller of two numbers.
 pub trait KeepNan: Copy {
-    /// The larger of the two; NaN if one of them is.
+    /// The larger of the two; NaN if one of them is NaN.
     #[must_use]
     fn larger(self, other: Self) -> Self;
 
-    /// The smaller of the two; NaN if one of them is.
+    /// The smaller of the two; NaN if one of them is NaN.
     #[must_use]
     fn smaller(self, other: Self) -> Self;
 
-    /// The larger of the two, with NaN ignored. NaN if both are.
+    /// The larger of the two, ignoring NaN. NaN if both are NaN.
     #[must_use]
     fn larger_number(self, other: Self) -> Self;
 
-    /// The smaller of the two, with NaN ignored. NaN if both are.
+    /// The smaller of the two, ignoring NaN. NaN if both are NaN.
     #[must_use]
     fn smaller_number(self, other: Self) -> Self;
 }
@@ -46,7 +46,7 @@ impl KeepNan for f64 {
     }
 }
 
-/// The largest absolute value; NaN if one of them is, 0 for an empty list.
+/// The largest absolute value; NaN if one value is NaN, 0 for an empty list.
 #[must_use]
 pub fn largest_size(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| value.abs().larger(most))

@@ -20,7 +20,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// A frame at rest that coincides with the world's.
+    /// A frame at rest that coincides with the world frame.
     pub const REST: Motion = Motion {
         origin: Vec2::new(0.0, 0.0),
         direction: Vec2::new(1.0, 0.0),
@@ -30,9 +30,9 @@ impl Motion {
         alpha: 0.0,
     };
 
-    /// The motion of a body from one of its points and its rotation.
-    /// Of the point: body coordinates `local` (m), position, velocity and acceleration. Of the body: direction, angular
-    /// velocity and angular acceleration.
+    /// The motion of a body, from the motion of one of its points and its rotation.
+    /// For the point: body coordinates `local` (m), position, velocity and acceleration.
+    /// For the body: direction, angular velocity and angular acceleration.
     #[inline]
     #[must_use]
     pub fn of_point(

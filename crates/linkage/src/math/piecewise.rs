@@ -13,8 +13,8 @@ pub struct Piecewise {
 }
 
 impl Piecewise {
-    /// Straight lines through `(x, y)`, repeated with `period`. The x must ascend, at least one of them, within one
-    /// period.
+    /// Straight lines through `(x, y)`, repeated with `period`.
+    /// The x ascend within one period. At least one point is needed.
     #[must_use]
     pub fn periodic_lines(points: &[(f64, f64)], period: f64) -> Self {
         let (knots, values) = closed(points, period);
@@ -24,9 +24,9 @@ impl Piecewise {
         Piecewise { knots, pieces, periodic: true }
     }
 
-    /// The periodic cubic spline through `(x, y)`, whose first two derivatives are continuous everywhere.
+    /// The periodic cubic spline through `(x, y)`. Its first two derivatives are continuous everywhere.
     /// De Boor, "A practical guide to splines", 1978, chapter IV.
-    /// The x must ascend, at least one of them, within one period.
+    /// The x ascend within one period. At least one point is needed.
     #[must_use]
     pub fn periodic_spline(points: &[(f64, f64)], period: f64) -> Self {
         let (knots, values) = closed(points, period);
@@ -40,9 +40,9 @@ impl Piecewise {
         Piecewise { pieces: of_second_derivatives(&values, &h, &slope, &second), knots, periodic: true }
     }
 
-    /// The cubic spline through `(x, y)` with given slopes at its ends. Its first two derivatives are continuous. De
-    /// Boor, as above.
-    /// The x must ascend, at least two of them. The outer pieces continue beyond the ends.
+    /// The cubic spline through `(x, y)` with given slopes at its ends. Its first two derivatives are continuous.
+    /// De Boor, as above.
+    /// The x ascend. At least two points are needed. The outer pieces continue beyond the ends.
     #[must_use]
     pub fn clamped_spline(points: &[(f64, f64)], [first, last]: [f64; 2]) -> Self {
         let (knots, values): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
@@ -82,7 +82,7 @@ impl Piecewise {
         &self.knots
     }
 
-    /// Extremes of the first derivative: its smallest and largest value at and between the knots.
+    /// Smallest and largest value of the first derivative, at and between the knots.
     #[must_use]
     pub fn slopes(&self) -> [f64; 2] {
         let mut found = [f64::INFINITY, f64::NEG_INFINITY];
@@ -134,8 +134,8 @@ fn solve_tridiagonal(rows: &[[f64; 4]]) -> Vec<f64> {
     found
 }
 
-/// The same for cyclic rows, by Sherman and Morrison's formula.
-/// The first row's `below` stands in the last column and the last row's `above` in the first.
+/// Solves cyclic rows of the same form, by the Sherman-Morrison formula.
+/// The first row's `below` belongs to the last column, the last row's `above` to the first column.
 fn solve_cyclic(mut rows: Vec<[f64; 4]>) -> Vec<f64> {
     let n = rows.len();
     if n == 1 {

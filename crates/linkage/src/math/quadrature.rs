@@ -9,7 +9,7 @@ use super::root;
 /// Nodes in one panel.
 pub const NODES: usize = 8;
 
-/// Nodes in -1 to 1 and weights of Gauss and Legendre's rule of [`NODES`] nodes, exact for polynomials of degree 15.
+/// Nodes in -1 to 1 and weights of Gauss-Legendre quadrature with [`NODES`] nodes, exact for polynomials of degree 15.
 ///
 /// Nodes by Newton's method on the Legendre polynomial from its asymptotic roots; weights 2 / ((1 - x^2) P'(x)^2).
 /// Abramowitz and Stegun 25.4.29.
@@ -19,7 +19,7 @@ pub fn gauss_legendre() -> [(f64, f64); NODES] {
     std::array::from_fn(|k| {
         let guess = -(PI * (k as f64 + 0.75) / (n + 0.5)).cos();
         let mut slope = 1.0;
-        // Quadratic convergence from three digits on: five steps reach rounding.
+        // The start has three digits and convergence is quadratic, so five steps reach rounding error.
         let Ok(x) = root::polished(guess, 6, f64::INFINITY, |x| {
             let (mut before, mut here) = (1.0, x);
             for degree in 2..=NODES {
@@ -33,8 +33,9 @@ pub fn gauss_legendre() -> [(f64, f64); NODES] {
     })
 }
 
-/// Nodes and weights over the pieces between ascending `breaks`, each divided into equal panels no longer than `panel`.
-/// A function that is smooth between the breaks may have kinks at them.
+/// Nodes and weights over the intervals between ascending `breaks`, each divided into equal panels no longer than
+/// `panel`.
+/// The function may have kinks at the breaks, and must be smooth between them.
 #[must_use]
 pub fn composite(breaks: &[f64], panel: f64) -> Vec<(f64, f64)> {
     let rule = gauss_legendre();

@@ -1,24 +1,25 @@
-//! Zeros of a function of one variable, with or without bounds. All such searches of the project are here.
+//! Zeros of a function of one variable, with or without bounds. All searches for zeros in the project are in this
+//! module.
 //!
-//! Each function documents what it requires of the searched function, and where it ends.
-//! Searched functions may fail (`E`): the first error ends a search. NaN is never taken for a zero.
+//! Each search documents its requirements on the function, and its stopping criterion.
+//! The function may fail (`E`): the first error ends a search. NaN never counts as a zero.
 
 use super::KeepNan;
 
-/// Whether the values at two places have different signs, or one of them is zero. NaN has no sign.
+/// Whether two values have different signs, or one of them is zero. NaN has no sign.
 #[inline]
 #[must_use]
 pub fn changes(a: f64, b: f64) -> bool {
     a <= 0.0 && b >= 0.0 || a >= 0.0 && b <= 0.0
 }
 
-/// Bisects the interval from `low` to `high` `halvings` times, towards the place up to which `before` is true.
+/// Bisects the interval from `low` to `high` `halvings` times, towards the point up to which `before` is true.
 /// Returns both ends of the remaining interval.
-/// If `before` is never true the lower end stays; if it is always true the upper one stays. About 52 halvings reach
-/// rounding.
+/// If `before` is never true, the lower end stays; if it is always true, the upper end stays.
+/// About 52 halvings reach rounding error.
 ///
 /// # Errors
-/// The first of `before`.
+/// The first error of `before`.
 #[inline]
 pub fn halved<E>(
     [mut low, mut high]: [f64; 2],
@@ -36,16 +37,17 @@ pub fn halved<E>(
     Ok([low, high])
 }
 
-/// A place and the value there.
+/// A position and the value there.
 pub type PlaceAndValue = (f64, f64);
 
-/// Searches for a sign change from `from` on: first `width` away, then twice as far each time, up to `most`.
-/// Returns the last two places, between which the sign changes.
-/// `None` if it does not change, if a value or the width is NaN, or if the width is zero. A negative `width` searches
-/// backwards.
+/// Searches for a sign change, starting at `from`.
+/// The first step is `width`; each further step is twice as long, up to `most`.
+/// Returns the last two positions, between which the sign changes.
+/// `None` if the sign does not change, if a value or the width is NaN, or if the width is zero.
+/// A negative `width` searches backwards.
 ///
 /// # Errors
-/// The first of `value`.
+/// The first error of `value`.
 pub fn widened<E>(
     from: PlaceAndValue,
     mut width: f64,
@@ -73,16 +75,17 @@ pub fn widened<E>(
 pub struct Close {
     /// Size of the value that counts as zero.
     pub value: f64,
-    /// Distance of the bounds below which they count as one place; never less than four roundings of the larger one.
+    /// Distance between the bounds below which they count as equal.
+    /// It is never less than four rounding errors of the larger bound.
     pub width: f64,
 }
 
-/// The zero between two places with different signs by regula falsi, in the Illinois form: a bound that stays counts
-/// half with every step (Dowell and Jarratt, BIT 11, 1971, 168-174; order 1.44). `None` if the signs are the same, a
-/// value is NaN, or `steps` were not enough.
+/// The zero between two positions with different signs, by regula falsi in the Illinois form.
+/// The value at a bound that stays is halved in every step (Dowell and Jarratt, BIT 11, 1971, 168-174; order 1.44).
+/// `None` if the signs are the same, a value is NaN, or `steps` are not enough.
 ///
 /// # Errors
-/// The first of `value`.
+/// The first error of `value`.
 pub fn regula_falsi<E>(
     [mut held, mut last]: [PlaceAndValue; 2],
     close: Close,
@@ -96,7 +99,7 @@ pub fn regula_falsi<E>(
         return Ok(Some(end.0));
     }
     for _ in 0..steps {
-        // A mean with positive weights: it lies between the bounds, and no digits are lost.
+        // A mean with positive weights lies between the bounds and loses no digits.
         let at = (held.0 * last.1 - last.0 * held.1) / (last.1 - held.1);
         let found = value(at)?;
         let rounding = 4.0 * f64::EPSILON * held.0.abs().larger(last.0.abs());
@@ -116,14 +119,15 @@ pub fn regula_falsi<E>(
     Ok(None)
 }
 
-/// The zero of a function with its slope between `bounds` (either may be the larger).
-/// Newton's method from `start`; bisection where a step leaves the bounds. `rises`: whether the value is positive at
-/// the second bound.
+/// The zero between `bounds` (either may be the larger) of a function that gives value and slope.
+/// Uses Newton's method from `start`, with bisection where a step leaves the bounds.
+/// `rises`: whether the value is positive at the second bound.
 /// A Newton step of at most `settled` is the last one and is still taken.
-/// The method is quadratic, so that the remaining error is of the order of its square. `None` if a value is NaN.
+/// Convergence is quadratic, so the remaining error is of the order of the square of that step.
+/// `None` if a value is NaN.
 ///
 /// # Errors
-/// The first of `value`.
+/// The first error of `value`.
 #[inline]
 pub fn newton<E>(
     mut bounds: [f64; 2],
@@ -132,7 +136,7 @@ pub fn newton<E>(
     settled: f64,
     mut value: impl FnMut(f64) -> Result<(f64, f64), E>,
 ) -> Result<Option<f64>, E> {
-    /// As many halvings as a double has bits, plus the steps of Newton's method.
+    /// Number of bits of a double, plus the steps of Newton's method.
     const MOST: usize = 100;
     let mut at = start;
     for _ in 0..MOST {
@@ -157,12 +161,12 @@ pub fn newton<E>(
     Ok(Some(at))
 }
 
-/// `steps` steps of Newton's method from a place near the zero. Steps that are NaN, or `longest` or longer, are not
-/// taken.
+/// `steps` steps of Newton's method from a point near the zero.
+/// Steps that are NaN, or not shorter than `longest`, are skipped.
 /// The function gives value and slope.
 ///
 /// # Errors
-/// The first of `value`.
+/// The first error of `value`.
 #[inline]
 pub fn polished<E>(
     mut at: f64,
@@ -180,14 +184,14 @@ pub fn polished<E>(
     Ok(at)
 }
 
-/// A length at which the value is zero, by at most `steps` secants, the first through `known` and a `guess`, both
-/// positive.
-/// Ends where a secant would change the length by no more than four roundings. A change by more than the length itself
-/// is not made.
-/// Returns the length with the value nearest to zero: between two values of rounding a secant leads anywhere.
+/// A length at which the value is zero, by at most `steps` secant steps.
+/// The first secant goes through `known` and a `guess`, both positive.
+/// The search ends where a secant would change the length by no more than four rounding errors.
+/// It also ends before a change larger than the length itself.
+/// Returns the length with the value nearest to zero, because near rounding error a secant is arbitrary.
 ///
 /// # Errors
-/// The first of `value`.
+/// The first error of `value`.
 pub fn secants<E>(
     mut known: PlaceAndValue,
     guess: f64,

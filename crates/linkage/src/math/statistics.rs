@@ -32,15 +32,15 @@ pub fn rms(values: &[f64]) -> f64 {
     if values.is_empty() { 0.0 } else { (sum / values.len() as f64).sqrt() }
 }
 
-/// Values of `theirs` minus `ours`. Values of a `periodic` quantity are angles (rad): the whole turns between the first
-/// ones are subtracted.
+/// Differences `theirs` minus `ours`.
+/// A `periodic` quantity is an angle (rad): the whole turns between the first two values are subtracted everywhere.
 #[must_use]
 pub fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f64> {
     let turns = turns(ours, theirs, periodic);
     ours.iter().zip(theirs).map(|(a, b)| b - a - turns).collect()
 }
 
-/// Largest absolute value of the [differences]. NaN if one of them is.
+/// Largest absolute value of the [differences]; NaN if one of them is NaN.
 #[must_use]
 pub fn largest_difference(ours: &[f64], theirs: &[f64], periodic: bool) -> f64 {
     let turns = turns(ours, theirs, periodic);
@@ -54,7 +54,7 @@ fn turns(ours: &[f64], theirs: &[f64], periodic: bool) -> f64 {
     }
 }
 
-/// Absolute values in ascending order; NaN last.
+/// Absolute values in ascending order, with NaN last.
 #[must_use]
 pub fn sorted_sizes(values: &[f64]) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.iter().map(|value| value.abs()).collect();
@@ -62,14 +62,14 @@ pub fn sorted_sizes(values: &[f64]) -> Vec<f64> {
     sorted
 }
 
-/// `part` as a share of `whole`. A `part` of 0 gives 0 whatever the whole, even 0.
+/// `part` as a fraction of `whole`. A `part` of 0 gives 0, even if `whole` is 0.
 #[must_use]
 pub fn share(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part / whole }
 }
 
-/// The smallest and the largest value; NaN if a value is NaN. Without any value they are infinite, the first above the
-/// second.
+/// The smallest and the largest value; NaN if a value is NaN.
+/// Without values: plus infinity and minus infinity.
 #[must_use]
 pub fn ends(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let none = [f64::INFINITY, f64::NEG_INFINITY];

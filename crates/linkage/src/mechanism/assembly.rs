@@ -3,8 +3,8 @@
 //! Dyads are placed in closed form.
 //! Groups of four links are placed by the zeros of a trigonometric polynomial, which finds all their configurations.
 //! All other groups are placed by Newton's method from a rough drawing.
-//! The formulas here are independent of those of the analytic solvers, in both directions, so that an error in one of
-//! the three shows.
+//! These formulas are independent of those of the two analytic solvers.
+//! An error in one of the three therefore shows.
 
 mod blame;
 mod choice;
@@ -40,15 +40,15 @@ pub fn first_pose(
     Ok((pose, choices.into_iter().map(|choice| choice.mode).collect()))
 }
 
-/// As [`first_pose`], with details of each group's choice.
+/// The same as [`first_pose`], with details of each group's choice.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a group's links do not reach each other, or if rough places
-/// fit two configurations, contradict the required mode, or lead to no configuration.
-/// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a group whose configurations are not all known and
-/// that has no rough places.
-/// [`ErrorKind::Input`](crate::ErrorKind::Input) if nothing is required of a group, or a configuration number that it
-/// does not have.
+/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a group's links do not reach each other, or if approximate
+/// positions fit two configurations, contradict the required mode, or lead to no configuration.
+/// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a group without approximate positions whose
+/// configurations are not all known.
+/// [`ErrorKind::Input`](crate::ErrorKind::Input) if no configuration is required of a group, or the required number
+/// does not exist.
 pub fn first_choices(
     mechanism: &Mechanism,
     structure: &Structure,
@@ -94,7 +94,7 @@ mod tests {
         let mode = |mode| start(StartGroup { mode: Some(mode), ..StartGroup::default() }).unwrap().0;
         let (left, right) = (mode(AssemblyMode::Left), mode(AssemblyMode::Right));
         assert!(left.closure(&mechanism) < 1e-15 && right.closure(&mechanism) < 1e-15);
-        // A = (0, 1), C = (4, 0). The places of B in the two modes are mirror images at the line AC.
+        // A = (0, 1), C = (4, 0). The two modes place B at mirror images about the line AC.
         let (a, axis) = (Vec2::new(0.0, 1.0), Vec2::new(4.0, -1.0).normalize());
         let mirrored = a + axis * (2.0 * axis.dot(&(point_b(&left) - a))) - (point_b(&left) - a);
         assert_relative_eq!(mirrored, point_b(&right), epsilon = 1e-14);

@@ -1,19 +1,20 @@
-//! Numbers of links, joints and groups. Each is a separate type: a joint cannot be taken for a link.
+//! Numbers of links, joints and groups.
+//! Each has a separate type, so that a joint's number cannot be used for a link.
 
 use std::fmt;
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut, Index, IndexMut, RangeFrom};
 
-/// A number that says which of its like is meant.
+/// Number of a link, joint or group.
 pub trait Ordinal: Copy {
-    /// The one at the place `index`, counted from 0.
+    /// The number with this index, counted from 0.
     fn at(index: usize) -> Self;
 
-    /// Its place, counted from 0.
+    /// Index of the number, counted from 0.
     fn index(self) -> usize;
 }
 
-/// Declares numbers, and that slices and vectors of anything take them as they take a `usize`.
+/// Declares types of numbers that index slices and vectors in the same way as a `usize`.
 macro_rules! ids {
     ($($(#[$about:meta])* $name:ident,)*) => {$(
         $(#[$about])*
@@ -21,7 +22,7 @@ macro_rules! ids {
         pub struct $name(pub usize);
 
         impl $name {
-            /// Its place, counted from 0.
+            /// Index of the number, counted from 0.
             #[inline]
             #[must_use]
             pub const fn index(self) -> usize {
@@ -96,7 +97,8 @@ ids! {
     GroupId,
 }
 
-/// One value for each link, joint or group, in their order. It takes their numbers only; as a slice it has all else.
+/// One value for each link, joint or group, in their order.
+/// It is indexed only by their numbers. In everything else it behaves as a slice.
 ///
 /// ```
 /// use linkproof_linkage::mechanism::{LinkId, PerLink};
@@ -104,7 +106,7 @@ ids! {
 /// assert_eq!(masses[LinkId(1)], 2.0);
 /// ```
 ///
-/// A joint's number is not taken for a link's:
+/// A joint's number is not accepted as a link's number:
 ///
 /// ```compile_fail,E0277
 /// use linkproof_linkage::mechanism::{JointId, PerLink};
@@ -139,13 +141,13 @@ impl<I: Ordinal, T> Per<I, T> {
         self.0.iter_mut().enumerate().map(|(index, value)| (I::at(index), value))
     }
 
-    /// The value of a number; `None` if there are fewer.
+    /// The value with this number; `None` if the number is too large.
     #[must_use]
     pub fn get(&self, id: I) -> Option<&T> {
         self.0.get(id.index())
     }
 
-    /// Number of the first value that is `wanted`.
+    /// Number of the first value for which `wanted` is true.
     #[must_use]
     pub fn find(&self, wanted: impl FnMut(&T) -> bool) -> Option<I> {
         self.0.iter().position(wanted).map(I::at)
@@ -163,7 +165,7 @@ impl<I, T: Clone> Clone for Per<I, T> {
         Per(self.0.clone(), PhantomData)
     }
 
-    /// Uses the memory of `self` again, which a derived one does not.
+    /// Reuses the memory of `self`, which a derived implementation does not.
     fn clone_from(&mut self, source: &Self) {
         self.0.clone_from(&source.0);
     }

@@ -1,10 +1,11 @@
-//! Names of links, joints and points: they become parts of channels, columns of tables, topics and drawings.
+//! Names of links, joints and points. They become parts of channels, table columns, topics and drawings.
 
 /// Longest name (characters).
 pub const LONGEST_NAME: usize = 100;
 
-/// Whether a letter changes a text without being seen: control characters with line breaks, marks and overrides of the
-/// writing direction, breaks of lines and paragraphs, letters of no width.
+/// Whether a character changes a text invisibly.
+/// Such characters are control characters including line breaks, marks and overrides of the writing direction, line and
+/// paragraph separators, and zero-width characters.
 #[must_use]
 pub fn is_unseen(letter: char) -> bool {
     letter.is_control()
@@ -13,7 +14,7 @@ pub fn is_unseen(letter: char) -> bool {
 }
 
 /// Whether a name is allowed for a link, point or joint.
-/// Dots, blanks and commas would break the names of channels and the headers of tables, slashes the names of topics.
+/// Dots, spaces and commas would break channel names and table headers. Slashes would break the names of topics.
 #[must_use]
 pub fn is_sound_name(name: &str) -> bool {
     let letters = || name.chars();

@@ -1,13 +1,14 @@
-//! The line through the points of a link: what it looks like where nothing else is said.
+//! The outline through the points of a link: its default shape in pictures.
 
 use crate::math::{KeepNan, Vec2, cross};
 
-/// Share of a link's size below which a point is on a line with others, or in one place with another.
+/// Fraction of a link's size below which a point counts as collinear with others, or as coincident with another.
 const ON_ONE_LINE: f64 = 1e-6;
 
-/// The line through all places, and whether it is closed: a polygon without crossings, or a bar if all lie on one line.
+/// The outline through all points, and whether it is closed.
+/// It is a polygon without crossings, or a bar if all points are collinear.
 ///
-/// A polygon has its places in the order of their bearings from their mean. A bar goes from end to end.
+/// A polygon orders its points by their bearing from the mean point. A bar goes from end to end.
 #[must_use]
 pub fn ring(places: &[Vec2]) -> (Vec<Vec2>, bool) {
     let mut sorted = places.to_vec();

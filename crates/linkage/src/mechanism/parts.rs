@@ -4,10 +4,10 @@ use super::ids::LinkId;
 use crate::input::Input;
 use crate::math::{KeepNan, Vec2, cross, rotated};
 
-/// The ground (frame) in [`Mechanism::links`](super::Mechanism::links).
+/// The ground (frame), as a number of [`Mechanism::links`](super::Mechanism::links).
 pub const GROUND: LinkId = LinkId(0);
 
-/// Rigid member of a mechanism. Its points and mass centre are given in its own frame.
+/// Rigid member of a mechanism. Points and mass centre are given in the link's frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Name, unique in the mechanism.
@@ -23,15 +23,15 @@ pub struct Link {
 }
 
 impl Link {
-    /// Largest distance between two of its points (m).
+    /// Largest distance between two points of the link (m).
     #[must_use]
     pub fn size(&self) -> f64 {
         let pairs = self.points.iter().enumerate().flat_map(|(i, a)| self.points[i + 1..].iter().map(move |b| (a, b)));
         pairs.map(|(a, b)| (a.local - b.local).norm()).fold(0.0, f64::larger)
     }
 
-    /// Largest distance between two of its points, its mass centre included (m): the lever arm of forces on the link.
-    /// Of a link that is a single point, as a flywheel is, it is the radius of gyration; 0 without mass.
+    /// Largest distance between two points of the link, mass centre included (m): the lever arm of forces on the link.
+    /// For a link with a single point, such as a flywheel, it is the radius of gyration, or 0 without mass.
     #[must_use]
     pub fn extent(&self) -> f64 {
         if self.mass <= 0.0 {
@@ -46,21 +46,21 @@ impl Link {
 /// Named point of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Name. Points of different links with the same name are the same place: a joint holds them together.
+    /// Name. Points with the same name on different links coincide, because a joint holds them together.
     pub name: String,
     /// Coordinates in the link's frame (m).
     pub local: Vec2,
 }
 
-/// Kind of kinematic pair. How many equations it has, and so how many relative degrees of freedom it leaves, is its own
-/// property: [`JointKind::equations`].
+/// Kind of kinematic pair.
+/// [`JointKind::equations`] gives its number of equations, and so its relative degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointKind {
-    /// Revolute pair (pin): the joint's places on both links coincide.
+    /// Revolute pair (pin): the joint's points on both links coincide.
     Revolute,
     /// Prismatic pair (slider in a guide).
-    /// The second link's place lies on the line through the first link's place along the axis, and the two links turn
-    /// together.
+    /// The joint's point on the second link lies on a line along the axis through its point on the first link.
+    /// The two links turn together.
     Prismatic {
         /// Unit vector of the axis in the frame of the first link and in that of the second. Both are the same
         /// direction in the world.
@@ -68,10 +68,13 @@ pub enum JointKind {
     },
 }
 
-/// Properties of a pair for all crates. A new kind is added here and where its equations are written out by kind.
+/// Properties of a pair, for all crates.
+/// A new kind is added here and wherever equations are written for each kind.
 impl JointKind {
-    /// The line on which the second link's place must lie: unit vector in the frame of the first link, through the place
-    /// there. That is one equation. `None` where the two places must coincide, which is two.
+    /// Direction of the line through the joint's point on the first link, on which its point on the second link must
+    /// lie.
+    /// It is a unit vector in the frame of the first link. This condition is one equation.
+    /// `None` if the two points must coincide, which is two equations.
     #[inline]
     #[must_use]
     pub fn line(self) -> Option<Vec2> {
@@ -81,8 +84,8 @@ impl JointKind {
         }
     }
 
-    /// Axes along which the links slide: unit vectors in the frames of the first and the second link. `None` if they
-    /// do not slide.
+    /// Axes along which the links slide: unit vectors in the frames of the first and the second link.
+    /// `None` if the links do not slide.
     #[inline]
     #[must_use]
     pub fn axes(self) -> Option<[Vec2; 2]> {
@@ -92,7 +95,8 @@ impl JointKind {
         }
     }
 
-    /// Number of constraint equations. Where they stand in a list of all equations: [`Mechanism::rows`](super::Mechanism::rows).
+    /// Number of constraint equations.
+    /// [`Mechanism::rows`](super::Mechanism::rows) gives their position in a list of all equations.
     #[inline]
     #[must_use]
     pub fn equations(self) -> usize {
@@ -101,7 +105,7 @@ impl JointKind {
         }
     }
 
-    /// Whether the links slide along each other. Then there is a guide, a block, and a slide between them.
+    /// Whether the links slide along each other. Such a joint has a guide, a block, and a slide between them.
     #[inline]
     #[must_use]
     pub fn slides(self) -> bool {
@@ -131,7 +135,7 @@ impl JointKind {
         }
     }
 
-    /// What its coordinate measures where a drive gives it; `None` for a kind that no drive moves.
+    /// What the joint's coordinate measures if a drive prescribes it; `None` for a kind that no drive can move.
     #[must_use]
     pub fn input(self) -> Option<Input> {
         match self {
@@ -150,7 +154,7 @@ impl JointKind {
     }
 }
 
-/// What a prismatic pair looks like in pictures. Nothing is calculated from it.
+/// Appearance of a prismatic pair in pictures. It does not affect any calculation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Guise {
     /// A piston in a cylinder.
@@ -182,24 +186,24 @@ pub struct JointSide {
     pub local: Vec2,
 }
 
-/// Kinematic pair between two links. Its reaction is what the first link exerts on the second.
-/// It is a force, and in a prismatic pair also a moment about the joint's place on the second link.
+/// Kinematic pair between two links. Its reaction is the action of the first link on the second.
+/// The reaction is a force; a prismatic pair also has a moment about the joint's point on the second link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// Name, unique in the mechanism.
     pub name: String,
     /// Kind of pair.
     pub kind: JointKind,
-    /// First link and the joint's place on it.
+    /// First link, and the joint's position on it.
     pub first: JointSide,
-    /// Second link and the joint's place on it.
+    /// Second link, and the joint's position on it.
     pub second: JointSide,
-    /// What it is drawn as, if that is said; of prismatic pairs only.
+    /// Appearance in pictures, if specified; only for prismatic pairs.
     pub drawn: Option<Guise>,
 }
 
 impl Joint {
-    /// The joint's place on `link`, if the joint is on that link.
+    /// The joint's position on `link`; `None` if the joint is not on that link.
     #[must_use]
     pub fn on(&self, link: LinkId) -> Option<Vec2> {
         [self.first, self.second].into_iter().find(|side| side.link == link).map(|side| side.local)
@@ -211,8 +215,9 @@ impl Joint {
         if self.first.link == link { self.second } else { self.first }
     }
 
-    /// Where the joint's reaction acts on `link`, by the side that is known there: a pin's two places are the same
-    /// point, and that of other joints is the place on the second link.
+    /// Point at which the joint's reaction acts on `link`.
+    /// For a pin it is given on `link`, because the points on both links coincide. For other joints it is the point on
+    /// the second link.
     #[must_use]
     pub fn acts_at(&self, link: LinkId) -> JointSide {
         match self.kind {
@@ -251,10 +256,11 @@ impl Joint {
         sides.iter().position(|side| side.link == link).map(|index| axes[index])
     }
 
-    /// How far the joint is from being closed: a distance and the sine of an angle.
-    /// The distance is that of its places (m), in a prismatic pair measured across the axis.
+    /// How far the joint is from being closed: a distance (m) and the sine of an angle.
+    /// The distance is that between the joint's points on both links; in a prismatic pair it is measured across the
+    /// axis.
     /// The angle is that between the axes (0 in a revolute pair).
-    /// `places` are the joint's places on both links in the world, `directions` the (cos, sin) of both links' angles.
+    /// `places` are the joint's points on both links in the world, `directions` the (cos, sin) of both links' angles.
     #[must_use]
     pub fn opening(&self, places: [Vec2; 2], directions: [Vec2; 2]) -> (f64, f64) {
         let gap = places[1] - places[0];

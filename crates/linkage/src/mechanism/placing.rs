@@ -16,8 +16,8 @@ pub struct Handle {
 }
 
 impl Mechanism {
-    /// The point `point` of the link `link` (both by index) with the joints at it.
-    /// `None` if another point of the link has the same place, because then the joints could be at either.
+    /// The point with index `point` of the link `link`, and the joints at it.
+    /// `None` if another point of the link coincides with it, because then the joints could belong to either point.
     #[must_use]
     pub fn handle(&self, link: LinkId, point: usize) -> Option<Handle> {
         let points = &self.links[link].points;
@@ -30,7 +30,7 @@ impl Mechanism {
         Some(Handle { link, point, joints })
     }
 
-    /// Moves a point to the place `local` in its link's frame (m), and its joints with it. Masses stay unchanged.
+    /// Moves a point to the position `local` in its link's frame (m), together with its joints. Masses stay unchanged.
     pub fn place(&mut self, handle: &Handle, local: Vec2) {
         self.links[handle.link].points[handle.point].local = local;
         for &joint in &handle.joints {

@@ -1,10 +1,10 @@
-//! Place of every link at one instant.
+//! Pose of every link at one instant.
 
 use super::{Joint, JointSide, Mechanism};
 use crate::math::{KeepNan, Vec2, cross, rotated, unit};
 use crate::mechanism::{LinkId, PerLink};
 
-/// Place of one link's frame in the world.
+/// Pose of one link's frame in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkPose {
     /// World position of the frame's origin (m).
@@ -14,16 +14,17 @@ pub struct LinkPose {
 }
 
 impl LinkPose {
-    /// Pose of the ground: its frame coincides with the world's.
+    /// Pose of the ground: its frame coincides with the world frame.
     pub const GROUND: LinkPose = LinkPose { origin: Vec2::new(0.0, 0.0), angle: 0.0 };
 
-    /// The pose at `angle` that puts the body point `local` on the world point `at`.
+    /// The pose at `angle` that puts the body point `local` at the world point `at`.
     #[must_use]
     pub fn through(local: Vec2, at: Vec2, angle: f64) -> Self {
         LinkPose { origin: at - rotated(unit(angle), local), angle }
     }
 
-    /// The pose that puts the body points `local_a`, `local_b` on two world points. The distances are assumed to fit.
+    /// The pose that puts the body points `local_a` and `local_b` at two world points. The distances are assumed to
+    /// match.
     #[must_use]
     pub fn between(local_a: Vec2, local_b: Vec2, a: Vec2, b: Vec2) -> Self {
         let (local, world) = (local_b - local_a, b - a);
@@ -38,8 +39,9 @@ impl LinkPose {
 }
 
 impl Joint {
-    /// The pose of `link`, one of the joint's, that a drive gives to it: the joint's coordinate is `coordinate`, counted
-    /// as [`Drive::world_angle`](crate::drive::Drive::world_angle) does, and its other link stands in the pose `base`.
+    /// Pose that a drive gives to `link`, one of the joint's links.
+    /// The other link has the pose `base`.
+    /// `coordinate` is the joint's coordinate, counted as in [`Drive::world_angle`](crate::drive::Drive::world_angle).
     #[must_use]
     pub fn driven(&self, link: LinkId, base: &LinkPose, coordinate: f64) -> LinkPose {
         let local = self.on(link).expect("the driven joint is on the driving link");
@@ -47,12 +49,13 @@ impl Joint {
     }
 }
 
-/// Pose of the whole mechanism: one entry per link, in the mechanism's order. The ground's is [`LinkPose::GROUND`].
+/// Pose of the whole mechanism: one entry per link, in the mechanism's order.
+/// The entry of the ground is [`LinkPose::GROUND`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pose(pub PerLink<LinkPose>);
 
 impl Pose {
-    /// Largest opening of any joint (m): see [`Joint::opening`]. An angle is multiplied by the mechanism's size.
+    /// Largest opening of any joint (m): see [`Joint::opening`]. Angles are multiplied by the mechanism's size.
     #[must_use]
     pub fn closure(&self, mechanism: &Mechanism) -> f64 {
         let opening = |joint: &Joint| {
@@ -70,6 +73,6 @@ impl Pose {
 pub struct SidePoint {
     /// The point's name.
     pub name: String,
-    /// The link and the place of the point on it.
+    /// The link, and the position of the point on it.
     pub side: JointSide,
 }

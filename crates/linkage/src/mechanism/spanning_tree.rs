@@ -1,12 +1,12 @@
 //! Spanning tree of a linkage: which joint carries which link, and which joints are cut.
 //!
-//! In the tree that a run uses, prismatic joints are never cut. They close no loop by themselves, because structural
-//! analysis refuses that. So all of them fit into the tree, where they hold exactly.
+//! In the tree used for runs, prismatic joints are never cut, and they hold exactly.
+//! All of them fit into the tree, because structural analysis rejects loops of prismatic joints alone.
 //! Prismatic joints also work as cuts, with order 2.
-//! Largest error over the half range in any channel at a step of 1e-3 s, with prismatic joints kept and with the
-//! innermost joint cut whatever its kind:
-//! slider-crank 1.4e-4 and 2.0e-4, swinging guide 8.3e-4 and 1.2e-3, Scotch yoke 7.8e-5 and 6.5e-5,
-//! a crank with a slot 1.9e-3 and an Oldham coupling 9.0e-5 both ways.
+//! The following are the largest errors of any channel, relative to half its range, at a step of 1e-3 s.
+//! The first number keeps prismatic joints, the second cuts the innermost joint whatever its kind:
+//! slider-crank 1.4e-4 and 2.0e-4, swinging guide 8.3e-4 and 1.2e-3, Scotch yoke 7.8e-5 and 6.5e-5.
+//! A crank with a slot has 1.9e-3 and an Oldham coupling 9.0e-5 in both cases.
 
 use super::{GROUND, Joint, LinkPose, Mechanism};
 use crate::math::{rotated, unit};
@@ -23,7 +23,7 @@ pub struct TreeBranch {
     pub joint: JointId,
 }
 
-/// Branches from the ground, and the remaining joints, which close the loops. Links without a branch are free bodies.
+/// Branches from the ground, and the cut joints, which close the loops. Links without a branch are free bodies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpanningTree {
     /// Branches; a parent always comes before its children.
@@ -33,15 +33,15 @@ pub struct SpanningTree {
 }
 
 impl SpanningTree {
-    /// No tree: every link is a free body and every joint remains.
+    /// No tree: every link is a free body and every joint is cut.
     #[must_use]
     pub fn none(mechanism: &Mechanism) -> Self {
         SpanningTree { branches: Vec::new(), cut: mechanism.joints().ids().collect() }
     }
 
     /// Trees such that each of these joints is cut in at least one of them.
-    /// The first is that of [`SpanningTree::of`]. Each further tree cuts as many of the joints as possible that no earlier tree
-    /// cuts.
+    /// The first is that of [`SpanningTree::of`].
+    /// Each further tree cuts as many as possible of the joints that no earlier tree cuts.
     #[must_use]
     pub fn covering(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Self> {
         let mut trees = vec![SpanningTree::of(mechanism)];
@@ -53,8 +53,8 @@ impl SpanningTree {
                 return trees;
             }
             let mut tree = SpanningTree::along(mechanism, kept.into_iter().chain(wanted.iter().copied()));
-            // Links that only the joint in question holds to the ground, such as a crank alone on its pin, are cut off
-            // as a whole.
+            // If only such a joint holds some links to the ground, for example a crank alone on its pin, these links
+            // are cut off as a whole.
             if !tree.cut.iter().any(|joint| wanted.contains(joint)) {
                 let mut held = vec![GROUND];
                 let (kept, lost): (Vec<TreeBranch>, Vec<TreeBranch>) = tree.branches.into_iter().partition(|branch| {
@@ -70,7 +70,7 @@ impl SpanningTree {
         }
     }
 
-    /// The spanning tree that takes joints in the given order as long as they close no loop (Kruskal's algorithm).
+    /// The spanning tree that takes joints in the given order unless they close a loop (Kruskal's algorithm).
     fn along(mechanism: &Mechanism, order: impl Iterator<Item = JointId>) -> Self {
         let mut part: Vec<LinkId> = mechanism.links().ids().collect();
         let (mut taken, mut cut) = (Vec::new(), Vec::new());
@@ -100,15 +100,16 @@ impl SpanningTree {
         SpanningTree { branches, cut }
     }
 
-    /// The spanning tree for runs: breadth first. All links that slide on a link are taken along with it, so that only
-    /// revolute joints remain to be cut.
+    /// The spanning tree for runs, breadth first.
+    /// A link is added together with all links that slide on it, so that only revolute joints are cut.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
         SpanningTree::with(mechanism, &[])
     }
 
-    /// The same tree, but with the given joints in it, each with the ground or with a link of the joints before it.
-    /// This holds even if other joints reach their links.
+    /// The same tree, but with the given joints in it.
+    /// Each of them must be on the ground or on a link that the joints before it reach.
+    /// The given joints stay in the tree even if other joints reach their links.
     /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
     /// The drive would then be cut, although it must be a coordinate of the tree.
     #[must_use]
@@ -154,9 +155,9 @@ impl SpanningTree {
     }
 }
 
-/// Coordinate of a branch's joint in poses, whichever of the two links is the joint's first.
-/// Angle of the child in its parent (rad), or distance along the parent's axis from the place on the parent to that on
-/// the child (m).
+/// Coordinate of a branch's joint in the given poses, whichever of the two links is the joint's first.
+/// It is the angle of the child relative to its parent (rad), or a distance along the parent's axis (m).
+/// The distance goes from the joint's point on the parent to that on the child.
 #[must_use]
 pub fn coordinate(joint: &Joint, branch: &TreeBranch, poses: &[LinkPose]) -> f64 {
     let [parent, child] = [branch.parent, branch.link].map(|link| poses[link]);
@@ -207,7 +208,7 @@ mod tests {
                 reached.push(branch.link);
             }
         }
-        // Seven joints, two at a time.
+        // Seven joints, two cut at a time.
         assert_eq!(trees.len(), 4);
         assert!(class_four.joints().ids().all(|joint| trees.iter().any(|tree| tree.cut.contains(&joint))));
     }

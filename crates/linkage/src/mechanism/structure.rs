@@ -1,11 +1,11 @@
 //! Structural analysis: mobility, and the decomposition into driving links and Assur groups.
 //!
-//! Every link has three degrees of freedom; every revolute or prismatic pair takes two and every drive one.
+//! Every link has three degrees of freedom. Every revolute or prismatic pair removes two, every drive one.
 //! Each equation gets an owner among the links it touches, three equations per link (a matching).
 //! A link then depends on the other link of every equation that it owns.
-//! The strongly connected parts of this dependence are the driving links and the Assur groups, in the order in which
-//! they can be solved.
-//! The parts do not depend on which matching was found (Dulmage and Mendelsohn 1958).
+//! The strongly connected components of this dependence are the driving links and the Assur groups, in the order in
+//! which they can be solved.
+//! The components do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
 
 mod contour;
 mod group;
@@ -37,8 +37,8 @@ impl Structure {
     /// Analyses a mechanism with drives at the joints `drives`.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if links have no connection to the ground, if the mobility is not the number of drives, or
-    /// if a part is over-constrained while another is free.
+    /// [`ErrorKind::Input`] if links have no connection to the ground, if the mobility differs from the number of
+    /// drives, or if one part is over-constrained while another is free.
     /// [`ErrorKind::Unsupported`] if a drive does not act on a link hinged to the ground.
     pub fn of(mechanism: &Mechanism, drives: &[JointId]) -> Result<Self> {
         check_connected(mechanism)?;
@@ -91,8 +91,9 @@ impl Structure {
         Ok(())
     }
 
-    /// For every link, the groups that its motion depends on if all drives are prescribed: its own and those before it,
-    /// as indices in ascending order. None for the ground and for driving links.
+    /// For every link: the groups on which its motion depends if all drives are prescribed.
+    /// These are the link's group and all groups before it on which that group depends, as indices in ascending order.
+    /// The list is empty for the ground and for driving links.
     #[must_use]
     pub fn upstream(&self, mechanism: &Mechanism) -> PerLink<Vec<GroupId>> {
         let mut upstream: PerLink<Vec<GroupId>> = vec![Vec::new(); mechanism.links().len()].into();
@@ -128,14 +129,14 @@ impl Structure {
     }
 }
 
-/// Whether a joint that a drive can move holds a driving link to the ground or to one of the `drivers` found so far.
+/// Whether a drivable joint connects a driving link to the ground or to one of the `drivers` found so far.
 fn carries(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], joint: JointId, link: LinkId) -> bool {
     let joint = &mechanism.joints()[joint];
     let base = joint.other(link).link;
     joint.kind.input().is_some() && (base == GROUND || drivers.iter().any(|&(driving, _)| driving == base))
 }
 
-/// W = 3 n - 2 p: every lower pair takes two degrees of freedom.
+/// W = 3 n - 2 p: every lower pair removes two degrees of freedom.
 fn mobility(mechanism: &Mechanism) -> i64 {
     3 * (mechanism.links().len() as i64 - 1) - mechanism.equations() as i64
 }
@@ -158,8 +159,8 @@ fn check_connected(mechanism: &Mechanism) -> Result<()> {
     }
 }
 
-/// Refuses closed loops of prismatic pairs alone: such a loop fixes the angle between its links twice and leaves it
-/// free to slide.
+/// Rejects closed loops of prismatic pairs alone.
+/// Such a loop constrains the angle between its links twice and leaves it free to slide.
 fn check_sliders(mechanism: &Mechanism) -> Result<()> {
     let mut part: Vec<LinkId> = mechanism.links().ids().collect();
     for joint in mechanism.joints().iter().filter(|joint| joint.keeps_angle()) {
@@ -226,7 +227,7 @@ fn kind(mechanism: &Mechanism, links: &[LinkId], inner: &[JointId], outer: &[Joi
         (0, 1) => GroupKind::Rrp,
         (0, _) => GroupKind::Prp,
         (_, 0) => GroupKind::Rpr,
-        // Three prismatic pairs have been refused before.
+        // Three prismatic pairs were rejected before.
         (_, _) => GroupKind::Rpp,
     }
 }

@@ -18,7 +18,7 @@ use crate::trajectory::{
 const BLOCK: usize = 8;
 
 /// Collects states into the columns of a trajectory, row by row in any order.
-/// Only what has wanted channels is read.
+/// It reads only subjects with wanted channels.
 #[derive(Debug)]
 pub struct Sampler {
     links: Vec<(LinkId, Mask)>,
@@ -31,14 +31,14 @@ pub struct Sampler {
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
     rows: Vec<usize>,
-    /// The last rows. The first `kept` rows of all are in the columns already.
+    /// Buffer of the latest rows. The first `kept` rows are already in the columns.
     block: Vec<f64>,
     kept: usize,
-    /// The input as the scenario states it: that of the grid, or of the states where forces decide the motion.
+    /// The input as the scenario states it: that of the grid or, for a free motion, of the states.
     inputs: Vec<f64>,
 }
 
-/// The wanted rows of one subject in the table of channels.
+/// The wanted channels of one subject, as rows of the table of channels.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mask {
     /// One bit a row.
@@ -58,7 +58,7 @@ impl Mask {
     }
 }
 
-/// The wanted rows of every subject that has any, by its sort and its name.
+/// The wanted rows of every subject with wanted channels, by kind and name of the subject.
 fn masks(channels: &[Channel]) -> BTreeMap<(ChannelSubject, &str), Mask> {
     let mut masks: BTreeMap<(ChannelSubject, &str), Mask> = BTreeMap::new();
     for channel in channels {
@@ -187,7 +187,7 @@ impl Sampler {
         Ok(trajectory.of_input(case.crank().input))
     }
 
-    /// The trajectory so far: the stored rows in the order in which they came.
+    /// The trajectory so far: the stored rows in the order of their arrival.
     /// `None` if there are no rows, or if a number is not finite.
     #[must_use]
     pub fn so_far(mut self, case: &Case) -> Option<Trajectory> {
@@ -213,7 +213,7 @@ impl Row<'_> {
     #[inline(always)]
     fn put<Of: Copy, const N: usize>(&mut self, rows: &[(Of, Stage); N], mask: Mask, read: impl Fn(Of) -> f64) {
         let mut put = 0;
-        // Written out instead of a loop: every quantity is then a constant, and the compiler removes the match on it.
+        // Unrolled: every quantity is then a constant, and the compiler removes the match on it.
         macro_rules! each {
             ($condition:ident: $($row:literal)*) => {{
                 const { assert!(N <= [$($row),*].len(), "every row of a subject is put") };
@@ -243,7 +243,8 @@ impl Row<'_> {
     }
 }
 
-/// Position (m), velocity (m/s) and acceleration (m/s^2) of a body point; the rates only where they are wanted.
+/// Position (m), velocity (m/s) and acceleration (m/s^2) of a body point. Velocity and acceleration are computed only
+/// if wanted.
 struct BodyPoint([Vec2; 3]);
 
 impl BodyPoint {

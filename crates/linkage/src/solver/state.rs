@@ -9,18 +9,19 @@ use crate::mechanism::{GROUND, Joint, PerJoint, PerLink};
 pub struct State {
     /// Motion of every link's frame. The ground's motion is [`Motion::REST`].
     pub motions: PerLink<Motion>,
-    /// Angle of every link's frame, turns kept (rad).
+    /// Angle of every link's frame, unwrapped (rad).
     pub angles: PerLink<f64>,
     /// Force of the first link on the second in every joint (N).
     pub forces: PerJoint<Vec2>,
-    /// Moment of the first link on the second in every joint, about the joint's place on the second (N m). 0 in
-    /// revolute joints.
+    /// Moment of the first link on the second in every joint (N m), about the joint's point on the second link.
+    /// It is 0 in revolute joints.
     pub moments: PerJoint<f64>,
     /// Balancing moment on every driving link (N m), in the order of
     /// [`CaseParts::drives`](crate::case::CaseParts::drives).
     pub torques: Vec<f64>,
-    /// Condition number that rounding goes by where the mechanism passes a change point. There that of the pose itself
-    /// grows without bound, but the solver does not calculate at the pose. `None` elsewhere.
+    /// Condition number for the bound on rounding errors where the mechanism passes a change point; `None` elsewhere.
+    /// At a change point the condition number of the pose itself grows without bound, but the solver does not calculate
+    /// there.
     pub passing: Option<f64>,
 }
 
@@ -54,11 +55,11 @@ impl State {
     }
 
     /// Shaking force (N) and shaking moment about the origin (N m).
-    /// They are the sum of what the joints with the ground, the drives, and the springs and dampers fastened to the
-    /// ground exert on the frame.
+    /// They sum up the actions on the frame of joints with the ground, drives, and springs and dampers fastened to the
+    /// ground.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
-        // Drives stand on the frame, so their reactions there are opposite to the balancing moments.
+        // Drives are mounted on the frame, so their reactions there are opposite to the balancing moments.
         let (mut force, mut moment) = (Vec2::zeros(), -self.torques.iter().sum::<f64>());
         for (index, joint) in case.mechanism.joints().entries() {
             let sign = match (joint.first.link, joint.second.link) {
@@ -79,8 +80,9 @@ impl State {
         (force, moment)
     }
 
-    /// Largest distance between the two sides of a joint (m), that of a prismatic joint across its guide, its wrong
-    /// angle (rad) counted at `size` (m); and the largest distance of a joint from the origin (m).
+    /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
+    /// In a prismatic joint the opening is measured across the guide; the angle between its axes (rad) is multiplied by
+    /// `size` (m).
     #[must_use]
     pub fn opening(&self, case: &Case, size: f64) -> [f64; 2] {
         let mut largest = [0.0; 2];
@@ -94,7 +96,7 @@ impl State {
         largest
     }
 
-    /// Largest moment (N m): of a drive, or of a joint's force at `arm` (m).
+    /// Largest moment (N m): of a drive, or of a joint's force with the lever arm `arm` (m).
     #[must_use]
     pub fn largest_moment(&self, arm: f64) -> f64 {
         let torques = self.torques.iter().map(|torque| torque.abs());

@@ -1,4 +1,4 @@
-//! The only table of channels: which quantities a trajectory can hold, in which unit, and which stage they need.
+//! The only table of channels: the quantities that a trajectory can hold, their units, and the stages that they need.
 
 use crate::sentences;
 use std::fmt;
@@ -6,7 +6,7 @@ use std::fmt;
 use super::reading::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
 use super::unit::Unit;
 
-/// How far a solver must compute for a channel. Each stage needs the ones before it.
+/// How far a solver must compute for a channel. Each stage needs the previous ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Positions and angles.
@@ -52,14 +52,14 @@ pub struct ChannelKind {
     pub quantity: &'static str,
     /// SI unit.
     pub unit: Unit,
-    /// Whether values one turn apart mean the same pose.
+    /// Whether values that differ by one turn mean the same pose.
     pub periodic: bool,
-    /// The stage that must be computed for it.
+    /// The stage that the channel needs.
     pub stage: Stage,
 }
 
 impl ChannelKind {
-    /// Number of the row among those of its subject.
+    /// Index of the row among those of its subject.
     pub(crate) fn row(&self) -> usize {
         let own = CHANNELS.iter().filter(|kind| kind.subject == self.subject);
         own.take_while(|kind| kind.suffix != self.suffix).count()
@@ -71,11 +71,11 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 }
 
 /// All channels, in the order of columns. Vectors are in world axes.
-/// Angles count counter-clockwise from world +x and keep their turns. Moments are counter-clockwise positive.
-/// The force of a joint is that of its first link on its second.
-/// The slide of a prismatic joint is the distance along its axis from the place on its first link to that on its
+/// Angles are counter-clockwise from world +x and count whole turns. Moments are counter-clockwise positive.
+/// The force of a joint acts from its first link on its second.
+/// The slide of a prismatic joint is the distance along its axis, from its point on the first link to that on the
 /// second.
-/// Its moment is that of the first link on the second about the place on the second.
+/// The moment of a prismatic joint acts from the first link on the second, about the joint's point on the second.
 /// The force on the frame is the sum over its joints and the drive; its moment is about the origin.
 /// The torque of the drive acts on the driving link.
 pub static CHANNELS: [ChannelKind; 26] = TABLE;
@@ -164,8 +164,8 @@ macro_rules! rows_of {
     }};
 }
 
-/// The table again, sorted by subjects. These are constants: code that reads a whole subject needs no look-up at run
-/// time.
+/// The same table, sorted by subjects. Its rows are constants, so that code that reads a whole subject needs no look-up
+/// at run time.
 pub(crate) mod rows {
     use super::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Stage, TABLE, count};
 
@@ -199,14 +199,15 @@ impl PartialEq for Channel {
 }
 
 impl Channel {
-    /// What the channel belongs to, as its name begins: `link.crank`, `joint.A`, `drive`.
+    /// Subject of the channel, as the start of its name: `link.crank`, `joint.A`, `drive`.
     #[must_use]
     pub fn subject(&self) -> String {
         let word = self.kind.subject.word();
         if self.of.is_empty() { word.into() } else { format!("{word}.{}", self.of) }
     }
 
-    /// Its rate of change, if that is a channel too: angular velocity of an angle, acceleration of a velocity.
+    /// Rate of change of the channel, if it is also a channel: angular velocity of an angle, acceleration of a
+    /// velocity.
     #[must_use]
     pub fn rate(&self) -> Option<Channel> {
         let reading = self.kind.reading.rate()?;

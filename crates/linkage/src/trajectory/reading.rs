@@ -1,6 +1,6 @@
-//! What channels belong to, and the quantities of a state that the rows of their table read.
+//! Subjects of channels, and the quantities of a state that the table of channels reads.
 
-/// What a channel belongs to.
+/// Subject of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ChannelSubject {
     /// A link; positions are those of its mass centre.
@@ -9,7 +9,7 @@ pub enum ChannelSubject {
     Point,
     /// A joint.
     Joint,
-    /// A prismatic joint: the additional rows besides those of any joint.
+    /// A prismatic joint: the rows that it has in addition to those of any joint.
     Slider,
     /// The frame. All joints with the ground and the drive act on it.
     Frame,
@@ -20,7 +20,7 @@ pub enum ChannelSubject {
 }
 
 impl ChannelSubject {
-    /// Whether a mechanism has exactly one of it, so that it needs no name.
+    /// Whether a mechanism has exactly one such subject, so that it needs no name.
     #[must_use]
     pub fn is_whole(self) -> bool {
         match self {
@@ -33,7 +33,7 @@ impl ChannelSubject {
         }
     }
 
-    /// Whether it is what a drive exerts.
+    /// Whether the subject is the action of a drive.
     #[must_use]
     pub fn is_drive(self) -> bool {
         match self {
@@ -96,7 +96,7 @@ impl Reading {
 }
 
 impl Reading {
-    /// Its rate of change, if that is a reading too.
+    /// Rate of change of the quantity, if it is also a reading.
     #[must_use]
     pub const fn rate(self) -> Option<Reading> {
         const fn of_point(of: OfPoint) -> Option<OfPoint> {
@@ -151,13 +151,13 @@ pub enum OfPoint {
 /// Quantity of a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OfLink {
-    /// Angle of the link's frame, turns kept.
+    /// Angle of the link's frame, unwrapped.
     Angle,
     /// Angular velocity.
     Omega,
     /// Angular acceleration.
     Alpha,
-    /// A quantity of its mass centre.
+    /// A quantity of the link's mass centre.
     Centre(OfPoint),
 }
 

@@ -1,11 +1,13 @@
-//! Error of an engine, estimated from its own runs: at three resolutions, and with fewer sweeps.
+//! Error of an engine, estimated from its runs at three resolutions and with fewer sweeps.
 //!
-//! Let e1 = y(2h) - y(h) and e2 = y(h) - y(h/2). The observed order is p = log2(|e1| / |e2|). The error of the run at h
-//! is estimated as |e2| 2^p / (2^p - 1) (Richardson), times a safety factor. The factor is 1.25 with the formal order
-//! where the observed one agrees with it, else 3 with the smaller of the two (Oberkampf and Roy, "Verification and
-//! validation in scientific computing", 2010, section 8.7; grid convergence index of Roache and ASME V&V 20). For 1.25,
-//! they let the observed order differ by a tenth of the formal one. Here it is a fiftieth, because errors of two orders
-//! can cancel in the differences.
+//! Let e1 = y(2h) - y(h) and e2 = y(h) - y(h/2).
+//! The observed order is p = log2(|e1| / |e2|).
+//! The error of the run at h is estimated as |e2| 2^p / (2^p - 1) (Richardson), times a safety factor.
+//! Where the observed order agrees with the formal one, p is the formal order and the factor is 1.25.
+//! Otherwise p is the smaller of the two orders and the factor is 3 (Oberkampf and Roy, "Verification and validation in
+//! scientific computing", 2010, section 8.7; grid convergence index of Roache and ASME V&V 20).
+//! For the factor 1.25, Oberkampf and Roy let the observed order differ by a tenth of the formal one.
+//! Here the limit is a fiftieth, because errors of two orders can cancel in the differences.
 
 use super::other_sweeps::{self, OtherSweeps};
 use crate::tolerance::{BoundBasis, BoundOrigin, Parts, Tolerance};
@@ -14,11 +16,11 @@ use linkage::math::statistics::{differences, rms};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Share of the formal order by which the observed order may differ for the smaller safety factor. With a tenth, random
-/// chains with an order of 1.91 had errors 1.1 times the bound.
+/// Largest deviation of the observed order for the smaller safety factor, as a share of the formal order.
+/// With a tenth, random chains with an order of 1.91 had errors 1.1 times the bound.
 const AS_GOOD: f64 = 0.02;
 
-/// Share of the formal order by which the observed order may differ for the limit of the runs to be estimated.
+/// Largest deviation of the observed order for an estimate of the limit of the runs, as a share of the formal order.
 const BEARS_OUT: f64 = 0.1;
 
 /// Runs of one engine on one grid.
@@ -37,12 +39,12 @@ pub struct Convergence {
     pub observed: f64,
     /// Order that the method should have.
     pub formal: f64,
-    /// Estimated largest error of the middle run, safety factor not included, in the channel's unit.
+    /// Estimated largest error of the middle run, without safety factor, in the channel's unit.
     pub error: f64,
     /// Safety factor.
     pub safety: f64,
-    /// Error that the sweeps of the middle run leave, safety factor not included, in the channel's unit; 0 for an
-    /// engine that does not iterate.
+    /// Iteration error of the middle run, without safety factor, in the channel's unit; 0 for an engine that does not
+    /// iterate.
     pub iteration: f64,
 }
 
@@ -56,7 +58,7 @@ impl Convergence {
         let largest = largest_size(&fine);
         let (before, after) = (rms(&coarse), rms(&fine));
         let quotient = (before / after).log2();
-        // NaN stands only for differences that are rounding. Other values that are not a number show no convergence.
+        // NaN means only differences that are rounding. Any other NaN counts as no convergence.
         let observed = match quotient.is_nan() {
             _ if after <= noise => f64::NAN,
             true => f64::NEG_INFINITY,
@@ -69,9 +71,10 @@ impl Convergence {
         } else {
             (observed.clamp(0.5, formal), 3.0)
         };
-        // Without an order to go by, the coarser difference is as likely as the finer one. Where only the finer one is
-        // rounding, the coarser one tells what it should be; so it does where the finer one shrinks faster by a whole order
-        // than any step makes it: errors of several orders cancel in it, as they may at few instants.
+        // Without a usable order, the coarser difference is as likely as the finer one.
+        // Where only the finer difference is rounding, the coarser one gives the estimate.
+        // The same holds where the finer difference shrinks by a whole order more than any step explains: errors of
+        // several orders then cancel in it, as they may at few instants.
         let before = largest_size(&coarse);
         let largest = match observed {
             _ if observed.is_nan() => largest.larger(before * 0.5f64.powf(order)),
@@ -83,9 +86,10 @@ impl Convergence {
         Convergence { observed, formal, error, safety, iteration: 0.0 }
     }
 
-    /// The same estimate for runs that are extrapolated. What is no power series of the step, such as the instants
-    /// about a load that jumps or a knot of its table, does not cancel: their errors were measured to be up to ten
-    /// times the difference of neighbouring runs (`benches/peers`).
+    /// The same estimate for extrapolated runs.
+    /// Errors that are not a power series in the step do not cancel, such as those near a jump of a load or a knot of
+    /// its table.
+    /// They were measured to be up to ten times the difference of neighbouring runs (`benches/peers`).
     #[must_use]
     pub fn extrapolated(self, times: usize) -> Self {
         let safety = match times {
@@ -96,8 +100,8 @@ impl Convergence {
         Convergence { safety, ..self }
     }
 
-    /// The estimate for one channel of three trajectories on one grid, and of a fourth one with other sweeps than the
-    /// middle run. `None` if one of them does not have the channel.
+    /// The estimate for one channel, from three trajectories on one grid and others with other numbers of sweeps.
+    /// `None` if one of them does not have the channel.
     #[must_use]
     pub fn of_channel(runs: Ladder<'_>, channel: &Channel, formal: f64, noise: f64) -> Option<Self> {
         let [double, single, half] = runs.resolutions.map(|run| run.column(channel));
@@ -106,7 +110,7 @@ impl Convergence {
         Some(found.with_other_sweeps(single, &runs.other_sweeps.column(channel)?, noise, periodic))
     }
 
-    /// Adds what the sweeps of the middle run leave. Differences below `noise` (in the channel's unit) show nothing.
+    /// Adds the iteration error of the middle run. Differences below `noise` (in the channel's unit) show nothing.
     #[must_use]
     pub fn with_other_sweeps(self, single: &[f64], others: &OtherSweeps<&[f64]>, noise: f64, periodic: bool) -> Self {
         Convergence { iteration: others.left(single, noise, periodic), ..self }
@@ -130,16 +134,15 @@ impl Convergence {
         self.observed.is_nan() || self.observed >= 0.5 * self.formal
     }
 
-    /// The parts of the bound on the error of the middle run; `noise` is the rounding added to it, in the channel's
-    /// unit.
+    /// The parts of the bound on the error of the middle run; `noise` is the rounding part, in the channel's unit.
     #[must_use]
     pub fn parts(&self, noise: f64) -> Parts {
         let (discretisation, iteration) = (self.safety * self.error, other_sweeps::SAFETY * self.iteration);
         Parts { discretisation, iteration, rounding: noise, reference: 0.0 }
     }
 
-    /// Bound on the error of the middle run at `resolution`, the sum of `parts`; `noise` says how their rounding is
-    /// known.
+    /// Bound on the error of the middle run at `resolution`: the sum of `parts`. `noise` is the origin of the rounding
+    /// part.
     #[must_use]
     pub fn tolerance(&self, resolution: f64, parts: Parts, noise: BoundOrigin) -> Tolerance {
         let Convergence { observed, formal, safety, .. } = *self;
@@ -148,8 +151,8 @@ impl Convergence {
     }
 }
 
-/// Order observed between two runs at steps h and h/2 whose true errors are known from a reference: log2 of the
-/// quotient of their root mean squares.
+/// Order observed between two runs at steps h and h/2 whose true errors are known from a reference: log2 of the ratio
+/// of their root mean square errors.
 ///
 /// # Errors
 /// If the grids differ.
@@ -187,7 +190,8 @@ mod tests {
 
     #[test]
     fn an_order_below_a_half_is_not_believed_and_extrapolation_asks_for_more() {
-        // Differences of 1.1 and 1: the order of 0.14 alone would make the error ten times the difference.
+        // Differences of 1.1 and 1 give an order of 0.14. This order alone would make the error ten times the
+        // difference.
         let slow = Convergence::of(&[2.1], &[1.0], &[0.0], false, 2.0, 0.0);
         assert!((slow.observed - 1.1f64.log2()).abs() < 1e-12 && !slow.is_trusted());
         assert!((slow.error - 1.1 / (1.0 - 0.5f64.sqrt())).abs() < 1e-12, "{slow:?}");
@@ -206,7 +210,7 @@ mod tests {
 
     #[test]
     fn where_the_finer_difference_is_rounding_the_coarser_one_tells() {
-        // A quarter of it is due at half the step, and a third of that besides.
+        // At half the step a quarter of the difference is expected. The estimate adds a third of that.
         let found = Convergence::of(&[3e-6], &[0.0], &[0.0], false, 2.0, 1e-12);
         assert!(found.observed.is_nan() && (found.error - 1e-6).abs() < 1e-18, "{found:?}");
     }
@@ -228,7 +232,7 @@ mod tests {
 
     #[test]
     fn a_difference_that_vanishes_by_chance_is_not_taken_for_the_error() {
-        // The errors 3 h^2 - 2.3 h^4: those of the single and of the half step, 0.70 and 0.61, are nearly alike.
+        // The errors are 3 h^2 - 2.3 h^4. At the single and the half step they are 0.70 and 0.61, nearly alike.
         let [double, single, half] = [2.0f64, 1.0, 0.5].map(|h| [3.0 * h.powi(2) - 2.3 * h.powi(4)]);
         let found = Convergence::of(&double, &single, &half, false, 2.0, 0.0);
         assert!(found.observed > 6.0, "{found:?}");
@@ -254,7 +258,8 @@ mod tests {
             Trajectory::new(times.clone(), times, channels, vec![values.to_vec()]).unwrap()
         };
         let [double, single, half] = runs(2, 7.0).map(|values| of(&values));
-        // Half the sweeps leave 0.1 of 1, all leave 0.01: the bound must allow this besides the step's error.
+        // Half the sweeps leave an error of 0.1, all sweeps leave 0.01. The bound must include this besides the error
+        // of the step.
         let values = single.column(&single.channels()[0]).unwrap();
         let fewer = of(&[values[0] + 0.09, values[1]]);
         let other_sweeps = OtherSweeps { runs: [Some(&fewer), None], factor: 2.0, growth: 0.0 };

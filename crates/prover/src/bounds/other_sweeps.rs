@@ -1,19 +1,20 @@
-//! What the sweeps of an iterating engine leave, from runs with fewer of them.
+//! Iteration error of an engine, estimated from runs with fewer sweeps.
 //!
-//! Sweeps converge geometrically. Half of the sweeps leave a share q of the initial error, all of them leave q^2, and
-//! the two runs differ by q - q^2. The remaining error is q / (1 - q) of this difference. The factor 3 covers q up to
-//! 3/4 (ASME V&V 20 also counts the iteration error separately). A run with a quarter of the sweeps leaves q where all
-//! leave q^4: the factor then covers q^3 up to 3/4.
+//! Sweeps converge geometrically.
+//! Half of the sweeps leave a share q of the initial error, all of them leave q^2, and the two runs differ by q - q^2.
+//! The remaining error is q / (1 - q) of this difference.
+//! The safety factor 3 covers q up to 3/4 (ASME V&V 20 also counts the iteration error separately).
+//! A run with a quarter of the sweeps leaves q, and all sweeps leave q^4. The factor then covers q^3 up to 3/4.
 //!
-//! A third run shows how the differences go on. Say that each number of sweeps is r times the one before, and each
-//! difference s times the one before.
+//! A third run shows how the differences develop.
+//! Let each number of sweeps be r times the one before, and each difference s times the one before.
 //!
-//! - Differences that shrink leave s / (1 - s) of the last one, if they go on so (Aitken). That is the worst case: what
-//!   converges geometrically shrinks faster and faster.
-//! - Differences may also grow at first: an iteration that has hardly begun changes little from one number of sweeps to
-//!   the next, and s comes close to r. At most (r - 1) s / (r - s) of the last difference is then left, as long as one
-//!   mode of the iteration decides.
-//! - The slowest position speaks for all channels. Where it grows, nothing can be said.
+//! - Shrinking differences leave s / (1 - s) of the last one, if they go on so (Aitken). This is the worst case:
+//!   differences of a geometric convergence shrink faster and faster.
+//! - Differences may grow at first: an iteration that has hardly begun changes little from one number of sweeps to the
+//!   next, and s is close to r. At most (r - 1) s / (r - s) of the last difference is then left, as long as one mode
+//!   dominates the iteration.
+//! - The position with the slowest convergence decides for all channels. If its differences grow, nothing can be said.
 //!
 //! See docs/numerics/bounds.md.
 
@@ -21,16 +22,16 @@ use linkage::math::KeepNan;
 use linkage::math::statistics::{largest_difference, share};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Safety factor on what is left: see the module's text.
+/// Safety factor on the iteration error: see the module's text.
 pub(super) const SAFETY: f64 = 3.0;
 
-/// Runs at the middle step with other numbers of sweeps, as whatever is read from them.
+/// Runs at the middle step with other numbers of sweeps. `T` is what is read from a run.
 #[derive(Clone, Copy, Debug)]
 pub struct OtherSweeps<T> {
-    /// A run with other sweeps than the middle one, and one with as many times fewer again; `None` for an engine that
-    /// does not iterate, and where there is no such run.
+    /// A run with another number of sweeps than the middle one, and one with fewer again by the same factor.
+    /// `None` for an engine that does not iterate, and for a missing run.
     pub runs: [Option<T>; 2],
-    /// Number of sweeps of each run over that of the next.
+    /// Ratio of the numbers of sweeps of each run and the next.
     pub factor: f64,
     /// Largest [growth](OtherSweeps::growth) of the positions; 0 if it is not known.
     pub growth: f64,
@@ -55,8 +56,9 @@ impl<'a> OtherSweeps<&'a Trajectory> {
 }
 
 impl OtherSweeps<&[f64]> {
-    /// Largest difference between the two runs with more sweeps, over that between the two with fewer: 0 where one of
-    /// them is missing, or where the first is at most `negligible`. `single` is the middle run.
+    /// Largest difference between the two runs with more sweeps, over that between the two with fewer.
+    /// The result is 0 if a run is missing, or if the first difference is at most `negligible`.
+    /// `single` is the middle run.
     #[must_use]
     pub fn growth(&self, single: &[f64], negligible: f64, periodic: bool) -> f64 {
         let [Some(fewer), Some(fewest)] = self.runs else { return 0.0 };
@@ -64,20 +66,19 @@ impl OtherSweeps<&[f64]> {
         if last <= negligible { 0.0 } else { share(last, largest_difference(fewest, fewer, periodic)) }
     }
 
-    /// What the sweeps of the middle run leave, safety factor not included. Differences of at most `noise` show
-    /// nothing.
+    /// Iteration error of the middle run, without safety factor. Differences of at most `noise` show no trend.
     #[must_use]
     pub fn left(&self, single: &[f64], noise: f64, periodic: bool) -> f64 {
         let last = |fewer: &[f64]| largest_difference(fewer, single, periodic);
         match self.runs {
             [None, _] => 0.0,
             [Some(fewer), None] => last(fewer),
-            // What no sweep changes is not found by sweeps.
+            // A channel that no sweep changes has no iteration error.
             [Some(fewer), Some(_)] if last(fewer) == 0.0 => 0.0,
-            // Then small differences are no rounding either: the iteration has not come to this channel yet.
+            // Even small differences are then not rounding: the iteration has not reached this channel yet.
             [Some(_), Some(_)] if self.growth > 1.0 => f64::INFINITY,
             [Some(fewer), Some(_)] => match self.growth(single, noise, periodic) {
-                // What is only rounding counts as it is.
+                // A difference that is only rounding counts as it is.
                 0.0 => last(fewer),
                 own => last(fewer) * part_left(own.larger(self.growth), self.factor),
             },
@@ -85,8 +86,8 @@ impl OtherSweeps<&[f64]> {
     }
 }
 
-/// Part of the last difference between runs with more and more sweeps that is still left, where each difference is
-/// `share` of the one before: see the module's text.
+/// Part of the last difference that the iteration still leaves, where each difference is `share` of the one before: see
+/// the module's text.
 fn part_left(share: f64, factor: f64) -> f64 {
     if share < 1.0 {
         share.larger(share / (1.0 - share) / SAFETY)
@@ -110,13 +111,13 @@ mod tests {
     fn an_iteration_that_has_hardly_begun_is_not_taken_for_converged() {
         for factor in [2.0f64, 4.0] {
             for q in [0.2f64, 0.5, 0.8, 0.9, 0.97, 0.99] {
-                // The error of n sweeps is q^n; the fewest are one sweep.
+                // The error of n sweeps is q^n. The run with the fewest sweeps has one.
                 let [fewest, fewer, all] = [0, 1, 2].map(|k| [q.powf(factor.powi(k))]);
                 let bound = left([&fewest, &fewer, &all], factor, 0.0, 0.0);
                 assert!(bound >= all[0] && bound <= 20.0, "{factor} {q}: {bound} for {}", all[0]);
             }
         }
-        // Differences that grow as fast as the sweeps say nothing about what is left, unless they are rounding.
+        // Differences that grow as fast as the sweeps say nothing about the remaining error, unless they are rounding.
         let grown: [&[f64]; 3] = [&[1.0], &[2.0], &[6.0]];
         assert_eq!(left(grown, 4.0, 0.0, 0.0), f64::INFINITY);
         assert_eq!(left(grown, 4.0, 0.0, 5.0), 12.0);
@@ -128,7 +129,8 @@ mod tests {
         assert!((left(shrinking, 4.0, 0.0, 0.0) - 3.0 * 0.1 * (1.0 / 9.0)).abs() < 1e-12);
         assert!((left(shrinking, 4.0, 0.9, 0.0) - 0.1 * 9.0).abs() < 1e-12);
         assert_eq!(left(shrinking, 4.0, 1.5, 0.0), f64::INFINITY);
-        // Also where its own differences could be rounding; but what no sweep changes is not found by sweeps.
+        // The same holds where the channel's own differences could be rounding. A channel that no sweep changes has no
+        // iteration error.
         assert_eq!(left(shrinking, 4.0, 1.5, 5.0), f64::INFINITY);
         assert_eq!(left([&[1.0], &[1.0], &[1.0]], 4.0, 1.5, 0.0), 0.0);
     }

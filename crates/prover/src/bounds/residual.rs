@@ -14,7 +14,7 @@ use linkage::trajectory::{Channel, Trajectory, Unit};
 /// coordinate come from its neighbours, not from its own motion.
 const SMALLEST_SHARE: f64 = 1e-3;
 
-/// Smallest scale of a rate, a force or a moment, as a share of its own largest value.
+/// Smallest scale of a rate, a force or a moment, as a share of its largest value.
 const SMALLEST_OWN_SHARE: f64 = 0.1;
 
 /// Distribution of the absolute differences in one channel.
@@ -46,32 +46,36 @@ impl Residual {
     }
 }
 
-/// Share of the largest force below which forces are rounding: the sides know them to a tenth of it. So is any quantity
-/// below this share of what the mechanism is built for.
+/// Share of the largest force below which forces are rounding: the sides know forces to a tenth of it.
+/// Any quantity is rounding below this share of the size that the mechanism is built for.
 const VANISHING: f64 = 1e-9;
 
-/// Scale of every channel: half the range of its values over the run. It is at least a thousandth of the natural size
-/// of its quantity, and of a rate, a force or a moment at least a tenth of its largest value, so that a constant one is
-/// measured by itself. Coordinates have no such value, because their origin is arbitrary.
+/// Scale of every channel: half the range of its values over the run.
+/// The scale is at least a thousandth of the natural size of the quantity.
+/// For a rate, a force or a moment it is also at least a tenth of the largest value, so that a constant channel is
+/// measured by its own value.
+/// Coordinates have no such limit, because their origin is arbitrary.
 ///
-/// The natural size is the widest half range among the quantity's channels, or their largest value if they are no
-/// coordinates, or, if larger, the value that follows from the crank's motion and the sizes of places and forces. So a
-/// quantity that vanishes in the whole mechanism is measured too.
+/// The natural size is the widest half range among the quantity's channels, or their largest value if they are not
+/// coordinates.
+/// It is at least the value that follows from the crank's motion and the sizes of coordinates and forces.
+/// So a quantity that vanishes in the whole mechanism has a scale too.
 ///
-/// On a grid of one instant nothing has a range: the natural size itself is the scale, one radian of angles and half
-/// the extent of all coordinates of lengths.
+/// On a grid of one instant nothing has a range.
+/// The scale is then the natural size: one radian for angles, half the extent of all coordinates for lengths.
 #[must_use]
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     scales_beyond(&vec![0.0; trajectory.channels().len()], trajectory, &Built::default())
 }
 
-/// The same for a trajectory that is known to `errors` (in the units of its channels). A rate, a force or a moment that
-/// is zero as far as is known, throughout, has no size: its values are rounding, whatever makes it vanish (a constant
-/// speed, a link that only translates, a joint that guides nothing, a parallelogram). As a constant one is measured by a
-/// tenth of its value, it is measured by a tenth of what is natural for its quantity.
+/// The same for a trajectory that is known to `errors` (in the units of its channels).
+/// A rate, a force or a moment that is zero throughout, within its error, has no size: its values are rounding.
+/// The cause may be a constant speed, a link that only translates, a joint that guides nothing, or a parallelogram.
+/// Such a channel is measured by a tenth of the natural size of its quantity, as a constant channel is measured by a
+/// tenth of its value.
 ///
-/// Where nothing of the trajectory has a size (a balanced rotor without gravity, a mechanism in equilibrium), what is
-/// natural is what the case is `built` for.
+/// If nothing of the trajectory has a size (a balanced rotor without gravity, a mechanism in equilibrium), the natural
+/// size is what the case is `built` for.
 #[must_use]
 pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Built) -> Vec<f64> {
     let is_instant = trajectory.times().len() == 1;
@@ -108,14 +112,14 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
 pub(crate) struct Built {
     /// Size of the mechanism (m).
     pub(crate) length: f64,
-    /// Fastest speed of a drive, the nominal one of a free link (rad/s).
+    /// Fastest speed of a drive; for a free link, its nominal speed (rad/s).
     pub(crate) speed: f64,
-    /// Weight of all links, or what accelerates them at that speed and size, if that is larger (N).
+    /// Weight of all links or, if larger, the force that accelerates them at that speed and size (N).
     pub(crate) force: f64,
 }
 
 impl Built {
-    /// What follows of a unit from these sizes, and from a turn (rad) for angles and their rates.
+    /// Value of a unit that follows from these sizes, and from a rotation `turn` (rad) for angles and their rates.
     fn of(&self, unit: Unit, turn: f64) -> f64 {
         let Built { length, speed, force } = *self;
         match unit {
@@ -130,21 +134,21 @@ impl Built {
         }
     }
 
-    /// A size, or that of its unit here if the other is its rounding.
+    /// The `size`, unless it is rounding of the built size of its unit: then the built size.
     pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
         let own = self.of(unit, 1.0);
         if size <= VANISHING * own { own } else { size }
     }
 }
 
-/// Whether a channel's values are counted from somewhere, so that their size says nothing.
+/// Whether a channel's values have an arbitrary origin, so that their size says nothing.
 fn is_coordinate(channel: &Channel) -> bool {
     matches!(channel.kind.unit, Unit::Radian | Unit::Metre)
 }
 
-/// Size of the numbers in every channel, which its rounding is proportional to. It is the largest absolute value among
-/// the channels of its quantity, or, if larger, the value that follows from a turn of one radian and the largest
-/// coordinates and forces.
+/// Size of the numbers in every channel: the rounding error is proportional to it.
+/// It is the largest absolute value among the channels of the quantity.
+/// It is at least the value that follows from a rotation of one radian and the largest coordinates and forces.
 #[must_use]
 pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
     let sizes = largest_sizes(trajectory);
@@ -152,8 +156,9 @@ pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.channels().iter().map(|channel| all.rounded_with(channel)).collect()
 }
 
-/// The same by sets of channels: the numbers of a channel in set `sets[channel]` are those of all channels whose set
-/// `feeds` it, given first.
+/// As `magnitudes`, but by sets of channels. The numbers of a channel in set `sets[channel]` come from all channels
+/// whose set feeds that set.
+/// The first argument of `feeds` is the set that feeds.
 pub(crate) fn magnitudes_by(trajectory: &Trajectory, sets: &[usize], feeds: &dyn Fn(usize, usize) -> bool) -> Vec<f64> {
     let largest = largest_sizes(trajectory);
     let count = 1 + sets.iter().copied().max().unwrap_or(0);
@@ -180,7 +185,7 @@ fn largest_sizes(trajectory: &Trajectory) -> Vec<f64> {
 /// Largest sizes among some channels.
 struct Sizes {
     of_quantity: BTreeMap<&'static str, f64>,
-    /// Of places and forces, and the mean speed of the crank.
+    /// Largest sizes of coordinates and forces, and the mean speed of the crank.
     largest: Built,
 }
 
@@ -202,7 +207,7 @@ impl Sizes {
         sizes
     }
 
-    /// The sizes among the channels of both.
+    /// The larger sizes of both.
     fn with(mut self, other: &Sizes) -> Self {
         for (quantity, size) in &other.of_quantity {
             let own = self.of_quantity.entry(quantity).or_insert(0.0);
@@ -213,19 +218,20 @@ impl Sizes {
         self
     }
 
-    /// Size of the numbers that a channel is made of. The force on the frame is the sum of those in its joints, which
-    /// may cancel each other and leave their rounding.
+    /// Size of the numbers that make up a channel.
+    /// The force on the frame is the sum of the joint forces, which may cancel and leave their rounding errors.
     fn rounded_with(&self, channel: &Channel) -> f64 {
         let own = self.natural(channel, 1.0);
         if channel.kind.unit == Unit::Newton { own.larger(self.largest.force) } else { own }
     }
 
-    /// The largest size of the channel's quantity, but at least the value that follows from the crank's speed, its `turn`
-    /// (rad) and the sizes of places and forces.
+    /// The largest size of the channel's quantity.
+    /// It is at least the value that follows from the crank's speed, its rotation `turn` (rad) and the sizes of
+    /// coordinates and forces.
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
         let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);
-        // The causes of forces are not known here, only the forces themselves: the shaking force of a balanced
-        // mechanism is the rounding of those in its joints.
+        // Only the forces are known here, not their causes: the shaking force of a balanced mechanism is the rounding
+        // error of the joint forces.
         match channel.kind.unit == Unit::Newton && !(own <= VANISHING * self.largest.force) {
             true => own.larger(0.0),
             false => own.larger(self.largest.of(channel.kind.unit, turn)),
@@ -233,8 +239,9 @@ impl Sizes {
     }
 }
 
-/// Channel by channel `other` minus `reference`, for the channels that both have. Angles that always differ by the same
-/// whole turns are the same motion: the whole turns between the first samples are subtracted.
+/// `other` minus `reference`, channel by channel, for the channels that both have.
+/// Angles that differ by a constant number of whole turns are the same motion: the whole turns between the first
+/// samples are subtracted.
 ///
 /// # Errors
 /// If the grids differ.
@@ -261,7 +268,7 @@ pub fn residuals(reference: &Trajectory, other: &Trajectory) -> Result<Vec<Resid
     residuals_on(&scales(reference), reference, other)
 }
 
-/// The same on other scales, one for each channel of the reference.
+/// Residuals of all channels that both trajectories have, on other scales: one for each channel of the reference.
 ///
 /// # Errors
 /// If the grids differ.
@@ -316,7 +323,7 @@ mod tests {
     fn a_nearly_constant_channel_is_measured_by_its_family() {
         let a = trajectory(&[("joint.A.fx_N", vec![-500.0, 500.0]), ("joint.A.fy_N", vec![1.0, 1.0])]);
         assert_eq!(scales(&a), [500.0, 0.5]);
-        // A constant force is measured by itself.
+        // A constant force is measured by its own value.
         let b = trajectory(&[("joint.A.fx_N", vec![-500.0, 500.0]), ("joint.A.fy_N", vec![30.0, 30.0])]);
         assert_eq!(scales(&b), [500.0, 3.0]);
     }
@@ -326,12 +333,12 @@ mod tests {
         let all = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![3.0, 4.0])]);
         assert_eq!(magnitudes(&all), [2e9, 2e9]);
         assert_eq!(magnitudes_by(&all, &[0, 0], &|_, _| true), [2e9, 2e9]);
-        // Numbers of another set are no part of it, unless it feeds on them.
+        // Numbers of another set do not count, unless that set feeds this one.
         assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from == to), [2e9, 4.0]);
         assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from <= to), [2e9, 2e9]);
-        // What an error is measured by, however, is the channel's own range.
+        // The scale of an error, however, is the channel's own range.
         assert_eq!(scales(&all), [1.5e9, 0.5]);
-        // Unless that is rounding: the shaking force of a balanced mechanism.
+        // Exception: the range is rounding, as for the shaking force of a balanced mechanism.
         let balanced = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![0.0, 1e-7])]);
         assert_eq!(scales(&balanced), [1.5e9, 2e6]);
     }
@@ -375,7 +382,7 @@ mod tests {
         let built = Built { length: 0.5, speed: 4.0, force: 30.0 };
         let found = scales_beyond(&[1e-10; 5], &still, &built);
         assert_eq!(found, [1e-3, 0.1 * 4.0, 0.1 * 16.0 * 0.5, 0.1 * 30.0, 0.1 * 15.0]);
-        // A size stays, however small, unless it is rounding of what the case is built for.
+        // A size is kept, however small, unless it is rounding of the built size.
         assert_eq!([3e-9, 4e-8, 1.0].map(|own| built.unless(own, Unit::Newton)), [30.0, 4e-8, 1.0]);
     }
 
@@ -398,7 +405,7 @@ mod tests {
         .unwrap();
         let (turn, speed, length, force) = (3.0, 1.5, 3.0, 500.0);
         let natural = [turn, speed * turn, speed * speed * turn, speed * length, speed * speed * length];
-        // An angle has no value of its size, only a range.
+        // An angle counts by its range, not by its value.
         let shares = [1e-3, 0.1, 0.1, 0.1, 0.1];
         let wanted = natural.iter().zip(shares).map(|(size, share)| share * size);
         let wanted = wanted.chain([length, force, 0.1 * force * length]);
@@ -426,7 +433,7 @@ mod tests {
         };
         let found = &residuals(&own([0.0; 5]), &own([1.0, -7.0, 2.0, 3.0, 5.0])).unwrap()[0];
         assert_eq!((found.max, found.worst_time, found.worst_crank), (7.0, 0.1, 6.0));
-        // Between the fourth and the fifth of 1, 2, 3, 5 and 7; 1 + 49 + 4 + 9 + 25 over five.
+        // The values are 1, 2, 3, 5 and 7. `q75` is the fourth of them; the mean square is (1 + 49 + 4 + 9 + 25) / 5.
         assert_eq!((found.q75, found.rms), (5.0, 17.6f64.sqrt()));
         assert!((found.q99 - 6.92).abs() < 1e-12, "{}", found.q99);
     }

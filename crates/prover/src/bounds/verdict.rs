@@ -24,18 +24,18 @@ pub enum Verdict {
         /// The place of the largest residual, in words.
         place: String,
     },
-    /// A printed number disagrees as a finding says it must, and the corrected number agrees.
+    /// A printed number disagrees as a finding predicts, and the corrected number agrees.
     Expected {
         /// Anchor of the finding in `docs/findings.md`.
         finding: String,
         /// Difference between the printed number and the solution, in the unit of the check.
         off: f64,
     },
-    /// Nothing is proven either way.
+    /// Neither agreement nor disagreement is proven.
     Inconclusive {
         /// Why it is inconclusive.
         reason: String,
-        /// What would decide it, as alternatives; empty where nothing is known to.
+        /// What would decide it, as alternatives; empty if nothing is known.
         advice: Vec<Advice>,
     },
 }
@@ -82,7 +82,7 @@ impl Verdict {
         }
     }
 
-    /// The same verdict, with values to try in its advice, from the settings of the engine: see
+    /// The same verdict, with values to try in its advice. They come from the settings of the engine: see
     /// [`Advice::from_settings`].
     #[must_use]
     pub fn from_settings(mut self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
@@ -132,7 +132,7 @@ impl Verdict {
     ) -> Self {
         let bound = parts.sum();
         if scale == 0.0 && value > 0.0 {
-            // One instant at rest, or no mass and no load at all.
+            // The grid is one instant at rest, or there is no mass and no load.
             let reason = sentences::THE_REFERENCE_IS_ZERO_THROUGHOUT;
             return Verdict::open(reason);
         }
@@ -143,11 +143,11 @@ impl Verdict {
         if parts.iteration.is_infinite() {
             return open(sentences::THE_SWEEPS_HAVE_HARDLY_BEGUN.into());
         }
-        // Runs that hardly differ need no order: see `NEGLIGIBLE`.
+        // A bound this small needs no order of convergence: see `NEGLIGIBLE`.
         if !convergence.is_trusted() && !(bound <= NEGLIGIBLE * wanted * scale) {
             return open(sentences::the_engine_converges_with_order(&convergence.observed, &convergence.formal));
         }
-        // Where the bound proves nothing, nothing close to it is disproven.
+        // A bound that is too wide to prove agreement does not disprove a number close to it.
         if bound > wanted * scale && value <= DISPROVEN * bound {
             let (reached, proves) = (percent(bound / scale), percent(wanted));
             return open(sentences::the_engine_error_may_reach(&reached, &proves));
@@ -156,15 +156,15 @@ impl Verdict {
     }
 }
 
-/// Share of the widest conclusive bound below which a bound needs no order of convergence. Where runs at three steps
-/// differ that little, rounding or the end of an iteration decides the order, and the bound is ten times the larger
-/// difference.
+/// Share of the widest conclusive bound below which a bound needs no order of convergence.
+/// If runs at three steps differ so little, rounding or the end of an iteration decides the order. The bound is then
+/// ten times the larger difference.
 const NEGLIGIBLE: f64 = 0.1;
-/// Factor on a bound that is too wide to prove agreement: beyond it a number is disproven all the same. It is the larger
-/// safety factor of the estimate once more.
+/// Factor on a bound that is too wide to prove agreement. A number beyond the product is disproven.
+/// It is the larger safety factor of the estimate, applied once more.
 const DISPROVEN: f64 = 3.0;
 
-/// The largest part of an engine's error, to be added to a reason, and how to make it smaller.
+/// The largest part of an engine's error as an addition to a reason, and advice to make it smaller.
 fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     match parts.largest() {
         BoundPart::Rounding => {
@@ -179,7 +179,7 @@ fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
 /// A number that must stay below a bound, besides the comparison of channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {
-    /// What is checked. Checks of one family are one line in a report.
+    /// What is checked. A report shows the checks of one family on one line.
     pub family: String,
     /// Which check of the family; empty if there is only one.
     pub detail: String,
@@ -187,9 +187,9 @@ pub struct Check {
     pub value: f64,
     /// Its bound.
     pub bound: f64,
-    /// Unit of both; empty for relative numbers.
+    /// Unit of number and bound; empty for relative numbers.
     pub unit: &'static str,
-    /// What the bound rests on.
+    /// Basis of the bound.
     pub basis: BoundBasis,
     /// For a bound that comes from an engine's own runs: its parts, and how the runs converge.
     pub estimate: Option<(Parts, Convergence)>,
@@ -239,8 +239,9 @@ impl Check {
         self
     }
 
-    /// Joins this check against the correct number with `printed`, the check against the printed number that a finding
-    /// calls wrong. The printed number must disagree, and the correct one agree. NaN and any third number disagree.
+    /// Joins this check against the correct number with the check against the `printed` number, which a finding calls
+    /// wrong.
+    /// The printed number must disagree, and the correct one must agree. NaN and any third number disagree.
     #[must_use]
     pub fn expected(mut self, finding: &str, printed: &Check) -> Self {
         self.verdict = match (self.verdict, &printed.verdict) {
@@ -368,11 +369,11 @@ mod tests {
         assert_eq!(judged(1e-4, 2.0, 1e-3).word(), "agree");
         assert_eq!(judged(1e-2, 2.0, 1e-3).word(), "disagree");
         assert_eq!(judged(1e-4, 0.3, 2e-3).word(), "inconclusive");
-        // A tenth of what is wanted needs no order.
+        // A bound below a tenth of the requested one needs no order.
         assert_eq!(judged(1e-4, 0.3, 9e-4).word(), "agree");
         assert_eq!(judged(1e-3, 0.3, 9e-4).word(), "disagree");
         assert_eq!(judged(1e-4, 2.0, 5e-2).word(), "inconclusive");
-        // A bound that proves nothing disproves nothing that is close to it.
+        // A bound that is too wide to prove agreement does not disprove a number close to it.
         assert_eq!(judged(6e-2, 2.0, 5e-2).word(), "inconclusive");
         assert_eq!(judged(2e-1, 2.0, 5e-2).word(), "disagree");
         assert_eq!(judged(1e-4, f64::NAN, 1e-3).word(), "agree");
@@ -400,7 +401,7 @@ mod tests {
         assert_eq!(check(1e-4, 2.0, 5e-2).word(), "inconclusive");
     }
 
-    /// A number of which 5 is printed and 7 is correct, each to half a unit.
+    /// A number with the printed value 5 and the correct value 7, each known to half a unit.
     fn known_wrong(found: f64) -> Verdict {
         let against = |number: f64| {
             Check::new("f", (found - number).abs(), Tolerance { bound: 0.5, basis: BoundBasis::Wanted("test") }, "N")

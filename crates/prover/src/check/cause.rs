@@ -184,7 +184,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     let is_sound = |own: &&Mended| !own.rank.0;
     let is_simple = |own: &&Mended| own.slip.kind != SlipKind::Value || !own.rank.1;
     let mut sound: Vec<&Mended> = tried.right.iter().filter(is_sound).filter(is_simple).collect();
-    // Where nothing changes, or the formula is wrong by a factor, a slip has only one number to meet.
+    // If the mechanism's value is constant, or the formula is wrong by a factor or an offset, a slip has to match only
+    // one number.
     let is_weak = trial.is_constant() || trial.is_number;
     if let Some(first) = sound.first().copied() {
         // A sign, a unit, or units that become consistent only with the correction are stronger evidence than the
@@ -249,7 +250,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     if let Some(found) = leaves(&rows).filter(|_| is_exact) {
         return Some(found);
     }
-    // Among this many equally simple slips, one leaves as small a remainder at two independent instants by chance.
+    // Remainder that one of this many equally simple slips leaves by chance at two independent instants.
     let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
     let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
     let mostly = |own: Mended| FormulaCause::Mostly { cause: Box::new(FormulaCause::Slip(own.slip)), left: own.left };
@@ -300,7 +301,7 @@ fn of_numbers(rows: &[Row]) -> Option<FormulaCause> {
     }
     let left = |row: &Row| row[2] - row[3];
     let largest = |column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::larger);
-    // A coefficient fitted to the numbers is known only as well as they are.
+    // A fitted coefficient is known only as well as the numbers.
     let slack = 8.0 * f64::EPSILON * (largest(2) + largest(3));
     let by = |basis: &dyn Fn(&Row) -> f64| {
         let [above, below] = rows.iter().fold([0.0, 0.0], |[above, below], row| {

@@ -72,7 +72,8 @@ pub fn needed(claim: &Claim, case: &Case) -> Vec<Channel> {
 }
 
 /// Returns the channels among which a diagnosis may find a missing term: angles, velocities and accelerations of all
-/// links and points, and every channel with the unit of a claim, which may have been meant.
+/// links and points.
+/// Also returns every channel with the unit of a claim, because the claim may have meant it.
 #[must_use]
 pub fn telling<'a>(case: &Case, claims: impl Iterator<Item = &'a Claim>) -> Vec<Channel> {
     let claimed: Vec<_> =

@@ -98,7 +98,7 @@ fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<
 
 /// Judges all claims of a scenario's formulas for which a course has the channels, each by value, then by every
 /// derivative.
-/// Shared parts of formulas, and a claim made by several, are evaluated once at every instant.
+/// Shared parts of formulas, and claims made by several formulas, are evaluated once at every instant.
 ///
 /// # Errors
 /// Only if the course changes between two calls.

@@ -17,7 +17,7 @@ pub struct FormulaAtInstant {
     pub formula: f64,
     /// Value of the mechanism.
     pub mechanism: f64,
-    /// Formula less mechanism; for angles without whole turns.
+    /// Formula minus mechanism; for angles without whole turns.
     pub difference: f64,
     /// Largest difference allowed.
     pub bound: f64,
@@ -87,8 +87,8 @@ pub struct JudgedFormula {
 
 /// Largest bound, as a share of the scale, that still decides anything.
 const TELLING: f64 = 1e-6;
-/// Ratio of a formula's error to that of the mechanism up to which no digits count as lost: the effect of a few
-/// products of numbers known as well as the mechanism's.
+/// Ratio of a formula's error to the mechanism's error up to which no digits count as lost.
+/// It allows a few products of numbers known as well as the mechanism's.
 const NO_WORSE: f64 = 1e3;
 /// Share of instants without a decisive bound beyond which the judgement is inconclusive.
 const MOST_LOST: f64 = 0.03;
@@ -144,7 +144,7 @@ impl JudgedFormula {
         let rounding = if found.is_undefined() { 0.0 } else { found.error };
         let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
         let at = FormulaAtInstant { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
-        // If the mechanism is hardly known better, the loss is not the formula's.
+        // If the mechanism is hardly known better, the loss is not due to the formula.
         let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
         // At the end of a function's domain, like acos at 1, the derivative is not finite though the value is right.
         let is_end = self.order > 0 && !found.value.is_finite();
@@ -190,8 +190,8 @@ mod tests {
     use super::*;
     use scenario::{Formulas, of_repository};
 
-    /// Errors of a formula and of the mechanism as shares of the scale: a formula known much worse than the mechanism,
-    /// and to less than six digits, decides nothing.
+    /// Errors of a formula and of the mechanism as shares of the scale.
+    /// A formula decides nothing if it is known much worse than the mechanism, and to less than six digits.
     #[test]
     fn digits_are_lost_only_where_the_mechanism_has_them() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

@@ -1,4 +1,4 @@
-//! Missing terms and factors: finds from the numbers what makes a formula right at one of its places.
+//! Missing terms and factors: finds from the numbers what must be added at one place of a formula to make it right.
 //!
 //! At every place the missing summand or factor is calculated instant by instant.
 //! If it is proportional to an expression that the derivation contains, that expression is missing.
@@ -36,14 +36,14 @@ const ACCURACY: f64 = 1e-9;
 /// Missing amount at a place by instant, with its error; `None` where it cannot be determined.
 type Needed = Vec<Option<[f64; 2]>>;
 
-/// Largest expected number of products that match by chance: where a single number is the only evidence, it must be one
-/// that the parameters do not produce anyway.
+/// Largest expected number of products that match by chance.
+/// A number that is the only evidence must be one that the parameters do not produce anyway.
 const CHANCE: f64 = 0.5;
-/// Number of ways in which a product of several quantities may be missing where a formula is wrong only by a number.
+/// Number of ways to miss a product of several quantities in a formula that is wrong only by a number.
 const LONG: f64 = 100.0;
 
-/// Returns what is missing, if one term or factor at one place makes the formula right with consistent units; several
-/// if the parameters produce the same number in several ways.
+/// Returns the missing term or factor that makes the formula right at one place with consistent units.
+/// Returns several if the parameters produce the same number in several ways.
 pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing> {
     let dictionary = Dictionary::of(trial);
     let monomials = Monomials::of(&trial.formulas, trial.index, &dictionary.constants, dimensions);
@@ -67,7 +67,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                         if trial.is_spent() {
                             break;
                         }
-                        // A formula that is wrong only by a number lacks nothing that changes.
+                        // A formula that is wrong only by a number lacks no expression that varies.
                         if entry.after > index || trial.is_number && !entry.is_one() {
                             continue;
                         }
@@ -189,9 +189,9 @@ impl Candidate {
 }
 
 /// Whether a number alone proves that a product is missing.
-/// The number must have more digits than chance explains among as many products with its unit.
-/// `places` is the number of places at which it may be missing if the formula is wrong only by a number: then all of
-/// them fit.
+/// The number must have more digits than chance explains among this many products with its unit.
+/// `places` is the number of places at which the product may be missing; it is given if the formula is wrong only by a
+/// number. All these places then fit.
 fn is_believed(
     monomials: &Monomials,
     dimensions: &Dimensions,
@@ -286,8 +286,9 @@ fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
     }
 }
 
-/// Missing amount at a place at each of the few instants. The iteration starts from nothing at each instant, or from
-/// the neighbour's amount on either side, because squares have two solutions.
+/// Missing amount at a place at each of the few instants.
+/// The iteration starts afresh at each instant, or from the amount at the neighbouring instant on either side, because
+/// squares have two solutions.
 fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let depending = trial.sheet.depending(&[place]);
     let neutral = if operator == Operator::Plus { 0.0 } else { 1.0 };
@@ -324,7 +325,7 @@ fn coefficient(entry: &Entry, needed: &Needed) -> Option<f64> {
     // The instant with the smallest relative error.
     let sharpness = |(value, [_, known]): &(f64, [f64; 2])| (value / known).abs();
     let (sharpest, [amount, sharp]) = known().max_by(|one, other| sharpness(one).total_cmp(&sharpness(other)))?;
-    // A number for a single instant is determined by that instant.
+    // A constant needs no more instants than there are.
     let fewest = if entry.is_one() { FEWEST.min(needed.len()) } else { FEWEST };
     if known().count() < fewest {
         return None;

@@ -1,7 +1,7 @@
 //! Slips: finds the one slip in writing whose correction makes a formula right.
 //!
-//! Every slip is tried at every place of the formula and of the steps that it uses; a correction that holds at every
-//! instant explains the error.
+//! Every slip is tried at every place of the formula and of the steps that it uses.
+//! A correction that makes the formula right at every instant explains the error.
 //! Nothing is guessed from the shape of the error.
 
 mod edits;
@@ -115,8 +115,9 @@ fn filled(tree: &FormulaTree, formula: &FormulaTree, places: &[usize]) -> Formul
     own
 }
 
-/// Returns a formula with one slip of a kind. The corrections of a part also serve as slips for it: of all places and
-/// ways to make the slip, `number` selects one, counted modulo their count. `None` if the slip cannot be made.
+/// Returns a formula with one slip of a kind. The corrections of a part also serve as slips for it.
+/// `number` selects one of all places and ways to make the slip, modulo their count.
+/// `None` if the slip cannot be made.
 #[must_use]
 pub fn planted(formulas: &Formulas, formula: usize, kind: SlipKind, number: usize) -> Option<FormulaTree> {
     let tree = &formulas.list[formula].tree;

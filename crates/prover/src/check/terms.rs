@@ -1,5 +1,5 @@
-//! Terms that a wrong formula lacks as a whole, by least squares over what the mechanism has: sines and cosines of its
-//! links' angles, the squares of their speeds, their accelerations.
+//! Terms that a wrong formula lacks as a whole, found by least squares over quantities of the mechanism: sines and
+//! cosines of the links' angles, squares of their speeds, and their accelerations.
 
 mod squares;
 
@@ -20,23 +20,24 @@ pub use squares::Wrong;
 pub struct Term {
     /// Its coefficient, in the unit of the claim.
     pub coefficient: f64,
-    /// The coefficient as a product of parameters, if it is one whose unit fits.
+    /// The coefficient as a product of parameters, if there is one with a fitting unit.
     pub factor: Option<String>,
-    /// What it is a multiple of; empty for a constant.
+    /// The quantity that the coefficient multiplies; empty for a constant.
     pub of: String,
 }
 
 /// Relative accuracy to which a coefficient is recognised as a product of parameters.
 const ACCURACY: f64 = 1e-8;
-/// Complexity of a coefficient that is no product of parameters.
+/// Complexity of a coefficient that is not a product of parameters.
 const UNKNOWN_NUMBER: usize = 20;
-/// Size of a term over the difference that it is a part of.
+/// Largest ratio of a term to the difference that it is a part of.
 const LARGER: f64 = 3.0;
-/// Error of a channel's number over the largest of its column.
+/// Error of a channel's values, relative to the largest value of the channel.
 const KNOWN: f64 = 1e-10;
 
-/// One or two terms with which nothing is left over. Their coefficients are products of parameters with the unit that
-/// is missing; only what a sine or cosine has before it may be a number.
+/// One or two terms that explain the whole difference.
+/// Their coefficients are products of parameters with the missing unit. Only the coefficient of a sine or cosine may be
+/// a number.
 pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimensions) -> Option<Vec<Term>> {
     let rows = course.rows(trial.formula);
     if rows.len() != trial.pairs.len() {
@@ -52,15 +53,16 @@ pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimen
     };
     let bases = bases(course, &wrong);
     let largest = wrong.differences.iter().fold(0.0, |largest: f64, own| largest.larger(own.abs()));
-    // A constant that is wrong is not explained by what takes it away.
+    // A term that only cancels a wrong constant does not explain it.
     let formula = trial.pairs.first()?.formula.value;
     let is_constant = trial.gives_one_number();
     let monomials = Monomials::of(&trial.formulas, trial.index, &[], dimensions);
-    // The simplest of what explains all of it.
+    // The simplest complete explanation.
     let mut whole: Option<(usize, Vec<Term>)> = None;
     explanations(&wrong, &bases, |parts| {
         let is_named = |(term, basis): &(Term, &TermBasis)| term.factor.is_some() || basis.unit == "rad";
-        // What is much larger than the difference is no part of it: two such terms cancel each other, or the formula.
+        // A term much larger than the difference is not part of it: two such terms cancel each other, or one cancels
+        // the formula.
         if parts.iter().any(|part| part.coefficient.abs() * part.basis.largest() > LARGER * largest) {
             return;
         }
@@ -87,7 +89,7 @@ pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimen
     whole.map(|(_, terms)| terms)
 }
 
-/// The channel that a formula is right for, if it is another than the claimed one.
+/// The channel for which the formula is right, if it is not the claimed one.
 pub(super) fn is_other(trial: &Trial, claim: &Claim, course: &KnownTrajectory) -> Option<String> {
     let [(_, claimed)] = claim.channels.as_slice() else { return None };
     let rows = course.rows(trial.formula);
@@ -97,7 +99,7 @@ pub(super) fn is_other(trial: &Trial, claim: &Claim, course: &KnownTrajectory) -
     let turn = claim.turn();
     let is_right = |(channel, values): &(&Channel, &[f64])| {
         let largest = rows.iter().fold(0.0, |largest: f64, &row| largest.larger(values[row].abs()));
-        // Another quantity counts in its own unit.
+        // A channel with another unit is compared in that unit.
         let is_alike = channel.kind.unit == claimed.channel.kind.unit;
         let (unit, turn) = if is_alike { (claimed.to_si(1.0), turn) } else { (1.0, None) };
         let fits = |(&row, pair): (&usize, &Pair)| {
@@ -110,7 +112,7 @@ pub(super) fn is_other(trial: &Trial, claim: &Claim, course: &KnownTrajectory) -
     course.columns().find(is_right).map(|(channel, _)| channel.to_string())
 }
 
-/// Fewest instants that a channel is recognised by.
+/// Fewest instants from which a channel is recognised.
 const FEWEST: usize = 8;
 
 impl Term {
@@ -120,8 +122,8 @@ impl Term {
     }
 }
 
-/// What a single term explains of numbers that no formula stands behind, or two if nothing is left over: the terms, and
-/// the share of the largest difference that stays over.
+/// Explains differences without a formula by a single term, or by two if they leave nothing.
+/// Returns the terms and the remaining share of the largest difference.
 #[must_use]
 pub fn missing_in_numbers(course: &KnownTrajectory, wrong: &Wrong) -> Option<(Vec<Term>, f64)> {
     let terms = |parts: Vec<WeightedTerm>| parts.iter().map(Term::plain).collect::<Vec<_>>();
@@ -134,7 +136,7 @@ pub fn missing_in_numbers(course: &KnownTrajectory, wrong: &Wrong) -> Option<(Ve
     whole.or_else(|| most.filter(|most| most.parts.len() == 1).map(|most| (terms(most.parts), most.left)))
 }
 
-/// A term as it may be written, and how complicated it is.
+/// A term in written form, and its complexity.
 fn written_as(basis: &TermBasis, coefficient: f64, monomials: &Monomials, dimensions: &Dimensions) -> (Term, usize) {
     let mut products = monomials.with_value(coefficient, ACCURACY).into_iter();
     let product = products.find(|(tree, _)| dimensions.is_sound_term(tree, basis.unit));

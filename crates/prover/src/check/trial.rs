@@ -1,4 +1,4 @@
-//! A wrong formula, and what a change of it would make of it.
+//! A wrong formula, and the effect of changes to it.
 
 use super::judge;
 use super::judged::{JudgedFormula, Pair};
@@ -9,48 +9,48 @@ use linkage::math::KeepNan;
 use scenario::formula::OMEGA;
 use scenario::{Claim, Formula, Formulas, INPUTS, Parameter};
 
-/// Instants at which every change is tried first, besides the one at which the formula is worst.
+/// Number of instants at which every change is tried first, besides the instant with the largest error.
 const FIRST: usize = 9;
-/// Steps before a formula, and parameters, that it does not use and may have forgotten.
+/// Number of earlier steps, and of parameters, that a formula does not use and may have forgotten.
 const BESIDE: usize = 20;
-/// What making a change as a tree, and judging it, costs beside its evaluations, in operations.
+/// Cost of making a change as a tree and judging it, without its evaluations, in operations.
 const TREE: u64 = 2000;
-/// What adding a formula, or a part of one, to a graph costs, in operations.
+/// Cost of adding a formula, or a part of one, to a graph, in operations.
 const ADDED: usize = 16;
-/// What making a change of one part costs beside its evaluations, in operations.
+/// Cost of changing one part, without its evaluations, in operations.
 const EDIT: u64 = 40;
-/// Share of the difference that a change may leave, at some instant, to be looked at more closely.
+/// Largest share of the difference that a change may leave at any instant and still be examined more closely.
 pub(super) const MOST_LEFT: f64 = 0.1;
 
 /// A formula that a course contradicts, ready for changes to be tried.
 pub(super) struct Trial<'a> {
-    /// The formula with what it may know.
+    /// The formula, and everything that it may use.
     pub(super) formulas: Formulas,
     /// Its index in that list.
     pub(super) index: usize,
     pub(super) formula: &'a Formula,
     claim: &'a Claim,
-    /// Inputs of the formulas, formula and mechanism at every instant.
+    /// Inputs of the formulas, and values of formula and mechanism, at every instant.
     inputs: Vec<[Rounded; 4]>,
     pub(super) pairs: Vec<Pair>,
-    /// Some of the instants, neither the first nor the last alone: much is zero there.
+    /// Some of the instants. The first and the last alone do not suffice, because many values are zero there.
     pub(super) few: Vec<usize>,
     /// The derivation at the few instants.
     pub(super) sheet: DerivationSheet,
-    /// What the formula ought to be at each of the few.
+    /// Correct value of the formula at each of the few instants.
     pub(super) targets: Vec<FormulaTarget>,
-    /// Numbers of the few, those first at which the formula is worst.
+    /// Indices of the few instants, those with the largest error first.
     pub(super) order: Vec<usize>,
-    /// The largest difference at the few instants, or the largest number of the mechanism if that is less.
+    /// The largest difference at the few instants, or the largest value of the mechanism if that is less.
     before: f64,
     /// Whether a factor or an offset makes the formula right.
     pub(super) is_number: bool,
-    /// Most operations that the search may take.
+    /// Largest number of operations that the search may use.
     limit: u64,
 }
 
 impl<'a> Trial<'a> {
-    /// A formula and its claim on a course.
+    /// Prepares the trial of a formula and its claim on a course.
     ///
     /// # Errors
     /// If the course lacks a channel of the claim.
@@ -64,7 +64,7 @@ impl<'a> Trial<'a> {
         let formula = &formulas.list[index];
         let rows = course.rows(formula);
         let mut pairs = judge::pairs(formulas, (formula, claim), course, &rows)?;
-        // Where the claim has no number, as what is reduced to a crank that rests, nothing can be tried.
+        // Nothing can be tried where the claim has no number, such as a value reduced to a crank at rest.
         let has_number = |pair: &Pair| pair.mechanism.value.is_finite() && pair.mechanism.error.is_finite();
         let kept = rows.iter().zip(&pairs).filter(|(_, pair)| has_number(pair));
         let inputs: Vec<[Rounded; 4]> = kept.map(|(&row, _)| course.inputs(row)).collect();
@@ -95,7 +95,7 @@ impl<'a> Trial<'a> {
         few.dedup();
         let mut order: Vec<usize> = (0..few.len()).collect();
         order.sort_by(|one, other| size(few[*other]).total_cmp(&size(few[*one])));
-        // Of a difference that is larger than the mechanism's numbers, almost anything leaves little.
+        // If the difference is larger than the mechanism's values, almost any change leaves little of it.
         let largest = |of: &dyn Fn(usize) -> f64| few.iter().map(|&place| of(place)).fold(0.0, f64::larger);
         let numbers = largest(&|place| own.pairs[place].mechanism.value.abs());
         own.before = largest(&size).smaller(numbers);
@@ -114,34 +114,34 @@ impl<'a> Trial<'a> {
         for step in &own.formulas.list {
             own.sheet.add(&step.name, &step.tree).expect("a formula knows what stands before it");
         }
-        // Making the trial is work too: judging, and looking through the file.
+        // The preparation counts as work too: judging, and searching the file.
         let made = (16 * own.pairs.len() + 8 * index_of_file) as u64 + 8 * own.sheet.operations();
         own.sheet.count(made);
         Ok(own)
     }
 
-    /// Whether the search has taken all the work that it may.
+    /// Whether the search has used all the work that it may.
     pub(super) fn is_spent(&self) -> bool {
         self.sheet.operations() >= self.limit
     }
 
-    /// Whether the mechanism's number does not change, or is one number.
+    /// Whether the mechanism's value is the same at all instants, or there is only one.
     pub(super) fn is_constant(&self) -> bool {
         is_one(self.pairs.iter().map(|pair| pair.mechanism))
     }
 
-    /// Whether the formula gives one number at all instants.
+    /// Whether the formula has the same value at all instants.
     pub(super) fn gives_one_number(&self) -> bool {
         is_one(self.pairs.iter().map(|pair| pair.formula))
     }
 
-    /// Formula less mechanism, for angles without whole turns.
+    /// Formula minus mechanism; for angles without whole turns.
     pub(super) fn difference(&self, formula: f64, place: usize) -> f64 {
         let difference = formula - self.pairs[place].mechanism.value;
         self.claim.turn().map_or(difference, |turn| difference - turn * (difference / turn).round())
     }
 
-    /// How far formula and mechanism may be apart at an instant.
+    /// Largest allowed difference between formula and mechanism at an instant.
     pub(super) fn bound(&self, place: usize) -> f64 {
         let Pair { formula, mechanism, .. } = self.pairs[place];
         formula.error + mechanism.error + self.formula.error.unwrap_or(0.0)
@@ -153,7 +153,8 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether a change at some places of the sheet makes the formula right at the few instants, or leaves little of
-    /// the difference there. `depending` is what depends on the places.
+    /// the difference there.
+    /// `depending` lists the places that depend on the changed ones.
     pub(super) fn is_promising(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize]) -> bool {
         let claimed = self.formula.error.unwrap_or(0.0);
         self.sheet.count(EDIT);
@@ -166,14 +167,16 @@ impl<'a> Trial<'a> {
         })
     }
 
-    /// Whether the formula is right at every instant with these trees in place of those of the file; `slack` more
-    /// than its bound is allowed.
+    /// Whether the formula is right at every instant with these trees in place of those of the file. `slack` is added
+    /// to its bound.
     pub(super) fn fits(&mut self, changed: &[(usize, FormulaTree)], slack: f64) -> bool {
         self.left(changed, slack) == Some(0.0)
     }
 
-    /// What such a change leaves of the difference: zero if the formula is right at every instant, else the largest
-    /// difference at some of them over the largest that there was. `None` if it has no value.
+    /// Share of the difference that such a change leaves.
+    /// It is zero if the formula is right at every instant. Otherwise it is the largest difference left at some of
+    /// them, over the largest difference before.
+    /// `None` if the changed formula has no value.
     pub(super) fn left(&mut self, changed: &[(usize, FormulaTree)], slack: f64) -> Option<f64> {
         let Trial { formulas, index, formula, claim, inputs, pairs, few, .. } = self;
         let after = *index - changed.iter().map(|(own, _)| *own).min().unwrap_or(*index);
@@ -201,7 +204,7 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// Whether numbers are the same but for their errors.
+/// Whether numbers are equal within their errors.
 fn is_one(mut numbers: impl Iterator<Item = Rounded>) -> bool {
     let Some(first) = numbers.next() else { return true };
     numbers.all(|own| (own.value - first.value).abs() <= 4.0 * (own.error + first.error))

@@ -13,15 +13,15 @@ use scenario::Formulas;
 /// An operation outside its domain, at the first instant at which a formula has no value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Undefined {
-    /// Name of the formula in which the operation stands: the one that was asked about, or one that it uses.
+    /// Name of the formula that contains the operation: the requested one, or one that it uses.
     pub formula: String,
-    /// The operation with its arguments, its place in the formula's text (bytes), and what would be in its domain.
+    /// The operation with its arguments, its position in the formula's text (bytes), and what would be in its domain.
     pub fault: FormulaFault,
     /// The operation as it is written.
     pub written: String,
     /// The crank angle (rad).
     pub crank: f64,
-    /// Whether the formula is right wherever it has a value, and has one somewhere: nothing else is wrong then.
+    /// Whether the formula has a value somewhere and is right wherever it has one: nothing else is then wrong.
     pub is_all: bool,
 }
 
@@ -34,8 +34,8 @@ impl fmt::Display for Undefined {
     }
 }
 
-/// Where the formula called `name` has no value on a course, and the operations that it took to see it; `None` if it
-/// has one everywhere, or claims nothing.
+/// Finds where the formula called `name` has no value on a course. Also returns the operations used.
+/// `None` if the formula has a value everywhere or claims nothing.
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.

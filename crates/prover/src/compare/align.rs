@@ -1,4 +1,4 @@
-//! Two tables side by side: rows of the same instants, or the first interpolated at those of the second.
+//! Two tables side by side: rows of the same instants, or the first table interpolated at the instants of the second.
 
 use crate::sentences;
 use std::f64::consts::TAU;
@@ -14,7 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use scenario::Claim;
 
-/// Share of the distance of two rows within which an instant is one of them.
+/// Share of the distance of two rows within which an instant counts as one of them.
 const SAME: f64 = 1e-6;
 
 /// Compares two parties at the instants of the second.
@@ -41,7 +41,7 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
     let places = places(&from, &to, how);
     let unshared = places.iter().filter(|place| matches!(place, Place::Nowhere)).count();
     let shared = to.values.len() - unshared;
-    // One alone proves nothing: of times in other units, zero is the same.
+    // A single shared instant proves nothing: zero is the same in every unit of time.
     if shared == 0 || shared == 1 && unshared > 0 {
         let what = if from.is_crank { "crank angle" } else { "time" };
         let which = if shared == 0 { "no" } else { "only one" };
@@ -76,7 +76,8 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
     Ok(pair)
 }
 
-/// What the digits of the instants of both leave open in a column of the first at the rows of the second.
+/// Uncertainty of a column of the first party at the rows of the second, from the limited digits of both parties'
+/// instants.
 fn drift(from: &RowKey, to: &RowKey, places: &[Place]) -> impl Fn(&[Rounded], Option<f64>) -> Vec<f64> + use<> {
     let widest = from.values.iter().map(|at| at.error).fold(0.0, f64::larger);
     let of = |(place, own): (&Place, &Rounded)| match place {
@@ -93,9 +94,9 @@ fn drift(from: &RowKey, to: &RowKey, places: &[Place]) -> impl Fn(&[Rounded], Op
 enum Place {
     /// At a row.
     At(usize),
-    /// Between two rows, in order to be interpolated.
+    /// Between two rows, to be interpolated.
     Between(f64),
-    /// Between two rows, and nothing is interpolated; or beyond all of them.
+    /// Between two rows without interpolation, or beyond all rows.
     Nowhere,
 }
 
@@ -124,7 +125,7 @@ fn places(from: &RowKey, to: &RowKey, how: &ComparisonRule) -> Vec<Place> {
     to.values.iter().map(of).collect()
 }
 
-/// The numbers of a claim at some places among the rows that hold at `from`.
+/// The numbers of a claim at some places among the rows at `from`.
 fn at_places(values: &[Rounded], from: &RowKey, places: &[Place], turn: Option<f64>) -> Vec<Rounded> {
     let order = from.ascending();
     let at: Vec<f64> = order.iter().map(|&row| from.values[row].value).collect();

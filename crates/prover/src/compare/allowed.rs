@@ -1,4 +1,4 @@
-//! What a comparison is asked, and what is allowed besides what is known.
+//! What is compared, and which differences are allowed besides the known errors.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,22 +14,22 @@ use columns::Allowance;
 /// How two parties are compared.
 #[derive(Clone, Debug, Default)]
 pub struct ComparisonRule {
-    /// Differences that are allowed; of several for one channel the last counts.
+    /// Allowed differences. If there are several for one channel, the last counts.
     pub allowed: Vec<Allowed>,
-    /// By what rows are brought together; `None` for times where both have some.
+    /// Quantity by which rows are matched; `None` for times if both parties have times.
     pub by: Option<By>,
     /// Whether a table may be interpolated between its instants.
     pub interpolates: bool,
-    /// The side of a recording that is compared; `None` for all.
+    /// The side of a recording to compare; `None` for all.
     pub side: Option<String>,
-    /// Words for channels that are compared; empty for all.
+    /// Words for the channels to compare; empty for all.
     pub only: Vec<String>,
-    /// Memory allowed (bytes); `None` for what a proof is allowed.
+    /// Memory allowed (bytes); `None` for the limit of a proof.
     pub memory: Option<f64>,
 }
 
 impl ComparisonRule {
-    /// What is allowed of channels.
+    /// Allowed differences by channel.
     #[must_use]
     pub fn allowances(&self) -> Allowances<'_> {
         let mut all = [None; 3];
@@ -44,28 +44,28 @@ impl ComparisonRule {
         Words::of(own.filter_map(|(index, allowed)| Some((index, allowed.of.as_deref()?))))
     }
 
-    /// What is allowed of the crank angle (rad) with this scale: what is allowed of all, and of the word `crank`, with
-    /// sizes in degrees.
+    /// Allowed difference of the crank angle (rad) with this scale: from allowances for all channels and for the word
+    /// `crank`. Absolute sizes are in degrees.
     #[must_use]
     pub fn allows_crank(&self, scale: f64) -> Option<Allowance> {
         let own = self.allowed.iter().filter(|own| own.of.as_deref().is_none_or(|word| word == CRANK));
         allowance(own, scale, 1f64.to_radians())
     }
 
-    /// Whether the crank angle is asked for.
+    /// Whether the crank angle is requested.
     #[must_use]
     pub fn asks_for_crank(&self) -> bool {
         self.only.is_empty() || self.only.iter().any(|word| word == CRANK)
     }
 
-    /// Whether a channel is asked for.
+    /// Returns a function that tells whether a channel is requested.
     pub fn asked(&self) -> impl Fn(&Claim) -> bool + use<> {
         let words = Words::of(self.only.iter().map(String::as_str).enumerate());
         let is_all = self.only.is_empty();
         move |claim| is_all || words.meaning(claim).next().is_some()
     }
 
-    /// Refuses words that no compared channel answers to.
+    /// Refuses allowances for a word that matches no compared channel.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] with the word.
@@ -89,7 +89,7 @@ impl ComparisonRule {
 /// The word for the crank angle of rows.
 const CRANK: &str = "crank";
 
-/// Words for claims, with their numbers: many are held against many claims.
+/// Words for claims, with their indices. A map, because many words are matched with many claims.
 struct Words(BTreeMap<String, Vec<usize>>);
 
 impl Words {
@@ -101,8 +101,9 @@ impl Words {
         Words(own)
     }
 
-    /// The numbers of the words that mean a claim: its text, its channel in any unit, the channel's subject, stage, or
-    /// both. An arithmetic is meant by what means all its channels.
+    /// Indices of the words that match a claim: its text, its channel in any unit, the channel's subject, its stage, or
+    /// both.
+    /// A word matches an expression of channels if it matches all of them.
     fn meaning(&self, claim: &Claim) -> impl Iterator<Item = usize> + use<'_> {
         let mut channels = claim.channels.iter().map(|(_, own)| called(own));
         let first = channels.next().unwrap_or_default();
@@ -112,28 +113,28 @@ impl Words {
     }
 }
 
-/// A word with its channel, if it is one, in SI units.
+/// A word. If it is a channel, its name in SI units.
 fn in_si(word: &str) -> String {
     PrintedChannel::named(word).map_or_else(|| word.into(), |own| own.channel.to_string())
 }
 
-/// What a channel is called.
+/// Words that match a channel.
 fn called(own: &PrintedChannel) -> BTreeSet<String> {
     let (name, stage) = (own.channel.to_string(), own.channel.kind.stage.name());
     let subject = name.rsplit_once('.').map_or("", |(subject, _)| subject).to_string();
     [format!("{subject}.{stage}"), subject, stage.into(), name].into()
 }
 
-/// What is allowed of channels, found by their names.
+/// Allowed differences of channels, found by their names.
 pub struct Allowances<'a> {
     allowed: &'a [Allowed],
-    /// The last for all channels, kind by kind.
+    /// The last allowance for all channels, by kind.
     all: [Option<usize>; 3],
     words: Words,
 }
 
 impl Allowances<'_> {
-    /// What is allowed of a channel with this scale, in its unit; `None` if nothing is said of it.
+    /// Allowed difference of a channel with this scale, in its unit; `None` if there is no allowance for it.
     #[must_use]
     pub fn of(&self, claim: &Claim, scale: f64) -> Option<Allowance> {
         let own: BTreeSet<usize> = self.words.meaning(claim).chain(self.all.into_iter().flatten()).collect();
@@ -141,7 +142,7 @@ impl Allowances<'_> {
     }
 }
 
-/// What is allowed by all of `own`, with sizes in a `unit`; of a kind the last counts.
+/// Allowed difference by all of `own`, with absolute sizes in `unit`. Of each kind the last counts.
 fn allowance<'a>(own: impl Iterator<Item = &'a Allowed>, scale: f64, unit: f64) -> Option<Allowance> {
     let mut sizes: [Option<f64>; 3] = [None; 3];
     for allowed in own {
@@ -166,7 +167,7 @@ mod tests {
         ComparisonRule { allowed: allowed.iter().map(of).collect(), ..ComparisonRule::default() }
     }
 
-    /// Of a channel with a scale of 4, in its unit; of several allowances for one the last of each kind counts.
+    /// The channel has a scale of 4. Of several allowances for one channel, the last of each kind counts.
     #[test]
     fn what_is_allowed_is_the_larger_of_what_is_said() {
         let channel = Channel::named("point.B.x_m").unwrap();
@@ -186,14 +187,15 @@ mod tests {
         ] {
             assert_eq!(how(&said).allowances().of(&claim, 4.0), allowed, "{said:?}");
         }
-        // Of the crank in degrees, of its range, and of nothing that is said of a channel alone.
+        // For the crank: an allowance in degrees, a share of its range, and none from an allowance for another channel.
         let crank = |said: &[(Option<&str>, Size)]| how(said).allows_crank(4.0).map(|own| own.fixed);
         assert_eq!(crank(&[(Some("crank"), absolute(180.0))]), Some(std::f64::consts::PI));
         assert_eq!(crank(&[(None, relative(0.5))]), Some(2.0));
         assert_eq!(crank(&[(Some("point.B"), absolute(1.0))]), None);
     }
 
-    /// An arithmetic is meant by its text and by what means all its channels; a word that means nothing is named.
+    /// A word matches an expression of channels by its text, or if it matches all its channels. A word without a match
+    /// is named.
     #[test]
     fn words_mean_claims_by_what_all_their_channels_are_called() {
         let channels = ["point.B.x_m", "point.B.y_m"].map(|name| Channel::named(name).unwrap());

@@ -18,7 +18,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Channel;
 use scenario::{Claim, Scenario, within};
 
-/// What a scenario says of its own channels, at its own instants.
+/// Values of all channels of a scenario at its own instants.
 pub(super) fn held(scenario: &Scenario) -> Result<Held> {
     let channel = |channel: &Channel| Claim::of_channels(&channel.to_string(), std::slice::from_ref(channel)).ok();
     let claims: Vec<Claim> = scenario.case.channels().iter().filter_map(channel).collect();
@@ -27,7 +27,7 @@ pub(super) fn held(scenario: &Scenario) -> Result<Held> {
     Ok(Held::of_columns(Held::of_trajectory(solved.trajectory()).at, columns).analytic())
 }
 
-/// What the sides say of claims, `of(row)` being the instant of a row.
+/// Values of claims by the analytic sides; `of(row)` is the instant of a row.
 fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows: usize) -> Result<Vec<PartyColumn>> {
     let column = |claim: &Claim| {
         let values = solved.on_course(|course| course.values(claim))?;
@@ -37,7 +37,7 @@ fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows:
     claims.iter().map(column).collect()
 }
 
-/// Compares a scenario, which is this party, with the other, which gives the instants.
+/// Compares a scenario (the party `which`) with the other party at the instants of the other.
 pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &ComparisonRule) -> Result<SidePair> {
     let Side { name, held } = other;
     let at = held.at(how.by)?;
@@ -79,7 +79,7 @@ pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &Compa
     Ok(pair)
 }
 
-/// What a party says of channels that the scenario has, and the names of its other ones.
+/// The requested claims of a party for channels of the scenario, and the names of its other channels.
 fn claims(scenario: &Scenario, held: &Held, how: &ComparisonRule) -> Result<(Vec<Claim>, Vec<String>)> {
     let (mut claims, mut alone) = (Vec::new(), Vec::new());
     let asked = how.asked();
@@ -102,7 +102,7 @@ fn claims(scenario: &Scenario, held: &Held, how: &ComparisonRule) -> Result<(Vec
     Ok((claims, alone))
 }
 
-/// The grid of some instants, every one once, and for every row its place in it.
+/// The grid of some instants, each once, and the grid index of every row.
 fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
     let mut rows = vec![0; at.values.len()];
     let mut all: Vec<f64> = Vec::with_capacity(rows.len());
@@ -128,7 +128,7 @@ fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
     Ok((grid, rows))
 }
 
-/// What an analytic side has recorded is as well known as what it finds now.
+/// Adds the errors of the values found now to recorded values of an analytic side.
 fn as_well_known(mut held: Held, own: &Held) -> Held {
     for column in &mut held.columns {
         let Some(found) = own.values_of(&column.claim) else { continue };

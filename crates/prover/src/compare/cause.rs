@@ -1,4 +1,4 @@
-//! Why a table is off, where that is simple.
+//! Simple causes of differences between a table and a scenario.
 
 use crate::sentences;
 use std::borrow::Cow;
@@ -22,41 +22,42 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::Scenario;
 
-/// A cause, and what stays over when it is granted.
+/// A cause, and the difference that remains after it.
 #[derive(Clone, Debug)]
 pub struct Explained {
-    /// The channels that were examined, by their texts.
+    /// Texts of the channels concerned: the explained ones, or all examined ones if there is no cause.
     pub of: Vec<String>,
     /// What was found.
     pub diagnosis: Diagnosis,
-    /// Terms that are missing, where that is the cause.
+    /// Missing terms, if they are the cause.
     pub terms: Vec<Term>,
-    /// Share of the largest difference that may stay over when the cause is granted; zero for what the bounds allow.
+    /// Largest remaining share of the largest difference; zero if the cause explains the channels within their bounds.
     pub left: f64,
-    /// The time (s) of a single row that is off besides, which no cause explains.
+    /// Time (s) of a single further wrong row that no cause explains.
     pub but: Option<f64>,
 }
 
-/// Shares of the largest difference that a cause may leave over: nothing but the bounds, then little, as the error of a
-/// simulation that is wrong besides.
+/// Remaining shares of the largest difference that are allowed for a cause.
+/// At first nothing beyond the bounds may remain, then little, such as the additional error of a simulation.
 const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
 
-/// Number of channels that are off by little that terms are tried on.
+/// Largest number of slightly wrong channels for which terms are tried.
 const TRIED: usize = 12;
 
-/// Number of instants that terms are tried on at first.
+/// Number of instants at which terms are tried first.
 const FEW: usize = 24;
 
-/// Number of instants that causes are sought on, besides those that tell most.
+/// Largest number of instants at which causes are sought, besides the most telling ones.
 const MOST: usize = 2000;
 
-/// Share of a channel's scale from which on a difference is a mistake, and not the error of a method.
+/// Share of a channel's scale above which a difference is a mistake, not the error of a method.
 pub const GROSS: f64 = 0.02;
 
-/// Examines the channels of the party beside a scenario, which is this one, that disagree. What explains them to within their bounds is
-/// granted first, of all together, then of what it leaves; a single row that is off besides hides no cause.
-/// Then those that are grossly off are examined together and one by one, for causes that leave little. What is off by
-/// little and without a common cause is the error of a method.
+/// Finds causes for the channels that disagree between a scenario (the party `which`) and the other party.
+/// Causes that explain channels within their bounds come first: for all channels together, then for the rest. A single
+/// further wrong row does not hide a cause.
+/// Grossly wrong channels are then examined together and one by one, for causes that leave little.
+/// A small difference without a common cause is the error of a method.
 pub(super) fn explained(
     scenario: &Scenario,
     which: Which,
@@ -74,14 +75,14 @@ pub(super) fn explained(
     while let Some(exact) = stage.examined(&open, LEFT[0]).or_else(|| stage.examined_but_one(&open, LEFT[0])) {
         grant(&mut open, exact);
     }
-    // A simulation is wrong by its step besides.
+    // A simulation also has the error of its step.
     let most = stage.examined(&open, LEFT[1]).filter(|most| most.of.len() == open.len());
     if let Some(most) = most.or_else(|| stage.examined_but_one(&open, LEFT[1])) {
         grant(&mut open, most);
     }
     let (mut open, mut little): (Vec<&Compared>, Vec<&Compared>) = open.into_iter().partition(|own| own.is_gross());
     while !open.is_empty() {
-        // All of them at once, unless that explains none.
+        // First all channels together. If that explains none, one by one.
         let together = || LEFT[1..].iter().find_map(|&left| stage.examined(&open, left));
         let alone = || open.iter().find_map(|one| LEFT.iter().find_map(|&left| stage.examined(&[*one], left)));
         let next = together().or_else(|| if open.len() > 1 { alone() } else { None });
@@ -91,7 +92,7 @@ pub(super) fn explained(
     if !open.is_empty() {
         found.extend(stage.unexplained(&open));
     }
-    // What is off by little may be a method's error, unless a term explains all of it.
+    // A small difference may be a method's error, unless a term explains all of it.
     for one in little.clone().into_iter().take(TRIED) {
         if let Some(explained) = stage.lacking(one) {
             little.retain(|own| !explained.of.contains(&own.claim.text));
@@ -109,29 +110,30 @@ impl Compared {
         matches!(self.claim.tree.shape, NodeShape::Name(_)) && self.largest.is_some()
     }
 
-    /// Whether it is off by so much that no method's error explains it.
+    /// Whether the difference is too large for the error of a method.
     #[must_use]
     pub fn is_gross(&self) -> bool {
         self.since.is_some() && self.largest.is_some_and(|at| at.difference.abs() > GROSS * self.scale)
     }
 }
 
-/// Whether a cause may be named that leaves something over. A number that was fitted may stand for anything then, and
-/// differences resemble values that are late by half a row. A drive that is turned is at constant speed the same as
-/// rows that are late.
+/// Whether a cause may be named although a difference remains.
+/// A fitted number could then mean anything.
+/// Numerical derivatives resemble values that are late by half a row.
+/// At constant speed a rotated drive equals late rows.
 fn may_leave(cause: &DisagreementCause) -> bool {
     match cause {
         DisagreementCause::Case(Change { part, how: PartChange::Instead { .. } }) => {
             matches!(part, CasePart::StartAngle(_))
         }
-        // A simulation that bursts ends in rows beside which all others are small.
+        // A diverging simulation ends in rows that make all others look small.
         DisagreementCause::Values { slip: DataSlip::Differences { .. } | DataSlip::Outlier(_), .. } => false,
         DisagreementCause::Case(_) | DisagreementCause::Values { .. } => true,
     }
 }
 
-/// Whole turns are compared by nobody, and many programs print none: adds them, so that a right angle is near the right
-/// one, and a wrong one that is wrapped goes on where it was.
+/// Adds whole turns to angles, because many programs print angles without them.
+/// A right angle is then near the reference. A wrong angle that is wrapped continues without jumps.
 fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
     let is_wrapped = |own: &[f64]| half_range(own) <= PI * (1.0 + 1e-9);
     if !is_right && !is_wrapped(values) {
@@ -142,7 +144,7 @@ fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
     for (value, right) in values.iter_mut().zip(right) {
         let gap = *value - right;
         let near = if is_right { 0.0 } else { before.unwrap_or(gap) };
-        // The first row says from which turn a wrong angle counts.
+        // The first row sets the turn from which a wrong angle counts.
         if is_right || before.is_some() {
             turns = -((gap - near) / TAU).round();
         }
@@ -151,18 +153,19 @@ fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
     }
 }
 
-/// Fewest instants of which one may be left out.
+/// Fewest instants for leaving one of them out.
 const FEWEST: usize = 8;
 
-/// Rows from which on one that is off is not looked for: that costs as much as all else several times.
+/// Number of rows from which a single wrong row is not searched for: the search would cost several times as much as the
+/// rest.
 const MOST_ROWS: usize = 20_000;
 
-/// What the channels are examined on: the rows at which all of them have numbers.
+/// Data for the examination: the rows at which all channels have numbers.
 struct Stage {
     case: linkage::case::Case,
     right: Trajectory,
     found: Trajectory,
-    /// By channel of `found`: text of its claim, the bound on it in SI, and whether it agrees.
+    /// For each channel of `found`: text of its claim, its bound in SI units, and whether it agrees.
     bounds: Vec<(String, f64, bool)>,
 }
 
@@ -196,14 +199,15 @@ impl Stage {
             }
             names.push(printed.channel.clone());
             columns.push(rows.iter().map(|&row| printed.to_si(values[row].value)).collect::<Vec<f64>>());
-            // A cause is held against one bound: a tighter one, of numbers with more digits, would refuse right ones.
+            // A cause is compared with a single bound. A tighter bound, from numbers with more digits, would refuse
+            // right causes.
             let largest = own.largest.map_or(0.0, |at| at.difference.abs());
             let bound = if largest > own.loosest { own.loosest } else { own.worst.map_or(0.0, |worst| worst.bound) };
             bounds.push((own.claim.text.clone(), printed.to_si(bound), own.since.is_none()));
         }
         let all: Vec<Channel> = scenario.case.all_channels();
         let case = scenario.case.on(Grid { times: times.clone(), inputs: cranks.clone() })?.wanting_only(&all);
-        // What is compared was solved at these instants; channels beside it may not be.
+        // The compared channels could be solved at these instants, but other channels may not.
         let Ok(right) = AssurSolver.solve(&case) else { return Ok(None) };
         for ((channel, column), (.., agrees)) in names.iter().zip(&mut columns).zip(&bounds) {
             if let Some(right) = right.column(channel).filter(|_| channel.kind.periodic) {
@@ -214,7 +218,7 @@ impl Stage {
         Ok(Some(Stage { case, right, found, bounds }))
     }
 
-    /// A cause that explains some of the channels, but for what it leaves over.
+    /// A cause that explains some of the channels, up to the remaining share `left`.
     fn examined(&self, of: &[&Compared], left: f64) -> Option<Explained> {
         let mut diagnosis = self.diagnosis(of, left)?;
         let causes = diagnosis.cause.take().into_iter().chain(std::mem::take(&mut diagnosis.also));
@@ -226,7 +230,7 @@ impl Stage {
         (!explained.is_empty()).then_some(Explained { of: explained, diagnosis, terms: Vec::new(), left, but: None })
     }
 
-    /// A cause that explains all of the channels but for a single row: the first, the last, or the one that stands out.
+    /// A cause that explains all of the channels except a single row: the first, the last, or the row that stands out.
     fn examined_but_one(&self, of: &[&Compared], left: f64) -> Option<Explained> {
         let count = self.right.times().len();
         if !(FEWEST..MOST_ROWS).contains(&count) || of.is_empty() {
@@ -254,7 +258,7 @@ impl Stage {
         (1..self.right.times().len() - 1).max_by(|&a, &b| bend(a).total_cmp(&bend(b)))
     }
 
-    /// The same without a row.
+    /// The same data without a row.
     fn without(&self, row: usize) -> Option<Stage> {
         let keep: Vec<bool> = (0..self.right.times().len()).map(|own| own != row).collect();
         let [right, found] = [&self.right, &self.found].map(|own| own.at_rows(&keep));
@@ -268,7 +272,7 @@ impl Stage {
         Some(Stage { case, right, found, bounds })
     }
 
-    /// What can be said where no cause is simple: since when, and what the error looks like.
+    /// What can be said without a simple cause: the start and the kind of the error.
     fn unexplained(&self, of: &[&Compared]) -> Option<Explained> {
         let mut diagnosis = self.diagnosis(of, 0.0)?;
         diagnosis.cause = None;
@@ -277,7 +281,7 @@ impl Stage {
         Some(Explained { of, diagnosis, terms: Vec::new(), left: 0.0, but: None })
     }
 
-    /// What a channel lacks that the mechanism has, in the unit that it is printed in.
+    /// Terms of the mechanism that a channel lacks, in its printed unit.
     fn lacking(&self, own: &Compared) -> Option<Explained> {
         let place = self.bounds.iter().position(|(text, ..)| *text == own.claim.text)?;
         let channel = &self.found.channels()[place];
@@ -298,7 +302,8 @@ impl Stage {
             few: &few,
         };
         let (terms, left) = missing_in_numbers(&KnownTrajectory::new(&self.case, &self.right, &|_, _| 0.0), &wrong)?;
-        // Some term resembles any smooth difference, and what goes with time is no term of a mechanism.
+        // Some term resembles any smooth difference. Terms in the time or the crank angle alone are not terms of a
+        // mechanism.
         let drifts = terms.iter().any(|term| term.of == "t" || term.of == "phi");
         (left == 0.0 && !drifts).then_some(())?;
         let diagnosis = self.diagnosis(&[own], 0.0)?;
@@ -310,7 +315,7 @@ impl Stage {
         Some(&self.bounds[place].0)
     }
 
-    /// The diagnosis of some channels; what a cause may leave over widens their bounds.
+    /// The diagnosis of some channels. Their bounds are widened by the share `left`.
     fn diagnosis(&self, of: &[&Compared], left: f64) -> Option<Diagnosis> {
         let judged: Vec<SuspectChannel> = self
             .found
@@ -319,7 +324,7 @@ impl Stage {
             .zip(&self.bounds)
             .filter_map(|(channel, (text, bound, agrees))| {
                 if *agrees {
-                    // A cause must not spoil it.
+                    // A cause must not make an agreeing channel disagree.
                     return Some(SuspectChannel { channel: channel.clone(), bound: *bound, disagrees: false });
                 }
                 let own = of.iter().find(|own| own.claim.text == *text)?;
@@ -350,7 +355,7 @@ impl Stage {
 mod tests {
     use super::*;
 
-    /// Within half a turn of zero, as many programs print angles.
+    /// Angles within half a turn of zero, as many programs print them.
     fn wrapped(values: &[f64]) -> Vec<f64> {
         values.iter().map(|value| value - TAU * (value / TAU).round()).collect()
     }
@@ -364,7 +369,7 @@ mod tests {
             unwrap(&mut values, &right, is_right);
             assert!(values.iter().zip(meant).all(|(a, b)| (a - b).abs() < 1e-12), "{is_right}: {values:?}");
         }
-        // What was not wrapped stays, unless it is right but for turns.
+        // Unwrapped angles stay, unless they are right except for whole turns.
         for (is_right, turns) in [(false, 2.0), (true, 0.0)] {
             let mut values: Vec<f64> = right.iter().map(|angle| angle + 2.0 * TAU).collect();
             unwrap(&mut values, &right, is_right);

@@ -1,4 +1,4 @@
-//! What rounded instants leave open where a scenario can be solved beside them.
+//! Uncertainty from rounded instants, where the other party is a scenario that can be solved.
 
 use crate::check::KnownTrajectory;
 use crate::run::shifted::{Along, grow, is_exact, shifted};
@@ -12,17 +12,17 @@ use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
 use scenario::Claim;
 
-/// By how much numbers may be off because their instants were rounded, row by row: nothing where that is empty.
+/// Uncertainty of numbers due to the rounding of their instants, row by row; empty if there is none.
 #[derive(Default)]
 pub(super) struct Drift {
-    /// Claim by claim, in their units.
+    /// By claim, in the claim's unit.
     pub claims: Vec<Vec<f64>>,
     /// The crank angle (rad).
     pub crank: Vec<f64>,
 }
 
-/// The largest change of every claim within what the digits of the instants leave open: see [`shifted`].
-/// Where it cannot be solved there, the course from row to row must do.
+/// The largest change of every claim within the rounding of the instants: see [`shifted`].
+/// If the scenario cannot be solved there, the course from row to row is used.
 pub(super) fn drift(solved: &Solved, columns: &[PartyColumn], at: &RowKey, rows: &[usize]) -> Drift {
     let trajectory = solved.trajectory();
     let mut slack = vec![0.0; trajectory.times().len()];

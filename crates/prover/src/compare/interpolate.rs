@@ -1,12 +1,12 @@
-//! Values between the rows of a table, with what interpolating them may be wrong by.
+//! Values between the rows of a table, with the interpolation error.
 
 use columns::MISSING;
 use formula::Rounded;
 use linkage::math::KeepNan;
 
-/// Rows that a cubic needs, and one more to tell its error.
+/// Number of rows that a cubic needs, and one more to estimate its error.
 const FEWEST: usize = 5;
-/// How much larger the fourth divided difference may be between rows than in any window of five rows close by.
+/// Safety factor on the fourth divided difference between rows, relative to that of any window of five rows close by.
 const SAFETY: f64 = 2.0;
 
 /// A column in ascending order of its instants.
@@ -18,8 +18,8 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// A column by its instants and values, both in ascending order of the instants. Rows without a number are left out.
-    /// Angles with this `turn` may jump by it.
+    /// A column by its instants and values, in ascending order of the instants.
+    /// Rows without a number are left out. Angles with this `turn` may jump by it.
     pub(super) fn new(at: &[f64], values: &[Rounded], turn: Option<f64>) -> Self {
         let rows: Vec<(f64, Rounded)> =
             at.iter().copied().zip(values.iter().copied()).filter(|(_, own)| own.value.is_finite()).collect();
@@ -38,8 +38,9 @@ impl Course {
         Course { at, values, fourth }
     }
 
-    /// The value at an instant: the cubic through the four rows around it. Its error is that of the rows, and its first
-    /// neglected term. NaN beyond the rows, or if they are too few.
+    /// The value at an instant, from the cubic through the four rows around it.
+    /// Its error is the error of the rows plus the first neglected term.
+    /// NaN beyond the rows, or if there are too few.
     pub(super) fn value(&self, wanted: f64) -> Rounded {
         let next = self.at.partition_point(|&at| at < wanted);
         if next == 0 || next == self.at.len() || self.at.len() < FEWEST {
@@ -62,7 +63,7 @@ impl Course {
     }
 }
 
-/// Angles without jumps by a turn from row to row.
+/// Angles without jumps by whole turns between rows.
 fn unwound(mut values: Vec<Rounded>, turn: Option<f64>) -> Vec<Rounded> {
     let Some(turn) = turn else { return values };
     for row in 1..values.len() {
@@ -98,7 +99,7 @@ mod tests {
     fn errors_of_rows_are_passed_on_by_their_weights() {
         let at: Vec<f64> = (0..20).map(f64::from).collect();
         let values: Vec<Rounded> = at.iter().map(|&at| Rounded { value: at, error: 1e-6 }).collect();
-        // In the middle of two rows the weights are -1/16, 9/16, 9/16 and -1/16: their sizes add up to 5/4.
+        // Midway between two rows the weights are -1/16, 9/16, 9/16 and -1/16. Their sizes add up to 5/4.
         let found = Course::new(&at, &values, None).value(9.5);
         assert!((found.error - 1.25e-6).abs() < 1e-12, "{found:?}");
     }

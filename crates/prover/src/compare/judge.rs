@@ -18,17 +18,18 @@ use scenario::Claim;
 
 pub use columns::RowPair;
 
-/// A channel, or an arithmetic of channels, of both parties.
+/// A channel, or an expression of channels, that both parties have.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// The channel in its unit.
     pub claim: Claim,
-    /// Half the range over the whole run of the scenario, at least a thousandth of what is natural for its quantity; in
-    /// the claim's unit. The same whatever else is compared.
+    /// Scale, in the claim's unit: half the range over the whole run of the scenario, at least a thousandth of the
+    /// natural size of the quantity.
+    /// It does not depend on what else is compared.
     pub scale: f64,
-    /// What the numbers of both come to, in the claim's unit.
+    /// Result of comparing the numbers of both, in the claim's unit.
     pub found: JudgedColumns,
-    /// Whether the bound is what is known of both parties, and nothing is allowed besides.
+    /// Whether the bound comes only from the known errors of both parties, without an allowed difference.
     pub is_derived: bool,
     /// Agreement within the bounds of all instants.
     pub verdict: Verdict,
@@ -43,7 +44,7 @@ impl Deref for Compared {
 }
 
 impl Compared {
-    /// Whether it is off because a number is expected and none stands there.
+    /// Whether it disagrees because an expected number is missing.
     #[must_use]
     pub fn has_no_number(&self) -> bool {
         has_no_number(&self.found)
@@ -66,7 +67,7 @@ impl Which {
         if self == Which::First { Which::Second } else { Which::First }
     }
 
-    /// Both in their order, `own` being of this party.
+    /// Both values in the order of the parties; `own` belongs to this party.
     pub(super) fn beside<T>(self, own: T, other: T) -> [T; 2] {
         if self == Which::First { [own, other] } else { [other, own] }
     }
@@ -76,9 +77,9 @@ impl Which {
 pub(super) struct Both<'a> {
     pub parties: [&'a Held; 2],
     pub at: &'a RowKey,
-    /// Times and crank angles of rows as far as somebody knows them.
+    /// Times and crank angles of the rows, as far as they are known.
     pub instants: [Vec<f64>; 2],
-    /// What the digits of the instants leave open, claim by claim and row by row; an empty column for nothing.
+    /// Uncertainty due to the digits of the instants, by claim and row; an empty column if there is none.
     pub drift: Vec<Vec<f64>>,
     pub how: &'a ComparisonRule,
 }
@@ -95,7 +96,7 @@ impl Both<'_> {
         claims.iter().enumerate().filter_map(of).collect()
     }
 
-    /// The party that is measured by.
+    /// The party that sets the scale.
     pub(super) fn measure(&self) -> ScaleColumn {
         ScaleColumn::among(self.parties.map(|party| party.is_analytic))
     }
@@ -104,9 +105,9 @@ impl Both<'_> {
         self.instants.each_ref().map(Vec::as_slice)
     }
 
-    /// The scale of a channel: as a complete trajectory gives it, whatever else is compared. Of tables, and of an
-    /// arithmetic, by the numbers of its own alone: half their range, and at least a tenth of the largest, or of a
-    /// coordinate a thousandth.
+    /// The scale of a channel, from a complete trajectory if there is one. It does not depend on what else is compared.
+    /// For tables and expressions of channels, the scale comes from the numbers alone: half their range, and at least a
+    /// tenth of the largest value (for a coordinate a thousandth).
     fn scale(&self, claim: &Claim, values: &[Rounded]) -> f64 {
         let measure = self.measure().party;
         let complete = [measure, 1 - measure].into_iter().find_map(|party| self.parties[party].scale_of(claim));
@@ -155,7 +156,7 @@ impl Both<'_> {
                 sentences::SAY_WHAT_DIFFERENCE_IS_ALLOWED,
             ),
             Some(since) => Verdict::Disagree { place: place(&since) },
-            // Numbers that are as near as that prove it, whatever their digits leave open.
+            // Numbers that agree this closely are proof, whatever the uncertainty from their digits.
             None if is_derived && own.widest > TELLING * scale && largest > TELLING * scale => open(
                 sentences::the_numbers_are_known_to_of_their(&format_args!("{:.1e}", own.widest / scale)),
                 sentences::GIVE_MORE_DIGITS_OR_CLOSER,
@@ -165,7 +166,7 @@ impl Both<'_> {
     }
 }
 
-/// Where, and what stands there.
+/// The instant, and the numbers there.
 pub(super) fn place(at: &RowPair) -> String {
     let RowPair { time, crank, values: [one, other], .. } = at;
     let when = match (time.is_nan(), crank.is_nan()) {

@@ -1,4 +1,4 @@
-//! What is known of two sides after they were compared.
+//! Result of comparing two sides.
 
 use crate::sentences;
 use std::f64::consts::TAU;
@@ -13,9 +13,9 @@ use formula::Rounded;
 use linkage::math::statistics::half_range;
 use scenario::Claim;
 
-/// A side that is compared.
+/// A side of a comparison.
 pub(super) struct Side {
-    /// What it is called in a recording; empty for others.
+    /// Name in a recording; empty for other parties.
     pub name: String,
     pub held: Held,
 }
@@ -23,31 +23,33 @@ pub(super) struct Side {
 /// Two sides compared.
 #[derive(Default)]
 pub struct SidePair {
-    /// What they are called in the recordings; empty for others.
+    /// Names in the recordings; empty for other parties.
     pub names: [String; 2],
     /// Channel by channel, in the order of the second party.
     pub channels: Vec<Compared>,
-    /// Checks of the analytic sides on each other, where a scenario was solved, and of the crank angle, where both have it.
+    /// Checks of the analytic sides on each other if a scenario was solved, and of the crank angle if both parties have
+    /// it.
     pub checks: Vec<Check>,
-    /// Number of instants of the party that gives them.
+    /// Number of instants of the party that sets them.
     pub instants: usize,
-    /// Number of those that the other does not have.
+    /// Number of these instants that the other party does not have.
     pub unshared: usize,
     /// Channels that only one of the two has.
     pub alone: [Vec<String>; 2],
-    /// The first row whose instant lies back, with the one before: see [`At::turns_back`](crate::tables::RowKey::turns_back).
+    /// The first row whose instant goes backwards, with its instant and the one before: see
+    /// [`At::turns_back`](crate::tables::RowKey::turns_back).
     pub turns_back: Option<(usize, [f64; 2])>,
-    /// Two rows of the party that gives the instants which hold at the same one and contradict each other. No cause is
-    /// sought then.
+    /// Two rows at the same instant that contradict each other, from the party that sets the instants. No cause is then
+    /// sought.
     pub contradiction: Option<Contradiction>,
     /// Whether the instants are crank angles.
     pub by_crank: bool,
-    /// Why channels are off, where that is simple.
+    /// Simple causes of the disagreements.
     pub causes: Vec<Explained>,
 }
 
 impl SidePair {
-    /// What the claims of both come to; `party` gives the instants.
+    /// Compares the claims of both; `party` sets the instants.
     pub(super) fn of(both: &Both, party: Which, claims: &[Claim]) -> SidePair {
         SidePair {
             channels: both.judged(claims),
@@ -59,21 +61,21 @@ impl SidePair {
         }
     }
 
-    /// Number of values compared, and of those that there would be if none was missing.
+    /// Number of values compared, and their number if none were missing.
     #[must_use]
     pub fn values(&self) -> [usize; 2] {
         let judged = self.channels.iter().map(|own| own.judged).sum();
         [judged, self.channels.len() * (self.instants - self.unshared)]
     }
 
-    /// Whether the crank angles that both carry disagree.
+    /// Whether the crank angles of both parties disagree.
     #[must_use]
     pub fn crank_is_off(&self) -> bool {
         let is_off = |check: &Check| check.family == CRANK && matches!(check.verdict, Verdict::Disagree { .. });
         self.checks.iter().any(is_off)
     }
 
-    /// The first row at which one of some channels, by their texts, is beyond its bound.
+    /// The first row at which one of the channels with these texts is beyond its bound.
     #[must_use]
     pub fn since(&self, channels: &[String]) -> Option<RowPair> {
         let own = self.channels.iter().filter(|own| channels.contains(&own.claim.text));
@@ -88,22 +90,22 @@ impl SidePair {
     }
 }
 
-/// Two rows of a table at one instant that contradict each other: of two runs one behind the other, or of a time that
-/// stands still.
+/// Two rows of a table at one instant that contradict each other.
+/// The table holds two runs one after the other, or its time stands still.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contradiction {
     /// Their numbers, from 0.
     pub rows: [usize; 2],
     /// The instant: a time (s) or a crank angle (rad).
     pub at: f64,
-    /// The channel, as the table says it.
+    /// The channel as named in the table.
     pub channel: String,
-    /// What stands there, in the unit of the channel.
+    /// Both values, in the unit of the channel.
     pub values: [f64; 2],
 }
 
-/// The first two rows of a party at one instant whose numbers are farther apart than their digits, and those of the
-/// instant, allow.
+/// The first two rows of a party at one instant with a larger difference than their digits and those of the instant
+/// allow.
 fn contradiction(both: &Both, party: Which, claims: &[Claim]) -> Option<Contradiction> {
     let at = both.at;
     let order = at.ascending();
@@ -126,18 +128,19 @@ fn contradiction(both: &Both, party: Which, claims: &[Claim]) -> Option<Contradi
     })
 }
 
-/// What the check of the crank angle is called.
+/// Name of the check of the crank angle.
 const CRANK: &str = "crank angle";
 
-/// Compares the crank angles (rad, as the scenario states them) of both parties at the same rows, where they carry them
-/// beside the times by which they are brought together; `None` if nobody asks for it, or no row has both. `drift` is
-/// what the digits of the times leave open.
+/// Compares the crank angles (rad, as the scenario states them) of both parties at the same rows.
+/// The rows are matched by times; the crank angles come in addition.
+/// `None` if nobody requests the check, or no row has both angles.
+/// `drift` is the uncertainty due to the digits of the times.
 pub(super) fn crank_check(both: &Both, cranks: [&[Rounded]; 2], drift: &[f64]) -> Option<Check> {
     let measure = both.measure();
     let values: Vec<f64> = cranks[measure.party].iter().map(|own| own.value).filter(|own| own.is_finite()).collect();
     let allowed = both.how.allows_crank(half_range(&values));
     let mut allowance = allowed.unwrap_or_default();
-    // Taking off whole turns rounds.
+    // Subtracting whole turns causes rounding errors.
     allowance.fixed += 4.0 * f64::EPSILON * TAU;
     let found = judge(&Beside { values: cranks, places: both.places(), drift, turn: Some(TAU), allowance, measure });
     let worst = found.worst.filter(|_| both.how.asks_for_crank())?;

@@ -1,4 +1,4 @@
-//! What differences in a channel are measured by.
+//! Scales for the differences in channels.
 
 use std::collections::BTreeMap;
 
@@ -12,16 +12,16 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{Claim, Scenario};
 
-/// Most instants that scales are found on.
+/// Largest number of instants from which scales are determined.
 const MOST: usize = 20_000;
 
-/// The scales of all channels, by name, over a whole run, and how well they are known at best (both in SI), whatever of
-/// them is compared.
+/// Scales of all channels over a whole run, and their smallest errors, by name (both in SI units). They do not depend
+/// on which channels are compared.
 pub(super) struct Scales(BTreeMap<String, (f64, f64)>);
 
 impl Scales {
-    /// Those of a scenario over its run; over `grid`, the instants of the other party, if it has none or cannot be
-    /// solved there.
+    /// Scales of a scenario over its run. If it has no run or cannot be solved there: over `grid`, the instants of the
+    /// other party.
     pub(super) fn of(scenario: &Scenario, grid: &Grid) -> Self {
         let all = scenario.case.all_channels();
         let solved = |grid: &Grid| -> Option<Scales> {
@@ -36,7 +36,7 @@ impl Scales {
         solved(&scenario.case.grid).or_else(|| solved(grid)).unwrap_or_else(|| Scales(BTreeMap::new()))
     }
 
-    /// Those of a complete trajectory.
+    /// Scales of a complete trajectory.
     pub(super) fn of_trajectory(trajectory: &Trajectory) -> Self {
         Scales::with(trajectory, known_at_least(trajectory))
     }
@@ -46,12 +46,12 @@ impl Scales {
         Scales(all.map(|((channel, scale), known)| (channel.to_string(), (scale, known))).collect())
     }
 
-    /// How well a channel is known at best, in its SI unit.
+    /// Smallest error of a channel, in its SI unit.
     pub(super) fn known(&self, channel: &Channel) -> f64 {
         self.0.get(&channel.to_string()).map_or(0.0, |(_, known)| *known)
     }
 
-    /// The scale of a channel in the unit of its claim; `None` for an arithmetic.
+    /// The scale of a channel in the unit of its claim; `None` for an expression of channels.
     pub(super) fn of_claim(&self, claim: &Claim) -> Option<f64> {
         let (NodeShape::Name(_), Some((_, printed))) = (&claim.tree.shape, claim.channels.first()) else { return None };
         let of = |channel: &Channel| self.0.get(&channel.to_string()).map(|(scale, _)| *scale);

@@ -1,16 +1,17 @@
-//! Which of several parties contradicts the others.
+//! Finds which of several parties contradicts the others.
 
 use crate::bounds::largest_difference;
 use linkage::trajectory::{Channel, Trajectory};
 
-/// One party: its results and how wrong they may be.
+/// One party: its results and their error bounds.
 #[derive(Clone, Debug)]
 pub struct DiagnosedParty<'a> {
     /// Name for reports.
     pub name: &'a str,
     /// Its results.
     pub trajectory: &'a Trajectory,
-    /// Bound on its error in every channel in which it is judged, in the channel's unit. It has no say in others.
+    /// Bound on its error in every channel in which it is judged, in the channel's unit. Other channels of the party do
+    /// not count.
     pub bounds: Vec<(Channel, f64)>,
 }
 
@@ -19,7 +20,7 @@ impl DiagnosedParty<'_> {
         self.bounds.iter().find(|(own, _)| own == channel).map(|(_, bound)| *bound)
     }
 
-    /// Whether the two differ in a channel by more than both may be wrong.
+    /// Whether the two differ in a channel by more than the sum of their bounds.
     fn contradicts(&self, other: &DiagnosedParty) -> bool {
         self.trajectory.iter().any(|(channel, ours)| {
             let (Some(own), Some(theirs)) = (self.bound(channel), other.bound(channel)) else { return false };
@@ -30,21 +31,21 @@ impl DiagnosedParty<'_> {
     }
 }
 
-/// How the parties stand to each other.
+/// Which parties contradict each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PartyStanding {
     /// No two of them contradict each other.
     Together,
     /// One contradicts all others, and these do not contradict each other.
     Alone(String),
-    /// Two camps: within each nobody contradicts, across them everybody does.
+    /// Two camps: no contradictions within a camp, and every party contradicts every party of the other camp.
     Camps([Vec<String>; 2]),
-    /// Some contradict each other, but no line can be drawn between them: of two parties only one can be right, and
-    /// nothing says which.
+    /// Some contradict each other, but they do not form two camps. Of two such parties only one can be right, and
+    /// nothing shows which.
     Open(Vec<[String; 2]>),
 }
 
-/// How the parties stand to each other.
+/// Which parties contradict each other.
 #[must_use]
 pub fn standing(parties: &[DiagnosedParty]) -> PartyStanding {
     let count = parties.len();
@@ -59,7 +60,7 @@ pub fn standing(parties: &[DiagnosedParty]) -> PartyStanding {
         }
     }
     let Some(first) = apart.iter().position(|row| row.contains(&true)) else { return PartyStanding::Together };
-    // The camp of `first` are those that it does not contradict.
+    // The camp of `first`: the parties that it does not contradict.
     let (own, others): (Vec<usize>, Vec<usize>) = (0..count).partition(|&other| !apart[first][other]);
     let split =
         (0..count).all(|one| (0..count).all(|other| apart[one][other] == (own.contains(&one) != own.contains(&other))));

@@ -1,4 +1,4 @@
-//! The suspect's values at some instants, and how far a changed case is from them.
+//! The suspect's values at some instants, and the deviation of a changed case from them.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -29,12 +29,12 @@ pub(super) struct Bench<'a> {
     pub(super) case: Case,
     pub(super) columns: Vec<Column>,
     solver: &'a dyn Solver,
-    /// How many cases may still be solved.
+    /// Number of cases that may still be solved.
     left: Rc<Cell<usize>>,
 }
 
-/// What is left of the suspect's differences under a hypothesis, in shares of the bounds: column after column, instant
-/// after instant.
+/// Differences of the suspect that remain under a hypothesis, as shares of the bounds: column by column, instant by
+/// instant.
 #[derive(Clone, Debug)]
 pub(super) struct Misfit(pub(super) Vec<f64>);
 
@@ -62,8 +62,9 @@ impl Misfit {
         Misfit(self.0.iter().zip(&other.0).map(|(a, b)| a + factor * b).collect())
     }
 
-    /// The amounts of `effect` that, added to this, keep everything within its bound; `None` if there are none. Least
-    /// squares do not give them: errors of a suspect are not random.
+    /// Range of amounts of `effect` that, added to this, keep everything within its bound; `None` if there is no such
+    /// amount.
+    /// Least squares cannot find it: errors of a suspect are not random.
     pub(super) fn kept_by(&self, effect: &Misfit) -> Option<[f64; 2]> {
         let mut range = [f64::NEG_INFINITY, f64::INFINITY];
         for (own, change) in self.0.iter().zip(&effect.0) {
@@ -107,22 +108,22 @@ impl<'a> Bench<'a> {
         self.columns.iter().any(|column| column.disagrees && column.channel.kind.stage < Stage::Reactions)
     }
 
-    /// Whether positions or rates are there at all.
+    /// Whether there are any positions or rates.
     pub(super) fn shows_motion(&self) -> bool {
         self.columns.iter().any(|column| column.channel.kind.stage < Stage::Reactions)
     }
 
-    /// What the reference itself leaves.
+    /// The differences from the unchanged reference.
     pub(super) fn start(&self) -> Misfit {
         self.misfit(|column| Some(column.right.clone())).expect("the reference has its own columns")
     }
 
-    /// What a changed case leaves. `None` if it cannot be solved, or no more may be.
+    /// The differences from a changed case. `None` if the case cannot be solved, or the number of cases is used up.
     pub(super) fn tried(&self, case: &Case) -> Option<Misfit> {
         self.tried_in(case, None)
     }
 
-    /// The same, with the changed case taken in the channels of one stage only, or in all of them.
+    /// The same, but with the values of the changed case in the channels of one stage only, or in all of them.
     pub(super) fn tried_in(&self, case: &Case, stage: Option<Stage>) -> Option<Misfit> {
         self.left.set(self.left.get().checked_sub(1)?);
         let found = self.solver.solve(case).ok()?;
@@ -146,8 +147,9 @@ impl<'a> Bench<'a> {
         misfit.0.chunks(self.case.grid.len()).map(largest_size).collect()
     }
 
-    /// Disagreeing channels that a hypothesis explains, after it has left `misfit`. Empty if it spoils an agreeing
-    /// channel. A channel that was hardly beyond its bound is no evidence, unless all others are explained too.
+    /// Disagreeing channels that a hypothesis with this remaining `misfit` explains. Empty if the hypothesis spoils an
+    /// agreeing channel.
+    /// A channel that was hardly beyond its bound is no evidence, unless the hypothesis explains all others too.
     pub(super) fn explained(&self, start: &Misfit, misfit: &Misfit) -> Vec<Channel> {
         let all = misfit.fits();
         let [before, after] = [start, misfit].map(|misfit| self.by_column(misfit));
@@ -160,20 +162,21 @@ impl<'a> Bench<'a> {
         explained.map(|(column, _)| column.channel.clone()).collect()
     }
 
-    /// How much a hypothesis that leaves `misfit` changes agreeing channels, in shares of their bounds. Of hypotheses
-    /// that explain as much, the one that claims least is the simplest.
+    /// Sum of the changes that a hypothesis makes to agreeing channels, in shares of their bounds.
+    /// Of hypotheses that explain equally much, the one with the smallest sum is the simplest.
     pub(super) fn claim(&self, start: &Misfit, misfit: &Misfit) -> f64 {
         let changes = self.by_column(&misfit.plus(-1.0, start));
         self.columns.iter().zip(changes).filter(|(column, _)| !column.disagrees).map(|(_, change)| change).sum()
     }
 }
 
-/// Times its bound that a channel is off before a cause that explains it counts, where the cause does not explain all.
+/// Multiple of its bound from which a channel counts as explained, if the cause does not explain all channels.
 const EVIDENT: f64 = 3.0;
 
-/// Instants of a bench, besides the worst of each channel.
+/// Number of instants of a bench, besides the worst instant of each channel.
 const INSTANTS: usize = 32;
-/// How far beyond its bound a free motion is followed at first: later it may depend on its cause in no simple way.
+/// Multiple of the bound up to which a free motion is followed at first. Later, its dependence on the cause may not be
+/// simple.
 const EARLY: f64 = 100.0;
 
 /// Rows of the whole grid, thinned, with the worst instants of the disagreeing channels.
@@ -192,7 +195,7 @@ pub(super) fn thinned(question: &DiagnosisInput) -> Vec<usize> {
     in_order(rows)
 }
 
-/// The same, but of a time in which the differences are still small.
+/// The same, but from the early time in which the differences are still small.
 pub(super) fn early(question: &DiagnosisInput) -> Vec<usize> {
     let ascending = ascending(question.reference.times());
     let mut end = ascending.len();
@@ -205,7 +208,7 @@ pub(super) fn early(question: &DiagnosisInput) -> Vec<usize> {
     in_order(rows)
 }
 
-/// What the suspect has more than the reference, by row.
+/// Suspect minus reference, by row.
 fn gaps(question: &DiagnosisInput, channel: &Channel) -> Option<Vec<f64>> {
     let (right, found) = (question.reference.column(channel)?, question.suspicious.column(channel)?);
     Some(differences(right, found, channel.kind.periodic))
@@ -219,7 +222,7 @@ fn spread(rows: &[usize]) -> Vec<usize> {
     }
 }
 
-/// Each row once, the first of the grid before all others: whole turns are counted from it.
+/// Each row once. The first row of the grid comes first, because whole turns are counted from it.
 fn in_order(mut rows: Vec<usize>) -> Vec<usize> {
     rows.push(0);
     rows.sort_unstable();
@@ -231,7 +234,7 @@ fn in_order(mut rows: Vec<usize>) -> Vec<usize> {
 mod tests {
     use super::Misfit;
 
-    /// By hand: -1 <= own + amount effect <= 1 in every place.
+    /// Worked by hand: -1 <= own + amount effect <= 1 for every value.
     #[test]
     fn amounts_of_an_effect_keep_everything_within_its_bound() {
         for (own, effect, wanted) in [

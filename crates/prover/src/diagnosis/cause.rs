@@ -1,25 +1,25 @@
-//! The simple causes that a diagnosis can name. Their wording is in the room of reports.
+//! The simple causes that a diagnosis can name. Reports put them into words.
 
 use linkage::trajectory::{Channel, Stage};
 
 /// What explains a disagreement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DisagreementCause {
-    /// The values of some channels are another function of the right values.
+    /// The values of some channels are a wrong function of the right values.
     Values {
         /// What was done to them.
         slip: DataSlip,
-        /// The disagreeing channels that it explains.
+        /// The disagreeing channels that the slip explains.
         channels: Vec<Channel>,
     },
-    /// The suspect's case is another one.
+    /// The suspect solved another case.
     Case(Change),
 }
 
-/// The slips without a number, and the list of them: one that is added is tried.
+/// Slips without a number, and the list of all of them: every slip in it is tried.
 macro_rules! plain {
     ($($(#[$doc:meta])+ $name:ident,)+) => {
-        /// What was done to right values without a number, the simplest first.
+        /// Slips in right values that need no number, the simplest first.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Plain {
             $($(#[$doc])+ $name,)+
@@ -35,9 +35,9 @@ macro_rules! plain {
 plain! {
     /// The opposite sign.
     Sign,
-    /// Whole turns added on the way.
+    /// Whole turns added during the motion.
     Turns,
-    /// Half turns added on the way: an arc tangent of a quotient.
+    /// Half turns added during the motion: an arc tangent of a quotient.
     HalfTurns,
     /// Twice the values.
     Twice,
@@ -45,11 +45,12 @@ plain! {
     Half,
     /// Zero instead of the values.
     Zero,
-    /// The sizes of the values, without their sign; of an angle that of its wrapped value, as an arc cosine gives it.
+    /// Absolute values. Of an angle: the absolute value after wrapping, as an arc cosine gives it.
     Size,
-    /// The angle whose sine is right, within a quarter turn.
+    /// The angle with the right sine, within a quarter turn.
     ArcSine,
-    /// Rates per radian of the crank instead of per second: divided by its speed, accelerations by its square.
+    /// Rates per radian of the crank instead of per second: velocities divided by the crank's speed, accelerations by
+    /// its square.
     PerRadian,
 }
 
@@ -62,44 +63,45 @@ pub enum DataSlip {
     Unit {
         /// The factor on values in the channel's unit.
         factor: f64,
-        /// Which unit instead of which.
+        /// The wrong unit and the right unit, in words.
         told: &'static str,
     },
     /// The same amount added at every instant, in the channel's unit.
     Offset(f64),
-    /// The opposite sign, and the same amount added at every instant: counted the other way round, from another axis.
+    /// The opposite sign, and the same amount added at every instant: an angle counted the other way round, from
+    /// another axis.
     Mirrored(f64),
     /// The values of another channel.
     Instead(Channel),
     /// The values of another channel with the opposite sign.
     Opposite(Channel),
-    /// The magnitude of the vector instead of one of its components, which are these.
+    /// The magnitude of the vector with these components, instead of one of them.
     Magnitude([Channel; 2]),
-    /// Differences of the values of another channel over some rows on either side instead of its first or second rate.
+    /// Differences of another channel's values over some rows, instead of its first or second rate.
     Differences {
-        /// The channel whose rate it should be.
+        /// The channel that is differentiated.
         of: Channel,
-        /// Which rate: 1 or 2.
+        /// Order of the rate: 1 or 2.
         order: usize,
-        /// Which rows the differences are taken over.
+        /// Rows over which the differences are taken.
         over: Over,
     },
     /// The acceleration without the Coriolis term of a block on a moving guide, by joint.
     NoCoriolis(String),
-    /// The moment about another point: the arm of the force is longer by this.
+    /// The moment about another point. The force has this additional arm.
     About(Arm),
-    /// One row alone is off, at this time (s).
+    /// A single row is wrong, at this time (s).
     Outlier(f64),
     /// Values of other instants: the time of a row times a factor.
     Clock {
-        /// The factor on the time at which the right values are those found.
+        /// Factor on a row's time that gives the time of the right values.
         factor: f64,
-        /// What is meant, where it is a unit.
+        /// The meaning of the factor, if it is a unit.
         told: Option<&'static str>,
     },
-    /// Two channels with the values of each other.
+    /// Two channels with exchanged values.
     Exchanged([Channel; 2]),
-    /// The first less the second of two other channels, and the same amount added at every instant.
+    /// The first minus the second of two other channels, and the same amount added at every instant.
     Between {
         /// The two.
         of: [Channel; 2],
@@ -110,32 +112,33 @@ pub enum DataSlip {
     Factor(f64),
     /// Values of another instant.
     Late {
-        /// How much later than its own instant a value appears (s); negative for values that come early.
+        /// Delay of a value (s); negative for values that come early.
         by: f64,
-        /// The same in steps or rows of the suspect, where it is a plain part or multiple of one, and the word for them.
+        /// The delay in steps or rows of the suspect, if it is a simple fraction or multiple of one, and the word for
+        /// them.
         steps: Option<(f64, &'static str)>,
         /// The stage whose channels are late; `None` if all are.
         stage: Option<Stage>,
     },
 }
 
-/// Rows that differences are taken over.
+/// Rows over which differences are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Over {
-    /// As many rows before as behind.
+    /// This many rows on either side.
     Either(usize),
     /// The row and the one before.
     Before,
-    /// The row and the one behind.
+    /// The row and the next one.
     Behind,
 }
 
-/// From the point about which a moment should be to the one about which it is.
+/// Vector from the right point of reference of a moment to the wrong one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Arm {
     /// A constant vector (m), in world axes.
     Constant([f64; 2]),
-    /// From the first of two places to the second; from the origin without a first. By name, as channels have them.
+    /// From the first of two points to the second; without a first, from the origin. By name, as in channels.
     Between(Option<String>, String),
 }
 
@@ -157,12 +160,12 @@ pub struct Change {
     pub how: PartChange,
 }
 
-/// A part of a case. Links, joints and groups have their names.
+/// A part of a case. Links, joints and groups are given by name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CasePart {
     /// Gravity.
     Gravity,
-    /// Masses and moments of inertia of all links as far as they resist acceleration; weights stay.
+    /// Masses and moments of inertia of all links in their resistance to acceleration; weights stay.
     InertiaForces,
     /// Moments of inertia of all links.
     Inertias,
@@ -174,17 +177,17 @@ pub enum CasePart {
     Mass(String),
     /// Mass and moment of inertia of a link together.
     Body(String),
-    /// Weight of a link; it resists acceleration all the same.
+    /// Weight of a link; its resistance to acceleration stays.
     Weight(String),
-    /// Mass and moment of inertia of a link as far as they resist acceleration; its weight stays.
+    /// Mass and moment of inertia of a link in their resistance to acceleration; its weight stays.
     Inert(String),
     /// Mass centre of a link.
     MassCentre(String),
     /// One coordinate of a link's mass centre.
     MassCentreAlong(String, FrameAxis),
-    /// A load: its number in the file, from 1, and its sort.
+    /// A load: its number in the file, from 1, and its kind.
     Load(usize, &'static str),
-    /// Length of a spring without force, or its twist without moment: the load's number in the file, from 1.
+    /// Free length of a spring, or its free angle: the load's number in the file, from 1.
     Free(usize),
     /// Configuration of a group of links.
     Configuration(String),
@@ -198,9 +201,9 @@ pub enum CasePart {
     MotorMoment,
     /// Moments of inertia of rotor and reducer.
     RotorInertia,
-    /// Distance of two joints on a link: the joint that is moved, the other one, the link.
+    /// Distance of two joints on a link: the moved joint, the other joint, the link.
     Length(String, String, String),
-    /// One coordinate of a joint's place on a link: joint, link, axis of the link's frame.
+    /// One coordinate of a joint's position on a link: joint, link, axis of the link's frame.
     Place(String, String, FrameAxis),
 }
 
@@ -215,25 +218,25 @@ pub enum PartChange {
     Twice,
     /// Half of it counts.
     Half,
-    /// It is multiplied by a number with a meaning, which the text says.
+    /// It is multiplied by a number with a meaning. The text states the meaning.
     Times(f64, &'static str),
     /// It is at a joint.
     AtJoint(String),
     /// It is at another point of the same link.
     AtPoint(String),
-    /// It is measured from the second of two joints, towards the first, instead of the other way round.
+    /// It is measured from the second of two joints towards the first, instead of from the first towards the second.
     FromJoint([String; 2]),
     /// It is on the other side of the line through two joints.
     Across([String; 2]),
     /// It is in the middle between two joints.
     Middle([String; 2]),
-    /// It is turned by an angle (rad).
+    /// It is rotated by an angle (rad).
     Turned(f64),
     /// It is taken about a joint instead of the mass centre.
     AboutJoint(String),
     /// Its components, or axes, are exchanged.
     Swapped,
-    /// It is the other one: name of an assembly mode, or number of a configuration.
+    /// Another assembly mode (by name) or configuration (by number).
     Other(String),
     /// It has another value.
     Instead {

@@ -1,4 +1,4 @@
-//! Causes that are tried by solving a changed case: something missing, reversed, of another value, of another instant.
+//! Causes that are tried by solving a changed case: a part that is missing or reversed, another value, another instant.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -12,17 +12,18 @@ use super::question::{DiagnosisInput, Found, Rank};
 use super::tries::{Candidate, Tries};
 use super::whole::whole_changes;
 
-/// Most changed cases that are solved on thinned grids for numbers and other instants, and as many for what needs no
-/// number; of a motion that is prescribed, which costs little, so many times as many.
+/// Largest number of changed cases solved on thinned grids for numbers and other instants. As many again for changes
+/// without a number.
+/// A prescribed motion costs little; it may have this many times as many.
 const MOST: usize = 120;
 const CHEAP: usize = 3;
-/// Links of a mechanism whose cases cost as much as those of the smallest.
+/// Largest number of links of a mechanism whose cases cost as little as those of the smallest.
 const LINKS: usize = 16;
-/// Most causes that are confirmed on the whole grid.
+/// Largest number of causes that are confirmed on the whole grid.
 const CONFIRMED: usize = 6;
-/// Parts of a bound that a claim is counted in: what is below is rounding.
+/// Number of parts of a bound in which a claim is counted. Smaller differences are rounding.
 const CLAIMED: f64 = 1e3;
-/// Cases that are solved for it on the whole grid: a value may have to be corrected.
+/// Number of cases solved on the whole grid to confirm causes: a value may have to be corrected.
 const WHOLE: usize = 4 * CONFIRMED;
 
 /// Every change that explains disagreeing channels, and the number of cases that were solved.
@@ -37,13 +38,13 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     let first = Bench::new(question, &[0], Rc::new(Cell::new(2 * most)));
     let (Some(thin), Some(soon), Some(first)) = (thin, soon, first) else { return (Vec::new(), 0) };
     let tries = Tries { first, starts: [soon.start(), thin.start()], soon, thin, is_free };
-    // Differences of rounding size are explained by no change.
+    // No change explains differences of rounding size.
     if tries.starts[1].fits() || !tries.starts[1].worst().is_finite() {
         return (Vec::new(), 0);
     }
     let without_number = whole_changes(&tries);
     let spent = most - left.replace(most);
-    // Of changes that come to the same, the one of a single number is the simpler.
+    // Of equivalent changes, the change of a single number is the simpler one.
     let mut candidates = numbers(&tries);
     candidates.extend(without_number);
     let late = late(question, &tries.thin, &tries.starts[1]);
@@ -80,7 +81,7 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     (all, solved)
 }
 
-/// The drive that is turned by as much as values are late: at constant speed that is the same.
+/// A rotated drive in place of late values: at constant speed both are the same.
 fn turned(tries: &Tries, known: &[Candidate], late: &[Candidate]) -> Option<Candidate> {
     let case = &tries.thin.case;
     let by = late.iter().find_map(|one| match one.found.cause {

@@ -6,8 +6,8 @@ use linkage::mechanism::assembly::{StartGroup, configurations, first_pose};
 use linkage::mechanism::pose::SidePoint;
 use linkage::mechanism::{AssemblyMode, JointSide, LinkId, LinkPose};
 
-/// Puts the mechanism together again after a change of its lengths or of its drives' start angles: dyads in their
-/// modes, higher groups as near as they can be to where they were.
+/// Reassembles the mechanism after a change of its lengths or of its drives' start angles.
+/// Dyads keep their modes; higher groups stay as near as possible to their previous pose.
 pub fn reassembled(parts: &mut CaseParts) -> Option<()> {
     let wanted = wanted(parts);
     assembled(parts, &wanted)

@@ -1,5 +1,5 @@
-//! Values that a wrong rule makes of right ones: differences for rates, accelerations without the Coriolis term, moments
-//! about another point.
+//! Values that a wrong rule makes from right ones: differences for rates, accelerations without the Coriolis term,
+//! moments about another point.
 
 use super::cause::{Arm, DataSlip, Over};
 use super::question::{DiagnosisInput, Found, Rank};
@@ -7,9 +7,9 @@ use super::slips::Wrong;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, OfFrame, OfSlider, Reading, Trajectory, Unit};
 
-/// Rounding of a number, as a share of it, that differences magnify.
+/// Relative rounding error of a number. Differences magnify it.
 const ROUNDED: f64 = 1e-12;
-/// Rows on either side that differences are taken over at most.
+/// Largest number of rows on either side over which differences are taken.
 const WIDEST: usize = 3;
 
 /// Every rule with the channels that it explains.
@@ -42,8 +42,8 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     causes
 }
 
-/// The channel whose differences over rows these values are, and the order of the rate. Rows at the ends have no
-/// neighbours, and every program does something else there.
+/// The channel whose differences over rows these values are, and the order of the rate.
+/// Rows at the ends are left out: they have no neighbours, and every program treats them differently.
 fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Channel, usize)> {
     let step = even(one.times)?;
     let (count, margin) = (one.times.len(), if let Over::Either(rows) = over { rows } else { 1 });
@@ -68,8 +68,8 @@ fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Ch
         for (channel, values) in question.reference.iter() {
             let rate = channel.rate();
             let rate = if order == 1 { rate } else { rate.and_then(|rate| rate.rate()) };
-            // Those that the table itself has, where they are right to within their bounds, or the right ones: rates
-            // that go with wrong places are no slip of their own.
+            // The table's own values if they are right within their bounds, or the right values.
+            // Rates that match wrong positions are not a separate slip.
             let is_right = question.judged.iter().any(|judged| judged.channel == *channel && !judged.disagrees);
             let own = question.suspicious.column(channel).filter(|_| is_right);
             if rate.as_ref() == Some(one.channel) && own.into_iter().chain([values]).any(|own| of_column(own, order)) {
@@ -80,7 +80,7 @@ fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Ch
     None
 }
 
-/// The distance of rows (s), if it is everywhere the same.
+/// The distance of rows (s), if it is constant.
 pub(crate) fn even(times: &[f64]) -> Option<f64> {
     let (first, last) = (times.first()?, times.last()?);
     let step = (last - first) / (times.len() - 1) as f64;
@@ -114,7 +114,7 @@ fn lacks_coriolis(question: &DiagnosisInput, one: &Wrong, joint: &str) -> Option
     Some(changes && one.has_values_of(&values))
 }
 
-/// From the point about which a moment should be to the one about which it is.
+/// Vector from the right point of reference of a moment to the wrong one.
 fn arm(question: &DiagnosisInput, one: &Wrong) -> Option<Arm> {
     let reading = one.channel.kind.reading;
     if !matches!(reading, Reading::Slider(OfSlider::Moment) | Reading::Frame(OfFrame::Moment)) {
@@ -123,7 +123,7 @@ fn arm(question: &DiagnosisInput, one: &Wrong) -> Option<Arm> {
     let subject = one.channel.subject();
     let column = |suffix: &str| question.reference.named(&format!("{subject}.{suffix}"));
     let (x, y) = (column("fx_N")?, column("fy_N")?);
-    // Moment about another point: that about the first, less arm times force.
+    // Moment about another point: the moment about the first point, minus arm times force.
     let gaps: Vec<f64> = one.right.iter().zip(one.found).map(|(right, found)| right - found).collect();
     let is_it = |arm: &dyn Fn(usize) -> [f64; 2]| {
         let moment = |row: usize| arm(row)[0] * y[row] - arm(row)[1] * x[row];
@@ -151,7 +151,7 @@ fn arm(question: &DiagnosisInput, one: &Wrong) -> Option<Arm> {
     (is_known && is_it(&|_| arm)).then_some(Arm::Constant(arm))
 }
 
-/// All places that a trajectory has, by name.
+/// All points with coordinates in a trajectory, by name.
 fn places(of: &Trajectory) -> Vec<(String, [&[f64]; 2])> {
     let subjects = of.channels().iter().filter(|channel| channel.kind.suffix == "x_m").map(Channel::subject);
     let named = subjects.filter_map(|subject| {

@@ -1,4 +1,4 @@
-//! The diagnosis as a whole, and since when channels are beyond their bounds.
+//! The diagnosis as a whole, and the instants at which channels leave their bounds.
 
 use super::alone::{DiagnosedParty, PartyStanding, standing};
 use super::cause::{Change, DisagreementCause, PartChange};
@@ -9,7 +9,7 @@ use crate::bounds::differences;
 use linkage::math::statistics::ascending;
 use linkage::trajectory::{Channel, Trajectory};
 
-/// What can be said about a disagreement.
+/// Findings about a disagreement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {
     /// The party that was examined.
@@ -20,14 +20,14 @@ pub struct Diagnosis {
     pub since: Vec<Since>,
     /// Number of instants of the grid.
     pub instants: usize,
-    /// The simplest cause that explains all channels, or, where there is none, the largest part of them. `None`: no
+    /// The simplest cause that explains all channels or, failing that, the largest part of them. `None` if there is no
     /// simple cause.
     pub cause: Option<DisagreementCause>,
-    /// Causes that explain as much, less simple.
+    /// Less simple causes that explain equally much.
     pub also: Vec<DisagreementCause>,
     /// Disagreeing channels that the cause leaves unexplained; all of them if there is no cause.
     pub left_over: Vec<Channel>,
-    /// What the differences look like, where no cause explains all of them.
+    /// The kind of the differences, if no cause explains all of them.
     pub nature: Option<ErrorNature>,
     /// Number of changed cases that were solved.
     pub solved: usize,
@@ -51,8 +51,9 @@ impl Diagnosis {
 
 /// Examines a disagreement. `None` if no channel is beyond its bound.
 ///
-/// The causes are tried in the order of their simplicity. One that explains every disagreeing channel to within its
-/// bound, and spoils no agreeing one, is named; others that do so too are mentioned.
+/// The causes are tried in the order of their simplicity.
+/// A cause is named if it explains every disagreeing channel within its bound and spoils no agreeing one. Further such
+/// causes are mentioned.
 #[must_use]
 pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option<Diagnosis> {
     let since = since(question.reference, question.suspicious, question.judged);
@@ -67,17 +68,17 @@ pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option
     found.extend(others::found(question, &off));
     found.extend(derived::found(question, &off));
     found.extend(of_case);
-    // A number is found for a part of the channels more easily than for all: that is no evidence.
+    // A number that explains only a part of the channels is easily found, so it is no evidence.
     found.retain(|one| one.explained.len() == wrong.len() || !has_number(&one.cause));
-    // The sort is stable: of equally simple causes the one that was tried first.
+    // The sort is stable: among equally simple causes the one tried first comes first.
     found.sort_by_key(|one| (wrong.len() - one.explained.len(), one.rank));
     let best = found.first().map_or(0, |one| one.explained.len());
     let mut named = found.into_iter().filter(|one| one.explained.len() == best);
     let first = named.next();
     let explained = first.as_ref().map_or(&[][..], |one| &one.explained[..]);
     let left_over: Vec<Channel> = wrong.iter().filter(|channel| !explained.contains(channel)).cloned().collect();
-    // A number that was fitted says no more than a slip that needs none. Partial explanations beside each other would
-    // only confuse, unless they are of the same part.
+    // A fitted number says no more than a slip that needs none.
+    // Several partial explanations would only confuse, unless they concern the same part.
     let says_more = |one: &Found| one.rank != Rank::Fitted || first.as_ref().is_some_and(|own| own.rank != Rank::Slip);
     let also = named.filter(|one| one.explained == explained && says_more(one)).map(|one| one.cause);
     let also = also.take(MENTIONED).collect();
@@ -95,12 +96,12 @@ pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option
     })
 }
 
-/// Whether a case has another number, which was fitted.
+/// Whether the cause is another, fitted number in the case.
 fn has_number(cause: &DisagreementCause) -> bool {
     matches!(cause, DisagreementCause::Case(Change { how: PartChange::Instead { .. }, .. }))
 }
 
-/// Number of causes that are mentioned besides the one that is named.
+/// Number of causes mentioned besides the named one.
 const MENTIONED: usize = 3;
 
 /// Where a channel first leaves its bound.
@@ -108,7 +109,7 @@ const MENTIONED: usize = 3;
 pub struct Since {
     /// The channel.
     pub channel: Channel,
-    /// First instant beyond the bound (s).
+    /// Time of the first instant beyond the bound (s).
     pub time: f64,
     /// Crank angle of the reference there (rad).
     pub crank: f64,
@@ -120,8 +121,9 @@ pub struct Since {
     pub beyond: usize,
 }
 
-/// The first instant beyond its bound of every channel that has one, the earliest first. Of channels that leave their
-/// bounds together, positions stand before rates and forces, and then the one that is farther beyond its bound.
+/// The first instant beyond the bound for every channel that has one, the earliest first.
+/// Of channels that leave their bounds together, positions come before rates and forces, then the channel farther
+/// beyond its bound.
 #[must_use]
 pub fn since(reference: &Trajectory, suspect: &Trajectory, judged: &[SuspectChannel]) -> Vec<Since> {
     let rows = ascending(reference.times());

@@ -1,4 +1,4 @@
-//! Parts of a case that one number changes: which there are, and how each is turned.
+//! Parts of a case that a single number changes ("knobs"): a list of them, and how to change each.
 //! See docs/numerics/diagnosis.md.
 
 use crate::sentences;
@@ -11,21 +11,21 @@ use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism};
 
-/// Makes the parts those of another value; `None` where there is no such case.
+/// Gives the parts another value; `None` if there is no such case.
 type Turn = Box<dyn Fn(&mut CaseParts, f64) -> Option<()>>;
 
-/// Where a part shows while the motion is prescribed.
+/// Channels in which a part has an effect if the motion is prescribed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shows {
-    /// In reactions and moments alone.
+    /// In reactions and moments only.
     Forces,
     /// In the motion.
     Motion,
-    /// In forces, and in places of mass centres.
+    /// In forces, and in positions of mass centres.
     Centres,
 }
 
-/// A part of a case that one number changes.
+/// A part of a case that a single number changes.
 pub(super) struct Knob {
     pub(super) part: CasePart,
     /// Its value in the case, and the unit of its values.
@@ -33,10 +33,10 @@ pub(super) struct Knob {
     pub(super) unit: &'static str,
     /// Values with a meaning, the simplest first.
     pub(super) plain: Vec<(f64, PartChange)>,
-    /// Change of the value that shows its effect.
+    /// Change of the value that is large enough to show its effect.
     pub(super) nudge: f64,
     pub(super) shows: Shows,
-    /// Whether a first approximation tells nothing about values far away.
+    /// Whether a first approximation says nothing about distant values.
     pub(super) is_far: bool,
     turn: Turn,
 }
@@ -47,17 +47,17 @@ impl Knob {
         remade(case, |parts| (self.turn)(parts, value))
     }
 
-    /// How the part is different at a value.
+    /// The change of the part to the value `found`.
     pub(super) fn told(&self, found: f64) -> PartChange {
         PartChange::Instead { found, given: self.given, unit: self.unit }
     }
 
-    /// The value with a number of significant digits; angles in degrees.
+    /// The value rounded to a number of significant digits; angles are rounded in degrees.
     pub(super) fn significant(&self, value: f64, digits: usize) -> f64 {
         significant_in(self.unit == "rad", value, digits)
     }
 
-    /// A part that counts as `given` and may be multiplied.
+    /// A knob for an amount: it is `given` in the case and may be multiplied.
     fn amount(
         part: CasePart,
         given: f64,
@@ -75,7 +75,7 @@ impl Knob {
         knob.times([(1e3, sentences::AS_FOR_KG_OR_FOR_MM), (1e-3, sentences::AS_KG_FOR_OR_MM_FOR)])
     }
 
-    /// A place or an angle, whose size has no meaning; `natural` is what it is measured by.
+    /// A knob for a coordinate or an angle, whose size has no meaning. Changes are relative to `natural`.
     fn place(
         part: CasePart,
         given: f64,
@@ -93,7 +93,7 @@ impl Knob {
         self
     }
 
-    /// Also multiplied by numbers with a meaning.
+    /// Adds multiples of the value by factors with a meaning.
     fn times(self, factors: impl IntoIterator<Item = (f64, &'static str)>) -> Knob {
         let given = self.given;
         self.also(factors.into_iter().map(|(factor, told)| (factor * given, PartChange::Times(factor, told))))
@@ -118,7 +118,7 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     knobs.extend((0..case.loads.len()).filter_map(|index| free(case, index)));
     knobs.extend(motor(case));
     let moving = || case.mechanism.links().entries().skip(1);
-    // Of a single link all is the same as this one.
+    // With a single such link, its own knob has the same effect.
     if moving().filter(|(_, link)| link.mass > 0.0).count() > 1 {
         knobs.push(share(CasePart::Masses, |link, factor| link.mass *= factor));
     }
@@ -145,19 +145,19 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     knobs
 }
 
-/// The case with other parts; `None` where they make no case.
+/// The case with changed parts; `None` if they do not form a case.
 pub(super) fn remade(case: &Case, change: impl FnOnce(&mut CaseParts) -> Option<()>) -> Option<Case> {
     let mut parts = case.clone().into_parts();
     change(&mut parts)?;
     Case::new(parts).ok()
 }
 
-/// Changes links and joints. The structure stays what it is.
+/// Changes links and joints. The structure stays the same.
 pub fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joint])) -> Option<()> {
     let (mut links, mut joints) = (parts.mechanism.links().to_vec(), parts.mechanism.joints().to_vec());
     change(&mut links, &mut joints);
     for link in &mut links {
-        // Nothing that turns has inertia without mass; so little mass has no effect either.
+        // A rotating link cannot have inertia without mass. Such a small mass has no effect.
         if link.mass == 0.0 && link.inertia > 0.0 {
             link.mass = 1e-12;
         }
@@ -185,7 +185,7 @@ fn load(case: &Case, index: usize) -> Knob {
     }))
 }
 
-/// The length or twist of a spring at which it exerts nothing.
+/// The length or angle at which a spring exerts no force or moment.
 fn free(case: &Case, index: usize) -> Option<Knob> {
     let mut load = case.loads[index].clone();
     let (&mut given, unit) = load.rest()?;
@@ -215,7 +215,7 @@ fn mass_centre(index: LinkId, link: &Link, axis: FrameAxis) -> Knob {
     Knob { shows: Shows::Centres, ..knob }
 }
 
-/// Places of joints on links, each once.
+/// Positions of joints on links, each once.
 fn places(case: &Case) -> Vec<(JointId, LinkId)> {
     let mut found: Vec<(JointId, LinkId)> = Vec::new();
     let joints = case.mechanism.joints();
@@ -243,7 +243,7 @@ fn place(case: &Case, joint: JointId, link: LinkId, axis: FrameAxis) -> Knob {
     Knob::place(part, old[axis as usize], case.mechanism.size(), "m", turn)
 }
 
-/// Moves a place of a link, with every joint and point that is there.
+/// Moves a position on a link, with every joint and point there.
 fn moved(parts: &mut CaseParts, link: LinkId, old: Vec2, new: Vec2) -> Option<()> {
     changed(parts, |links, joints| {
         let points = links[link].points.iter_mut().map(|point| &mut point.local);
@@ -254,7 +254,8 @@ fn moved(parts: &mut CaseParts, link: LinkId, old: Vec2, new: Vec2) -> Option<()
     reassembled(parts)
 }
 
-/// Distances of two joints on a link that are along neither axis of its frame: along one, a place is the distance.
+/// Distances of two joints on a link that are not along an axis of its frame. Along an axis, the coordinate already is
+/// the distance.
 fn lengths(case: &Case) -> Vec<Knob> {
     let places = places(case);
     let at = |&(joint, link): &(JointId, LinkId)| case.mechanism.joints()[joint].on(link);
@@ -276,7 +277,7 @@ fn lengths(case: &Case) -> Vec<Knob> {
     knobs
 }
 
-/// What is driven, by a law or by its speed at the start.
+/// Knobs of a drive: its speed (for a free drive the speed at the start), and its start angle.
 fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
     let joint = case.mechanism.joints()[drive.joint].name.clone();
     let start = move |parts: &mut CaseParts, value| {
@@ -304,10 +305,10 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
     if given == 0.0 {
         (speed.plain, speed.nudge) = (Vec::new(), 1e-3 * drive.top_speed());
     } else if !drive.is_free() {
-        // A prescribed motion without speed is no case.
+        // A prescribed motion needs a speed.
         speed.plain.remove(0);
     }
-    // All of the motion goes by them.
+    // The whole motion depends on them.
     vec![Knob { is_far: true, ..speed }, Knob { is_far: true, ..angle }]
 }
 
@@ -365,17 +366,17 @@ fn motor(case: &Case) -> Vec<Knob> {
     knobs
 }
 
-/// Largest of the sizes of the knob's value and its nudge: what a relative change is measured by.
+/// The natural size of a knob for relative changes: its value or, if larger, a thousand times its nudge.
 pub(super) fn natural(knob: &Knob) -> f64 {
     knob.given.abs().larger(1e3 * knob.nudge.abs())
 }
 
-/// A number with so many significant digits.
+/// A number rounded to `digits` significant digits.
 pub(super) fn significant(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 
-/// The same; angles in degrees.
+/// The same; angles are rounded in degrees.
 pub(super) fn significant_in(is_angle: bool, value: f64, digits: usize) -> f64 {
     if is_angle { significant(value.to_degrees(), digits).to_radians() } else { significant(value, digits) }
 }

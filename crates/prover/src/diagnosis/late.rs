@@ -1,4 +1,4 @@
-//! Values of other instants: late or early, or by a clock that runs too fast.
+//! Values of other instants: late, early, or from a clock that runs too fast.
 
 use crate::sentences;
 use std::ops::RangeInclusive;
@@ -12,11 +12,11 @@ use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 
-/// Steps of the search for a number.
+/// Largest number of steps of the search for a number.
 const STEPS: usize = 6;
-/// Share of the differences below which a number is nearly found.
+/// Share of the differences below which a number counts as nearly found.
 const NEAR: f64 = 1e-2;
-/// Plain parts of a step by which values may be late.
+/// Simple multiples of a step by which values may be late.
 const PARTS: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
 /// Factors on the time of a row, with their meaning.
 const CLOCKS: [(f64, &str); 4] = [
@@ -26,7 +26,7 @@ const CLOCKS: [(f64, &str); 4] = [
     (60.0, sentences::MINUTES_TAKEN_FOR_SECONDS),
 ];
 
-/// Values of another instant: of all channels, or of those of one stage; or of a clock that runs too fast.
+/// Values of another instant, in all channels or in those of one stage, or of a clock that runs too fast.
 pub(super) fn late(question: &DiagnosisInput, bench: &Bench, start: &Misfit) -> Vec<Candidate> {
     let mut stages: Vec<Option<Stage>> = vec![None];
     let stage = |column: &Column| Some(column.channel.kind.stage);
@@ -40,7 +40,7 @@ pub(super) fn late(question: &DiagnosisInput, bench: &Bench, start: &Misfit) -> 
     let search = Search { question, bench, start };
     let mut found: Vec<Candidate> = stages.into_iter().filter_map(|stage| search.late_in(stage)).collect();
     if found.iter().all(|one| one.stage().is_some()) {
-        // Forces that jump lead a search astray; by what one stage is late, all may be.
+        // Jumps of forces can mislead the search. All channels may be as late as those of one stage.
         let all = found.iter().find_map(|one| search.late_by(&one.found.cause));
         found.extend(all);
     }
@@ -64,7 +64,7 @@ impl Search<'_, '_> {
             Some((size, _)) => (size, &PARTS[..]),
             None => (1e-5 * span, &[][..]),
         };
-        // Whole or plain parts of a step, where they do as well.
+        // Prefers simple multiples of a step if they explain as much.
         let plain = |by: f64| {
             let (size, told) = step?;
             let part =
@@ -89,14 +89,14 @@ impl Search<'_, '_> {
         named.or_else(|| found.and_then(|(by, misfit)| self.late_candidate(&misfit, by, None, stage)))
     }
 
-    /// All channels, by what those of one stage are late.
+    /// All channels, late by the delay found for one stage.
     fn late_by(&self, cause: &DisagreementCause) -> Option<Candidate> {
         let &DisagreementCause::Values { slip: DataSlip::Late { by, steps, .. }, .. } = cause else { return None };
         let misfit = self.bench.tried(&shifted(&self.bench.case, by)?)?;
         self.late_candidate(&misfit, by, steps, None)
     }
 
-    /// A number near to one that was found which has few digits and does as well. The search itself ends at rounding.
+    /// A number with few digits near the found one, if it explains as much. The search itself ends at rounding.
     fn short(
         &self,
         value: f64,
@@ -118,7 +118,7 @@ impl Search<'_, '_> {
     fn clock(&self) -> Option<Candidate> {
         let bench = self.bench;
         let of = |factor: f64| bench.tried(&on_clock(&bench.case, factor)?);
-        // A free motion that is followed longer costs more than it may.
+        // Following a free motion for longer would cost too much.
         let mut clocks = CLOCKS.iter().filter(|(factor, _)| *factor < 1.0 || !bench.case.is_free());
         let plain = clocks.find_map(|&(factor, told)| {
             let misfit = of(factor)?;
@@ -129,7 +129,7 @@ impl Search<'_, '_> {
         }
         let mut named = None;
         let found = self.secant(1.0, 1e-6, &of, &mut |factor, misfit| {
-            // Of a clock that is fast by a part in a thousand, or one that is slow by it.
+            // Short numbers are tried for a fast clock and, as the inverse, for a slow one.
             let slow = |value: f64| of(1.0 / value);
             named = self.short(factor, misfit, 2..=6, &of, &Misfit::fits).or_else(|| {
                 let (inverse, misfit) = self.short(1.0 / factor, misfit, 2..=6, &slow, &Misfit::fits)?;
@@ -141,7 +141,7 @@ impl Search<'_, '_> {
         self.clock_candidate(&misfit, factor, None)
     }
 
-    /// The number at which `is_found`, by secants from the one that changes nothing.
+    /// The number at which `is_found` holds, by the secant method from `origin`, which changes nothing.
     fn secant(
         &self,
         origin: f64,
@@ -205,13 +205,13 @@ impl Search<'_, '_> {
     }
 }
 
-/// The same case asked at instants that are earlier by `by` (s). A free motion has none before it begins.
+/// The same case at instants that are earlier by `by` (s). A free motion has no instants before its start.
 fn shifted(case: &Case, by: f64) -> Option<Case> {
     let earliest = if case.is_free() { 0.0 } else { f64::NEG_INFINITY };
     at_times(case, |t| (t - by).larger(earliest))
 }
 
-/// The same case asked at its instants times a factor.
+/// The same case at its instants times a factor.
 fn on_clock(case: &Case, factor: f64) -> Option<Case> {
     at_times(case, |t| factor * t)
 }

@@ -1,4 +1,4 @@
-//! What an error without a simple cause looks like: one that grows with time, a smooth and small one, noise.
+//! Kind of an error without a simple cause: growing with time, smooth and small, or noise.
 
 use super::question::DiagnosisInput;
 use super::slips::Wrong;
@@ -6,27 +6,28 @@ use crate::bounds::{differences, scales};
 use linkage::math::statistics::{ascending, rms};
 use linkage::math::{KeepNan, largest_size};
 
-/// What errors of numerical methods look like.
+/// Typical errors of numerical methods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ErrorNature {
-    /// It grows with time, about with this power where that can be told.
+    /// It grows with time, with about this power if the power can be determined.
     Growing(Option<u32>),
     /// It changes smoothly with time, and is at most this share of a channel's scale.
     Smooth(f64),
-    /// It has no order in time, and is at most this share of a channel's scale.
+    /// It is irregular in time, and is at most this share of a channel's scale.
     Noise(f64),
 }
 
-/// Parts of the run whose errors are compared.
+/// Number of parts of the run whose errors are compared.
 const PARTS: usize = 6;
-/// Times the error of the first part that the last one must be.
+/// Smallest ratio of the last part's error to the first part's error for growth.
 const GROWS: f64 = 4.0;
-/// Share of a scale above which an error is no method's.
+/// Share of a scale above which an error does not come from a method.
 const SMALL: f64 = 0.02;
-/// Mean second difference over that of numbers without order: below the first it is smooth, above the second it is not.
+/// Mean second difference over that of irregular numbers: below the first value an error is smooth, above the second it
+/// is noise.
 const ORDER: [f64; 2] = [0.15, 0.5];
 
-/// What the differences of all disagreeing channels look like, if that is the same.
+/// The kind of the differences, if it is the same for all disagreeing channels.
 pub(super) fn nature(question: &DiagnosisInput, wrong: &[Wrong]) -> Option<ErrorNature> {
     let rows = ascending(question.reference.times());
     if rows.len() < 2 * PARTS {
@@ -62,7 +63,7 @@ pub(super) fn nature(question: &DiagnosisInput, wrong: &[Wrong]) -> Option<Error
     }
 }
 
-/// The power of time that an error grows with, where it grows at all.
+/// Power of time with which an error grows; `None` if it does not grow.
 fn growth(times: &[f64], gaps: &[f64]) -> Option<Option<u32>> {
     let size = gaps.len() / PARTS;
     let parts: Vec<f64> = (0..PARTS).map(|part| rms(&gaps[part * size..(part + 1) * size])).collect();
@@ -70,14 +71,14 @@ fn growth(times: &[f64], gaps: &[f64]) -> Option<Option<u32>> {
     if !grows {
         return None;
     }
-    // From the halves of the run: the middle of each part is known best late.
+    // From the second half of the run: late parts have better-known middles.
     let middle = |part: usize| times[part * size + size / 2] - times[0];
     let power = (parts[PARTS - 1] / parts[PARTS / 2]).ln() / (middle(PARTS - 1) / middle(PARTS / 2)).ln();
     let whole = power.round();
     Some(((power - whole).abs() <= 0.2 && (1.0..=4.0).contains(&whole)).then_some(whole as u32))
 }
 
-/// Size of the second differences over that which numbers without order have.
+/// Size of the second differences, relative to that of irregular numbers.
 fn disorder(gaps: &[f64]) -> f64 {
     let second: Vec<f64> = gaps.windows(3).map(|three| three[2] - 2.0 * three[1] + three[0]).collect();
     rms(&second) / (6f64.sqrt() * rms(gaps))

@@ -1,4 +1,4 @@
-//! Numbers of the case that are different.
+//! Causes by another value of a number in the case.
 
 use std::rc::Rc;
 
@@ -9,20 +9,20 @@ use super::question::Rank;
 use super::tries::{Candidate, Tries};
 use linkage::math::KeepNan;
 
-/// Knobs whose values are tried once, of those that explain most in a first approximation.
+/// Number of knobs whose guessed value is tried once: those that explain most in a first approximation.
 const GUESSED: usize = 12;
-/// Knobs whose values are searched, of those that explain most then.
+/// Number of knobs whose value is then searched: those that explain most after this trial.
 const SEARCHED: usize = 5;
-/// Steps of the search for a value.
+/// Largest number of steps of the search for a value.
 const STEPS: usize = 6;
 
 /// A knob with a guess at its value.
 struct Guess {
     knob: Rc<Knob>,
     value: f64,
-    /// Sum of squares that the guess leaves, in a first approximation.
+    /// Remaining sum of squares with the guess, in a first approximation.
     rest: f64,
-    /// Its place among all knobs, the simplest of which come first.
+    /// Index among all knobs, the simplest first.
     place: usize,
 }
 
@@ -32,7 +32,8 @@ fn guesses(tries: &Tries) -> Vec<Guess> {
     let (moved, shows) = (bench.is_moved(), bench.shows_motion());
     let mut found = Vec::new();
     for (place, knob) in knobs::all(&bench.case).into_iter().enumerate() {
-        // Where the motion is prescribed, what moves nothing explains no motion, and what moves something shows in it.
+        // In a prescribed motion, a knob for forces cannot explain a wrong motion, and a knob for the motion cannot
+        // leave it right.
         let is_idle = match knob.shows {
             Shows::Forces => moved,
             Shows::Motion => !moved && shows,
@@ -50,19 +51,20 @@ fn guesses(tries: &Tries) -> Vec<Guess> {
             found.push(Guess { value: knob.given + by, knob: Rc::new(knob), rest: left.dot(&left), place });
         }
     }
-    // The sort is stable: of equals the simpler knob is first.
+    // The sort is stable: of equally good knobs the simpler one is first.
     found.sort_by(|a, b| a.rest.total_cmp(&b.rest));
     found
 }
 
-/// Whether a place is not guessed far away: a mechanism of such dimensions hardly moves, and to find that out takes long.
+/// Whether the guess for a coordinate is not too far away. A mechanism with such dimensions hardly moves, and to find
+/// that out takes long.
 fn is_likely(guess: &Guess) -> bool {
     guess.knob.shows == Shows::Forces
         || guess.knob.is_far
         || (guess.value - guess.knob.given).abs() <= natural(&guess.knob)
 }
 
-/// Parts of the case with another value.
+/// Candidates with another value of a part of the case.
 pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
     let mut candidates = Vec::new();
     let mut open = Vec::new();
@@ -73,7 +75,7 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
         }
         candidates.extend(named.into_iter().map(|one| one.0));
     }
-    // The first approximation may be far off: one real try tells more.
+    // The first approximation may be far off. One solved case says more.
     for guess in &mut open {
         let tried = guess.knob.at(&tries.soon.case, guess.value).and_then(|case| tries.soon.tried(&case));
         guess.rest = tried.map_or(f64::INFINITY, |misfit| misfit.dot(&misfit));
@@ -95,7 +97,7 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
         let on = |value: f64| tries.thin.tried(&knob.at(&tries.thin.case, value)?);
         let mut misfit = on(value);
         if tries.is_free && !misfit.as_ref().is_some_and(Misfit::fits) {
-            // Known for a short time only: the whole time tells it better.
+            // The value is known from a short time only. The whole time gives it more accurately.
             let Some(better) = search(knob, value, &tries.thin, None) else { continue };
             ([value, middle], misfit) = (better, on(better[0]));
         }
@@ -107,8 +109,9 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
     candidates
 }
 
-/// The values with a meaning that are near `value`, tried; and whether each explains everything. `found` says that the
-/// value is more than a first approximation. Where that may be far off, missing and reversed are tried anyway.
+/// Tries the values with a meaning that are near `value`, and tells whether each explains everything.
+/// `found` says that the value is more than a first approximation.
+/// If that approximation may be far off, missing and reversed parts are always tried.
 fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candidate, bool)> {
     let near = |plain: f64| match found {
         true => (plain - value).abs() <= 1e-2 * plain.abs().larger(1e-2 * natural(knob)),
@@ -124,7 +127,7 @@ fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candid
     tried.collect()
 }
 
-/// Whether a way of being different is common enough to be tried at any price.
+/// Whether a change is so common that it is tried at any cost.
 fn is_plain(how: &PartChange) -> bool {
     match how {
         PartChange::Missing | PartChange::Reversed => true,
@@ -154,8 +157,10 @@ fn of_knob(
     tries.candidate(misfit, rank, change, Box::new(move |case| knob.at(case, value)))
 }
 
-/// The value of a knob that leaves nothing beyond its bound, with as few digits as can be, and the middle of all such
-/// values; from a first guess, by secants. `start` is what the given value leaves, if it may serve as first point.
+/// The value of a knob that leaves nothing beyond its bound, with as few digits as possible, and the middle of all such
+/// values.
+/// It is found by the secant method from a first guess.
+/// `start` is the misfit of the given value, if that value may serve as first point.
 fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Option<[f64; 2]> {
     let on = |value: f64| bench.tried(&knob.at(&bench.case, value)?);
     let (mut old, mut before) = match start {
@@ -179,7 +184,7 @@ fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Opt
             return None;
         }
         if misfit.dot(&misfit) > before.dot(&before) {
-            // Too far, once: then there is no way.
+            // A step that is too long is halved once, then the search ends.
             if halved {
                 return None;
             }
@@ -187,7 +192,7 @@ fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Opt
             continue;
         }
         let by = -effect.dot(&misfit) / square;
-        // It has converged, and something is left.
+        // The search has converged, but differences remain.
         if by.abs() <= 1e-6 * (value - knob.given).abs() {
             return None;
         }
@@ -196,7 +201,7 @@ fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Opt
     None
 }
 
-/// The value of fewest digits within a range, and the middle of the range.
+/// The value with the fewest digits within a range, and the middle of the range.
 fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
     let middle = f64::midpoint(low, high);
     let is_inside = |value: &f64| *value >= low && *value <= high && *value != knob.given;
@@ -204,22 +209,23 @@ fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
     fewest.into_iter().chain([middle]).collect()
 }
 
-/// Whether a number that was found is one that may be meant: it differs by more than a trifle, or has few digits, or is
-/// known to a small part of its change, because the differences are `excess` times their bounds. Any smooth error is a
-/// tiny change of some number.
+/// Whether a found number may have been meant.
+/// It must differ by more than a trifle, or have few digits, or be known to a small part of its change: the differences
+/// are then `excess` times their bounds.
+/// Any smooth error resembles a tiny change of some number.
 pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
     let PartChange::Instead { found, given, unit } = change.how else { return true };
     let told = if unit == "rad" { found.to_degrees() } else { found };
-    // Degrees are rounded on the way.
+    // The conversion to degrees rounds.
     let has_few_digits = (knobs::significant(told, FEW_DIGITS) - told).abs() <= 1e-9 * told.abs();
     (found - given).abs() >= TRIFLE * found.abs().larger(given.abs()) || has_few_digits || excess >= TELLING
 }
 
-/// Digits of a number that may be meant.
+/// Largest number of digits of a number that counts as short.
 const FEW_DIGITS: usize = 4;
-/// Share of a number by which nobody changes it on purpose.
+/// Relative change below which nobody changes a number on purpose.
 const TRIFLE: f64 = 1e-3;
-/// Times its bound that a difference must be for a tiny change of more digits: it is then known to a hundredth.
+/// Ratio of difference to bound from which a tiny change with many digits counts: it is then known to a hundredth.
 const TELLING: f64 = 100.0;
 
 /// A value near the one found on the thinned grid that explains everything on the whole grid too.
@@ -246,8 +252,8 @@ mod tests {
     use super::*;
     use crate::diagnosis::cause::CasePart;
 
-    /// A number that is off by less than a thousandth and has many digits was hardly typed: it counts only where the
-    /// difference is a hundred times its bound.
+    /// A number that is wrong by less than a thousandth and has many digits was hardly typed.
+    /// It counts only if the difference is a hundred times its bound.
     #[test]
     fn a_tiny_change_of_many_digits_is_no_cause() {
         let degrees = f64::to_radians;

@@ -7,13 +7,13 @@ use crate::bounds::differences;
 use linkage::math::statistics::half_range;
 use linkage::trajectory::{Channel, Unit};
 
-/// How many times its bound a channel must vary before its values are known by their course.
+/// Multiple of its bound by which a channel must vary for its course to identify it.
 const TELLING: f64 = 5.0;
 
-/// Rows that are looked at first.
+/// Number of rows that are compared first.
 const FEW: usize = 16;
 
-/// Every channel with the values of others: of one, or of two that changed places, or the difference of two.
+/// Every channel with the values of others: of one other channel, of two exchanged channels, or the difference of two.
 pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     let mut put =
@@ -41,7 +41,7 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
             continue;
         }
         let pairs = question.reference.iter().filter(|(channel, _)| channel.kind.suffix == one.channel.kind.suffix);
-        // What does not move is no other place to count from.
+        // A constant channel is not another reference for the values.
         let all: Vec<(&Channel, &[f64])> = pairs.filter(|(_, values)| one.varies(values)).collect();
         if let Some(slip) = between(one, &all) {
             let is_plain = matches!(slip, DataSlip::Between { offset: 0.0, .. });
@@ -51,14 +51,15 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     causes
 }
 
-/// Whether the values of one may be taken for those of the other: in the same unit, or one the other's rate.
+/// Whether the values of one channel may be mistaken for those of the other: both have the same unit, or one is the
+/// rate of the other.
 fn alike(one: &Channel, other: &Channel) -> bool {
     let is_rate = |of: &Channel, rate: &Channel| of.rate().is_some_and(|own| own == *rate);
     let is_neighbour = is_rate(one, other) || is_rate(other, one);
     one != other && (one.kind.unit == other.kind.unit && one.kind.stage == other.kind.stage || is_neighbour)
 }
 
-/// The two components of a vector, where its magnitude stands in the place of one.
+/// The two components of a vector, if its magnitude stands in place of one of them.
 fn magnitude(question: &DiagnosisInput, one: &Wrong) -> Option<[Channel; 2]> {
     let suffix = one.channel.kind.suffix;
     let other = if suffix.contains('y') { suffix.replacen('y', "x", 1) } else { suffix.replacen('x', "y", 1) };
@@ -68,15 +69,15 @@ fn magnitude(question: &DiagnosisInput, one: &Wrong) -> Option<[Channel; 2]> {
     one.has_values_of(&sizes).then(|| [one.channel.clone(), other])
 }
 
-/// The difference of two channels of one kind, as relative to another link or point; of angles up to where it is counted
-/// from.
+/// The difference of two channels of one kind: values relative to another link or point. Angles may also have another
+/// origin.
 fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<DataSlip> {
     if !one.varies(one.found) {
         return None;
     }
     for (first, minuend) in all {
         for (second, subtrahend) in all.iter().filter(|(second, _)| second != first) {
-            // A few rows tell most pairs apart.
+            // A few rows suffice to exclude most pairs.
             let gap = |row: usize| one.found[row] - (minuend[row] - subtrahend[row]);
             let few = (0..FEW).map(|part| part * (one.found.len() - 1) / (FEW - 1));
             if few.map(gap).any(|own| !((own - gap(0)).abs() <= 2.0 * one.bound)) {
@@ -97,7 +98,7 @@ fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<DataSlip> {
 }
 
 impl Wrong<'_> {
-    /// Whether its values are those, which say something by their course.
+    /// Whether its values are `others`, and these vary enough to identify a channel.
     pub(super) fn has_values_of(&self, others: &[f64]) -> bool {
         self.varies(others)
             && differences(others, self.found, self.channel.kind.periodic).iter().all(|gap| gap.abs() <= self.bound)

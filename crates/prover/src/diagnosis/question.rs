@@ -1,4 +1,4 @@
-//! What a diagnosis is asked, and the candidates that answer it.
+//! Input of a diagnosis, and the candidates for its cause.
 
 use super::cause::{DataSlip, DisagreementCause};
 use linkage::case::Case;
@@ -20,17 +20,17 @@ pub struct SuspectChannel {
 pub struct DiagnosisInput<'a> {
     /// Name of the suspect.
     pub suspect: &'a str,
-    /// What is held to be right.
+    /// Trajectory that counts as right.
     pub reference: &'a Trajectory,
-    /// What contradicts it, on the same grid.
+    /// Trajectory that contradicts it, on the same grid.
     pub suspicious: &'a Trajectory,
-    /// All channels whose bounds can be relied on, the agreeing ones too: a cause must not spoil them.
+    /// All channels with reliable bounds, including the agreeing ones: a cause must not spoil them.
     pub judged: &'a [SuspectChannel],
     /// The reference's case, on the grid of both trajectories.
     pub case: &'a Case,
     /// Solver that tries changed cases; accurate to far below the bounds.
     pub solver: &'a dyn Solver,
-    /// Time step of the suspect (s), or the distance of its rows, if it has one, and the word for it.
+    /// Time step of the suspect or distance of its rows (s), if there is one, and the word for it.
     pub step: Option<(f64, &'static str)>,
 }
 
@@ -56,12 +56,12 @@ impl Found {
 pub(super) enum Rank {
     /// A slip without a free number: sign, unit, twice, half.
     Slip,
-    /// A change of the case without a free number: something missing, or the other way round.
+    /// A change of the case without a free number: a part that is missing or reversed.
     Change,
     /// A part of the case multiplied by a number with a meaning.
     Scale,
-    /// A change of the case, or another instant, by a number that was fitted.
+    /// A change of the case, or another instant, by a fitted number.
     Number,
-    /// Values changed by a number that was fitted.
+    /// Values changed by a fitted number.
     Fitted,
 }

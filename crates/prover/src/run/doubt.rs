@@ -1,8 +1,9 @@
 //! Instants at which channels jump, so that an engine's value depends on the smallest error of its motion.
 //!
-//! A load may jump where its link reverses; a load that vanishes there does not, and no instant is left out.
-//! At a change point an engine takes one of many solutions: its rates there say nothing about its branch, which the
-//! instants after it show. See docs/numerics/bounds.md.
+//! A load may jump where its link reverses. A load that vanishes there does not jump, and no instant is left out.
+//! At a change point an engine takes one of many solutions. Its rates there say nothing about its branch; later
+//! instants show the branch.
+//! See docs/numerics/bounds.md.
 
 use linkage::case::Case;
 use linkage::drive::DriveMotion;
@@ -15,21 +16,22 @@ use super::runs::Runs;
 
 /// Number of steps around a jump in which an engine's values are doubtful.
 const STEPS: f64 = 8.0;
-/// The same for impulses of a free motion: they are read from six steps, one step late.
+/// The same for impulses of a free motion, which are read from six steps, one step late.
 const IMPULSES: f64 = 5.0;
-/// Share of a step by which runs of a prescribed motion, whose impulses are combined, have the jump of a load at
-/// different instants: their velocities differ by about a twelfth of its square.
+/// Share of a step within which a load jumps at different instants in the runs of a prescribed motion with combined
+/// impulses.
+/// The velocities of these runs differ by about a twelfth of the square of the step.
 const APART: f64 = 0.25;
 
-/// Share of a drive's top speed that counts as standstill: the rounding of a law's formula, with room.
+/// Share of a drive's top speed that counts as standstill. It exceeds the rounding error of a law's formula.
 const STANDSTILL: f64 = 1e-9;
 /// Number of instants that may be left out whatever the step: the two ends of a motion.
 const ENDS: usize = 2;
 
-/// What is doubtful in an engine's runs, by row of the grid.
+/// Doubtful channels of an engine's runs, by row of the grid.
 pub(super) struct Doubt(Vec<Doubtful>);
 
-/// What is doubtful at an instant.
+/// Doubtful channels at an instant.
 #[derive(Clone, Copy, Default)]
 struct Doubtful {
     rates: bool,
@@ -40,8 +42,8 @@ struct Doubtful {
 }
 
 impl Doubt {
-    /// By what loads sense in the reference, and whether its pose is singular; `settings` are those of the run that is
-    /// judged.
+    /// Finds the doubtful instants from the reversals of loads and the singular poses of the reference; `settings` are
+    /// those of the judged run.
     pub(super) fn of(case: &Case, reference: &Observed, runs: &Runs, settings: Settings) -> Self {
         let Observed { senses, singular, .. } = reference;
         let Settings { resolution, route, extrapolated, .. } = settings;
@@ -51,7 +53,7 @@ impl Doubt {
         for (row, (&t, own)) in times.iter().zip(&mut all).enumerate() {
             let (turns, is_singular) = (drive_turns(case, t, reach), singular.get(row) == Some(&true));
             if turns || is_singular {
-                // In the very instant no step helps.
+                // At the instant itself no step helps.
                 let by_step = turns && !drive_turns(case, t, 0.0);
                 *own = Doubtful { rates: true, accelerations: true, forces: true, by_step };
             }
@@ -89,14 +91,14 @@ impl Doubt {
         self.0.iter().map(|own| !is_out(own)).collect()
     }
 
-    /// Share of instants that are left out and would not be with a finer step.
+    /// Share of instants that are left out but would be kept with a finer step.
     pub(super) fn too_coarse(&self) -> f64 {
         let out = self.0.iter().filter(|own| own.by_step).count().saturating_sub(ENDS);
         out as f64 / self.0.len().max(1) as f64
     }
 }
 
-/// Whether two velocities are not of one sense. Standstill on both sides is one sense.
+/// Whether two velocities have different directions. Standstill in both counts as one direction.
 fn against(a: Vec2, b: Vec2) -> bool {
     a.dot(&b) <= 0.0 && (a != Vec2::zeros() || b != Vec2::zeros())
 }
@@ -114,7 +116,8 @@ fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
     })
 }
 
-/// Times at which a load jumps because what it senses reverses, by straight lines between the instants.
+/// Times at which a load jumps because the velocity that it depends on reverses, by linear interpolation between the
+/// instants.
 fn reversals(times: &[f64], senses: &Senses) -> Vec<f64> {
     let mut rows: Vec<usize> = (0..times.len()).collect();
     rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
@@ -144,7 +147,7 @@ mod tests {
     use linkage::trajectory::Trajectory;
     use scenario::Scenario;
 
-    /// The doubt of a run that is as right as the reference, at steps of 1.1 ms.
+    /// The doubt of a run that equals the reference, at steps of 1.1 ms.
     fn doubt(case: &Case, route: Route) -> (Doubt, Trajectory) {
         let own = Arc::new(observe(case, &AssurSolver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| {
             panic!("{}", stopped.error);
@@ -165,8 +168,9 @@ mod tests {
         Scenario::parse(text, std::path::Path::new("x.toml")).unwrap_or_else(|error| panic!("{error}")).case
     }
 
-    /// What is left out of velocities and of positions, and what a smaller step would bring back: steps of 1.1 ms reach
-    /// 17.6 ms far.
+    /// Number of instants left out of velocities and of positions, and number of them that a smaller step would bring
+    /// back.
+    /// Steps of 1.1 ms reach 17.6 ms.
     fn left_out(file: &str) -> ([usize; 2], f64) {
         let case = parsed(&text(file));
         let (doubt, _) = doubt(&case, Route::Differences);
@@ -175,20 +179,21 @@ mod tests {
         ([out(Stage::Velocities), out(Stage::Positions)], doubt.too_coarse() * count)
     }
 
-    /// From rest to rest: the instants of rest, which no smaller step brings back.
+    /// From rest to rest: the instants of rest are left out. No smaller step brings them back.
     #[test]
     fn rates_at_the_ends_of_a_law_of_motion_are_left_out() {
         assert_eq!(left_out("scenarios/cycloidal_start.toml"), ([2, 0], 0.0));
     }
 
-    /// A ramp of 0.25 s, every 20 ms: the rest it begins with, and the instants to either side of its jump.
+    /// A ramp of 0.25 s, every 20 ms: the initial rest and the instants on either side of its jump are left out.
     #[test]
     fn rates_beside_a_jump_of_the_acceleration_are_left_out() {
         assert_eq!(left_out("tests/outside/scenarios/ramped_arm.toml"), ([3, 0], 0.0));
     }
 
-    /// A pendulum with friction, let go at rest, reverses twice in three seconds. Impulses are read from six steps, one
-    /// step late: five of the longest steps, 11 ms, are in doubt. Second differences are for 17.6 ms.
+    /// A pendulum with friction, released from rest, reverses twice in three seconds.
+    /// Impulses are read from six steps, one step late, so five of the longest steps (11 ms) are doubtful.
+    /// For second differences the doubt reaches 17.6 ms.
     #[test]
     fn forces_beside_a_reversal_of_a_free_motion_are_left_out_and_no_others() {
         let text = text("scenarios/pendulum.toml").replace("step_s = 0.01", "step_s = 0.001");
@@ -200,7 +205,7 @@ mod tests {
             let reverses = |row: &usize| omega[*row] * omega[*row + 1] < 0.0;
             let reversals: Vec<f64> = (1..times.len() - 1).filter(reverses).map(|row| times[row]).collect();
             assert_eq!(reversals.len(), 2, "{reversals:?}");
-            // At the beginning it rests.
+            // It starts at rest.
             for (row, kept) in doubt.keeps(Stage::Reactions).into_iter().enumerate().skip(30) {
                 let away = reversals.iter().map(|t| (times[row] - t - 5e-4).abs()).fold(f64::INFINITY, f64::smaller);
                 assert!(away > reach - 1e-3 || !kept, "{route:?}: {} s", times[row]);

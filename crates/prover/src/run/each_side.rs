@@ -1,4 +1,4 @@
-//! The analytic sides, and one of something for each of them.
+//! The analytic sides, and a container with one value for each of them.
 
 use std::fmt;
 use std::ops::{Index, IndexMut};
@@ -56,27 +56,27 @@ impl fmt::Display for Reference {
     }
 }
 
-/// One of each analytic side, found by the side.
+/// One value for each analytic side, indexed by the side.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EachSide<T>([T; 2]);
 
 impl<T> EachSide<T> {
-    /// What side 1 and side 2 have.
+    /// The values of side 1 and side 2.
     pub const fn new(assur: T, newton: T) -> Self {
         EachSide([assur, newton])
     }
 
-    /// What `of` says of every side.
+    /// Calls `of` for every side.
     pub fn of(of: impl FnMut(Reference) -> T) -> Self {
         EachSide(Reference::ALL.map(of))
     }
 
-    /// The same, with the first error.
+    /// The same for a fallible `of`; returns the first error.
     pub(crate) fn tried<E>(mut of: impl FnMut(Reference) -> Result<T, E>) -> Result<Self, E> {
         Ok(EachSide([of(Reference::Assur)?, of(Reference::Newton)?]))
     }
 
-    /// Every side and what it has.
+    /// Every side and its value.
     pub fn iter(&self) -> impl Iterator<Item = (Reference, &T)> {
         Reference::ALL.into_iter().zip(&self.0)
     }
@@ -86,7 +86,7 @@ impl<T> EachSide<T> {
         EachSide(self.pair())
     }
 
-    /// What side 1 and side 2 have.
+    /// The values of side 1 and side 2.
     #[must_use]
     pub fn pair(&self) -> [&T; 2] {
         self.0.each_ref()

@@ -10,7 +10,7 @@ use linkage::error::{Advice, Error};
 use linkage::solver::Provision;
 use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
 
-/// What is known about an engine that was run.
+/// Data of an engine that was run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EngineInfo {
     /// Name, as on the command line.
@@ -23,7 +23,7 @@ pub struct EngineInfo {
     pub controls_error: bool,
     /// Settings that influence the result, by name, as text.
     pub told: Vec<(&'static str, String)>,
-    /// How it provides each sort of channel: stage and provision.
+    /// How it provides each kind of channel: stage and provision.
     pub provides: Vec<(&'static str, Provision)>,
 }
 
@@ -51,20 +51,20 @@ pub struct ChannelProof {
     pub residual: Residual,
     /// Bound, in the channel's unit.
     pub bound: f64,
-    /// What the bound is made of, in the channel's unit.
+    /// Parts of the bound, in the channel's unit.
     pub parts: Parts,
     /// Convergence of the engine in this channel.
     pub convergence: Convergence,
-    /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` where
-    /// the runs have no limit that can be estimated.
+    /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` if
+    /// the limit cannot be estimated.
     pub limit: Option<f64>,
-    /// For a free motion: largest change over the run, as a share of the scale, per share of change in gravity and
+    /// For a free motion: largest change over the run, as a share of the scale, per relative change of gravity and
     /// motor torque.
     pub sensitivity: Option<f64>,
-    /// Number of instants that are not judged: there a drive or a loaded link reverses, and the channel jumps, or a
-    /// free motion begins.
+    /// Number of instants that are not judged. There a drive or a loaded link reverses and the channel jumps, or a free
+    /// motion begins.
     pub left_out: usize,
-    /// What the bound rests on.
+    /// Basis of the bound.
     pub basis: BoundBasis,
     /// The outcome.
     pub verdict: Verdict,
@@ -77,7 +77,7 @@ pub struct SettingsSearch {
     pub runs: usize,
     /// Work done, in steps without sweeps; twenty sweeps count as one step more.
     pub effort: f64,
-    /// Work that was allowed, in the same unit.
+    /// Allowed work, in the same unit.
     pub budget: f64,
     /// Why the search ended.
     pub end: SearchEnd,
@@ -86,27 +86,27 @@ pub struct SettingsSearch {
 /// Why a search of settings ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchEnd {
-    /// Every channel has the aimed accuracy, or is conclusive and the work for more is spent.
+    /// Every channel has the target accuracy. Or every channel is conclusive and the work for more is spent.
     Decided,
-    /// A finer step would add more rounding than it takes away.
+    /// A finer step would add more rounding error than it removes.
     Rounding,
-    /// The work that was allowed is done.
+    /// The allowed work is done.
     Budget,
-    /// At the pace of its rounds the work that was allowed would not be enough.
+    /// At the pace of its rounds the allowed work would not be enough.
     Pace,
-    /// The settings that are left to choose have no better value.
+    /// The free settings have no better value.
     Nothing,
 }
 
 impl SearchEnd {
-    /// Puts into an inconclusive verdict what the search has tried, in place of advice to try it.
+    /// Replaces the advice of an inconclusive verdict by what the search has tried.
     pub(super) fn tell(self, verdict: &mut Verdict, budget: f64) {
         let Verdict::Inconclusive { reason, advice } = verdict else { return };
         if advice.is_empty() {
             return;
         }
         let (why, way_out) = match self {
-            // The settings that are given decide, and its own advice holds.
+            // The given settings decide, so the advice of the verdict stays.
             SearchEnd::Decided | SearchEnd::Nothing => return,
             SearchEnd::Rounding => (sentences::A_FINER_STEP_ADDS_MORE_ROUNDING, vec![Advice::OtherEngine]),
             SearchEnd::Budget => (sentences::THE_WORK_THAT_WAS_ALLOWED, vec![Advice::MoreWork { to: 10.0 * budget }]),
@@ -118,7 +118,7 @@ impl SearchEnd {
     }
 }
 
-/// One engine's part of a proof, or the part that the forces have which the engine itself exerts.
+/// One engine's part of a proof, or the part about the forces that the engine itself exerts.
 #[derive(Clone, Debug)]
 pub struct EngineProof {
     /// The engine.
@@ -129,33 +129,34 @@ pub struct EngineProof {
     pub channels: Vec<ChannelProof>,
     /// Checks on the engine alone; none on its own forces.
     pub checks: Vec<Check>,
-    /// Forces as the engine itself exerts them, where the others follow from its motion.
+    /// Forces as the engine itself exerts them, if the judged forces follow from its motion.
     pub own_forces: Option<Box<EngineProof>>,
     /// Verdict on channels, checks and own forces together.
     pub verdict: Verdict,
-    /// Its trajectory: all instants, or those before it failed; of own forces, forces only.
+    /// Its trajectory: all instants, or those before a failure. For own forces it has forces only.
     pub trajectory: Option<Trajectory>,
-    /// Engine minus reference; `None` if the engine failed, and of own forces.
+    /// Engine minus reference; `None` if the engine failed, and for own forces.
     pub errors: Option<Trajectory>,
     /// Whether all channels are judged at an instant, by row of the grid; empty if the engine failed.
     pub kept: Vec<bool>,
-    /// Why there is no comparison.
+    /// Reason why there is no comparison.
     pub failure: Option<Error>,
 }
 
-/// Which of the two judgements of an engine's forces is against them.
+/// Which of the two judgements of an engine's forces disagrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ForceFault {
-    /// Those that follow from its motion, which agrees: the fault is in the equations that make forces of it.
+    /// The forces that follow from its motion. The motion agrees, so the fault is in the equations that derive forces
+    /// from it.
     Reading,
-    /// Those that the engine itself exerts: its motion is right, and so are the forces that belong to it.
+    /// The forces that the engine itself exerts. Its motion is right, and so are the forces that follow from it.
     Exerted,
     /// Both.
     Both,
 }
 
 impl EngineProof {
-    /// An engine with a verdict, and nothing that it rests on.
+    /// An engine with a verdict only, without results.
     pub(super) fn bare(info: EngineInfo, verdict: Verdict) -> Self {
         EngineProof {
             info,
@@ -171,17 +172,19 @@ impl EngineProof {
         }
     }
 
-    /// What own forces add to the engine's verdict. Where they stay open, they are told and take nothing back: the
-    /// motion and its forces are judged all the same, and impulses are of a lower order and need the true masses, with
-    /// many sweeps.
+    /// What own forces add to the engine's verdict.
+    /// Inconclusive own forces are reported but do not change the verdict: the motion and its forces are judged without
+    /// them.
+    /// Impulses are of a lower order and need the true masses, with many sweeps.
     #[must_use]
     pub fn added(&self) -> Option<&Verdict> {
         let own = self.own_forces.as_ref().map(|own| &own.verdict);
         own.filter(|verdict| !matches!(verdict, Verdict::Inconclusive { .. }))
     }
 
-    /// Which of the two judgements of the forces disagrees; `None` if neither does, or if there is only one, or if the
-    /// other one is open or the motion itself disagrees, so that nothing follows.
+    /// Which of the two judgements of the forces disagrees.
+    /// `None` if neither disagrees or there is only one.
+    /// Also `None` if the other one is inconclusive or the motion itself disagrees, because nothing then follows.
     #[must_use]
     pub fn force_fault(&self) -> Option<ForceFault> {
         let own = &self.own_forces.as_ref()?.channels;
@@ -208,7 +211,7 @@ impl EngineProof {
         channels.map(|own| own.residual.channel.to_string()).chain(checks.map(Check::name)).collect()
     }
 
-    /// Leaves all disagreements open, with a reason and a way out.
+    /// Makes all disagreements inconclusive, with a reason and advice.
     pub(super) fn doubt(&mut self, why: &str, way_out: &Advice) {
         for verdict in self.verdicts_mut() {
             if let Verdict::Disagree { place } = verdict {
@@ -219,20 +222,20 @@ impl EngineProof {
         self.conclude();
     }
 
-    /// Takes the verdict again from those of all channels and checks, and of own forces.
+    /// Recomputes the verdict from those of all channels, checks and own forces.
     pub(super) fn conclude(&mut self) {
         let channels = self.channels.iter().map(|own| &own.verdict);
         self.verdict = overall(channels.chain(self.added()).chain(self.checks.iter().map(|own| &own.verdict)));
     }
 
-    /// The verdicts on channels and checks, and that on all of them.
+    /// The verdicts on channels and checks, and the overall verdict.
     pub(super) fn verdicts_mut(&mut self) -> impl Iterator<Item = &mut Verdict> {
         let channels = self.channels.iter_mut().map(|channel| &mut channel.verdict);
         channels.chain(self.checks.iter_mut().map(|check| &mut check.verdict)).chain([&mut self.verdict])
     }
 
-    /// Adds to an inconclusive verdict how strongly the motion depends on the forces that cause it: `sensitivity`, channel
-    /// by channel of the reference.
+    /// Adds to inconclusive verdicts how strongly the motion depends on the forces that cause it.
+    /// `sensitivity` has one value for each channel of the reference.
     pub(super) fn tell_sensitivity(&mut self, reference: &Trajectory, sensitivity: &[f64]) {
         for (channel, &change) in reference.channels().iter().zip(sensitivity) {
             let own = self.channels.iter_mut().find(|own| own.residual.channel == *channel);

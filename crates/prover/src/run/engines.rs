@@ -1,4 +1,4 @@
-//! One engine against the reference: at the settings asked for, or at those that it finds.
+//! One engine against the reference, at the requested settings or at those that it finds.
 
 use crate::sentences;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use linkage::error::{Advice, ErrorKind, Result};
 use linkage::math::KeepNan;
 use scenario::EngineSettings;
 
-/// Runs an engine on `case`, at the settings asked for or at those that it finds, and judges it.
+/// Runs an engine on `case`, at the requested settings or at those that it finds, and judges it.
 pub(super) fn prove(
     judge: &Judge,
     case: &Case,
@@ -30,7 +30,7 @@ pub(super) fn prove(
 ) -> Result<EngineProof> {
     let (engine, asked) = (chosen.engine.as_ref(), judge.asked);
     let mut bank = Bank::new(case, engine, Watch::Engine);
-    // A step that cannot be is refused by the engine.
+    // The engine refuses an impossible step.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
     let given = chosen.given.clone().of_motion();
     let searches = given.leaves_a_choice() && !engine.controls_error() && is_step;
@@ -46,7 +46,7 @@ pub(super) fn prove(
     let Judged { mut proof, run, .. } = match found {
         Ok(found) => found,
         Err(Stopped { error, kept, spent }) => {
-            // Without work for finer steps nobody knows whether the engine fails or only its coarse steps.
+            // Without work for finer steps it is unknown whether the engine fails or only its coarse steps.
             let (verdict, failure) = match spent {
                 None => (Verdict::open(error.message()), Some(error)),
                 Some(work) => {
@@ -79,7 +79,7 @@ pub(super) fn prove(
         let (end, budget) = (search.end, search.budget);
         proof.verdicts_mut().for_each(|verdict| end.tell(verdict, budget));
     }
-    // Its runs are dropped before others are made.
+    // Releases its runs before others are made.
     drop(bank);
     let trajectory = Arc::unwrap_or_clone(run).trajectory;
     let part = sentences::own_forces(&engine.name());
@@ -99,11 +99,11 @@ pub(super) fn prove(
     Ok(proof)
 }
 
-/// An engine judged, or why it stopped.
+/// A judged engine, or the reason why it stopped.
 type Outcome = std::result::Result<Judged, Stopped>;
 
-/// The engine at its own settings, none of which is free. They are kept to within the usual work, whatever is allowed
-/// for a search.
+/// The engine at its own settings, none of which is free.
+/// Their work is limited by the usual budget, or by the budget of a search if that is larger.
 fn at_given(
     judge: &Judge,
     bank: &mut Bank,
@@ -121,7 +121,7 @@ fn at_given(
         Ok(judge.judge(engine, runs)?)
     };
     let judged = with(&others[..others.len().min(1)])?;
-    // Sweeps that have hardly begun to converge differ little: a third run tells them from those that have.
+    // Sweeps that have hardly begun to converge differ little. A third run distinguishes them from converged ones.
     let mut judged = match judged.proof.against().is_empty() || others.len() < 2 {
         true => judged,
         false => match with(&others) {
@@ -140,7 +140,7 @@ fn at_given(
     Ok(judged)
 }
 
-/// What a run finds that is free to choose its settings, as advice for one that was not and is inconclusive.
+/// Advice for an inconclusive run at a given step: the result of a run with free settings.
 fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
     let case = bank.case;
     let engine = chosen.engine.at(coarse_step(case));

@@ -1,4 +1,4 @@
-//! Who takes part in a proof, and the two halves of a proof: the analytic sides, and the engines against one of them.
+//! Participants of a proof, and its two halves: the analytic sides, and the engines against one of them.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,13 +25,13 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{Formulas, MechanismFigure};
 
-/// Share of the progress that the analytic sides are given.
+/// Share of the progress for the analytic sides.
 const SIDES: f64 = 0.1;
 
-/// Most operations of the search for the causes of all wrong formulas of a file.
+/// Largest number of operations to search for the causes of all wrong formulas of a file.
 const MOST_WORK: u64 = 100_000_000;
 
-/// An analytic side: its solver, and the same with a tighter tolerance where it integrates.
+/// An analytic side: its solver, and the same solver with a tighter tolerance of integration.
 #[derive(Clone, Copy)]
 pub struct Entrant<'a> {
     /// The side. It has the name of one of [`analytic::all`].
@@ -40,7 +40,7 @@ pub struct Entrant<'a> {
     pub tight: &'a dyn Solver,
 }
 
-/// Side 1 and side 2 as they are.
+/// Side 1 and side 2 without changes.
 pub const TRUE_SIDES: EachSide<Entrant<'static>> = EachSide::new(
     Entrant { solver: &AssurSolver, tight: &TIGHT_ASSUR },
     Entrant { solver: &NewtonSolver, tight: &TIGHT_NEWTON },
@@ -48,16 +48,16 @@ pub const TRUE_SIDES: EachSide<Entrant<'static>> = EachSide::new(
 
 /// How engines take part.
 pub struct EngineRole<'a> {
-    /// What they solve, on the scenario's instants.
+    /// The case that the engines solve, on the scenario's instants.
     pub case: &'a Case,
-    /// Puts something around each of them.
+    /// Wraps each engine.
     pub around: &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>,
-    /// Whether the forces that they exert are judged besides.
+    /// Whether the forces that the engines themselves exert are judged too.
     pub own_forces: bool,
 }
 
 impl<'a> EngineRole<'a> {
-    /// Engines as they are, on a case.
+    /// Engines without changes, on a case.
     pub(crate) fn on(case: &'a Case) -> Self {
         EngineRole { case, around: &|engine| engine, own_forces: true }
     }
@@ -68,16 +68,16 @@ pub struct ObservedSides {
     reference: Reference,
     pub(super) observed: EachSide<Observed>,
     pub(super) known: Known,
-    /// Checks on both, published numbers among them.
+    /// Checks on both sides, published numbers included.
     pub checks: Vec<Check>,
     /// Figures that formulas claim.
     figures: EachSide<Vec<(MechanismFigure, Rounded)>>,
-    /// What formulas come to, if any claims something.
+    /// Judgement of the formulas, if any claims something.
     pub(super) judgement: Option<Judgement>,
 }
 
 impl ObservedSides {
-    /// Both sides on a problem, whose case may be the scene of the `whole`.
+    /// Both sides on a problem. Its case may be the scene of the case `whole`.
     ///
     /// # Errors
     /// Those of the sides.
@@ -149,7 +149,7 @@ impl ObservedSides {
         Ok(own)
     }
 
-    /// Formulas against both sides, every claim that they have the channels for.
+    /// Judges formulas against both sides: every claim whose channels the sides have.
     ///
     /// # Errors
     /// Those of [`check::judge`].
@@ -159,7 +159,7 @@ impl ObservedSides {
         let (mut unsought, mut work) = (BTreeSet::new(), 0);
         let is_wrong = |all: &&Vec<JudgedFormula>| all.iter().any(|judged| judged.outcome() == FormulaOutcome::Wrong);
         for index in 0..sides[Reference::Assur].len() {
-            // The side that it contradicts, or both: the first of them.
+            // The first side that the formula contradicts.
             let all = EachSide::of(|side| &sides[side][index]);
             let Some((side, wrong)) = all.iter().find(|(_, own)| is_wrong(own)) else { continue };
             let name = &wrong[0].name;
@@ -184,7 +184,7 @@ impl ObservedSides {
         Ok(Judgement { causes, undefined, unsought, work, ..Judgement::of(sides) })
     }
 
-    /// What both sides say of every claim that they have the channels for; why one is wrong is not sought.
+    /// Judgements of both sides on every claim whose channels they have. Causes of wrong formulas are not sought.
     ///
     /// # Errors
     /// Those of [`check::judge`].
@@ -192,7 +192,7 @@ impl ObservedSides {
         EachSide::tried(|side| self.on_course(case, side, |course| check::judge(formulas, course)))
     }
 
-    /// What one side found on a case, with how well it knows it.
+    /// Calls `then` with the trajectory of one side on a case, and with its errors.
     pub fn on_course<T>(
         &self,
         case: &Case,
@@ -207,12 +207,12 @@ impl ObservedSides {
         then(&KnownTrajectory::new(case, trajectory, &error).with_figures(&self.figures[side]))
     }
 
-    /// What formulas come to, if any claims something.
+    /// Judgement of the formulas, if any claims something.
     pub fn judgement(&self) -> Option<&Judgement> {
         self.judgement.as_ref()
     }
 
-    /// What was observed of the reference.
+    /// Observations of the reference.
     pub(super) fn own(&self) -> &Observed {
         &self.observed[self.reference]
     }
@@ -222,12 +222,12 @@ impl ObservedSides {
         &self.own().trajectory
     }
 
-    /// Error of the reference's integration, channel by channel, in their units; zeros in a prescribed motion.
+    /// Integration error of the reference by channel, in its unit; zero in a prescribed motion.
     pub fn integration(&self) -> Vec<f64> {
         (0..self.trajectory().channels().len()).map(|channel| self.known.integration(self.reference, channel)).collect()
     }
 
-    /// Largest error allowed to the reference over the run, channel by channel, in their units.
+    /// Bound on the error of the reference over the run by channel, in its unit.
     pub(super) fn bounds(&self) -> Vec<f64> {
         let channels = self.trajectory().channels().iter().enumerate();
         channels.map(|(index, channel)| self.known.error(channel.kind.stage, index)).collect()
@@ -238,7 +238,7 @@ impl ObservedSides {
         overall(self.checks.iter().map(|check| &check.verdict))
     }
 
-    /// Every channel in which the two sides differ by more than is allowed.
+    /// Every channel in which the two sides differ by more than allowed.
     pub fn beyond(&self) -> Vec<Beyond> {
         checks::beyond(self.observed.each_ref(), &self.known)
     }
@@ -246,7 +246,7 @@ impl ObservedSides {
     /// Proofs of the engines against the reference.
     ///
     /// # Errors
-    /// Those of a case that does not fit the instants, and of an only engine that cannot start.
+    /// If the case does not fit the instants, or the only engine cannot start.
     pub fn engines(
         &self,
         problem: Problem,

@@ -9,8 +9,9 @@ use crate::diagnosis::{DiagnosedParty, Diagnosis, DiagnosisInput, PartyStanding,
 use linkage::case::{Case, Grid};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Examines the party that stands alone; else the first engine that disagrees; else the side that is not the
-/// reference. `None` if no channel disagrees.
+/// Examines the party that stands alone.
+/// Without such a party, examines the first engine that disagrees, or the side that is not the reference.
+/// `None` if no channel disagrees.
 pub(super) fn of(
     case: &Case,
     main: Reference,
@@ -23,7 +24,7 @@ pub(super) fn of(
     if engine.is_none() && !between.iter().any(|judged| judged.disagrees) {
         return None;
     }
-    // Instants that are not judged are not explained.
+    // Instants that are not judged need no explanation.
     let keep = engine.map_or_else(|| vec![true; case.grid.len()], |engine| engine.kept.clone());
     let thin = |trajectory: &Trajectory| trajectory.at_rows(&keep);
     let own = EachSide::of(|side| thin(&sides[side].trajectory));
@@ -32,7 +33,7 @@ pub(super) fn of(
     let ran: Vec<(&EngineProof, Trajectory)> =
         ran.filter_map(|engine| Some((engine, thin(engine.trajectory.as_ref()?)))).collect();
 
-    // The bound is on the difference of the two.
+    // The bound is on the difference of the two sides.
     let halves: Vec<_> = between.iter().map(|judged| (judged.channel.clone(), judged.bound / 2.0)).collect();
     let mut parties: Vec<DiagnosedParty> = own
         .iter()
@@ -74,7 +75,7 @@ fn disagrees(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Disagree { .. })
 }
 
-/// The channels of an engine whose bounds can be relied on. One that is beyond its bound for a known reason is none.
+/// The channels of an engine with reliable bounds. A channel that is beyond its bound for a known reason is left out.
 fn judged(engine: &EngineProof) -> Vec<SuspectChannel> {
     let channels = engine.channels.iter().filter(|own| own.convergence.is_trusted());
     let judged = channels.map(|own| (own.residual.max, own.bound, &own.residual.channel, disagrees(&own.verdict)));
@@ -82,7 +83,7 @@ fn judged(engine: &EngineProof) -> Vec<SuspectChannel> {
     sure.map(|(_, bound, channel, disagrees)| SuspectChannel { channel: channel.clone(), bound, disagrees }).collect()
 }
 
-/// Bounds on the difference of the two sides: what they know of their own numbers.
+/// Bounds on the difference of the two sides, from the known errors of both.
 fn side_bounds(sides: &EachSide<Observed>, known: &Known) -> Vec<SuspectChannel> {
     let [one, other] = sides.pair().map(|own| &own.trajectory);
     let of = |(index, channel): (usize, &Channel)| {

@@ -1,4 +1,4 @@
-//! Figures of a mechanism as the analytic sides find them.
+//! Figures of a mechanism, computed by the analytic sides.
 
 use super::each_side::{EachSide, Reference};
 use crate::sentences;
@@ -11,10 +11,11 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 use scenario::{Formulas, MechanismFigure};
 
-/// Relative error of a side's figures. Wanted, because rounding allows it in sums over thousands of poses.
+/// Relative error of a side's figures. It is chosen: rounding allows it in sums over thousands of poses.
 const KNOWN: f64 = 1e-11;
 
-/// The figures that formulas claim, by both sides: numbers in SI, known as well as the sides agree and to rounding.
+/// The figures that formulas claim, from both sides, in SI units. Their error covers the difference of the sides and
+/// rounding.
 ///
 /// # Errors
 /// Those of [`Measured::value`].
@@ -42,7 +43,7 @@ pub(super) fn claimed(
     Ok(found)
 }
 
-/// Figures computed by one analytic side. The means over a turn are computed once, if one is asked for.
+/// Figures computed by one analytic side. The means over a turn are computed once, at the first request.
 pub(super) struct Measured<'a> {
     case: &'a Case,
     solver: &'a dyn Solver,
@@ -55,10 +56,10 @@ impl<'a> Measured<'a> {
         Measured { case, solver, means: None }
     }
 
-    /// A figure in SI.
+    /// A figure in SI units.
     ///
     /// # Errors
-    /// Those of the means over a turn, and of a motor that no speed of balances the resistance.
+    /// Those of the means over a turn. If no speed of the motor balances the resistance.
     pub(super) fn value(&mut self, figure: MechanismFigure) -> Result<f64> {
         Ok(match figure {
             MechanismFigure::ReducedInertiaMean => self.means()?.inertia,
@@ -81,7 +82,7 @@ impl<'a> Measured<'a> {
     /// Steady speeds of the crank and of the motor (rad/s).
     fn steady(&mut self) -> Result<[f64; 2]> {
         let case = self.case;
-        // A scenario with this figure has one; a case that is changed afterwards may not.
+        // A scenario with this figure has a motor. A case that is changed afterwards may not.
         let no_motor = || Error::new(ErrorKind::Input, sentences::THE_STEADY_SPEED_NEEDS_A_MOTOR);
         let motor = case.crank().motor().ok_or_else(|| no_motor().help(sentences::ADD_MOTOR_OR_LEAVE_THE_FIGURE))?;
         // The motor acts in the direction in which the crank is driven.
@@ -94,7 +95,7 @@ impl<'a> Measured<'a> {
         Ok([crank, crank * motor.ratio])
     }
 
-    /// Distance of two points at t = 0 by this side (m).
+    /// Distance of two points at t = 0, computed by this side (m).
     fn distance(&self, ends: [JointSide; 2]) -> Result<f64> {
         let base = self.case;
         let grid = Grid::of_times(base.crank(), vec![0.0]);

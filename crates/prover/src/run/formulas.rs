@@ -12,20 +12,20 @@ use crate::tolerance::{BoundBasis, Tolerance};
 /// What formulas come to.
 #[derive(Clone, Debug)]
 pub struct Judgement {
-    /// What the sides say of every claim: by value, then by derivative.
+    /// Judgements of the sides on every claim: by value, then by derivative.
     pub sides: EachSide<Vec<Vec<JudgedFormula>>>,
-    /// The formulas that are wrong by name, each with the cause if it is a simple one.
+    /// The wrong formulas by name, each with its cause if it is a simple one.
     pub causes: Vec<(String, Option<FormulaCause>)>,
-    /// Those of them that somewhere have no value by name, each with the operation that has none.
+    /// Wrong formulas without a value somewhere: by name, each with the undefined operation.
     pub undefined: BTreeMap<String, Undefined>,
-    /// Names of those whose search for a cause ended because its work was used up.
+    /// Names of the wrong formulas whose search for a cause used up its work.
     pub unsought: BTreeSet<String>,
     /// Operations that all searches took.
     pub work: u64,
 }
 
 impl Judgement {
-    /// What both sides say; why a formula is wrong is not sought.
+    /// Judgements of both sides. Causes of wrong formulas are not sought.
     pub fn of(sides: EachSide<Vec<Vec<JudgedFormula>>>) -> Self {
         Judgement { sides, causes: Vec::new(), undefined: BTreeMap::new(), unsought: BTreeSet::new(), work: 0 }
     }
@@ -63,7 +63,7 @@ pub fn checks(judgement: &Judgement) -> Vec<Check> {
     judgement.sides.iter().flat_map(of_side).collect()
 }
 
-/// The check of a judged formula; `why` says why it is wrong, where that is known.
+/// The check of a judged formula; `why` is the reason of its error, if known.
 fn check(side: Reference, judged: &JudgedFormula, why: &str) -> Check {
     let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
     let tolerance = Tolerance { bound, basis: BoundBasis::Formula { claimed: judged.claimed } };
@@ -77,7 +77,7 @@ fn check(side: Reference, judged: &JudgedFormula, why: &str) -> Check {
     })
 }
 
-/// A formula with its claim, and which derivative.
+/// Name of a formula with its claim and the order of its derivative.
 fn name(judged: &JudgedFormula) -> String {
     let of = match judged.order {
         0 => String::new(),
@@ -108,7 +108,8 @@ mod tests {
     use crate::run::solved::judge;
     use scenario::{Claim, of_repository};
 
-    /// Below 0.5 rad the formula has no value, but its rates have one, and are wrong by something else.
+    /// Below 0.5 rad the formula has no value. Its derivatives have values there, but these are wrong for another
+    /// reason.
     #[test]
     fn only_the_value_is_said_to_be_undefined() {
         let mut scenario = of_repository("scenarios/crank_rocker.toml");

@@ -1,5 +1,4 @@
-//! Judgement of one engine at some settings, by its runs: the estimate of their error, and the verdict channel by
-//! channel.
+//! Judgement of one engine at some settings by its runs: their estimated error, and the verdict channel by channel.
 
 use crate::sentences;
 use std::collections::BTreeSet;
@@ -21,26 +20,26 @@ use linkage::math::statistics::half_range;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, ChannelKind, ChannelSubject, Stage, Trajectory, Unit};
 
-/// Steps at the beginning of a free motion whose second differences come from later ones.
+/// Number of steps at the beginning of a free motion whose second differences come from later steps.
 const BEGINNING: f64 = 5.0;
 /// Share of the widest conclusive bound that rounding may take before the beginning is left out.
 const MOST_ROUNDING: f64 = 0.1;
 
-/// Values of one run that are copied for a comparison at a time.
+/// Number of values of one run that are copied at a time for a comparison.
 const COPIED: usize = 1_000_000;
-/// Channels that are compared at a time: each is looked for among them.
+/// Number of channels compared at a time. Each channel is searched for among them.
 const AT_A_TIME: usize = 256;
 
 /// Share of the widest conclusive bound from which a difference between sweeps counts.
 const COUNTS: f64 = 0.01;
 
-/// Speed that a link would gain in a step, over the range of its speed, from which the step says nothing about it.
+/// Ratio of a link's gain of speed in a step to the range of its speed, from which the step says nothing about it.
 const OUTRUN: f64 = 10.0;
 
-/// What a judgement is about.
+/// What is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Asks {
-    /// All channels, and the checks besides them.
+    /// All channels, and the additional checks.
     All,
     /// Reactions and balancing moment as the engine itself exerts them. Shaking force and moment are sums of them.
     OwnForces,
@@ -55,15 +54,15 @@ impl Asks {
     }
 }
 
-/// What an engine's runs are judged by.
+/// What an engine's runs are judged against.
 pub(super) struct Judge<'a> {
     pub(super) problem: Problem<'a>,
     pub(super) reference: &'a Observed,
     /// Scales of its channels.
     scales: Vec<f64>,
-    /// How well it is known.
+    /// Known errors of the reference.
     known: &'a Known,
-    /// Settings asked for; the search begins with them.
+    /// Requested settings; the search begins with them.
     pub(super) asked: Settings,
     /// What is judged.
     pub(super) asks: Asks,
@@ -72,7 +71,7 @@ pub(super) struct Judge<'a> {
 /// An engine at some settings, judged.
 pub(super) struct Judged {
     pub(super) proof: EngineProof,
-    /// The run that is judged.
+    /// The judged run.
     pub(super) run: Arc<Observed>,
     /// Share of instants left out because the step is too coarse for them.
     pub(super) too_coarse: f64,
@@ -116,12 +115,12 @@ impl<'a> Judge<'a> {
         Judge { asked, scales: self.scales.clone(), ..*self }
     }
 
-    /// The same for the forces that an engine exerts.
+    /// The same for the forces that an engine itself exerts.
     pub(super) fn of_own_forces(self) -> Self {
         Judge { asks: Asks::OwnForces, ..self }
     }
 
-    /// Whether the reference has a channel that is judged.
+    /// Whether the reference has a channel to judge.
     pub(super) fn has_channels(&self) -> bool {
         self.reference.trajectory.channels().iter().any(|channel| self.asks.has(channel.kind))
     }
@@ -148,8 +147,9 @@ impl<'a> Judge<'a> {
         Ok(Judged { proof, run, too_coarse })
     }
 
-    /// Whether a link of a free motion would gain more speed in a step than it ever has, and many times so: as from a
-    /// motor that is much too strong for what it moves. Runs at several such steps agree on what they all miss.
+    /// Whether a link of a free motion would gain many times more speed in a step than it ever has, as from a motor
+    /// that is much too strong for its load.
+    /// Runs at several such steps agree, because they all miss the motion.
     fn outruns(&self, step: f64) -> bool {
         let reference = &self.reference.trajectory;
         let times = reference.times();
@@ -165,8 +165,9 @@ impl<'a> Judge<'a> {
         })
     }
 
-    /// Largest growth of the differences between runs with more and more sweeps, of any position whose differences
-    /// count; of any force, if forces are judged that come from other worlds than the motion.
+    /// Largest growth of the differences between runs with more and more sweeps, over all positions whose differences
+    /// count.
+    /// If own forces are judged, it is the largest over these forces: they come from other worlds than the motion.
     fn growth(&self, runs: &Runs) -> f64 {
         let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
         let of = |(channel, scale): (&Channel, &f64)| {
@@ -201,7 +202,7 @@ impl<'a> Judge<'a> {
             let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(self.problem.case);
             let keep = self.kept(doubt, stage, case);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
-            // The copies of many instants are made and dropped by few channels at a time.
+            // Copies over many instants are made and dropped for a few channels at a time.
             for indices in indices.chunks((COPIED / keep.len().max(1)).clamp(1, AT_A_TIME)) {
                 let name = |channel: &'a Channel| (channel.of.as_str(), std::ptr::from_ref(channel.kind));
                 let asked: BTreeSet<_> = indices.iter().map(|&index| name(&channels[index])).collect();
@@ -226,7 +227,8 @@ impl<'a> Judge<'a> {
         Ok(all.into_iter().map(|(_, proof)| proof).collect())
     }
 
-    /// Whether the channels of a stage are judged, by row: where nothing jumps, from the first instant of `case` on.
+    /// Whether the channels of a stage are judged, by row: nothing jumps there, and the row is not before the first
+    /// instant of `case`.
     fn kept(&self, doubt: &Doubt, stage: Stage, case: &Case) -> Vec<bool> {
         let first = case.grid.times.iter().copied().fold(f64::INFINITY, f64::smaller);
         doubt
@@ -237,8 +239,9 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
-    /// The case without the instants of a beginning free motion at which second differences are carried back over
-    /// several steps, if their rounding would leave accelerations or forces open; `None` if it does not.
+    /// The case without the first instants of a free motion, at which second differences are carried back over several
+    /// steps.
+    /// `None` if their rounding leaves accelerations and forces conclusive.
     fn after_the_beginning(&self, engine: &dyn Engine) -> Result<Option<Case>> {
         let case = self.problem.case;
         let last = case.grid.times.iter().copied().fold(0.0, f64::larger);
@@ -253,7 +256,7 @@ impl<'a> Judge<'a> {
             stage >= Stage::Accelerations && self.asks.has(channel.kind) && noise > MOST_ROUNDING * wanted * scale
         });
         let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
-        // Impulses of the first steps are read from later ones, however small their rounding.
+        // Impulses of the first steps are read from later ones, whatever their rounding error.
         let impulses = self.asks == Asks::OwnForces;
         (is_open || impulses).then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
     }

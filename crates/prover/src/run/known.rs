@@ -1,5 +1,6 @@
-//! Uncertainty of the analytic sides, which is a part of every bound: rounding by the condition of the pose, and the
-//! error of integration from a third, tighter run. See docs/numerics/bounds.md.
+//! Uncertainty of the analytic sides, which is a part of every bound.
+//! Rounding errors follow from the condition of the pose, integration errors from a third, tighter run.
+//! See docs/numerics/bounds.md.
 
 use super::dependence::Dependence;
 use super::each_side::{EachSide, Reference};
@@ -15,8 +16,9 @@ use linkage::mechanism::GroupId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
-/// Wanted: relative error of an analytic side in well conditioned poses. Each derivative, and each linear solve for
-/// forces, multiplies the rounding of its input by the condition of the pose, here at most some tens.
+/// Chosen: relative error of an analytic side in well-conditioned poses.
+/// Each derivative, and each linear solve for forces, multiplies the rounding error of its input by the condition
+/// number of the pose, here at most some tens.
 pub(super) fn usual(stage: Stage) -> f64 {
     match stage {
         Stage::Positions => 1e-12,
@@ -25,7 +27,7 @@ pub(super) fn usual(stage: Stage) -> f64 {
     }
 }
 
-/// Power of the condition number that the rounding of a stage grows with.
+/// Power of the condition number with which the rounding error of a stage grows.
 fn power(stage: Stage) -> i32 {
     match stage {
         Stage::Positions => 1,
@@ -34,21 +36,23 @@ fn power(stage: Stage) -> i32 {
     }
 }
 
-/// Rounding of a position in a pose of condition number 1, in units in the last place.
+/// Rounding error of a position in a pose of condition number 1, in units in the last place.
 const ULPS: f64 = 16.0;
 
-/// Error of the integration over the difference to the tighter run: the tighter run has an error too. Where steps
-/// went over knots of a load's table, 3.2 times the difference was measured; steps end there now.
+/// Ratio of the integration error to the difference from the tighter run, which has an error too.
+/// Steps over knots of a load's table once gave 3.2 times the difference; steps end at knots now.
 const SAFETY: f64 = 4.0;
 
-/// Relative rounding in a stage at a pose of this condition number.
+/// Relative rounding error of a stage in a pose of this condition number.
 pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
     ULPS * f64::EPSILON * condition.powi(power(stage))
 }
 
-/// How much farther than any of their joints are from each other the mass centres of links are from them; 1 at least.
-/// Side 2 calculates with the places of mass centres: a joint is as uncertain as the last digit of its distance from
-/// there, and angles by as much over the distance of the joints. The links are those of `groups` and the driving ones.
+/// Ratio of the distance of mass centres from the joints of their links to the distance of these joints; 1 at least.
+/// Side 2 calculates with the positions of mass centres: a joint is as uncertain as the last digit of its distance from
+/// there.
+/// For angles, this uncertainty is divided by the distance of the joints.
+/// The links are those of `groups` and the driving ones.
 fn lever(case: &Case, groups: &[GroupId]) -> f64 {
     let own = groups.iter().flat_map(|&group| case.structure.groups[group].links.iter().copied());
     let (mut size, mut farthest) = (0.0f64, 0.0f64);
@@ -59,16 +63,20 @@ fn lever(case: &Case, groups: &[GroupId]) -> f64 {
     if size > 0.0 { (farthest / size).larger(1.0) } else { 1.0 }
 }
 
-/// Rounding of the places that a group is put together from, in units in the last place of their distance from the
-/// origin. On either side four places enter it: two outer joints, the inner one and an origin. Each coordinate is
-/// rounded by 0.3 units, root mean square, and the sixteen of two sides, without regard to each other, by 1.2: taken
-/// over three times.
+/// Rounding error of the positions from which a group is assembled, in units in the last place of their distance from
+/// the origin.
+/// On either side four positions contribute: two outer joints, the inner one and an origin.
+/// Each coordinate has a rounding error of 0.3 units, root mean square. The sixteen independent coordinates of both
+/// sides give 1.2 units.
+/// The constant is over three times that.
 const PLACES: f64 = 4.0;
 
-/// Rounding of the places of groups (m, in units of [`ULPS`]), and the shortest distance between the pins of a link
-/// (m): a group far from the origin is known to the last digit of that distance, its angles to as much over the
-/// distance of a link's pins. Every group adds its rounding to that of the groups before it, and they know nothing of
-/// each other: as the root of their number.
+/// Rounding error of the positions of groups (m, in units of [`ULPS`]), and the shortest distance between the pins of a
+/// link (m).
+/// A group far from the origin is known to the last digit of that distance. For its angles, this is divided by the
+/// distance of a link's pins.
+/// Every group adds its rounding error to that of the groups before it. The errors are independent and grow with the
+/// root of the number of groups.
 fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
     let (mut far, mut arm) = (0.0f64, f64::INFINITY);
     for group in groups.iter().map(|&group| &case.structure.groups[group]) {
@@ -78,40 +86,43 @@ fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
         for &link in &group.links {
             let pins: Vec<_> = joints().filter(|joint| joint.is_pin()).filter_map(|joint| joint.on(link)).collect();
             let apart = pins.iter().flat_map(|a| pins.iter().map(move |b| (a - b).norm())).fold(0.0, f64::larger);
-            // A link with one pin has its angle from elsewhere.
+            // The angle of a link with one pin comes from elsewhere.
             arm = if apart > 0.0 { arm.smaller(apart) } else { arm };
         }
     }
     [PLACES / ULPS * (groups.len() as f64).sqrt() * far, arm]
 }
 
-/// Errors allowed to the analytic sides, channel by channel. Each is judged by the numbers that it is made of: near a
-/// dead point of one group those of the others stay as they are.
+/// Errors allowed to the analytic sides, channel by channel.
+/// Each error is relative to the numbers that the channel is made of: a dead centre of one group does not enlarge the
+/// errors of other groups.
 pub(super) struct Known {
     /// Size of the numbers in every channel, in its unit.
     magnitudes: Vec<f64>,
-    /// The side whose channels these are.
+    /// The side with these channels.
     reference: Reference,
-    /// How strongly a motion under forces depends on them, channel by channel: the rounding of the forces is felt by as
-    /// much. Empty for a prescribed motion.
+    /// Sensitivity of a motion under forces to these forces, channel by channel. It also amplifies their rounding
+    /// errors.
+    /// Empty for a prescribed motion.
     pub(super) sensitivity: Vec<f64>,
-    /// Error of each side's integration in every channel, in its unit; zeros for a prescribed motion.
+    /// Integration error of each side in every channel, in its unit; zeros for a prescribed motion.
     integration: EachSide<Vec<f64>>,
     /// The groups that channels depend on.
     dependence: Dependence,
-    /// Condition number of the pose at every instant, so far in a motion under forces, for every set of groups; empty
-    /// as long as nobody needs it.
+    /// Condition number of the pose at every instant, for every set of groups. In a motion under forces it is the
+    /// largest so far.
+    /// Empty until it is needed.
     conditions: Vec<Vec<f64>>,
-    /// For every channel: see [`lever`] and [`placed`].
+    /// Factor on the rounding error of every channel: see [`lever`] and [`placed`].
     levers: Vec<f64>,
-    /// Size of the crank angle at every instant of a prescribed motion (rad): it is a double, and both sides get it.
+    /// Size of the crank angle at every instant of a prescribed motion (rad). Both sides get it as a rounded double.
     turned: Vec<f64>,
-    /// Whether a channel is an angle. The numbers of angles have their turns in them already.
+    /// Whether a channel is an angle. Angles already include their turns.
     is_angle: Vec<bool>,
 }
 
 impl Known {
-    /// What both sides' trajectories are known to, side 1 being the reference.
+    /// Known errors of both sides' trajectories, with side 1 as the reference.
     ///
     /// # Errors
     /// Those of the tighter runs.
@@ -122,7 +133,8 @@ impl Known {
         Known::beside(case, Reference::Assur, &analytic::AssurSolver, sides)
     }
 
-    /// The same, each trajectory with the side that makes the tighter run beside it. `solver` is the reference itself.
+    /// The same for any reference. Each trajectory comes with the solver of its tighter run; `solver` is the reference
+    /// itself.
     ///
     /// # Errors
     /// Those of the tighter runs.
@@ -157,7 +169,7 @@ impl Known {
         let all = own.channels().iter().zip(&dependence.of).zip(&magnitudes);
         let lever_of = |((channel, &set), &magnitude): ((&Channel, &usize), &f64)| {
             let (lever, [places, arm]) = of_sets[set];
-            // The numbers of coordinates have the distance from the origin in them already.
+            // The numbers of coordinates already include the distance from the origin.
             let over = if channel.kind.unit == Unit::Metre { arm.larger(magnitude) } else { arm };
             lever.larger(places / over)
         };
@@ -166,7 +178,7 @@ impl Known {
         Ok(Known { reference, sensitivity, magnitudes, integration, dependence, conditions, levers, turned, is_angle })
     }
 
-    /// Measures the condition of every pose, for a trajectory whose errors exceed those of well conditioned poses.
+    /// Measures the condition of every pose, for a trajectory with larger errors than those of well-conditioned poses.
     ///
     /// # Errors
     /// Those of the solver.
@@ -179,11 +191,12 @@ impl Known {
             let own = conditions(&case.mechanism, &case.structure.groups, &pose);
             for (set, worst) in sets.iter().zip(&mut worst) {
                 let own: f64 = match state.passing.filter(|_| !set.is_empty()) {
-                    // At a change point the condition of the pose has no bound, but no side calculates at that pose.
+                    // At a change point the condition number of the pose is unbounded, but no side calculates at that
+                    // pose.
                     Some(passing) => passing,
                     None => set.iter().map(|&group| own[group]).product(),
                 };
-                // What a motion under forces has lost once, it does not get back.
+                // A motion under forces does not regain lost accuracy.
                 *worst = if case.is_free() { worst.larger(own) } else { own };
             }
             all[row].clone_from(&worst);
@@ -199,16 +212,16 @@ impl Known {
         self.magnitudes[channel]
     }
 
-    /// Error of a side's integration in a channel, in its unit; zero in a prescribed motion.
+    /// Integration error of a side in a channel, in its unit; zero in a prescribed motion.
     pub(super) fn integration(&self, side: Reference, channel: usize) -> f64 {
         self.integration[side][channel]
     }
 
-    /// Relative rounding allowed in a channel of a stage at an instant.
+    /// Relative rounding error allowed in a channel of a stage at an instant.
     fn rounding(&self, stage: Stage, channel: usize, row: usize) -> f64 {
         let set = self.dependence.of[channel];
         let condition = self.conditions.get(row).map_or(1.0, |sets| sets[set]);
-        // The crank angle is rounded before either side begins: what it leaves is felt like any error of a position.
+        // The crank angle is rounded before either side begins. This rounding acts like any error of a position.
         let turned = self.turned.get(row).filter(|_| !self.is_angle[channel]);
         let turned = turned.map_or(0.0, |turned| f64::EPSILON * turned * condition.powi(power(stage)));
         usual(stage).larger(self.levers[channel] * of_condition(stage, condition)) + turned
@@ -221,7 +234,7 @@ impl Known {
         self.rounding(stage, channel, row) + share(integration, self.magnitudes[channel])
     }
 
-    /// How far a number of a side is known, in the channel's unit.
+    /// Known error of a number of a side, in the channel's unit.
     pub(super) fn at(&self, side: Reference, stage: Stage, channel: usize, row: usize) -> f64 {
         self.rounding(stage, channel, row) * self.magnitudes[channel] + self.integration[side][channel]
     }
@@ -246,7 +259,7 @@ mod tests {
     use linkage::case::{Grid, Wanted};
     use scenario::{Scenario, of_repository};
 
-    /// What a motion under forces has lost once, it does not get back; a prescribed one is as well known as its pose.
+    /// A motion under forces does not regain lost accuracy. A prescribed motion is as accurate as its pose.
     #[test]
     fn the_worst_condition_so_far_counts_under_forces() {
         let falls = |name: &str| {
@@ -263,8 +276,8 @@ mod tests {
         assert!(!falls("crank_rocker_runup.toml"));
     }
 
-    /// In a motion under forces both integrations are off: what the sides may be apart is what is known of both, their
-    /// common rounding once.
+    /// In a motion under forces both integrations have errors. The allowed difference of the sides includes both, and
+    /// their common rounding error once.
     #[test]
     fn sides_may_be_apart_by_what_is_known_of_both() {
         let case = of_repository("scenarios/crank_rocker_runup.toml").case;
@@ -283,14 +296,15 @@ mod tests {
         assert!(seen > 10, "{seen} channels have an error of their integration");
     }
 
-    /// Each derivative, and each solution for forces, is divided by the determinant of the pose once more.
+    /// Each derivative, and each solution for forces, divides once more by the determinant of the pose.
     #[test]
     fn rounding_grows_with_a_power_of_the_condition() {
         let grown = Stage::ALL.map(|stage| of_condition(stage, 2e3) / of_condition(stage, 1e3));
         assert_eq!(grown, [2.0, 4.0, 8.0, 8.0, 8.0]);
     }
 
-    /// Side 2 counts from mass centres: places on a link are as uncertain as the last digit of that distance.
+    /// Side 2 calculates from mass centres: positions on a link are as uncertain as the last digit of their distance
+    /// from there.
     #[test]
     fn a_mass_centre_far_from_its_joints_is_a_lever_of_rounding() {
         let Scenario { text, path, .. } = of_repository("scenarios/crank_rocker.toml");
@@ -298,12 +312,12 @@ mod tests {
         let far = text[..text.find("[[oracle]]").unwrap()]
             .replace("x_mm = 250, y_mm = 0 } # S3", "x_mm = 2500, y_mm = 0 } # S3");
         assert_eq!(of(&text), 1.0);
-        // 2.5 m over the 0.347 m of the coupler.
+        // 2.5 m divided by the 0.347 m of the coupler.
         assert!((7.0..7.5).contains(&of(&far)), "{}", of(&far));
     }
 
-    /// At a change point the condition of the pose has no bound, but that of the way through it has: an error of a
-    /// millionth is found there.
+    /// At a change point the condition number of the pose is unbounded, but that of the passage through it is not. An
+    /// error of a millionth is found there.
     #[test]
     fn numbers_at_a_change_point_are_known_to_a_millionth() {
         let case = of_repository("tests/outside/scenarios/parallel_cranks_passing.toml").case;
@@ -321,7 +335,7 @@ mod tests {
         assert!(known.conditions[2].iter().any(|condition| *condition > 1.0), "{:?}", known.conditions);
     }
 
-    /// Four-bars in a row, each driving the next, from `from` (m) on, at some crank angles (rad).
+    /// Four-bars in a row, each driving the next, starting at `from` (m), at some crank angles (rad).
     fn row(count: usize, from: f64, cranks: &[f64]) -> Case {
         use std::fmt::Write as _;
         let mut text = String::from("format = 1\nname = \"row\"\ntitle = \"row\"\n[ground.points]\n");
@@ -357,8 +371,9 @@ mod tests {
         case.on(Grid::of_inputs(case.crank(), cranks.to_vec())).unwrap()
     }
 
-    /// Symptom: four-bars in a row, and one of them far away, disagree with themselves at 90 deg, where their condition
-    /// is 1. Places are known to the last digit of their distance, and each four-bar adds its rounding.
+    /// Symptom: for four-bars in a row, and for a single one far away, the sides disagree at 90 deg, where the
+    /// condition number is 1.
+    /// Positions are known to the last digit of their distance, and each four-bar adds its rounding error.
     #[test]
     fn a_row_of_four_bars_is_known_to_the_digits_of_its_places() {
         let motion = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
@@ -375,9 +390,9 @@ mod tests {
                 let relative = share((values[0] - values[1]).abs(), known.magnitude(index));
                 assert!(relative <= apart, "{count} from {from} m, {channel}: {relative:e} {apart:e}");
                 beyond += usize::from(relative > usual(stage));
-                // A fault of a fixed size is found: a ten-millionth, where the last digit of a place is 1.5e-11 m.
+                // A fault of fixed size is found: a ten-millionth, while the last digit of a position is 1.5e-11 m.
                 assert!(apart < 1e-7, "{count} from {from} m, {channel}: {apart:e}");
-                // That digit and no more: what is known of a coordinate does not go by the distance twice.
+                // The bound on a coordinate is that digit and no more: the distance counts only once.
                 let coordinate = channel.kind.unit == Unit::Metre;
                 assert!(!coordinate || apart < 1.1e-12, "{count} from {from} m, {channel}: {apart:e}");
             }

@@ -1,4 +1,4 @@
-//! What a proof has done, part by part, and what it could leave out.
+//! What a proof has done, part by part, and what it has skipped.
 
 use linkage::work::{Work, counted};
 
@@ -7,9 +7,9 @@ use linkage::work::{Work, counted};
 pub struct LedgerEntry {
     /// The part.
     pub part: String,
-    /// Why it was done, or why not.
+    /// Why it was done or skipped.
     pub why: &'static str,
-    /// What it took; `None` if it was not done.
+    /// Its work; `None` if it was skipped.
     pub work: Option<Work>,
 }
 
@@ -18,14 +18,14 @@ pub struct LedgerEntry {
 pub struct Ledger(pub(super) Vec<LedgerEntry>);
 
 impl Ledger {
-    /// Does a part and counts it.
+    /// Runs a part and counts its work.
     pub(super) fn done<T>(&mut self, part: impl Into<String>, why: &'static str, run: impl FnOnce() -> T) -> T {
         let (answer, work) = counted(run);
         self.0.push(LedgerEntry { part: part.into(), why, work: Some(work) });
         answer
     }
 
-    /// Notes a part that was not done.
+    /// Records a part that was skipped.
     pub(super) fn skipped(&mut self, part: impl Into<String>, why: &'static str) {
         self.0.push(LedgerEntry { part: part.into(), why, work: None });
     }

@@ -1,7 +1,8 @@
 //! Memory that a run needs, estimated before it begins.
 //!
-//! A run holds whole trajectories: 8 bytes for every value. Which runs an engine needs is not known beforehand; the
-//! estimate takes what most searches need. Measured peaks lie between half of it and twice.
+//! A run holds whole trajectories: 8 bytes for every value.
+//! The runs of an engine are not known beforehand, so the estimate covers what most searches need.
+//! Measured peaks lie between half and twice the estimate.
 //! See docs/numerics/settings.md.
 
 use crate::sentences;
@@ -12,59 +13,61 @@ use scenario::Oracle;
 
 /// Memory allowed by default (bytes).
 pub(crate) const MOST: f64 = 4e9;
-/// Memory that a run has besides its instants (bytes).
+/// Memory of a run without its instants (bytes).
 const ELSE: f64 = 2e7;
-/// Trajectories of a proof at its peak: two sides, the three runs that are judged, one with other sweeps, the
-/// best one so far, one being made.
+/// Number of trajectories of a proof at its peak: two sides, the three judged runs, one with other sweeps, the best one
+/// so far, and one in progress.
 const TRAJECTORIES: f64 = 8.0;
-/// Kept runs of an engine at the peak: steps that are halved a few times, and other sweeps for some of them.
+/// Number of kept runs of an engine at the peak: steps that are halved a few times, and other sweeps for some of them.
 const RUNS: f64 = 12.0;
-/// Values of an instant besides its channels: time, crank angle, order, openings, powers.
+/// Number of values of an instant besides its channels: time, crank angle, order, openings, powers.
 const BESIDE: usize = 6;
 
 /// Estimated memory (bytes) of a proof of a case by engines, one after the other.
 #[must_use]
 pub fn of_proof(case: &Case, engines: usize) -> f64 {
-    // Of every engine its trajectory is left.
+    // The trajectory of every finished engine is kept.
     let trajectories = TRAJECTORIES + engines.saturating_sub(1) as f64;
     let row = trajectories * trajectory(case) + RUNS * Rows::bytes_of_row(case) as f64;
     ELSE + case.grid.len() as f64 * row
 }
 
-/// Memory of a number of a table: as it was read, with its digits, and as what it is held against (bytes).
+/// Memory of a number of a table (bytes): as it was read, with its digits, and with the number that it is compared
+/// with.
 const OF_NUMBER: f64 = 88.0;
 /// Memory of a row of a table besides its numbers (bytes).
 const OF_ROW: f64 = 50.0;
 
-/// Estimated memory (bytes) of comparing a table of some rows by `claims` with both sides, solved in `channels`.
+/// Estimated memory (bytes) of comparing a table with some `rows` and `claims` with both sides, solved in `channels`.
 #[must_use]
 pub fn of_comparison(rows: usize, claims: usize, channels: usize) -> f64 {
     let solved = (2 * (channels + BESIDE) * size_of::<f64>()) as f64;
     ELSE + rows as f64 * (solved + claims as f64 * OF_NUMBER + OF_ROW)
 }
 
-/// Estimated memory (bytes) of what both sides answer to the numbers of other sources.
+/// Estimated memory (bytes) of the values of both sides for the numbers of other sources.
 #[must_use]
 pub fn of_oracles(oracles: &[Oracle]) -> f64 {
     let series: Vec<usize> = oracles.iter().flat_map(|own| &own.series).map(|own| own.instants().count()).collect();
     let (rows, numbers) = (series.iter().copied().max().unwrap_or(0), series.iter().sum::<usize>());
-    // Rounded instants are solved at one end after the other, beside what is known so far.
+    // For rounded instants, the ends of the rounding interval are solved one after the other, and earlier solutions are
+    // kept.
     let is_rounded = oracles.iter().flat_map(|own| &own.series).any(|own| own.all().any(|point| point.at_error > 0.0));
     let trajectories = if is_rounded { 5 } else { 2 };
     let solved = (trajectories * (2 * series.len() + BESIDE) * size_of::<f64>()) as f64;
     rows as f64 * (solved + OF_ROW) + numbers as f64 * OF_NUMBER
 }
 
-/// Checks that what an input needs (bytes) is allowed before it is taken; `what` it is.
+/// Checks that the memory for an input (bytes) is allowed, before it is taken. `what` names the input.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] with the ways out.
+/// [`ErrorKind::Unsupported`] with advice.
 pub fn check_input(what: &str, needed: f64, most: Option<f64>) -> Result<()> {
     let fewer = Advice::Text(sentences::GIVE_FEWER_ROWS_OR_FEWER.into());
     allowed(needed, most, || sentences::needs_about_of_memory(&what, &gigabytes(needed)), fewer)
 }
 
-/// Checks that `needed` (bytes) is allowed, with what an error begins with and a way to need less.
+/// Checks that `needed` (bytes) is allowed. `what` is the beginning of the error, `fewer` the advice to need less.
 fn allowed(needed: f64, most: Option<f64>, what: impl FnOnce() -> String, fewer: Advice) -> Result<()> {
     let most = most.unwrap_or(MOST);
     if needed <= most {
@@ -86,15 +89,15 @@ fn trajectory(case: &Case) -> f64 {
     ((case.channels().len() + BESIDE) * size_of::<f64>()) as f64
 }
 
-/// Checks that `needed` (bytes) is allowed: `most`, or the default.
+/// Checks that `needed` (bytes) is at most `most`, or the default.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] with the size of the run and the ways out.
+/// [`ErrorKind::Unsupported`] with the size of the run and advice.
 pub fn check(case: &Case, needed: f64, most: Option<f64>) -> Result<()> {
     allowed(needed, most, || told(case, needed), Advice::FewerInstants).map_err(|error| error.key("grid"))
 }
 
-/// What a run needs, in words.
+/// Memory that a run needs, in words.
 #[must_use]
 pub fn told(case: &Case, needed: f64) -> String {
     let (instants, channels) = (case.grid.len(), case.channels().len());

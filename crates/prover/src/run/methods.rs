@@ -14,8 +14,8 @@ use linkage::math::{KeepNan, cross};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-/// Largest difference that rounding allows, relative to the largest value of the quantity. It is the bound on forces
-/// between the two analytic sides, which also need as many linear equations.
+/// Largest difference that rounding allows, relative to the largest value of the quantity.
+/// It equals the bound on forces between the two analytic sides, which solve as many linear equations.
 const BOUND: f64 = 1e-10;
 
 /// The compared quantities: directions, angular velocities, angular accelerations, forces.
@@ -37,13 +37,13 @@ struct Worst {
 impl Worst {
     fn put(&mut self, quantity: Quantity, difference: f64, crank: f64) {
         let worst = &mut self.differences[quantity as usize];
-        // Written so that NaN is taken in and kept.
+        // Written so that NaN is recorded and kept.
         if !(difference <= worst.0) && !worst.0.is_nan() {
             *worst = (difference, crank);
         }
     }
 
-    /// The method's answer; its first error is kept.
+    /// The method's answer. Its first error is kept.
     fn answer<T>(&mut self, answer: Result<T>) -> Option<T> {
         match answer {
             Ok(answer) => Some(answer),
@@ -73,7 +73,7 @@ struct Watch {
     triad: Triad,
     scales: [f64; 4],
     cramer: Worst,
-    /// `None` where the group's layout does not allow it.
+    /// `None` if the group's layout does not allow it.
     change: Option<(ClassChange, Worst)>,
     assur_point: Worst,
     linear: Worst,
@@ -130,7 +130,7 @@ impl Watch {
             }
             rates(worst, found.rates(drive.rate, drive.acceleration));
         }
-        // In the instant of starting, loads already act against a motion that the state does not show yet.
+        // At the instant of starting, loads already act against a motion that the state does not show yet.
         let setting_off = case.is_free() && drive.rate == 0.0;
         if deepest >= Stage::Reactions && !setting_off {
             let known = self.triad.known(case, state);
@@ -165,7 +165,7 @@ impl Watch {
     }
 }
 
-/// Whether there is anything that published methods could check.
+/// Whether published methods apply to the case.
 pub(super) fn apply(case: &Case) -> bool {
     case.wanted.deepest() >= Stage::Velocities && !Triad::all(case).is_empty()
 }
@@ -204,8 +204,8 @@ fn crank_of(case: &Case, row: usize, state: &State) -> InputState {
 mod tests {
     use super::*;
 
-    /// A method that fails has judged no more than the instants before: whatever they say, its first error is the
-    /// reason.
+    /// A method that fails has judged only the instants before. Its first error is the reason, whatever these instants
+    /// say.
     #[test]
     fn a_method_that_fails_proves_nothing() {
         for before in [0.0, 1e-3] {
@@ -222,7 +222,7 @@ mod tests {
         }
     }
 
-    /// At whichever instant: a NaN is taken in and kept, and no number of the method is right then.
+    /// A NaN at any instant is recorded and kept: no number of the method then counts as right.
     #[test]
     fn a_method_without_a_number_at_one_instant_disagrees() {
         for values in [[f64::NAN, 0.0, 1e-13], [0.0, f64::NAN, 1e-13], [1e-13, 0.0, f64::NAN], [-f64::NAN, 0.0, 0.0]] {
@@ -237,7 +237,7 @@ mod tests {
         let mut worst = Worst::default();
         worst.put(Quantity::Force, 1e-13, 0.0);
         assert_eq!(worst.check("a method", "", [1.0; 4]).verdict.word(), "agree");
-        // Fixed sizes: 1e-9 of the largest force is wrong, at whichever quantity.
+        // Fixed size: an error of 1e-9 of the largest value is wrong, in any quantity.
         for quantity in [Quantity::Angle, Quantity::Omega, Quantity::Alpha, Quantity::Force] {
             let mut worst = Worst::default();
             worst.put(quantity, 1e-9, 0.0);

@@ -1,5 +1,6 @@
-//! How far an engine's channels are from being conclusive, which part of its bounds dominates, and whether the remaining
-//! work suffices. See docs/numerics/settings.md.
+//! Distance of an engine's channels from being conclusive, the dominant part of its bounds, and whether the remaining
+//! work suffices.
+//! See docs/numerics/settings.md.
 
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
@@ -8,9 +9,9 @@ use super::judge::Judged;
 use crate::bounds::Verdict;
 use crate::tolerance::BoundPart;
 
-/// Share of instants that may be left out because they are too close to a reversal for the step.
+/// Largest share of instants that may be left out because they are too close to a reversal for the step.
 pub(super) const MOST_LEFT_OUT: f64 = 0.03;
-/// Need of a step that leaves out more, over what is wanted.
+/// Need of a step that leaves out more, relative to the requested bound.
 const LEFT_OUT: f64 = 2.0;
 
 /// What is farthest from being conclusive.
@@ -25,21 +26,21 @@ pub(super) enum Of {
 /// How far a trial is from being conclusive.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(super) struct Need {
-    /// Whether the runs show no order, so that the bound means little.
+    /// Whether the runs show no order of convergence, so that the bound means little.
     pub(super) is_vague: bool,
-    /// Largest bound over what is wanted.
+    /// Largest ratio of a bound to the requested bound.
     pub(super) share: f64,
-    /// What it is that needs it.
+    /// What this ratio belongs to.
     pub(super) of: Of,
 }
 
 impl Need {
-    /// Whether a bound that means something is at most `most` of what is wanted.
+    /// Whether a meaningful bound is at most `most` times the requested one.
     pub(super) fn is_within(self, most: f64) -> bool {
         !self.is_vague && self.share <= most
     }
 
-    /// Whether this is at most `part` of another need, or shows an order where that one does not.
+    /// Whether this is at most `part` of another need, or shows an order of convergence and the other does not.
     pub(super) fn is_less(self, part: f64, other: Need) -> bool {
         match (self.is_vague, other.is_vague) {
             (false, true) => true,
@@ -48,26 +49,27 @@ impl Need {
         }
     }
 
-    /// Whether all that is missing is a step that leaves out fewer instants.
+    /// Whether it only needs a step that leaves out fewer instants.
     pub(super) fn is_of_instants(self) -> bool {
         !self.is_vague && self.of == Of::Instants
     }
 }
 
-/// Part of a bound up to which the sweeps share the blame for it.
+/// Largest share of the sweeps in a bound at which the step is also to blame.
 const SHARED: f64 = 0.8;
 
-/// What is to blame for the largest bound.
+/// Cause of the largest bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Blame {
     /// Its largest part.
     pub(super) part: BoundPart,
-    /// Whether that is the sweeps, but the step leaves a good part too: half the step makes both smaller.
+    /// Whether the largest part comes from the sweeps but the step contributes a good part too: half the step reduces
+    /// both.
     pub(super) is_shared: bool,
 }
 
-/// The largest bound of a channel or check over what is wanted, `wanted` of its scale, and what is to blame.
-/// Those whose runs show no order come first.
+/// The largest ratio of a bound of a channel or check to the requested bound (`wanted` times its scale), and its cause.
+/// Those whose runs show no order of convergence come first.
 pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     let channels =
         judged.proof.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
@@ -82,12 +84,12 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = share(parts.sum(), wanted * scale);
         let is_open = matches!(verdict, Verdict::Inconclusive { .. });
-        // Open for another reason than its bound: no setting changes that.
+        // A verdict that is inconclusive for another reason than its bound needs nothing: no setting changes it.
         let is_vague = is_open && !convergence.is_trusted();
         let share = if is_open && !is_vague && share <= 1.0 { 0.0 } else { share.larger(0.0) };
         let own = Need { is_vague, share: if share.is_nan() { f64::INFINITY } else { share }, of: Of::Bound };
         if own > worst.0 {
-            // Where no order is seen, the sweeps are to blame as soon as they leave a part that counts.
+            // Without an observed order, the sweeps are to blame as soon as their part counts.
             let sweeps = is_vague && 10.0 * parts.iteration > parts.discretisation;
             let part = if sweeps { BoundPart::Iteration } else { parts.largest() };
             worst = (
@@ -99,21 +101,22 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     worst
 }
 
-/// Rounds before a pace is told: the first ones show whether the settings mean anything.
+/// Number of rounds before a pace is determined. The first rounds show whether the settings are meaningful.
 const ROUNDS: usize = 4;
-/// Factor on the observed exponent: extrapolation may gain speed as the runs become smooth. Searches that end well
-/// gain twice as fast at the end as in their first rounds at most (all shipped scenarios).
+/// Factor on the observed exponent: extrapolation may become faster as the runs become smooth.
+/// In successful searches the last rounds gain at most twice as fast as the first ones (all shipped scenarios).
 const OPTIMISM: f64 = 2.0;
 
-/// The rounds of a search: work so far, and the least need so far.
+/// The rounds of a search: work so far, and the smallest need so far.
 #[derive(Default)]
 pub(super) struct Pace {
     rounds: Vec<[f64; 2]>,
 }
 
 impl Pace {
-    /// Notes a round that ends with this work done. Returns whether `budget` is too little by far: the need falls with a
-    /// power of the work, and even with twice the power seen in the last rounds it stays above 1.
+    /// Records a round that ends with this work done. Returns whether `budget` is far too small.
+    /// The need falls with a power of the work. The budget is too small if the need stays above 1 even with twice the
+    /// power of the last rounds.
     pub(super) fn is_too_slow(&mut self, effort: f64, need: Need, budget: f64) -> bool {
         let least = self.rounds.last().map_or(f64::INFINITY, |[_, least]| *least).smaller(need.share);
         self.rounds.push([effort, least]);
@@ -131,46 +134,47 @@ impl Pace {
     }
 }
 
-/// Rounds without an order of convergence after which more sweeps are tried instead of a smaller step.
+/// Number of rounds without an order of convergence after which more sweeps are tried instead of a smaller step.
 const MOST_VAGUE: usize = 2;
-/// Part of the bound down to which half the step must bring it, so that it is not the sweeps that are too few.
+/// Largest ratio of the bounds after and before halving the step at which the number of sweeps counts as sufficient.
 const BRINGS: f64 = 0.7;
-/// Part of the bound down to which more sweeps must bring it to be worth their work.
+/// Largest ratio of the bounds after and before more sweeps at which these are worth their work.
 const HELPS: f64 = 0.5;
-/// Rounds with finer steps and wider bounds after which rounding is to blame, also where the engine's noise is thought
-/// to be less.
+/// Number of rounds with finer steps and wider bounds after which rounding is to blame, even if the engine's assumed
+/// noise is less.
 const MOST_WIDER: usize = 2;
-/// Rounds that pass before more sweeps are tried again, where they have brought little.
+/// Number of rounds before more sweeps are tried again, if they have helped little.
 const PATIENCE: usize = 3;
 
-/// What a search has seen of steps that do not bring it on.
+/// What a search has seen of steps without progress.
 #[derive(Default)]
 pub(super) struct Stall {
-    /// Need of the round before, with as many sweeps.
+    /// Need of the round before, with the same number of sweeps.
     before: Option<Need>,
-    /// Rounds without an order of convergence, one after the other.
+    /// Number of consecutive rounds without an order of convergence.
     vague: usize,
-    /// Rounds in which half the step has made the bound wider, one after the other.
+    /// Number of consecutive rounds in which half the step has made the bound wider.
     wider: usize,
-    /// Sweeps of the round before, and its need, if more sweeps are just tried.
+    /// Sweeps and need of the round before, if more sweeps are being tried.
     tried: Option<(usize, Need)>,
-    /// Rounds until more sweeps may be tried again.
+    /// Number of rounds until more sweeps may be tried again.
     wait: usize,
 }
 
 /// What a search does next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Next {
-    /// It changes what this part depends on.
+    /// It changes the settings that this part depends on.
     Blames(BoundPart),
-    /// It goes back to as many sweeps, and takes a smaller step.
+    /// It goes back to this number of sweeps, and takes a smaller step.
     Returns(usize),
 }
 
 impl Stall {
-    /// What to do after a round with `sweeps`, by its need and the part that is to blame. Too few sweeps may hide the
-    /// order of the step, and what they leave does not always show: where a smaller step brings little, more sweeps are
-    /// tried, if they are `free`, and are given up where they bring little too.
+    /// What to do after a round with `sweeps`, by its need and the part that is to blame.
+    /// Too few sweeps may hide the order of the step, and their error does not always show.
+    /// If a smaller step helps little, more sweeps are tried, provided that they are `free`. They are given up if they
+    /// help little too.
     pub(super) fn look_closer(&mut self, need: Need, blame: BoundPart, sweeps: usize, free: bool) -> Next {
         self.vague = if need.is_vague { self.vague + 1 } else { 0 };
         let before = self.before.replace(need);
@@ -203,7 +207,7 @@ impl Stall {
 mod tests {
     use super::*;
 
-    /// Whether a search is given up in its last round, of rounds with work and need.
+    /// Whether a search is given up in its last round. Each round is its work and its need.
     fn given_up(rounds: &[(f64, f64)], budget: f64) -> bool {
         let mut pace = Pace::default();
         let told = rounds
@@ -225,7 +229,7 @@ mod tests {
     #[test]
     fn a_search_that_gets_on_is_not_given_up() {
         assert!(!given_up(&[(1.8e3, 67.3), (3.7e3, 20.3), (7.4e3, 5.7), (1.6e4, 1.9)], 1e6));
-        // Nor one that has just begun to show a bound, or that has one that decides.
+        // A search that has just begun to show a bound, or has a conclusive bound, is not given up either.
         let infinite = f64::INFINITY;
         assert!(!given_up(&[(1e3, infinite), (2e3, infinite), (4e3, infinite), (8e3, 3e4)], 1e6));
         assert!(!given_up(&[(1e3, 0.9), (2e3, 0.9), (4e3, 0.9), (8e3, 0.9)], 1e6));
@@ -233,7 +237,7 @@ mod tests {
 
     #[test]
     fn the_same_rounds_may_do_with_more_work() {
-        // The need falls as the work grows: a hundredth of it is missing.
+        // The need falls as the work grows. A budget that is a hundred times larger suffices.
         let rounds = [(1e3, 8e4), (2e3, 4e4), (4e3, 2e4), (8e3, 1e4)];
         assert!(given_up(&rounds, 1e5) && !given_up(&rounds, 1e7));
     }
@@ -242,7 +246,7 @@ mod tests {
         Need { is_vague: false, share, of: Of::Bound }
     }
 
-    /// The rounds of a search: need, blame and sweeps, and what it does next.
+    /// Next actions of a search after rounds with these needs and sweeps.
     fn follow(rounds: &[(f64, usize)]) -> Vec<Next> {
         let mut stall = Stall::default();
         let next =

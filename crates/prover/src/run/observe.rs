@@ -11,44 +11,45 @@ use linkage::mechanism::{JointSide, LinkId, LinkPose, Pose};
 use linkage::solver::{Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
-/// What is observed of a run besides its trajectory.
+/// Quantities observed during a run besides its trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Watch {
-    /// All of it, for an analytic side.
+    /// All quantities, for an analytic side.
     Side,
-    /// What an engine's checks need: closure and balance of powers.
+    /// Quantities for an engine's checks: closure and balance of powers.
     Engine,
     /// What loads sense.
     Senses,
 }
 
-/// A trajectory and the quantities observed while it was computed. Those that are not watched are empty or zero.
+/// A trajectory and the quantities observed while it was computed. Quantities that are not observed are empty or zero.
 #[derive(Clone, Debug)]
 pub(super) struct Observed {
     pub(super) trajectory: Trajectory,
     /// Largest distance between the two sides of a joint (m) at every instant.
     pub(super) opening: Vec<f64>,
-    /// What the loads that depend on a sense of motion sense at every instant: the angular velocity of a link (rad/s,
-    /// as x) or the velocity of a point (m/s), load by load.
+    /// Velocities whose direction loads depend on, at every instant, load by load.
+    /// It is the angular velocity of a link (rad/s, as x) or the velocity of a point (m/s).
     pub(super) senses: Senses,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
-    /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. For
-    /// a crank whose speed changes, it is multiplied by the crank's speed over its top speed; in a motion under forces,
-    /// over the largest speed that a driving link reaches, if that is larger.
+    /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is requested.
+    /// For a crank whose speed changes, it is multiplied by the crank's speed over its top speed.
+    /// In a motion under forces, the largest speed of a driving link replaces the top speed if it is larger.
     pub(super) power: Vec<f64>,
     /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant; multiplied in the same way.
     pub(super) torque: Vec<f64>,
-    /// The larger of two ratios over the run. One is the largest difference between the shaking force from reactions
-    /// and from momentum, over the largest force in a joint. The other is the same for the shaking moment, over the
-    /// largest moment of such a force about the origin.
+    /// The larger of two ratios over the run.
+    /// The first is the largest difference between the shaking force from reactions and from momentum, over the largest
+    /// force in a joint.
+    /// The second is the same for the shaking moment, over the largest moment of such a force about the origin.
     pub(super) unbalance: Option<f64>,
     /// Largest moment on the driving link (N m): the balancing moment, or the moment of a joint's force at the link's
     /// length.
     pub(super) moment: f64,
     /// Largest condition number by which a side passes a change point; 1 if it passes none.
     pub(super) passing: f64,
-    /// Where a side passes a change point at which the pose itself is singular, by row; empty if it passes none.
+    /// Whether a side passes a change point with a singular pose, by row; empty if it passes none.
     pub(super) singular: Vec<bool>,
 }
 
@@ -57,7 +58,7 @@ pub(super) struct Observed {
 pub(super) struct Senses {
     each: usize,
     values: Vec<Vec2>,
-    /// Whether the load would jump if what it senses reversed there.
+    /// Whether the load would jump if this velocity reversed there.
     jumps: Vec<bool>,
 }
 
@@ -71,7 +72,7 @@ impl Senses {
         &self.values[row * self.each..][..self.each]
     }
 
-    /// Whether the loads jump if what they sense reverses there, load by load.
+    /// Whether the loads jump if their velocities reverse there, load by load.
     pub(super) fn jumps(&self, row: usize) -> &[bool] {
         &self.jumps[row * self.each..][..self.each]
     }
@@ -84,8 +85,8 @@ impl Observed {
     }
 
     /// Largest difference between the balancing moment of the trajectory and that of the powers, over the moments in
-    /// the balance. Where the balancing moment vanishes, these moments balance each other, and only their rounding is
-    /// left.
+    /// the balance.
+    /// If the balancing moment vanishes, these moments balance each other and only their rounding error remains.
     pub(super) fn two_ways(&self) -> f64 {
         share(largest_size(&self.moment_gap().collect::<Vec<f64>>()), self.moment)
     }
@@ -101,7 +102,7 @@ impl Observed {
 pub(super) struct Stopped {
     pub(super) error: Error,
     pub(super) kept: Option<Box<Trajectory>>,
-    /// Work that was allowed, if other settings were left to try and only work was not.
+    /// Allowed work, if other settings remained to be tried but the work was spent.
     pub(super) spent: Option<f64>,
 }
 
@@ -146,8 +147,8 @@ pub(super) fn observe(
             (*opening, reach) = (own, reach.larger(far));
         }
         if with_power {
-            // A crank at rest has no power. Where the crank's speed changes, powers are compared, divided by the top
-            // speed below.
+            // A crank at rest has no power. If the crank's speed changes, powers are compared; they are divided by the
+            // top speed below.
             (power[row], torque[row]) = match steady {
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
                 false => (-power::of_known_forces(case, state), power_of_drives(case, state)),
@@ -172,7 +173,8 @@ pub(super) fn observe(
         return Err(Stopped { error, kept, spent: None });
     }
     if !steady {
-        // A free motion has only its nominal speed in the case, and may be much faster. An engine's may be rounding.
+        // A free motion may be much faster than its nominal speed in the case. The speed of an engine may be only
+        // rounding.
         let nominal = case.crank().top_speed();
         let top = if case.is_free() { fastest.larger(nominal.abs()) } else { nominal };
         power.iter_mut().chain(&mut torque).for_each(|power| *power = share(*power, top));
@@ -191,7 +193,7 @@ pub(super) fn observe(
     })
 }
 
-/// The motion whose sense a load depends on (rad/s as the first component, or m/s); zero where it stands still.
+/// The velocity whose direction a load depends on (rad/s as the first component, or m/s); zero at standstill.
 fn sensed(case: &Case, state: &State, load: &Load) -> Option<Vec2> {
     let of_link = |link: LinkId| Vec2::new(case.spin(&state.motions, link), 0.0);
     let of_point = |at: JointSide| match case.moves(&state.motions, at) {
@@ -201,7 +203,7 @@ fn sensed(case: &Case, state: &State, load: &Load) -> Option<Vec2> {
     load.sensed_link().map(of_link).or_else(|| load.sensed_point().map(of_point))
 }
 
-/// Places and directions of all links.
+/// Positions and directions of all links.
 pub(super) fn pose_of(state: &State) -> Pose {
     let frame =
         |motion: &Motion| LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) };
@@ -221,8 +223,9 @@ fn reduced_torque(case: &Case, state: &State) -> f64 {
     state.torques[0] + further.sum::<f64>()
 }
 
-/// Force (N) and moment about the origin (N m) that a state leaves open: a load on a link or point at rest already acts
-/// against the motion that begins, which the state does not show yet.
+/// Force (N) and moment about the origin (N m) that a state leaves undetermined.
+/// A load on a link or point at rest already acts against the motion that begins, but the state does not show this
+/// motion yet.
 fn open(case: &Case, state: &State, crank: f64) -> [f64; 2] {
     let mut open = [0.0; 2];
     for load in case.loads.iter().filter(|load| sensed(case, state, load) == Some(Vec2::zeros())) {
@@ -268,7 +271,7 @@ impl Unbalance {
 mod tests {
     use super::*;
 
-    /// Forces are measured by the largest force, moments by the largest moment, and the worse of both counts.
+    /// Forces are relative to the largest force, moments to the largest moment. The larger ratio counts.
     #[test]
     fn neither_forces_nor_moments_are_out_of_balance() {
         for (force, moment, wanted) in

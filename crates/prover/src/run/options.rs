@@ -9,7 +9,7 @@ use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::{EngineSetting, EngineSettings, Scenario};
 
-/// A method for each setting, which gives it.
+/// A method for each setting that sets it.
 macro_rules! setters {
     ($($(#[$doc:meta])* $name:ident: $kind:ty,)*) => {$(
         $(#[$doc])*
@@ -23,9 +23,11 @@ macro_rules! setters {
 
 /// Options of a proof.
 ///
-/// An option that is not given is taken from the scenario. If the scenario does not state it, the proof finds step,
-/// sweeps and extrapolation; of substeps, route and accuracy the engine's default applies. With a given step nothing is
-/// extrapolated unless asked for. Numbers are checked when the proof begins.
+/// An option that is not given is taken from the scenario.
+/// If the scenario does not state it, the proof finds step, sweeps and extrapolation. Substeps, route and accuracy then
+/// have the engine's default.
+/// With a given step nothing is extrapolated unless requested.
+/// Numbers are checked when the proof begins.
 ///
 /// ```
 /// use linkproof::Options;
@@ -43,24 +45,25 @@ macro_rules! setters {
 pub struct Options {
     /// Analytic side whose trajectory is the reference; the other side checks it.
     pub reference: Reference,
-    /// Engines and their settings; those that are free are the scenario's, or else found.
+    /// Engines and their settings. Settings that are free here come from the scenario, or are found.
     pub settings: EngineSettings,
-    /// Work allowed for finding settings that are not given, in steps without sweeps; the default is enough for most.
+    /// Work allowed to find settings that are not given, in steps without sweeps. The default is enough for most cases.
     pub budget: Option<f64>,
     /// Memory allowed (bytes); by default 4e9. A run that is estimated to need more does not begin.
     pub memory: Option<f64>,
 }
 
-/// An engine, what is given of its settings, and the work allowed for finding the others.
+/// An engine, its given settings, and the work allowed to find the others.
 pub struct Chosen {
     pub(crate) engine: Box<dyn Engine>,
-    /// A given route alone counts; where it is free, the engine's own forces are judged besides.
+    /// Given settings. A given route is the only one judged; if the route is free, the engine's own forces are judged
+    /// too.
     pub(crate) given: EngineSettings,
     pub(crate) budget: f64,
 }
 
 impl Chosen {
-    /// The same with `around` the engine.
+    /// The same with the engine wrapped by `around`.
     pub(crate) fn with_engine(self, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>) -> Self {
         Chosen { engine: around(self.engine), ..self }
     }
@@ -82,7 +85,7 @@ impl Options {
         self
     }
 
-    /// Options that give all settings of an engine. `None` if it is none of those that this project has.
+    /// Options that give all settings of an engine. `None` if it is not an engine of this project.
     pub fn exactly(engine: &dyn Engine) -> Option<Self> {
         let settings = EngineSettings::exactly(engine);
         (!settings.engines.is_free()).then(|| Options { settings, ..Options::default() })
@@ -108,13 +111,13 @@ impl Options {
         step: f64,
         /// Sets the relative accuracy of engines that control their error.
         accuracy: f64,
-        /// Sets the sweeps of the iteration in a step.
+        /// Sets the number of sweeps of the iteration in a step.
         sweeps: usize,
         /// Sets the number of substeps into which an engine divides a step.
         substeps: usize,
         /// Sets the route by which reactions and balancing moment are computed.
         route: Route,
-        /// Sets how often the engine's state is extrapolated to step zero.
+        /// Sets how many times the engine's state is extrapolated to step zero.
         extrapolated: usize,
     }
 
@@ -148,8 +151,8 @@ impl Options {
         Ok(chosen.into_iter().map(|chosen| chosen.engine).collect())
     }
 
-    /// The engines of a proof of a case. Settings that neither the options nor those of its scenario, `own`, give are
-    /// free.
+    /// The engines of a proof of a case. Settings are free if neither the options nor those of its scenario, `own`,
+    /// give them.
     ///
     /// # Errors
     /// Those of [`Options::set_engines`].
@@ -172,7 +175,7 @@ impl Options {
     }
 }
 
-/// An engine with the settings that are given. With `several` engines side by side, an engine that does not know a route
+/// An engine with the given settings. With `several` engines side by side, an engine that does not know the given route
 /// keeps its own.
 fn set(engine: Box<dyn Engine>, given: &EngineSettings, several: bool) -> Result<Box<dyn Engine>> {
     let defaults = engine.settings();

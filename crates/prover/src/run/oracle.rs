@@ -18,8 +18,8 @@ use linkage::trajectory::{Channel, Stage, Trajectory};
 use scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, When};
 
 /// One check for every series and figure of an oracle and for each analytic side.
-/// Series are those of channels of the problem's case, figures those of the `whole` mechanism.
-/// `integration` is the error of a side's integration in a channel, in its unit, for numbers of a motion under forces.
+/// Series are for channels of the problem's case, figures for the `whole` mechanism.
+/// `integration` is the integration error of a side in a channel, in its unit, for numbers of a motion under forces.
 pub(super) fn checks(
     problem: Problem,
     whole: &Case,
@@ -32,29 +32,29 @@ pub(super) fn checks(
     Ok(checks)
 }
 
-/// Rounding of an analytic side's number, in units in the last place of the largest number of its quantity. A printed
-/// number may have more digits than that.
+/// Rounding error of an analytic side's number, in units in the last place of the largest number of its quantity.
+/// A printed number may have more digits than that.
 const ULPS: f64 = 16.0;
 
-/// Most instants that all channels of a stage are solved at.
+/// Largest number of instants at which all channels of a stage are solved.
 const MOST: usize = 20_000;
 
-/// A side's trajectory, and the largest number of the quantity and the scale of every channel.
+/// A side's trajectory. For every channel, the largest number of its quantity, and its scale.
 type Side = (Trajectory, Vec<(Channel, [f64; 2])>);
 
-/// What both sides have found.
+/// Results of both sides.
 struct Solved {
     sides: EachSide<Side>,
     rounded: RoundedInstants,
 }
 
-/// What both sides answer where an oracle's numbers hold.
+/// Results of both sides at the instants of an oracle's numbers.
 struct Answers<'a> {
-    /// In the nominal motion, in the order of crank angles; `None` if no number holds at one.
+    /// In the nominal motion, in the order of crank angles; `None` if no number is given at a crank angle.
     nominal: Option<Solved>,
-    /// In the motion itself, in the order of times; `None` if no number holds at one.
+    /// In the motion itself, in the order of times; `None` if no number is given at a time.
     timed: Option<Solved>,
-    /// Error of a side's integration in a channel of the motion itself.
+    /// Integration error of a side in a channel of the motion itself.
     integration: &'a dyn Fn(Reference, &Channel) -> f64,
 }
 
@@ -75,7 +75,7 @@ impl<'a> Answers<'a> {
             }
             instants.sort_unstable_by(f64::total_cmp);
             instants.dedup();
-            // Of many instants, what is asked is solved at all, and what its numbers are measured by at some.
+            // If there are many instants, the requested channels are solved at all of them, their scales only at some.
             let step = instants.len().div_ceil(MOST);
             let few = instants.iter().copied().step_by(step).collect();
             let whole = case.on(along.grid(case.crank(), few))?.wanting(Wanted::of(&stages));
@@ -96,7 +96,7 @@ impl<'a> Answers<'a> {
         Ok(Answers { nominal, timed: solved(case, Along::Time)?, integration })
     }
 
-    /// What a side answers for a series, in the nominal motion and in the motion itself.
+    /// A side's results for a series, in the nominal motion and in the motion itself.
     fn of_series<'b>(
         &'b self,
         oracle: &Oracle,
@@ -112,31 +112,31 @@ impl<'a> Answers<'a> {
             let known = ULPS * f64::EPSILON * size + integration;
             Ok(Some(Told { side, trajectory, values, known, scale, rounded, channels: channels_of(series).collect() }))
         };
-        // Channel by channel: a magnitude has the errors of both.
+        // Sum over channels: a magnitude has the errors of both components.
         let integration: f64 = channels_of(series).map(|channel| (self.integration)(side, &channel)).sum();
         Ok([told(&self.nominal, 0.0)?, told(&self.timed, integration)?])
     }
 }
 
-/// A series as both sides have solved it, and how far the number of one, `side`, is known besides their difference.
+/// A series as both sides have solved it. `known` is the error of `side` in addition to the difference of the sides.
 struct Told<'a> {
     side: Reference,
     trajectory: &'a Trajectory,
     values: EachSide<Vec<f64>>,
     known: f64,
-    /// Scale of the channel where the numbers hold.
+    /// Scale of the channel at the instants of the numbers.
     scale: f64,
     rounded: &'a RoundedInstants,
     /// The channel, and the other component of a magnitude.
     channels: Vec<Channel>,
 }
 
-/// What a side answers for one printed number.
+/// A side's result for one printed number.
 struct Found {
     /// Its distance from the printed number.
     deviation: f64,
     bound: f64,
-    /// The part of the bound that comes of the rounding of the instant.
+    /// The part of the bound due to the rounding of the instant.
     instant: f64,
     scale: f64,
 }
@@ -148,14 +148,14 @@ impl Found {
         if used.is_nan() { f64::INFINITY } else { used }
     }
 
-    /// Whether it is off by something that tells, and within the bound only because its instant is rounded.
+    /// Whether the deviation is significant but within the bound, only because its instant is rounded.
     fn is_open(&self) -> bool {
         self.used() <= 1.0 && self.deviation.smaller(self.instant) > TELLING * self.scale
     }
 }
 
 impl Told<'_> {
-    /// What is found for a printed number of a series.
+    /// The result for a printed number of a series.
     fn of(&self, series: &OracleSeries, point: &OraclePoint) -> Found {
         let (instants, at) = match point.at {
             When::Crank(crank) => (self.trajectory.inputs(), crank),
@@ -163,14 +163,14 @@ impl Told<'_> {
         };
         let row = instants.binary_search_by(|other| other.total_cmp(&at)).expect("solved at this instant");
         let [value, other] = [self.side, self.side.other()].map(|side| self.values[side][row]);
-        // No number is known better than both sides agree on it.
+        // No number is known better than the two sides agree on it.
         let known = self.known + 2.0 * (value - other).abs();
         let difference = value - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
         // A magnitude changes by no more than its vector.
         let drift = self.channels.iter().map(|own| self.rounded.of_point(own, at, point.at_error));
         let instant = drift.fold(0.0, f64::hypot);
-        // What a side knows is no rounding of the printed number: it adds to that.
+        // The error of a side adds to the rounding of the printed number.
         let bound = point.bound + known + instant;
         Found { deviation, bound, instant, scale: self.scale }
     }
@@ -193,8 +193,8 @@ fn of_series(
     Ok(checks)
 }
 
-/// The checks of one series: one for all correct values together, and one for each value that is known to be wrong. If
-/// all values are known to be wrong, they have one check together.
+/// The checks of one series: one for all correct values together, and one for each value known to be wrong.
+/// If all values are known to be wrong, a single check covers them.
 fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Reference) -> Result<Vec<Check>> {
     let [nominal, timed] = answers.of_series(oracle, series, side)?;
     let found = |point: &OraclePoint| {
@@ -235,7 +235,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
     Ok(checks)
 }
 
-/// The verdict on a number that may be wrong by as much as its instant is rounded.
+/// The verdict on a number whose deviation may come from the rounding of its instant.
 fn unproven(point: &OraclePoint) -> Verdict {
     let reason = sentences::at_the_rounding_of_the_instant(&point.at);
     let advice = vec![Advice::Text(sentences::PRINT_THE_INSTANTS_WITH_MORE.into())];
@@ -249,8 +249,8 @@ fn shortly(at: When) -> String {
     }
 }
 
-/// The worst check of printed numbers that are all known to be wrong: the first that is not as expected, else the one
-/// that uses the largest share of its bound.
+/// The worst check of printed numbers that are all known to be wrong.
+/// It is the first that is not as expected. Otherwise it is the one that uses the largest share of its bound.
 fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     let rank = |check: &Check| (!matches!(check.verdict, Verdict::Expected { .. }), check.used());
     checks.reduce(|worst, check| {
@@ -259,13 +259,12 @@ fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     })
 }
 
-/// Bound of a number: half a unit of its last digit, plus the known error of the number, but never less than what the
-/// analytic sides know; and the part of it that the rounding of its instant leaves open.
+/// Bound of a number, its basis, and the part of it that is due to the rounding of the instant.
 fn tolerance(oracle: &Oracle, origin: BoundOrigin, bound: f64, instant: f64, digits: i32) -> Tolerance {
     Tolerance { bound, basis: BoundBasis::Digits { origin, digits, source: oracle.source.clone(), instant } }
 }
 
-/// How the numbers of an oracle are known.
+/// Origin of the numbers of an oracle.
 fn origin(oracle: &Oracle) -> BoundOrigin {
     match oracle.basis {
         OracleBasis::Published => BoundOrigin::Published,
@@ -279,7 +278,7 @@ fn channels_of(series: &OracleSeries) -> impl Iterator<Item = Channel> {
     [Some(series.channel.clone()), series.y()].into_iter().flatten()
 }
 
-/// What was solved for a series, by row.
+/// Solved values of a series, by row.
 fn values(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory) -> Result<Vec<f64>> {
     let named = |channel: Channel| {
         solved.column(&channel).ok_or_else(|| {

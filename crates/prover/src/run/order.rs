@@ -1,8 +1,9 @@
 //! An engine that converges with a lower order than that of its method.
 //!
-//! A reading is half a step late, or a weight is wrong. A bound from the engine's runs follows such an error down to any
-//! step, so that the size of the error never shows it. Five runs show the order three times, always the same whole
-//! number. See docs/numerics/bounds.md.
+//! The cause is a reading that is half a step late, or a wrong weight.
+//! A bound from the engine's runs covers such an error at every step, so the size of the error never reveals it.
+//! Five runs show the order three times, always as the same whole number.
+//! See docs/numerics/bounds.md.
 
 use crate::sentences;
 use linkage::engine::Settings;
@@ -18,23 +19,22 @@ use crate::bounds::{Convergence, Verdict};
 use crate::numbers::error;
 use crate::tolerance::Parts;
 
-/// Share of the formal order below which an order is looked at again.
+/// Share of the formal order below which an order is examined again.
 const LOW: f64 = 0.75;
 /// Largest distance of steady orders from a whole number.
 const STEADY: f64 = 0.1;
-/// Factor by which an error must exceed rounding and what the sweeps leave, so that its order is that of the step.
+/// Factor by which an error must exceed rounding and iteration errors, so that its order is that of the step.
 const CLEAR: f64 = 5.0;
-/// Share of the widest conclusive bound below which it does not matter.
+/// Share of the widest conclusive bound below which a low order does not matter.
 const NEGLIGIBLE: f64 = 0.01;
 
 /// Finds channels that converge steadily at too low an order. They disagree. Returns whether there are any.
 ///
 /// # Errors
-/// Those of a run that is not numeric.
+/// Those of a run, except numeric ones.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> Result<bool, Stopped> {
     let wanted = judge.problem.engine_rel;
-    // Second differences across a knot of a law of motion, where its third derivative jumps, have order 1 by
-    // themselves.
+    // Across a knot of a law of motion the third derivative jumps, so second differences have order 1 there.
     let is_smooth = bank.case.is_steady();
     let is_low = |own: &ChannelProof| {
         let Convergence { observed, formal, .. } = own.convergence;
@@ -53,7 +53,7 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> R
         others.truncate(usize::from(asks_sweeps));
         match bank.runs(plain, &others, &mut |_| {}).and_then(|runs| Ok(judge.judge(own.as_ref(), runs)?)) {
             Ok(own) => Ok(Some(own.proof)),
-            // Too coarse a run shows nothing.
+            // A run that is too coarse shows nothing.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(None),
             Err(stopped) => Err(stopped),
         }
@@ -63,8 +63,8 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> R
         let Some(own) = rung(times, false)? else { return Ok(false) };
         rungs.push(own);
     }
-    // What the sweeps leave takes one more run, as long as half of the longest. Few orders are so steady that it is
-    // asked.
+    // The iteration error needs one more run, half as long as the longest. It is made only for steady orders, and these
+    // are few.
     let may_be = |index: usize| {
         is_low(&proof.channels[index]) && is_steady([0, 1, 2].map(|k| rungs[k].channels[index].convergence))
     };
@@ -103,7 +103,7 @@ fn is_steady(rungs: [Convergence; 3]) -> bool {
     is_same && whole >= 1.0 && whole <= LOW * formal
 }
 
-/// The order of three estimates, the finest last, if it is steady and not that of what else is in the finest one.
+/// The order of three estimates, the finest last, if it is steady and not caused by other parts of the finest error.
 fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
     let other = finest.iteration.larger(finest.rounding).larger(finest.reference);
     let is_clear = rungs[2].error > CLEAR * other;
@@ -114,8 +114,8 @@ fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Halved steps halve an error of 8: its order is 1, and that of a method of order 2 is lost. Where sweeps,
-    /// rounding or the reference leave a fourth of the finest error, the order may be theirs.
+    /// Halved steps halve an error of 8. This order is 1, while the method has order 2.
+    /// If sweeps, rounding or the reference contribute a fourth of the finest error, the order may be theirs.
     #[test]
     fn an_order_counts_only_where_nothing_else_is_nearly_as_large() {
         let rungs = |orders: [f64; 3], formal: f64| {
@@ -137,7 +137,7 @@ mod tests {
                 assert_eq!(steady(first, other), found, "{other:?}");
             }
         }
-        // Orders that change, an order of nothing, and the order that the method has.
+        // Orders that change, an order of zero, and the formal order of the method.
         for (orders, formal) in [([1.3, 1.1, 1.0], 2.0), ([0.0; 3], 2.0), ([2.0; 3], 2.0), ([1.0; 3], 1.0)] {
             assert_eq!(steady(rungs(orders, formal), none), None, "{orders:?} {formal}");
         }

@@ -1,5 +1,6 @@
-//! Forces that an engine exerts, judged besides those that follow from its motion by Newton-Euler equations: a second
-//! search, by the engine's routes. See docs/numerics/forces.md.
+//! Forces that an engine itself exerts. They are judged in addition to those that follow from its motion by
+//! Newton-Euler equations, in a second search over the engine's routes.
+//! See docs/numerics/forces.md.
 
 use crate::sentences;
 use std::sync::Arc;
@@ -19,19 +20,19 @@ use linkage::error::{Advice, Error, ErrorKind};
 use linkage::trajectory::Stage;
 use scenario::EngineSetting;
 
-/// Sweeps to begin with at the most, if the motion has needed as many.
+/// Largest number of sweeps to begin with, even if the motion has needed more.
 const ENOUGH: usize = 32;
-/// Share of the work allowed for an engine's settings that its own forces may take once more.
+/// Additional work for own forces, as a share of the work allowed for an engine's settings.
 const SHARE: f64 = 0.05;
 
-/// Whether there is anything to judge: not where no force is wanted, where the route is given, and for an engine
-/// whose usual route is its own.
+/// Whether there is anything to judge. Own forces are not judged if no force is requested, if the route is given, or if
+/// the engine's usual route is its own.
 pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
     chosen.given.route.is_free() && judge.asking(judge.asked).of_own_forces().has_channels()
 }
 
-/// Judges the forces that the engine exerts, where they are [asked](are_asked), beside its `motion`; `None` if it has no
-/// route for them. The first route that is conclusive counts.
+/// Judges the forces that the engine exerts beside its `motion`, if they are [asked](are_asked) for.
+/// `None` if it has no route for them. The first conclusive route counts.
 pub(super) fn judged(
     judge: &Judge,
     case: &Case,
@@ -46,7 +47,7 @@ pub(super) fn judged(
         let failure = Error::new(ErrorKind::Unsupported, told);
         return Some(failed(chosen.engine.as_ref(), failure, Some(effort)));
     }
-    // Nothing else of these runs is looked at.
+    // Only the forces of these runs are needed.
     let mut forces = case.channels();
     forces.retain(|channel| channel.kind.stage >= Stage::Reactions);
     let case = &case.wanting_only(&forces);
@@ -55,7 +56,7 @@ pub(super) fn judged(
     for &route in chosen.engine.own_routes(case) {
         let own = by_route(judge, case, chosen, route, sweeps, progress);
         let is_open = matches!(own.verdict, Verdict::Inconclusive { .. });
-        // Of several open results, one with numbers tells more.
+        // Of several inconclusive results, one with numbers says more.
         let better = found.as_ref().is_none_or(|found| !is_open || found.failure.is_some());
         if better {
             found = Some(own);
@@ -67,7 +68,8 @@ pub(super) fn judged(
     found
 }
 
-/// No comparison. Where nothing but work was missing, `work` that was not enough says how much would be.
+/// A result without comparison. If only work was missing, `work` is the amount that was not enough, and the advice
+/// names a sufficient one.
 fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> EngineProof {
     // A round number that is surely enough for the next round.
     let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });
@@ -85,7 +87,7 @@ fn by_route(
     progress: &mut dyn FnMut(f64),
 ) -> EngineProof {
     let given = chosen.engine.settings();
-    // A number of extrapolations that is given belongs to the given step.
+    // A given number of extrapolations belongs to the given step.
     let (step, finest) = match (chosen.given.step.is_free(), chosen.given.extrapolated.is_free()) {
         (true, _) => (coarse_step(case), 0.0),
         (false, true) => (coarser(given.resolution, coarse_step(case)), 0.5 * given.resolution),

@@ -11,7 +11,7 @@ pub struct Dispute {
     pub channel: String,
     /// Pairs that differ by more than the bounds of both.
     pub pairs: Vec<[&'static str; 2]>,
-    /// The side without which all others agree; `None` if there is no single one, or if there are only two sides.
+    /// The side without which all others agree. `None` if there is not exactly one, or if there are only two sides.
     pub odd: Option<&'static str>,
 }
 
@@ -22,8 +22,8 @@ struct Party<'a> {
     bound: f64,
 }
 
-/// Every channel in which two sides differ by more than the sum of their bounds. The reference's own error is rounding.
-/// An engine without a trusted bound takes no part.
+/// Every channel in which two sides differ by more than the sum of their bounds.
+/// The reference's own error is only rounding. An engine without a trusted bound is left out.
 #[must_use]
 pub fn disputes(name: &'static str, reference: &Trajectory, engines: &[EngineProof]) -> Vec<Dispute> {
     reference.iter().filter_map(|(channel, values)| dispute(name, channel, values, engines)).collect()

@@ -1,5 +1,4 @@
-//! Faults planted in solvers. For every check there is the smallest fault that it must find, and one below its bound
-//! that it must pass.
+//! Faults planted in solvers. Every check must find a small fault beyond its bound and pass one below it.
 
 use crate::sentences;
 use std::path::Path;
@@ -54,7 +53,7 @@ fn parsed(name: &str, text: &str) -> Scenario {
 struct Everywhere {
     fault: Fault,
     size: f64,
-    /// Whether its size goes with an engine's step.
+    /// Whether its size is proportional to the engine's step.
     grows: bool,
 }
 
@@ -141,9 +140,10 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
     }
 }
 
-/// Symptom: 1e-9 deg from a dead point the crank pin's own acceleration was wrong by 176 %, and the check between the
-/// sides was silent, because it measured by the largest accelerations of the mechanism and by the condition of the
-/// worst group. A channel is judged by the numbers that it is made of.
+/// Symptom: 1e-9 deg from a dead centre the crank pin's acceleration was wrong by 176 %, but the check between the
+/// sides was silent.
+/// It measured by the largest accelerations of the mechanism and by the condition of the worst group.
+/// A channel is now judged by the numbers that it is made of.
 #[test]
 fn regress_a_driving_link_is_judged_by_its_own_numbers_near_a_dead_point() {
     let folded = [
@@ -170,11 +170,11 @@ fn regress_a_driving_link_is_judged_by_its_own_numbers_near_a_dead_point() {
         let differ = checks::sides_differ([&truth.trajectory, &slow.trajectory], &known);
         assert_eq!(differ, is_found, "{size:e}");
     }
-    // What the dyad itself loses there is rounding.
+    // Without a fault the sides differ there only by rounding.
     assert!(!checks::sides_differ([&truth.trajectory, &other.trajectory], &known));
 }
 
-/// NaN on the way from the observed quantities to the bound.
+/// A NaN in the observed quantities must reach the check.
 #[test]
 fn what_is_not_a_number_at_one_instant_disagrees() {
     let case = parsed("crank_rocker", &text("crank_rocker")).case;
@@ -194,7 +194,7 @@ fn what_is_not_a_number_at_one_instant_disagrees() {
         let found = checks::of_sides(&case, EachSide::new(&side, &other), &known);
         assert_eq!(named(&found, name).verdict.word(), "disagree", "{name}");
     }
-    // A NaN that is in no channel still reaches the closure.
+    // A NaN that appears in no channel still reaches the closure.
     let second: Fault = |state, _| state.motions[LinkId(3)].origin.y = f64::NAN;
     let positions = case.wanting(Wanted::of(&[]));
     assert!(seen(&positions, &assur(second, 0.0)).closure().is_nan());
@@ -213,8 +213,9 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
     let right = methods::checks(case, &AssurSolver).unwrap();
     assert_eq!(right.len(), all.len());
     assert!(right.iter().all(|check| check.verdict.word() == "agree"), "{right:?}");
-    // Angles, rates and forces of the group's links and joints are changed by 1e-9 of themselves: ten times the largest
-    // bound. The method of class change alone finds directions of its own.
+    // Angles, rates and forces of the group's links and joints are changed by 1e-9 of their size: ten times the largest
+    // bound.
+    // Only the method of class change computes directions itself.
     let [first, ..] = Triad::all(case)[0].links();
     assert_ne!(first, GROUND);
     let rates: Fault = |state, size| state.motions.iter_mut().skip(2).for_each(|motion| motion.omega *= 1.0 + size);
@@ -234,7 +235,7 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
             }
         }
     }
-    // Their equations are singular at a change point: there they are not asked.
+    // The methods' equations are singular at a change point, so they are not used there.
     let passing: Fault = |state, size| {
         state.passing = Some(1.0);
         state.motions.iter_mut().for_each(|motion| (motion.omega, motion.alpha) = (size, size));
@@ -251,7 +252,7 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
     }
 }
 
-/// What an engine may choose of its settings.
+/// Settings that an engine may choose.
 #[derive(Clone, Copy, Debug)]
 enum Search {
     None,
@@ -286,9 +287,9 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
     assert_eq!(true_one.verdict.word(), "agree");
     let [closure, powers] =
         [sentences::CLOSURE_OF_ALL_JOINTS_2, "driving moment"].map(|name| named(&true_one.checks, name).clone());
-    // The engine's own runs bound the opening at a quarter more than its value.
+    // The bound from the engine's own runs is a quarter larger than the opening.
     assert!(closure.bound <= 1.3 * closure.value && closure.bound < 2e-5, "{closure:?}");
-    // An opening is rounded as the places are that it lies between.
+    // An opening has the rounding error of the positions between which it lies.
     let place = true_one.channels.iter().find(|own| own.residual.channel.to_string() == "point.A.x_m").unwrap();
     let rounding = closure.estimate.unwrap().0.rounding * scenario.case.mechanism.size();
     assert!((rounding / place.parts.rounding - 1.0).abs() < 1e-12, "{rounding:e} {:?}", place.parts);
@@ -310,8 +311,9 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
     }
 }
 
-/// Half a step late, velocities converge to the right values with order 1, and accelerations a quarter of a step. No
-/// bound from the engine's own runs would ever be too small for that.
+/// Velocities that are half a step late converge to the right values with order 1, and so do accelerations that are a
+/// quarter of a step late.
+/// No bound from the engine's own runs would ever be too small for such an error.
 #[test]
 fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
     let velocities: Fault = |state, late| {
@@ -321,10 +323,10 @@ fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
         }
     };
     let accelerations: Fault = |state, late| {
-        // Something of the size of a jerk.
+        // A term of the size of a jerk.
         state.motions.iter_mut().for_each(|motion| motion.alpha -= late * motion.omega.powi(3));
     };
-    // Five steps up to 8e-3 s still show the order of the crank-rocker, not that of the faster machine.
+    // Five steps up to 8e-3 s still show the order for the crank-rocker, but not for the faster machine.
     for (name, free) in
         [("crank_rocker", Search::None), ("crank_rocker", Search::Everything), ("ov7_base", Search::Everything)]
     {
@@ -343,7 +345,7 @@ fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
     }
 }
 
-/// What integration leaves is each side's own, whichever is the reference.
+/// The integration error belongs to a side, whichever side is the reference.
 #[test]
 fn a_side_is_known_by_its_own_integration() {
     let plain = text("crank_rocker_runup");
@@ -361,7 +363,7 @@ fn a_side_is_known_by_its_own_integration() {
     }
 }
 
-/// Where the sides differ, it is said since when, and by how many times what is allowed.
+/// A difference of the sides is reported with its first instant and as a multiple of the allowed difference.
 #[test]
 fn what_the_sides_differ_by_is_told_in_times_of_what_is_allowed() {
     let case = parsed("crank_rocker", &text("crank_rocker")).case;
@@ -379,7 +381,7 @@ fn what_the_sides_differ_by_is_told_in_times_of_what_is_allowed() {
     );
 }
 
-/// A resistance opposes either sense, and weights are lifted as far as they fall.
+/// A resistance opposes either direction of motion, and weights are lifted as far as they fall.
 #[test]
 fn a_reversed_drive_has_the_reversed_steady_speed() {
     let speeds = |rpm: &str| {
@@ -395,7 +397,7 @@ fn a_reversed_drive_has_the_reversed_steady_speed() {
     }
 }
 
-/// Channels and checks of extrapolated runs are bounded alike: see `Convergence::extrapolated`.
+/// Channels and checks of extrapolated runs have the same safety factor: see `Convergence::extrapolated`.
 #[test]
 fn every_bound_of_extrapolated_runs_has_the_wider_factor() {
     let scenario = parsed("crank_rocker", &text("crank_rocker"));
@@ -447,7 +449,7 @@ fn an_oracle_finds_a_unit_of_its_last_digit() {
     }
 }
 
-/// What an integration leaves widens the bound of a number at a time, by as much, and of no other.
+/// The integration error is added to the bound of numbers at a time, and to no other bound.
 #[test]
 fn the_error_of_an_integration_adds_to_the_bound_of_numbers_at_times() {
     // Numbers at a crank angle, and at a time.
@@ -464,9 +466,11 @@ fn the_error_of_an_integration_adds_to_the_bound_of_numbers_at_times() {
     }
 }
 
-/// A channel that is zero throughout is measured by a tenth of its quantity. What an engine may be wrong by there is still
-/// what its runs say: a millionth of the quantity is found in the acceleration of a crank at constant speed, and a
-/// hundredth in that of a rocker that turns with it through change points, which is what still proves something there.
+/// A channel that is zero throughout is measured by a tenth of its quantity. The engine's error there still comes from
+/// its runs.
+/// In the acceleration of a crank at constant speed, a fault of a millionth of the quantity is found.
+/// In that of a rocker that turns with the crank through change points it is a hundredth, which is the limit of what
+/// proves something there.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     let cranks = include_str!("../../../../tests/suite/exact_zeros/parallel_cranks.toml");
@@ -488,8 +492,8 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     }
 }
 
-/// Where no force of the mechanism has a size, what its mass and speed could exert is the size: a millionth of a newton
-/// is found in a balanced rotor.
+/// If no force of the mechanism has a size, the scale is what its mass and speed could exert.
+/// A fault of a millionth of a newton is found in a balanced rotor.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_nothing_has_a_size() {
     let mut rotor = four_bar([1.0, 0.3, 1.0, 1.0], true);

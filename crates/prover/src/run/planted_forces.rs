@@ -22,7 +22,7 @@ use scenario::of_repository;
 /// Effect of a fault on every state.
 type Fault = fn(&mut State);
 
-/// A fault in the states of an engine by some routes.
+/// A fault in the states of an engine, by some routes only.
 #[derive(Clone, Copy)]
 struct ByRoute {
     fault: Fault,

@@ -1,4 +1,4 @@
-//! What is proven: a case, and what a scenario says of its solution.
+//! What is proven: a case, and the statements of a scenario about its solution.
 //! See docs/numerics/bounds.md.
 
 use crate::bounds::Built;
@@ -6,7 +6,7 @@ use linkage::case::Case;
 use linkage::math::KeepNan;
 use scenario::{Formulas, Oracle, Scenario};
 
-/// A case, and what a scenario says of its solution.
+/// A case, and the statements of a scenario about its solution.
 #[derive(Clone, Copy)]
 pub struct Problem<'a> {
     pub(crate) case: &'a Case,
@@ -18,15 +18,16 @@ pub struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// What a scenario says, of a case of its mechanism.
+    /// The statements of a scenario, applied to a case of its mechanism.
     pub fn of(scenario: &'a Scenario, case: &'a Case) -> Self {
         let Scenario { oracles, formulas, engine_rel, .. } = scenario;
         Problem { case, oracles, formulas, engine_rel: *engine_rel }
     }
 
-    /// Size, speed and force that the case is built for, whatever moves in it: sizes for what vanishes in the whole
-    /// mechanism. Its force is the weight of all links, or what accelerates them at that speed and size, if that is
-    /// larger; none where nothing has a mass.
+    /// Size, speed and force that the case is built for, whatever moves in it. They are the scales for what vanishes in
+    /// the whole mechanism.
+    /// The force is the weight of all links or, if larger, the force that accelerates them at that speed and size. It
+    /// is zero without masses.
     pub(super) fn built(&self) -> Built {
         let case = self.case;
         let (length, speed) = (case.mechanism.size(), case.drives.top_speed());

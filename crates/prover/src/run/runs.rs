@@ -1,4 +1,4 @@
-//! An engine's runs, from which its error is estimated, and the room that they need.
+//! An engine's runs, from which its error is estimated, and the largest step for which there is room.
 //! See docs/numerics/settings.md.
 
 use crate::sentences;
@@ -35,8 +35,9 @@ impl Runs {
     }
 }
 
-/// Sweeps of the runs that a run with `sweeps` is compared with: a `share`-th of them, and of these again; two where
-/// there is no less. None where the iteration leaves nothing.
+/// Numbers of sweeps of the runs that a run with `sweeps` is compared with: a `share`-th of them, and a `share`-th of
+/// these.
+/// If `sweeps` is one, the other run has two. Empty if the iteration leaves no error.
 pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, share: usize) -> Vec<usize> {
     match (sweeps, engine.sweeps(case)) {
         (_, None) | (1, Some([_, 1])) => Vec::new(),
@@ -48,13 +49,14 @@ pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, shar
     }
 }
 
-/// Number of sweeps of a run over that of the one that it is compared with, where the sweeps are given.
+/// Ratio of the sweeps of a run to those of the run that it is compared with, if the sweeps are given.
 pub(super) const FEWER: usize = 2;
 
-/// Values of one trajectory up to which all of a search are held.
+/// Largest number of values of one trajectory for which all trajectories of a search are kept.
 pub(super) const FEW: usize = 1_000_000;
 
-/// All runs of one engine on one case. Each is made and observed once, those of many instants as often as needed.
+/// All runs of one engine on one case. Each is made and observed once; runs with many instants are made as often as
+/// needed.
 pub(super) struct Bank<'a> {
     pub(super) case: &'a Case,
     kept: CachedEngine,
@@ -101,7 +103,7 @@ impl<'a> Bank<'a> {
         self.seen.retain(|(settings, _)| sweeps.contains(&settings.sweeps));
     }
 
-    /// Drops the runs that `settings` do not need, where they are large.
+    /// Drops the runs that `settings` do not need, if they are large.
     pub(super) fn keep_needed(&mut self, settings: &[Settings]) {
         if self.is_large() {
             let needed: Vec<Settings> = settings.iter().copied().flat_map(plain_runs).collect();
@@ -115,8 +117,8 @@ impl<'a> Bank<'a> {
         self.case.grid.len() * self.case.channels().len() > FEW
     }
 
-    /// Drops the observations that `settings` do not need, where they are so large that it is better to make them once
-    /// more from the runs that are kept.
+    /// Drops the observations that `settings` do not need, if they are large. They can be made again from the kept
+    /// runs.
     fn keep_few(&mut self, settings: &[Settings]) {
         if self.is_large() {
             self.seen.retain(|(own, _)| settings.contains(own));
@@ -182,30 +184,32 @@ fn in_ladder(stopped: Stopped, what: &str, asked: Settings, controls_error: bool
     Stopped { error: stopped.error.map_message(told).map_advice(advised), kept: None, spent: None }
 }
 
-/// The first and the last time (s) that a run over a case comes to. It begins at zero.
+/// The first and the last time (s) that a run over a case reaches. A run begins at zero.
 fn ends(case: &Case) -> [f64; 2] {
     case.grid.times.iter().fold([0.0; 2], |[first, last], &t| [first.smaller(t), last.larger(t)])
 }
 
-/// The largest step (s) for which a run of this engine stays within the crank angles that can be reached. One of a
-/// prescribed motion begins some steps before the first instant and ends some after the last one: near a limit of
-/// rotation only a small step leaves room for them. It is infinite for a full turn, and where forces decide the motion.
+/// The largest step (s) for which a run of this engine stays within the reachable crank angles.
+/// A run of a prescribed motion begins some steps before the first instant and ends some after the last one.
+/// Near a limit of rotation only a small step leaves room for them.
+/// The result is infinite for a full turn, and if forces decide the motion.
 pub(super) fn room(case: &Case, engine: &dyn Engine) -> f64 {
     let steps = engine.overrun();
     let Some([from, to]) = limits(case).filter(|_| steps > 0.0) else { return f64::INFINITY };
     let drive = case.crank();
     let at = |t: f64| {
         let own = drive.at(t);
-        // To the limit that lies ahead, in either sense of time.
+        // Distance to the nearer limit, because time may run in either direction.
         let distance = (own.value - from).abs().smaller((to - own.value).abs());
         distance / own.rate.abs() / steps
     };
-    // Of a drive at rest there is no speed to judge by.
+    // A drive at rest has no speed to judge by.
     ends(case).map(at).into_iter().filter(|step| step.is_finite()).fold(f64::INFINITY, f64::smaller)
 }
 
-/// Crank angles (rad) between which a prescribed motion of one drive stays; `None` if nothing limits it, and
-/// where that is not known after some work: the engine then says itself where it cannot go on.
+/// Crank angles (rad) between which a prescribed motion of one drive stays.
+/// `None` if nothing limits it, or if the limits are not known after some work. The engine then reports where it cannot
+/// go on.
 fn limits(case: &Case) -> Option<[f64; 2]> {
     if case.is_free() || case.drives.len() > 1 {
         return None;

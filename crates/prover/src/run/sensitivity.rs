@@ -1,5 +1,4 @@
-//! How strongly a free motion depends on the forces that cause it. This is the condition of the problem, whatever the
-//! solver.
+//! Sensitivity of a free motion to the forces that cause it. This is the condition of the problem, whatever the solver.
 //! See docs/numerics/bounds.md.
 
 use crate::bounds::largest_difference;
@@ -9,12 +8,12 @@ use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 
-/// Share by which gravity and the motor's torque are changed: small compared with the motion, large compared with
-/// rounding.
+/// Relative change of gravity and of the motor's torque: small compared with the motion, large compared with rounding.
 const CHANGE: f64 = 1e-6;
 
-/// For every channel of `reference`, in its order: the largest change of its values over the run, per share of change
-/// in gravity and motor torque, in the channel's unit. Empty for a motion that does not depend on forces.
+/// For every channel of `reference`, in its order: the largest change of its values over the run, per relative change
+/// of gravity and motor torque, in the channel's unit.
+/// Empty for a motion that does not depend on forces.
 ///
 /// # Errors
 /// Those of the solver.
@@ -40,8 +39,9 @@ mod tests {
     use linkage::math::KeepNan;
     use scenario::of_repository;
 
-    /// A pendulum let go at rest goes through the same places in stronger gravity, in a time that is shorter by the
-    /// root of it: theta(t; (1 + e) g) = theta(t sqrt(1 + e); g). Its rates follow, each with one root more.
+    /// A pendulum released from rest passes the same positions in stronger gravity, in a time that is shorter by the
+    /// root of it: theta(t; (1 + e) g) = theta(t sqrt(1 + e); g).
+    /// Each derivative has one more factor of the root.
     #[test]
     fn a_pendulum_depends_on_gravity_as_its_own_time_does() {
         let case = of_repository("scenarios/pendulum.toml").case;

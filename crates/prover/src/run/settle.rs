@@ -19,33 +19,32 @@ use scenario::EngineSettings;
 
 /// Work allowed by default, in steps without sweeps.
 pub const BUDGET: f64 = 2e7;
-/// Work within which a conclusive result is refined further, to the aimed accuracy.
+/// Share of the allowed work within which a conclusive result is refined further, to the target accuracy.
 const THRIFT: f64 = 0.0015;
-/// Share of the widest conclusive bound that is aimed at: a proof a hundred times sharper costs little with
-/// extrapolation.
+/// Target, as a share of the widest conclusive bound. With extrapolation, a proof a hundred times sharper costs little.
 const AIM: f64 = 0.01;
-/// Extrapolations that are tried: with more, the weights add more rounding than the errors they cancel.
+/// Largest number of extrapolations tried: with more, the weights add more rounding than the errors they cancel.
 const MOST_TIMES: usize = 4;
-/// Coarsest step that is tried against rounding, in units of the first one.
+/// Coarsest step tried against rounding, as a multiple of the first one.
 const COARSEST: f64 = 16.0;
-/// Work of the first runs that is done whatever is allowed, some hundredths of a second: without them nothing can be
-/// told.
+/// Work of the first runs that is always allowed, some hundredths of a second: without them there is no result.
 pub(super) const FIRST: f64 = 1e4;
-/// Failed runs after which more sweeps are tried instead of a smaller step.
+/// Number of failed runs after which more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
-/// Share of the room beside a dead point that the steps of a run may take.
+/// Share of the room beside a dead centre that the steps of a run may take.
 const ROOM: f64 = 0.98;
-/// Rounds of a search that is not long.
+/// Largest number of rounds of a short search.
 const QUICK: i32 = 3;
-/// What is to blame where runs with fewer sweeps fail.
+/// Cause to blame if runs with fewer sweeps fail.
 const SWEEPS: Blame = Blame { part: BoundPart::Iteration, is_shared: false };
 /// Factors between numbers of sweeps: far from the end of a search, and near to it.
 const MORE_SWEEPS: [usize; 2] = [4, 2];
-/// Largest bound, over what is wanted, that is near.
+/// Largest ratio of a bound to the requested bound that counts as near.
 const NEAR: f64 = 8.0;
 
-/// An error if the first runs of an engine, those of `rungs`, are more work than is allowed: `most` of the `budget` asked
-/// for. A step so small that no budget would be enough is a mistake, which the engine itself refuses.
+/// An error if the first runs of an engine, those of `rungs`, need more work than `most`. The error names the requested
+/// `budget`.
+/// A step so small that no budget would be enough is a mistake, and the engine itself refuses it.
 pub(super) fn too_much(
     bank: &Bank,
     settings: Settings,
@@ -54,7 +53,7 @@ pub(super) fn too_much(
 ) -> Result<(), Stopped> {
     let first = bank.missing(rungs);
     let is_mistake = 2.0 * half_range(&bank.case.grid.times) / settings.resolution > BUDGET;
-    // Written so that NaN is too much.
+    // Written so that NaN counts as too much.
     if first <= most || is_mistake {
         return Ok(());
     }
@@ -63,7 +62,7 @@ pub(super) fn too_much(
     Err(Stopped { error, kept: None, spent: Some(first) })
 }
 
-/// One way to combine the runs made so far, judged.
+/// One combination of the runs made so far, judged.
 struct Trial {
     judged: Judged,
     need: Need,
@@ -75,23 +74,23 @@ pub(super) struct Settling<'a, 'b> {
     judge: &'a Judge<'a>,
     bank: &'a mut Bank<'b>,
     given: &'a EngineSettings,
-    /// Present settings; the step is the finest one of all runs.
+    /// Current settings; the step is the finest one of all runs.
     now: Settings,
     most_sweeps: usize,
     /// Step of the coarsest run.
     coarsest: f64,
     budget: f64,
-    /// Largest bound aimed at, over what is wanted.
+    /// Target: largest ratio of a bound to the requested bound.
     aim: f64,
-    /// Whether being conclusive is all that is aimed at.
+    /// Whether conclusive channels are the only target.
     conclusive: bool,
-    /// Finest step of a run, for steps that are free only above it.
+    /// Finest step of a run, if steps are free only above it.
     finest: f64,
-    /// Number of sweeps over that before.
+    /// Ratio of the number of sweeps to the previous one.
     factor: usize,
-    /// Whether the last round was near to what is wanted.
+    /// Whether the last round was near the requested bound.
     near: bool,
-    /// Largest step (s) with room beside the dead points; `None` as long as nobody asks.
+    /// Largest step (s) with room beside the dead centres; `None` until it is needed.
     room: Option<f64>,
 }
 
@@ -109,7 +108,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         if given.sweeps.is_free() {
             now.sweeps = first;
         }
-        // The finest of the first three runs.
+        // The finest step of the first three runs.
         let times = if given.extrapolated.is_free() { 0 } else { now.extrapolated };
         now.resolution *= 0.5f64.powi(times as i32 + 1);
         let coarsest = 2.0 * engine.settings().resolution;
@@ -130,8 +129,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// The same search, content as soon as every channel is conclusive, with coarser steps to begin with and none below
-    /// `finest` (s), and with `sweeps` at least.
+    /// The same search, but it ends as soon as every channel is conclusive.
+    /// It begins with coarser steps, takes none below `finest` (s), and has at least `sweeps`.
     pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
         (self.aim, self.conclusive, self.finest, self.factor) = (1.0, true, finest, MORE_SWEEPS[1]);
         if self.given.sweeps.is_free() {
@@ -151,13 +150,14 @@ impl<'a, 'b> Settling<'a, 'b> {
     /// Runs the engine until it is decided, or until nothing is left to try.
     ///
     /// # Errors
-    /// The failure of the last run, if no run can be judged; an error if the first runs are more work than is allowed.
+    /// The failure of the last run, if no run can be judged.
+    /// An error if the first runs need more work than is allowed.
     pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<Judged, Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
         let (mut round, mut failed) = (0, 0);
         let (mut stall, mut pace) = (Stall::default(), Pace::default());
-        // What disagrees in the last round, and what did so in two rounds running.
+        // Names that disagree in the last round, and names that disagree in two consecutive rounds.
         let (mut against, mut borne_out): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
         too_much(self.bank, self.now, &self.rungs(), [self.budget.larger(FIRST), self.budget])?;
         let end = loop {
@@ -170,7 +170,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     BoundPart::Discretisation
                 }
                 Ok(mut trial) => {
-                    // No step and no sweeps help where the order is wrong.
+                    // Neither step nor sweeps help if the order is wrong.
                     if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged.proof)? {
                         borne_out = trial.judged.proof.against();
                         best = Some(trial);
@@ -181,7 +181,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                     against = now;
                     let disagrees = !against.is_empty();
                     let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
-                    // Sweeps that leave only a part of the bound are multiplied with care: half the step does the rest.
+                    // If the sweeps cause only a part of the bound, they are multiplied by the smaller factor: half the
+                    // step does the rest.
                     let is_careful = round > QUICK && !trial.need.is_vague && trial.blame.is_shared;
                     self.near = trial.need.is_within(NEAR) || is_careful;
                     let is_slow = self.conclusive && pace.is_too_slow(self.bank.effort, trial.need, self.budget);
@@ -201,7 +202,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     if trial.need.is_of_instants() && self.given.step.is_free() {
                         self.leave_out_less(&trial.judged);
                     }
-                    // A later round speaks for itself where it disagrees, or no longer does.
+                    // A later round replaces the best one if it disagrees, or if it no longer disagrees.
                     let better = best.as_ref().is_none_or(|best| {
                         let refuted = decided && !best.judged.proof.against().is_empty();
                         disagrees || refuted || trial.need < best.need
@@ -209,7 +210,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     if better {
                         best = Some(trial);
                     }
-                    // A disagreement counts if the next refinement bears it out.
+                    // A disagreement counts if the next refinement confirms it.
                     if decided && (sharp || thrift) && (!disagrees || !borne_out.is_empty()) {
                         break SearchEnd::Decided;
                     }
@@ -220,7 +221,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
                 Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
                     failure = Some(stopped);
-                    // A run that fails may lack either; most lack a smaller step.
+                    // A failed run may lack sweeps or a smaller step; most lack a smaller step.
                     failed = if self.makes_room() { 0 } else { failed + 1 };
                     if failed > 0 && failed % FAILURES == 0 { BoundPart::Iteration } else { BoundPart::Discretisation }
                 }
@@ -234,14 +235,14 @@ impl<'a, 'b> Settling<'a, 'b> {
         let search = SettingsSearch { runs: self.bank.count, effort: self.bank.effort, budget: self.budget, end };
         match (best, failure) {
             (Some(mut best), _) => {
-                // At a given step there is no finer run: its own estimate counts.
+                // At a given step there is no finer run, so its own estimate counts.
                 let is_over = matches!(end, SearchEnd::Budget | SearchEnd::Pace);
                 let is_cut = self.given.sweeps.is_free() && is_over;
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
                     best.judged.proof.doubt(sentences::NO_FINER_RUN_BEARS_IT_OUT, &Advice::SmallerStep { to: None });
                 }
-                // Impulses are of first order, and sweeps leave more in them than in the motion: where the search is
-                // cut off before all are conclusive, none is disproven.
+                // Impulses are of first order, and sweeps leave larger errors in them than in the motion.
+                // If the search is cut off before all channels are conclusive, none is disproven.
                 if self.conclusive && is_over {
                     best.judged
                         .proof
@@ -257,10 +258,11 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// Goes on at steps that leave out few enough instants, in proportion to the step. Coarser ones decide nothing.
+    /// Continues with steps that leave out few enough instants; the number is proportional to the step. Coarser steps
+    /// decide nothing.
     fn leave_out_less(&mut self, judged: &Judged) {
         let most = judged.proof.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
-        // The next round halves the step once more.
+        // The next round halves the step again.
         while self.now.resolution > most && !self.is_finest() {
             self.now.resolution *= 0.5;
         }
@@ -269,14 +271,15 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// Goes on at steps with room beside the dead points, if those of this round have none: they go through them, and
-    /// fail or show no order. Returns whether it is so.
+    /// If the steps of this round have no room beside the dead centres, continues with steps that have it.
+    /// Runs without room go through the dead centres, and fail or show no order.
+    /// Returns whether the room was missing.
     fn makes_room(&mut self) -> bool {
         let (case, engine) = (self.judge.problem.case, self.bank.engine(self.now));
         let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
         let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
         if is_cramped {
-            // The next round halves the step once more. Rounding asks for the largest step that there is room for.
+            // The next round halves the step again. The largest step with room keeps rounding small.
             if self.finest == 0.0 {
                 self.now.resolution = self.now.resolution.smaller(ROOM * 0.5 * most);
             }
@@ -288,7 +291,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         is_cramped
     }
 
-    /// Changes the settings by what is to blame. Returns why it cannot.
+    /// Changes the settings that the part `blame` depends on. Returns the reason if it cannot.
     fn refine(&mut self, blame: BoundPart) -> Option<SearchEnd> {
         let mut next = self.now;
         let factor = MORE_SWEEPS[usize::from(self.conclusive || self.near)];
@@ -296,20 +299,20 @@ impl<'a, 'b> Settling<'a, 'b> {
             BoundPart::Iteration if self.given.sweeps.is_free() && self.now.sweeps < self.most_sweeps => {
                 next.sweeps *= factor
             }
-            // At a given step only more sweeps are left, and too few of them spoil the order that the step shows.
+            // At a given step only more sweeps can be chosen. Too few of them spoil the order of the step.
             BoundPart::Discretisation
                 if self.is_finest() && self.given.sweeps.is_free() && self.now.sweeps < self.judge.asked.sweeps =>
             {
                 next.sweeps *= factor;
             }
-            // Coarser runs, extrapolated more often, have less rounding.
+            // Coarser runs with more extrapolations have less rounding error.
             BoundPart::Rounding
                 if self.given.step.is_free() && self.coarsest < COARSEST * self.judge.asked.resolution =>
             {
                 self.coarsest = COARSEST * self.judge.asked.resolution;
                 return None;
             }
-            // At a given step no coarser one is left to choose.
+            // At a given step no coarser step can be chosen.
             BoundPart::Rounding | BoundPart::Reference if self.given.step.is_free() => {
                 return Some(SearchEnd::Rounding);
             }
@@ -329,7 +332,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         None
     }
 
-    /// Settings of all combinations that the finest run judges, the one extrapolated most often first.
+    /// Settings of all combinations in which the finest run takes part, the one extrapolated most often first.
     fn candidates(&self) -> Vec<Settings> {
         let asked = self.judge.asked;
         let times =
@@ -339,7 +342,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             extrapolated: times,
             ..self.now
         };
-        // A judgement takes steps of four times the finest one at least.
+        // A judgement needs steps of up to four times the finest one.
         let coarsest = self.coarsest.larger(4.0 * self.now.resolution);
         let is_open =
             |settings: &Settings| !self.given.step.is_free() || 2.0 * settings.resolution <= coarsest * 1.000_001;
@@ -351,8 +354,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         self.candidates().into_iter().flat_map(|settings| rungs(settings, &[])).collect()
     }
 
-    /// Makes the runs of a round and judges their combinations. The best one is returned. A search that `is_long` asks
-    /// what the sweeps leave, whatever the step.
+    /// Makes the runs of a round, judges their combinations and returns the best one.
+    /// A long search (`is_long`) determines the iteration error whatever the step.
     fn round(&mut self, is_long: bool, progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
@@ -377,7 +380,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             }
         }
         let Some(best) = best else { return Err(failure.expect("every round has a candidate")) };
-        // At first, what the sweeps leave is asked only where the step is not to blame.
+        // At first the iteration error is determined only if the step is not to blame.
         let settings = best.judged.proof.info.settings;
         let engine = self.bank.engine(settings);
         let share = if self.given.sweeps.is_free() { self.factor } else { FEWER };
@@ -388,21 +391,22 @@ impl<'a, 'b> Settling<'a, 'b> {
             return Ok(best);
         }
         let found = match self.trial(settings, &others[..1], &mut |part| progress(0.7 + 0.2 * part)) {
-            // Sweeps so few that the run fails say that those of the other run are hardly enough.
+            // If a run with fewer sweeps fails, the sweeps of the other run are hardly enough.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
                 return Ok(Trial { need: Need { is_vague: true, ..best.need }, blame: SWEEPS, ..best });
             }
             found => found?,
         };
-        // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before
-        // anything is disproven: sweeps that have hardly begun to converge differ little.
+        // A third run shows how fast the sweeps converge, before they are multiplied.
+        // It also shows whether they converge, before anything is disproven: sweeps that have hardly begun to converge
+        // differ little.
         let is_asked =
             found.blame.part == BoundPart::Iteration && !found.need.is_within(self.aim) && self.given.sweeps.is_free();
         if others.len() < 2 || (!is_asked && found.judged.proof.against().is_empty()) {
             return Ok(found);
         }
         match self.trial(settings, &others, &mut |part| progress(0.9 + 0.1 * part)) {
-            // What fails with fewer sweeps has hardly enough of them.
+            // If a run with fewer sweeps fails, the sweeps of the other run are hardly enough.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric && !found.judged.proof.against().is_empty() => {
                 Ok(Trial { need: Need { is_vague: true, ..found.need }, blame: SWEEPS, ..found })
             }

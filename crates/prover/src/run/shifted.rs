@@ -1,4 +1,4 @@
-//! What rounded instants leave open: a case solved at both ends of it.
+//! Uncertainty due to rounded instants: a case is solved at both ends of the rounding interval.
 
 use std::f64::consts::TAU;
 
@@ -11,19 +11,20 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{OraclePoint, When, within};
 
-/// Units in the last place of a double within which an instant is exact: what the sides know allows for these.
+/// Error, in units in the last place of a double, within which an instant counts as exact. The known errors of the
+/// sides cover it.
 const EXACT: f64 = 4.0;
-/// Distances from an instant at which the case is solved, as shares of what its digits leave open. The ends are enough
-/// where the course between them is a parabola, with its vertex anywhere.
+/// Shifts of an instant at which the case is solved, as shares of its rounding error.
+/// The two ends suffice if the course between them is a parabola, wherever its vertex is.
 const ENDS: [f64; 2] = [-1.0, 1.0];
-/// Where the crank turns further than that meanwhile (rad), it is solved at these too.
+/// If the crank rotates by more than this in between (rad), the case is also solved at `BETWEEN`.
 const FAR: f64 = 0.01;
 const BETWEEN: [f64; 2] = [-0.5, 0.5];
 
-/// Share of its scale beyond which what digits, interpolation and instants leave open proves nothing.
+/// Share of a scale above which the uncertainty due to digits, interpolation and instants proves nothing.
 pub const TELLING: f64 = 1e-2;
 
-/// What instants are counted by.
+/// Quantity in which instants are given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
     /// The crank angle (rad).
@@ -33,7 +34,7 @@ pub enum Along {
 }
 
 impl Along {
-    /// An instant that is counted so; `None` if it is counted otherwise.
+    /// An instant in this quantity; `None` if it is given in the other one.
     pub(super) fn of(self, when: When) -> Option<f64> {
         match self {
             Along::Crank => when.crank(),
@@ -55,12 +56,12 @@ pub fn is_exact(at: f64, error: f64) -> bool {
     error <= EXACT * f64::EPSILON * at.abs()
 }
 
-/// Solves a case beside the trajectory that was found at its instants: where these are off by shares of `slack`, row by
-/// row. Every solution is handed to `then`, with its case. So a course whose
-/// rate vanishes at an instant is followed too, and so are rates and forces.
+/// Solves a case at instants that are shifted by shares of `slack`, row by row, from those of the trajectory `own`.
+/// Every solution is passed to `then`, with its case.
+/// So changes are also found where a rate vanishes at an instant, and for rates and forces.
 ///
 /// # Errors
-/// Those of the solver, where an instant is off beyond the reach of the mechanism, and of `then`.
+/// Those of the solver, if a shifted instant is beyond the reach of the mechanism, and those of `then`.
 pub fn shifted(
     case: &Case,
     own: &Trajectory,
@@ -94,7 +95,7 @@ pub fn shifted(
     Ok(())
 }
 
-/// Widens what is known so far by some changes; values of an angle that are a `turn` apart mean the same.
+/// Enlarges `drift` to the size of these changes. Values of an angle that differ by a `turn` are equal.
 pub fn grow(drift: &mut [f64], changes: impl Iterator<Item = f64>, turn: Option<f64>) {
     for (drift, change) in drift.iter_mut().zip(changes) {
         let change = turn.map_or(change, |turn| change - turn * (change / turn).round()).abs();
@@ -104,17 +105,17 @@ pub fn grow(drift: &mut [f64], changes: impl Iterator<Item = f64>, turn: Option<
     }
 }
 
-/// The instants of a motion that may be off, and by how much every channel changes meanwhile.
+/// Rounded instants of a motion, and the change of every channel within their rounding.
 pub(super) struct RoundedInstants {
     /// Instants (rad or s) with their errors, in ascending order.
     at: Vec<(f64, f64)>,
-    /// Channel by channel, in its unit.
+    /// Changes by channel, in its unit.
     drift: Vec<(Channel, Vec<f64>)>,
 }
 
 impl RoundedInstants {
-    /// Those of some points of a case. Where the case cannot be solved at both ends of an instant, the course from row to
-    /// row must do.
+    /// Rounded instants of some points of a case.
+    /// If the case cannot be solved at both ends of an instant, the course from row to row is used.
     ///
     /// # Errors
     /// Those of the solver at the instants themselves.
@@ -148,7 +149,7 @@ impl RoundedInstants {
         Ok(RoundedInstants { at, drift: own.channels().iter().cloned().zip(drift).collect() })
     }
 
-    /// By how much a channel changes within the rounding of the instant of a point, `at` in the motion of the case.
+    /// Change of a channel within the rounding of a point's instant; `at` is this instant in the motion of the case.
     pub(super) fn of_point(&self, channel: &Channel, at: f64, error: f64) -> f64 {
         let place = self.at.binary_search_by(|own| own.0.total_cmp(&at).then(own.1.total_cmp(&error)));
         let column = self.drift.iter().find(|(own, _)| own == channel);
@@ -160,7 +161,7 @@ impl RoundedInstants {
     }
 }
 
-/// The same by the course from row to row.
+/// The same changes from the course from row to row.
 fn from_row_to_row(own: &Trajectory, instants: &[f64], slack: &[f64]) -> Vec<Vec<f64>> {
     let order: Vec<usize> = (0..instants.len()).collect();
     let of = |(channel, values): (&Channel, &[f64])| {

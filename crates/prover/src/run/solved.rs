@@ -1,4 +1,5 @@
-//! A scenario solved by both analytic sides without engines: at instants of somebody else, or for what formulas claim.
+//! A scenario solved by both analytic sides without engines: at the instants of another party, or for the claims of
+//! formulas.
 
 use super::dependence::Dependence;
 use super::each_side::Reference;
@@ -17,15 +18,16 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{Claim, Formulas, Scenario};
 
-/// How far the numbers of an analytic side's trajectory are known where nothing was measured: what rounding leaves in
-/// well conditioned poses, channel by channel, in their units.
+/// Smallest errors of an analytic side's trajectory: rounding errors in well-conditioned poses, channel by channel, in
+/// their units.
 #[must_use]
 pub fn known_at_least(trajectory: &Trajectory) -> Vec<f64> {
     let sizes = magnitudes(trajectory).into_iter().zip(trajectory.channels());
     sizes.map(|(size, channel)| usual(channel.kind.stage) * size).collect()
 }
 
-/// The same for a trajectory of all channels of a case: every channel by the numbers of the groups that it depends on.
+/// The same for a trajectory of all channels of a case. The error of a channel follows from the numbers of the groups
+/// that it depends on.
 #[must_use]
 pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
     let depends = Dependence::of(case, trajectory.channels());
@@ -33,8 +35,8 @@ pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
     sizes.into_iter().zip(trajectory.channels()).map(|(size, channel)| usual(channel.kind.stage) * size).collect()
 }
 
-/// The channels that are solved for a claim: what judging it needs, and the other channels of what it is about. A
-/// component that is zero but for rounding is known as well as these.
+/// The channels that are solved for a claim: those needed to judge it, and the other channels of its subject.
+/// The latter set the error of a component that is zero except for rounding.
 #[must_use]
 pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
     let is_beside = |channel: &Channel| {
@@ -48,7 +50,7 @@ pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
     asked
 }
 
-/// The part of a case that is needed for some channels, and both sides on it, with what formulas claim.
+/// The part of a case that some channels need, and both sides on it, with the judged formulas.
 fn of_asked(
     scenario: &Scenario,
     whole: &Case,
@@ -62,12 +64,12 @@ fn of_asked(
     Ok((case, sides))
 }
 
-/// What both sides find, and how well they know it.
+/// Results of both sides, with their errors.
 pub struct Solved {
-    /// What was solved: the part of the mechanism that the claims need, at the instants.
+    /// The solved case: the part of the mechanism that the claims need, at the instants.
     pub case: Case,
     sides: ObservedSides,
-    /// How well every channel is known at best, whatever else is solved.
+    /// Smallest error of every channel, whatever else is solved.
     least: Vec<f64>,
 }
 
@@ -75,7 +77,8 @@ impl Solved {
     /// Solves what some claims of a scenario need at the instants of a grid.
     ///
     /// # Errors
-    /// Those of the sides, with the crank angle, and of a grid to which the drive does not come.
+    /// Those of the sides, with the crank angle.
+    /// Also if the drive does not reach an instant of the grid.
     pub fn of<'a>(scenario: &Scenario, grid: Grid, claims: impl IntoIterator<Item = &'a Claim>) -> Result<Self> {
         let asked: Vec<Channel> = claims.into_iter().flat_map(|claim| asked(claim, &scenario.case)).collect();
         let (case, sides) = of_asked(scenario, &scenario.case.on(grid)?, &asked, &Formulas::over(Vec::new()))?;
@@ -83,15 +86,15 @@ impl Solved {
         Ok(Solved { case, sides, least })
     }
 
-    /// The same, where no channel is known better than all channels of the mechanism say: a few channels may be those
-    /// that are zero but for rounding, which is that of the others.
+    /// The same, with smallest errors `of` the channels, determined from all channels of the mechanism.
+    /// If the few solved channels are zero except for rounding, their rounding error comes from other channels.
     #[must_use]
     pub fn known_at_least(mut self, of: &dyn Fn(&Channel) -> f64) -> Self {
         self.least = self.sides.trajectory().channels().iter().map(of).collect();
         self
     }
 
-    /// What the reference finds, with how well it knows it.
+    /// Calls `then` with the results of the reference and their errors.
     ///
     /// # Errors
     /// Those of `then`.
@@ -112,18 +115,18 @@ impl Solved {
     }
 }
 
-/// What formulas come to on both sides.
+/// Judgement of the formulas by both sides.
 #[derive(Clone, Debug)]
 pub struct Claimed {
-    /// What both sides say of every claim.
+    /// Judgements of both sides on every claim.
     pub judgement: Judgement,
     /// The checks of the sides themselves.
     pub checks: Vec<Check>,
-    /// The verdict on all of it.
+    /// The overall verdict.
     pub verdict: Verdict,
 }
 
-/// Judges the formulas of a scenario. Only what they claim is solved, and what their derivatives need.
+/// Judges the formulas of a scenario. Only their claims are solved, and what the derivatives need.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if no formula claims anything, and those of the sides, with the crank angle.
@@ -139,14 +142,14 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
     let (_, mut sides) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
     let is_open = |own: &Judgement| {
         let mut causes = own.causes.iter();
-        // A search that was long is not done once more with more channels.
+        // A long search is not repeated with more channels.
         own.work <= MOST_WORK
             && causes.any(|(name, cause)| {
                 !cause.as_ref().is_some_and(FormulaCause::is_whole) && !own.unsought.contains(name)
             })
     };
     if let Some(own) = sides.judgement.as_mut().filter(|own| is_open(own)) {
-        // What is wrong may be a term that the mechanism has and nobody asked for.
+        // The error may be a missing term of the mechanism whose channel was not requested.
         asked.extend(telling(&scenario.case, scenario.formulas.claims().map(|(_, claim)| claim)));
         let (_, all) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
         if let Some(again) = all.judgement {

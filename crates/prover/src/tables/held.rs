@@ -1,4 +1,4 @@
-//! What a table says of a mechanism: claims of channels, at instants.
+//! Contents of a table about a mechanism: claims of channels, at instants.
 
 use crate::sentences;
 use std::borrow::Cow;
@@ -15,7 +15,7 @@ use scenario::words::{choice, nearest};
 use scenario::{Claim, PrintedChannel};
 use std::ops::Range;
 
-/// Where the rows of a party hold; one of the two is always there.
+/// Instants of the rows of a party. One of the two is always given.
 #[derive(Clone, Debug, Default)]
 pub struct Instants {
     /// Times (s).
@@ -24,7 +24,7 @@ pub struct Instants {
     pub cranks: Option<Vec<Rounded>>,
 }
 
-/// What rows are brought together by.
+/// Quantity by which rows are matched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
     /// Times.
@@ -33,12 +33,12 @@ pub enum By {
     Crank,
 }
 
-/// The instants by which rows are brought together.
+/// The instants by which rows are matched.
 #[derive(Clone, Debug)]
 pub struct RowKey {
     /// Times (s), or crank angles (rad).
     pub values: Vec<Rounded>,
-    /// Whether they are crank angles.
+    /// Whether the values are crank angles.
     pub is_crank: bool,
 }
 
@@ -49,8 +49,9 @@ impl RowKey {
         ascending(&self.values.iter().map(|at| at.value).collect::<Vec<f64>>())
     }
 
-    /// The first row, from 0, whose instant lies the other way from the one before than the second from the first, with
-    /// both instants: time that jumps back has begun anew.
+    /// The first row, from 0, whose step from the row before is opposite to the first step of the table. Returns it
+    /// with both instants.
+    /// A time that jumps back has begun anew.
     #[must_use]
     pub fn turns_back(&self) -> Option<(usize, [f64; 2])> {
         let step = |row: usize| self.values[row].value - self.values[row - 1].value;
@@ -60,37 +61,37 @@ impl RowKey {
     }
 }
 
-/// What a party says of a channel, or of an arithmetic of channels.
+/// Values of a party for a channel, or for an expression of channels.
 #[derive(Clone, Debug)]
 pub struct PartyColumn {
     /// The channel in its unit.
     pub claim: Claim,
-    /// Its numbers by rows, in the unit of the claim. [`MISSING`] where nothing was measured; another NaN where no
-    /// number came out.
+    /// Its numbers by rows, in the unit of the claim. [`MISSING`] if nothing was measured; another NaN if no number
+    /// resulted.
     pub values: Vec<Rounded>,
-    /// Scale of the channel in the unit of the claim, as a complete trajectory gives it; `None` where only this column
-    /// is known.
+    /// Scale of the channel in the unit of the claim, from a complete trajectory; `None` if only this column is known.
     pub scale: Option<f64>,
-    /// The line of the mapping that says so; `None` where the table's own header does.
+    /// The line of the mapping for it; `None` if the table's own header names the channel.
     pub mapped: Option<Mapped>,
 }
 
-/// All that a party holds.
+/// All data of a party.
 #[derive(Clone, Debug, Default)]
 pub struct Held {
     /// Where its rows hold.
     pub at: Instants,
     /// What it holds there.
     pub columns: Vec<PartyColumn>,
-    /// Whether an analytic side has found it, so that its errors are known.
+    /// Whether it comes from an analytic side, so that its errors are known.
     pub is_analytic: bool,
-    /// Columns of a table that say nothing of a channel.
+    /// Columns of a table that belong to no channel.
     pub unused: Vec<String>,
     places: Places,
 }
 
-/// Where columns stand: the first of each text, and the first of each channel that is no arithmetic, with whether it is
-/// a magnitude. A party has as many columns as a mapping has lines, and each is asked for.
+/// Indices of columns by text and by channel; the first one counts.
+/// Expressions have no entry by channel, and a magnitude is another channel.
+/// The maps are needed because a party has as many columns as a mapping has lines, and each is looked up.
 #[derive(Clone, Debug, Default)]
 struct Places {
     texts: BTreeMap<String, usize>,
@@ -114,24 +115,24 @@ impl Places {
 const TIMES: [&str; 2] = ["t_s", "t"];
 
 impl Held {
-    /// What a party that is not analytic holds in some columns.
+    /// Columns of a party that is not analytic.
     #[must_use]
     pub fn of_columns(at: Instants, columns: Vec<PartyColumn>) -> Held {
         let places = Places::of(&columns);
         Held { at, columns, is_analytic: false, unused: Vec::new(), places }
     }
 
-    /// The same, found by an analytic side.
+    /// The same data from an analytic side.
     #[must_use]
     pub fn analytic(self) -> Held {
         Held { is_analytic: true, ..self }
     }
 
-    /// What a table says by a mapping. A column that has the name of a channel, unit included, needs none.
+    /// Reads a table by a mapping. A column with the name of a channel, unit included, needs no mapping.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a column or channel that is not known, with its place, and if nothing says where the
-    /// rows hold or what they mean.
+    /// [`ErrorKind::Input`] for an unknown column or channel, with its location.
+    /// Also if nothing states the instants of the rows or the meaning of a column.
     pub fn of_table(raw: &Raw, mapping: &Mapping) -> Result<Held> {
         let mut reader = Reader::of(raw);
         let mut at = Instants::default();
@@ -142,7 +143,7 @@ impl Held {
             let printed = reader.column(mapped)?;
             let chosen = if mapped.name == "crank_deg" { columns::degrees_chosen } else { columns::chosen };
             let is_chosen = chosen(&printed);
-            // A factor to SI rounds.
+            // A factor to SI units causes a rounding error.
             let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
             if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {
@@ -180,7 +181,7 @@ impl Held {
         Ok(Held { unused, ..Held::of_columns(at, columns) })
     }
 
-    /// What a trajectory holds that no analytic side has found.
+    /// The data of a trajectory that does not come from an analytic side.
     #[must_use]
     pub fn of_trajectory(trajectory: &Trajectory) -> Held {
         let exact = |values: &[f64]| -> Vec<Rounded> { values.iter().map(|&value| Rounded::nearly(value)).collect() };
@@ -195,10 +196,10 @@ impl Held {
         Held::of_columns(Instants { times, cranks }, columns)
     }
 
-    /// The instants of its rows: crank angles or times as asked for, else times where it has some.
+    /// The instants of its rows: crank angles or times as requested, otherwise times if there are any.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if it lacks what is asked for.
+    /// [`ErrorKind::Input`] if the requested instants are missing.
     pub fn at(&self, by: Option<By>) -> Result<RowKey> {
         let Instants { times, cranks } = &self.at;
         let is_crank = by.map_or(times.is_none(), |by| by == By::Crank);
@@ -229,7 +230,8 @@ impl Held {
         self.column_of(claim).is_some()
     }
 
-    /// Its numbers for a claim, in the claim's unit: under the same text, or the same channel in another unit.
+    /// Its numbers for a claim, in the claim's unit: from a column with the same text, or with the same channel in
+    /// another unit.
     #[must_use]
     pub fn values_of(&self, claim: &Claim) -> Option<Cow<'_, [Rounded]>> {
         match self.column_of(claim)? {
@@ -238,14 +240,14 @@ impl Held {
         }
     }
 
-    /// The scale of a claim, in its unit, where it is that of a complete trajectory.
+    /// The scale of a claim, in its unit, if it comes from a complete trajectory.
     #[must_use]
     pub fn scale_of(&self, claim: &Claim) -> Option<f64> {
         let (column, factor) = self.column_of(claim)?;
         Some(column.scale? * factor)
     }
 
-    /// The column of a claim, and its unit over that of the claim.
+    /// The column of a claim, and the ratio of its unit to that of the claim.
     fn column_of(&self, claim: &Claim) -> Option<(&PartyColumn, f64)> {
         if let Some(&index) = self.places.texts.get(&claim.text) {
             return Some((&self.columns[index], 1.0));
@@ -257,13 +259,13 @@ impl Held {
     }
 }
 
-/// The channel of a claim that is no arithmetic.
+/// The channel of a claim that is not an expression of channels.
 fn single(claim: &Claim) -> Option<&PrintedChannel> {
     matches!(claim.tree.shape, NodeShape::Name(_)).then(|| &claim.channels[0].1)
 }
 
-/// The columns that say by their names where the rows hold. One that is called so letter by letter stands before one
-/// that says the same in words, as `Time [s]`.
+/// The columns whose names identify them as instants. An exact name has priority over a name in words, such as `Time
+/// [s]`.
 fn instants_of(raw: &Raw) -> Vec<Mapped> {
     let seconds = TIMES.into_iter().find(|name| raw.names.iter().any(|own| own == name));
     let named = INSTANTS.iter().map(|(name, ..)| *name).filter(|name| raw.names.iter().any(|own| own == name));
@@ -279,7 +281,7 @@ fn instants_of(raw: &Raw) -> Vec<Mapped> {
     all
 }
 
-/// Which of [`INSTANTS`] the name of a column says in words: `Time`, `t [s]`, `time (ms)`, `Crank [deg]`.
+/// The one of [`INSTANTS`] that the name of a column states in words: `Time`, `t [s]`, `time (ms)`, `Crank [deg]`.
 fn in_words(name: &str) -> Option<&'static str> {
     let bracketed = ["[]", "()"].iter().find_map(|pair| {
         let (open, close) = pair.split_at(1);
@@ -297,10 +299,10 @@ fn in_words(name: &str) -> Option<&'static str> {
     }
 }
 
-/// A claim of any channels that there are.
+/// A claim of any existing channels.
 ///
 /// # Errors
-/// What cannot be read, or is no channel.
+/// If the text cannot be read, or a name is not a channel.
 fn claim_of(text: &str) -> std::result::Result<Claim, FormulaFault> {
     let known = |name: &str| PrintedChannel::named(name).map(|own| own.channel);
     let all: Vec<Channel> = match known(text) {
@@ -317,7 +319,7 @@ fn scaled(number: Rounded, factor: f64) -> Rounded {
     }
 }
 
-/// The first columns by name.
+/// Names of the first columns.
 fn some(names: &[String]) -> String {
     let shown = names.iter().take(NAMED).map(String::as_str);
     match names.len().saturating_sub(NAMED) {
@@ -326,17 +328,17 @@ fn some(names: &[String]) -> String {
     }
 }
 
-/// Columns that a message names; the others are counted.
+/// Largest number of columns that a message names; the others are counted.
 const NAMED: usize = 8;
 
-/// Evaluates arithmetics over the columns of a table.
+/// Evaluates expressions over the columns of a table.
 struct Reader<'a> {
     raw: &'a Raw,
     graph: FormulaGraph,
     /// The first column of each name.
     places: BTreeMap<&'a str, usize>,
     used: BTreeSet<&'a str>,
-    /// A row of numbers, for the columns that an arithmetic names.
+    /// A row of numbers, for the columns in an expression.
     inputs: Vec<Rounded>,
 }
 
@@ -373,7 +375,8 @@ impl<'a> Reader<'a> {
             for &index in &used {
                 inputs[index] = self.raw.columns[index][row];
             }
-            // What nobody measured gives no number; what was measured gives one, or the mapping is a mistake.
+            // A missing measurement gives no number. Measured values must give a number; otherwise the mapping is
+            // wrong.
             if used.iter().any(|&index| is_missing(&inputs[index])) {
                 return Ok(MISSING);
             }
@@ -391,7 +394,7 @@ impl<'a> Reader<'a> {
         (0..self.raw.len()).map(&mut row).collect()
     }
 
-    /// The fault of a name that is not known, with the columns that are.
+    /// The fault of an unknown name, with the existing columns.
     fn unknown(&self, name: &str, at: Range<usize>) -> FormulaFault {
         let message = sentences::the_table_has_no_column(&name);
         let help = match nearest(name, self.raw.names.iter().map(String::as_str)) {
@@ -406,7 +409,8 @@ impl<'a> Reader<'a> {
 mod tests {
     use super::*;
 
-    /// Of two columns of one text the first counts; a channel is found in another unit too, a magnitude is another one.
+    /// Of two columns with the same text the first counts. A channel is found in another unit too; a magnitude is
+    /// another channel.
     #[test]
     fn a_claim_is_found_by_its_text_or_by_its_channel() {
         let names = ["point.B.x_mm", "2*point.B.x_m", "point.B.x_mm", "point.B.x_m", "joint.A.f_N", "joint.B.fx_N"];

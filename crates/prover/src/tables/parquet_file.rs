@@ -21,9 +21,9 @@ use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::quiet::guarded;
 
-/// Largest number of values that is read.
+/// Largest number of values that are read.
 const MOST: u64 = 1 << 26;
-/// Values that are read at a time.
+/// Number of values that are read at a time.
 const BATCH: usize = 1 << 12;
 
 pub(super) fn read(path: &Path, size: u64, may: May) -> Result<TextTable> {
@@ -31,7 +31,7 @@ pub(super) fn read(path: &Path, size: u64, may: May) -> Result<TextTable> {
         Error::new(ErrorKind::Io, sentences::the_table_is_cut_off_or_damaged(&path.display(), &error))
             .help(sentences::WRITE_IT_AGAIN_AS_PARQUET)
     };
-    // The reader is given whatever a file claims to be.
+    // A file may claim anything, so panics of the reader are caught.
     match guarded(|| of_file(path, size, may)) {
         Ok(Ok(read)) => read,
         Ok(Err(error)) => Err(damaged(&error)),
@@ -39,10 +39,10 @@ pub(super) fn read(path: &Path, size: u64, may: May) -> Result<TextTable> {
     }
 }
 
-/// The columns that hold numbers; others, such as names, are passed over.
+/// Reads the columns of numbers; others, such as names, are skipped.
 fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextTable>, ParquetError> {
     let file = File::open(path)?;
-    // An error of the file system would call itself external.
+    // The usual conversion would label an error of the file system as external.
     let wrong = |error: std::io::Error| ParquetError::General(error.to_string());
     announced::check_description(&file).map_err(wrong)?;
     let reader = SerializedFileReader::new(file.try_clone()?)?;
@@ -63,7 +63,7 @@ fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextT
     }
     let wanted = described.schema_descr().columns().iter().enumerate().filter(|(_, column)| is_number(column));
     let wanted: Vec<(usize, String)> = wanted.map(|(index, column)| (index, column.name().to_string())).collect();
-    // Each group says how many rows it has, and the file how many all have.
+    // Each group states its number of rows, and the file states the total.
     let rows = groups.iter().try_fold(0_u64, |sum, group| sum.checked_add(u64::try_from(group.num_rows()).ok()?));
     let Some(rows) = rows.filter(|&rows| i64::try_from(rows) == Ok(described.num_rows())) else {
         return Err(ParquetError::General(sentences::ITS_GROUPS_HAVE_OTHER_ROWS.into()));
@@ -72,7 +72,7 @@ fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextT
     if values > MOST {
         return refused(sentences::it_has_values_more_than(&values, &MOST), sentences::GIVE_FEWER_ROWS_OR_FEWER);
     }
-    // What is compressed is unpacked part by part.
+    // Compressed data is unpacked part by part.
     if let Err(error) = may(size as f64 + values as f64 * size_of::<Rounded>() as f64, rows as usize) {
         return Ok(Err(error));
     }
@@ -100,8 +100,8 @@ fn unread(compression: Compression) -> Option<&'static str> {
     }
 }
 
-/// Whether a column holds one number in each row: whole ones that are no dates, times or decimals, and those with a
-/// point.
+/// Whether a column holds one number in each row: integers that are not dates, times or decimals, or floating-point
+/// numbers.
 fn is_number(column: &ColumnDescriptor) -> bool {
     use ConvertedType as Kind;
     let is_plain = column.path().parts().len() == 1 && column.max_rep_level() == 0;
@@ -149,7 +149,7 @@ fn values_of(
     }
 }
 
-/// The same for one kind of value; where a row has none, its level is not `full`.
+/// The same for one kind of value. The level of a row without a value is not `full`.
 fn taken<T: DataType>(
     mut part: ColumnReaderImpl<T>,
     full: i16,
@@ -172,7 +172,7 @@ where
         let mut values = values.iter().map(|&value| number(value));
         let mut next =
             || values.next().ok_or_else(|| ParquetError::General(sentences::A_COLUMN_HAS_FEWER_VALUES.into()));
-        // A column that must have values says nothing about each.
+        // A column in which every row must have a value has no levels.
         for level in levels.iter().copied().chain(std::iter::repeat(full)).take(read) {
             to.push(if level == full { next()? } else { MISSING });
         }

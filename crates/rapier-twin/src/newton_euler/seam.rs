@@ -5,17 +5,17 @@ use linkage::math::{Vec2, cross, turned};
 use linkage::mechanism::{JointId, JointKind, JointSide, LinkId};
 use linkage::solver::State;
 
-/// Components that a joint transmits where it stands alone in two equations: those of a pin or of a slide.
+/// Number of components of a pin or a slide. A cut joint with only these unknowns is solved from two equations.
 pub(super) const PAIR: usize = 2;
 
 /// A joint between two links.
 #[derive(Clone, Debug)]
 pub(super) struct Seam {
     pub(super) joint: JointId,
-    /// The two links, and their numbers in the tree; `None` for the ground.
+    /// The two links, and their indices in the tree; `None` for the ground.
     pub(super) links: [LinkId; 2],
     pub(super) numbers: [Option<usize>; 2],
-    /// +1 for the joint's second link, else -1: the sense in which its reaction acts.
+    /// +1 for the joint's second link, else -1: the sign with which its reaction acts.
     pub(super) signs: [f64; 2],
     pub(super) pair: Pair,
 }
@@ -28,7 +28,7 @@ pub(super) enum Pair {
     Slide { axis: JointSide, place: JointSide, centres: [Vec2; 2] },
 }
 
-/// A joint at one instant: arms from the mass centres of its links to where it acts (m, world axes).
+/// A joint at one instant: arms from the mass centres of its links to its point of action (m, world axes).
 /// For a prismatic joint also the unit vector across its axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stand {
@@ -36,13 +36,14 @@ pub(super) struct Stand {
     pub(super) normal: Option<Vec2>,
 }
 
-/// What a joint of the tree transmits of the force and moment that its outer link needs.
+/// Share of the force and moment needed by the outer link that a joint of the tree transmits.
 /// All parts are weights of these three numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
-    /// The part that it cannot transmit: the moment in a revolute joint, the force along the axis of a prismatic one.
+    /// The part that the joint cannot transmit: the moment in a revolute joint, the force along the axis of a prismatic
+    /// one.
     left_over: Term,
-    /// The force that it transmits: weights of x in x, of x in y (and y in x), of y in y.
+    /// The transmitted force: weights of x in x, of x in y (and y in x), of y in y.
     force: Term,
     /// The moment of this force about the inner link's mass centre.
     moment: Term,
@@ -82,7 +83,7 @@ impl Seam {
 }
 
 impl Stand {
-    /// Effect of the joint's two components on the link of side `k`, without the sense of the reaction.
+    /// Effect of the joint's two components on the link of side `k`, without the sign of the reaction.
     #[inline]
     pub(super) fn components(&self, k: usize) -> [Term; PAIR] {
         let arm = self.arms[k];
@@ -111,8 +112,7 @@ impl Stand {
         }
     }
 
-    /// The joint's force (N) and moment about its point (N m) that give its outer link what it needs.
-    /// The joint is one of the tree.
+    /// Force (N) of a joint of the tree, and moment about its point (N m), that its outer link needs.
     #[inline]
     pub(super) fn reaction(&self, [x, y, moment]: Term) -> (Vec2, f64) {
         match self.normal {
@@ -131,7 +131,7 @@ impl Pass {
         weighed(&self.left_over, term)
     }
 
-    /// Adds what the inner link needs in addition so that the outer one gets what it needs.
+    /// Adds to the needs of the inner link what it passes on to the outer link.
     #[inline]
     pub(super) fn on(&self, term: &Term, sum: &mut Term) {
         let [xx, xy, yy] = self.force;

@@ -15,18 +15,18 @@ pub(super) struct Limb {
     pub(super) terms: Vec<usize>,
 }
 
-/// Equations that determine some of the components once others are known.
+/// Equations that determine some of the components once the others are known.
 #[derive(Debug)]
 pub(super) enum Stage {
     /// Both components of a cut joint from two equations; the first component is given.
     Pair(usize, [Row; PAIR]),
-    /// All components that are left, with workspace for the system.
+    /// All remaining components, with workspace for the system.
     All { rows: Vec<Row>, terms: Vec<usize>, values: Vec<f64>, matrix: Lu },
 }
 
 /// The equation of a joint of the tree.
-/// It stores the number of its limb and its unknown terms with their columns in the stage's matrix.
-/// Terms that are already known stand apart.
+/// It stores the index of its limb and its unknown terms with their columns in the stage's matrix.
+/// Known terms are stored separately.
 #[derive(Debug)]
 pub(super) struct Row {
     pub(super) number: usize,
@@ -64,7 +64,7 @@ impl Row {
 }
 
 /// Stages in which the components are found.
-/// First come cut joints whose two components stand alone in two equations; dyads need no more.
+/// First come the cut joints whose two components are the only unknowns of two equations; dyads need no more.
 /// Then all others are solved together.
 pub(super) fn stages(limbs: &[Limb], cut: &[Range<usize>]) -> Vec<Stage> {
     let mut left: Vec<usize> = (0..limbs.len()).rev().filter(|&number| limbs[number].drive.is_none()).collect();

@@ -29,12 +29,12 @@ fn locking(axes: JointAxesMask) -> GenericJointBuilder {
     GenericJointBuilder::new(axes).contacts_enabled(false).softness(SpringCoefficients::new(real(JOINT_FREQUENCY), 1.0))
 }
 
-/// A joint that locks nothing.
+/// A joint without locked axes.
 pub(super) fn free() -> GenericJointBuilder {
     locking(JointAxesMask::empty())
 }
 
-/// The joint by which a link floats in a multibody: its coordinates are the place of its mass centre and its angle.
+/// The joint by which a link floats in a multibody: its coordinates are the position of its mass centre and its angle.
 pub(super) fn floating(link: &Link) -> GenericJoint {
     free().local_anchor2(vector(link.mass_centre)).build()
 }
@@ -57,8 +57,8 @@ pub(super) fn between(joint: &Joint, links: [LinkId; 2]) -> GenericJoint {
     }
 }
 
-/// Which coordinate of a joint of [`between`] is free: the first along the axis of a prismatic one, the last, the
-/// angle, of a revolute one.
+/// Index of the free coordinate of a joint of [`between`].
+/// For a prismatic joint it is the first, along the axis; for a revolute joint the last, the angle.
 pub(super) fn free_coordinate(joint: &Joint) -> usize {
     if joint.slides() { 0 } else { 2 }
 }
@@ -72,7 +72,7 @@ pub(super) fn motor(drive: &Drive) -> (GenericJoint, JointAxis) {
     (rigid.build(), axis)
 }
 
-/// A revolute joint between `links` whose rows lie along and across the direction `axis` of the first of them.
+/// A revolute joint between `links` whose rows lie along and across the direction `axis` of the first link.
 pub(super) fn steered(joint: &Joint, links: [LinkId; 2], axis: Vec2) -> GenericJoint {
     holding(JointAxesMask::LOCKED_REVOLUTE_AXES, joint, links).local_axis1(vector(axis)).build()
 }

@@ -118,7 +118,7 @@ impl World for Twin {
         let motor = &self.motors[drive];
         let turn = omega * self.substep();
         // A separate body turns by atan(omega dt) per substep, so its target speed is raised accordingly.
-        // Beyond a radian no speed would be held anyway.
+        // Beyond a radian the body could not hold the speed anyway.
         let omega = if self.multibodies.is_empty() && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
         joint.data.set_motor_velocity(motor.axis, real(omega * motor.sense), real(joints::RIGID_MOTOR));

@@ -7,9 +7,9 @@ use linkage::math::{Vec2, cross, rotated, turned};
 use linkage::mechanism::{JointId, LinkId};
 
 impl Twin {
-    /// Stores where the joints to be read are, the share `share` of the way from the stored frames to the present ones.
+    /// Stores where the joints to be read act, interpolated by `share` between the stored frames and the present ones.
     /// Rapier gives impulses in the axes at the start of the last substep, which lies between poses that can be read.
-    /// On that short way frames move along a straight line, with errors of second order.
+    /// Between them, frames are assumed to move along a straight line, with errors of second order.
     /// The errors of the impulses themselves are of first order.
     pub(super) fn keep_frames(&mut self, share: f64) {
         for index in 0..self.cuts.len() {
@@ -45,7 +45,7 @@ impl Twin {
         let turning =
             |of: [f64; 2], other: [f64; 2]| of[0] * other[0] * inverse[0][1] + of[1] * other[1] * inverse[1][1];
         let lever = |along: Vec2| arms.map(|arm| cross(arm, along));
-        // Only between separate bodies Rapier makes a joint's rows orthogonal to each other.
+        // Rapier makes a joint's rows orthogonal to each other only between separate bodies.
         let is_orthogonal = self.multibodies.is_empty();
         let (force, moment) = match cut.joint.keeps_angle() {
             true => {
@@ -64,7 +64,7 @@ impl Twin {
                 (axis * rows[0] + across * rows[1], 0.0)
             }
         };
-        // The impulse is that of the last substep, and its sign is that on the body that Rapier calls first.
+        // The impulse is that of the last substep. Its sign is that on the body that Rapier calls first.
         let swapped = cut.steered.is_some_and(|(link, _)| link != cut.joint.first.link);
         let duration = if swapped { self.substep() } else { -self.substep() };
         Some((force / duration, moment / duration))
@@ -74,7 +74,7 @@ impl Twin {
         let motor = &self.motors[drive];
         let joint = self.world.impulse_joints.get(motor.handle).expect("the motor exists");
         if joint.data.motor_axes.is_empty() {
-            // Rapier leaves a motor that is off the impulse of the last step in which it was on.
+            // A motor that is off keeps the impulse of its last step in Rapier.
             return 0.0;
         }
         -wide(joint.data.motors[motor.axis as usize].impulse) / self.substep() * motor.sense

@@ -22,12 +22,14 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, JointId, LinkId, LinkPose};
 
-/// Links of a tree from which a free motion has a multibody for every link that hangs on the ground.
-/// A row of the sweeps costs as much as the multibodies of its two links have coordinates, whether they move these
-/// links or not: a chain of ten four-bars takes 0.6 of the time.
-/// Smaller ones stay in one piece, and so do prescribed motions, where the drives' flywheels are: with a piece for every
-/// link on the ground, forces on `ov7_base` at 1.4 ms had errors 60 times as large. The likely cause is that Rapier takes
-/// Coriolis forces from the start of a step as soon as those of its end would add a hundredth to a multibody's energy.
+/// Number of branches of a tree from which a free motion has a separate multibody for every link on the ground.
+/// The cost of a row of the sweeps grows with the coordinates of the multibodies of its two links.
+/// It does so whether these coordinates move the links or not: a chain of ten four-bars takes 0.6 of the time.
+/// Smaller trees stay in one multibody.
+/// So do prescribed motions, which have the drives' flywheels.
+/// With a multibody for every link on the ground, forces on `ov7_base` at 1.4 ms had errors 60 times as large.
+/// The likely cause: Rapier takes Coriolis forces from the start of a step as soon as those at its end would add a
+/// hundredth to a multibody's energy.
 const LARGE: usize = 16;
 
 /// A joint that closes a loop.
@@ -36,21 +38,22 @@ struct Cut {
     joint: Joint,
     index: JointId,
     handle: ImpulseJointHandle,
-    /// The link that Rapier calls first, and the direction of the first row in that link's frame, where they are not
-    /// those of the joint itself.
+    /// The link that Rapier calls first, and the direction of the first row in that link's frame.
+    /// `None` if both are those of the joint itself.
     steered: Option<(LinkId, Vec2)>,
     /// Where the joint was at the start of the last substep.
     start: joints::Frame,
 }
 
-/// The motor of a drive. It stands on the ground, also where its link hangs on a moving one: it gives the link its speed
-/// in the world.
+/// The motor of a drive.
+/// It stands on the ground even if the driving link is joined to a moving link: it gives the link its speed in the
+/// world.
 #[derive(Clone, Debug)]
 struct Motor {
     handle: ImpulseJointHandle,
     /// The coordinate that it moves.
     axis: JointAxis,
-    /// +1 if the driving link is what the motor counts as second, else -1.
+    /// +1 if the driving link is the second link of the motor, else -1.
     sense: f64,
 }
 
@@ -75,14 +78,15 @@ pub(crate) struct Twin {
     multibodies: Vec<MultibodyJointHandle>,
     /// Links outside the tree. They are separate bodies, or float in a multibody.
     outside: Vec<LinkId>,
-    /// Where every branch's link is. The sense of its coordinate is that of the child relative to its parent.
+    /// Position of every branch's link in the multibodies.
+    /// The sign of its coordinate is that of the child relative to its parent.
     places: Vec<Place>,
-    /// Where every link is that floats in a multibody; it has three coordinates.
+    /// Position, in the multibodies, of every floating link; it has three coordinates.
     floating: Vec<Place>,
     cuts: Vec<Cut>,
     /// One for each drive, in the case's order.
     motors: Vec<Motor>,
-    /// Mass centre of every link, and the inverses of the mass and of the moment of inertia that it has here.
+    /// Mass centre of every link, and the inverses of its mass and moment of inertia in this world.
     centres: Vec<Vec2>,
     inverse: Vec<[f64; 2]>,
     /// Angle of the child minus that of its parent (rad), for every branch whose joint keeps it constant.
@@ -113,7 +117,7 @@ impl Twin {
         let outside: Vec<LinkId> = mechanism.links().ids().skip(1).filter(is_outside).collect();
         let is_split = case.is_free() && tree.branches.len() >= LARGE;
         let (mut multibodies, mut home) = (Vec::new(), vec![0; bodies.len()]);
-        // Hangs a link on the ground: on the one body of it, or on one more that no other multibody has.
+        // Joins a link to the ground: to the shared ground body, or to an additional one for this multibody alone.
         let mut hang = |world: &mut PhysicsWorld, link: LinkId, joint: GenericJoint| {
             let ground = if is_split { world.bodies.insert(RigidBodyBuilder::fixed()) } else { bodies[GROUND] };
             let handle = world.multibody_joints.insert(ground, bodies[link], joint, true)?;
@@ -138,8 +142,8 @@ impl Twin {
             home[branch.link] = own;
         }
         if !tree.branches.is_empty() {
-            // Rapier never turns a separate body that is joined to a link of a multibody. Links outside the tree
-            // are links of a multibody too, with all three freedoms.
+            // Rapier never turns a separate body that is joined to a link of a multibody.
+            // Links outside the tree are therefore links of a multibody too, with all three degrees of freedom.
             for &link in &outside {
                 home[link] =
                     hang(&mut world, link, joints::floating(&mechanism.links()[link])).expect("it has no parent");
@@ -197,7 +201,7 @@ impl Twin {
         Ok(twin)
     }
 
-    /// Prepares the multibodies; `home` says in which of them every link is. The order of calls matters: see the
+    /// Prepares the multibodies; `home` gives the multibody of every link. The order of calls matters: see the
     /// comments.
     fn prepare(&mut self, home: &[usize]) {
         if self.multibodies.is_empty() {

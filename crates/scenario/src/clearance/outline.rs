@@ -4,19 +4,19 @@ use linkage::math::{KeepNan, Vec2, cross, turned};
 use linkage::mechanism::ring;
 use parry2d_f64::transformation::{convex_hull, hertel_mehlhorn_idx};
 
-/// Most corners of an outline. Every pair of parts is a distance, and every pair of sides a test for crossings.
+/// Most corners of an outline. Every pair of parts needs a distance, and every pair of sides a test for crossing.
 pub const MOST_CORNERS: usize = 500;
-/// Share of an outline's extent below which two corners are in one place, or a corner lies on a side.
+/// Distance below which two corners coincide, or a corner lies on a side; as a share of the outline's extent.
 const TOUCHING: f64 = 1e-9;
 
-/// Why corners are no polygon. Numbers of corners count from 0.
+/// Why corners do not form a polygon. Numbers of corners count from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Flaw {
     /// Fewer corners than three.
     Few(usize),
     /// More corners than [`MOST_CORNERS`].
     Many(usize),
-    /// Two corners in one place.
+    /// Two corners at the same position.
     Repeated([usize; 2]),
     /// The sides that begin at two corners touch or cross.
     Crossing([usize; 2]),
@@ -26,7 +26,7 @@ pub enum Flaw {
     NoNumber,
 }
 
-/// An outline in the frame of its link: all places within a radius of a line, or of a polygon with its interior.
+/// An outline in the frame of its link: all points within a radius of a line, or of a polygon with its interior.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     corners: Vec<Vec2>,
@@ -36,10 +36,11 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// A line from place to place (m), rounded by `radius` (m): capsules; around a single place a disc.
+    /// A line through the given points (m), rounded by `radius` (m): a chain of capsules, or a disc around a single
+    /// point.
     ///
     /// # Errors
-    /// [`Flaw::Few`] without a place, [`Flaw::Many`], [`Flaw::NoNumber`].
+    /// [`Flaw::Few`] without a point, [`Flaw::Many`], [`Flaw::NoNumber`].
     pub fn line(places: &[Vec2], radius: f64) -> Result<Outline, Flaw> {
         check(places, radius, 1)?;
         let parts = match places {
@@ -64,8 +65,9 @@ impl Outline {
         Ok(Outline { corners, solid: true, radius, parts })
     }
 
-    /// The outline of a link that states none: capsules of `radius` (m) along the [`ring`] of its points, and what is
-    /// between them. A bar is one capsule, a single point a disc.
+    /// The default outline of a link: capsules of `radius` (m) along the [`ring`] of its points, and the area between
+    /// them.
+    /// A bar is one capsule, a single point a disc.
     ///
     /// # Errors
     /// [`Flaw::Few`] without a point, [`Flaw::NoNumber`].
@@ -80,7 +82,7 @@ impl Outline {
         }
         let (line, closed) = ring(&apart);
         if !closed {
-            // All on one line: its ends are the whole.
+            // All points lie on one line, so its two ends suffice.
             let ends = if line.len() > 1 { vec![line[0], line[line.len() - 1]] } else { line };
             return Outline::line(&ends, radius);
         }
@@ -93,7 +95,7 @@ impl Outline {
         &self.corners
     }
 
-    /// Whether the interior belongs to it: a polygon, not a line.
+    /// Whether the interior belongs to the outline: true for a polygon, false for a line.
     #[must_use]
     pub fn is_solid(&self) -> bool {
         self.solid
@@ -105,21 +107,22 @@ impl Outline {
         self.radius
     }
 
-    /// Convex parts whose union it is, without the rounding: places, segments, and counter-clockwise polygons (m).
+    /// Convex parts whose union is the outline without the rounding: points, segments, and counter-clockwise polygons
+    /// (m).
     #[must_use]
     pub fn parts(&self) -> &[Vec<Vec2>] {
         &self.parts
     }
 
-    /// Its sides (m): pairs of ends. A single place is a side without length.
+    /// Its sides (m), each as a pair of ends. A single point is a side without length.
     pub fn sides(&self) -> impl Iterator<Item = [Vec2; 2]> + '_ {
         let count = self.corners.len();
         let sides = if self.solid { count } else { (count - 1).max(1) };
         (0..sides).map(move |k| [self.corners[k], self.corners[(k + 1) % count]])
     }
 
-    /// Signed distance of a place from the outline (m), negative inside, and the direction in which it grows.
-    /// It changes by no more than the place does.
+    /// Signed distance of a point from the outline (m), negative inside, and the direction in which the distance grows.
+    /// If the point moves, the distance changes by no more than the displacement.
     #[must_use]
     pub fn distance(&self, place: Vec2) -> (f64, Vec2) {
         let (mut least, mut away, mut inside) = (f64::INFINITY, Vec2::new(1.0, 0.0), false);
@@ -144,7 +147,7 @@ impl Outline {
     }
 }
 
-/// The point of a segment that is nearest to a place.
+/// The nearest point of a segment to a given point.
 #[must_use]
 pub fn nearest(place: Vec2, [a, b]: [Vec2; 2]) -> Vec2 {
     let along = b - a;
@@ -166,7 +169,7 @@ fn check(places: &[Vec2], radius: f64, least: usize) -> Result<(), Flaw> {
     }
 }
 
-/// Whether the sides of a polygon meet nowhere but at their common corners.
+/// Checks that the sides of a polygon meet only at their common corners.
 fn check_simple(corners: &[Vec2]) -> Result<(), Flaw> {
     let (count, near) = (corners.len(), TOUCHING * extent(corners));
     let side = |k: usize| [corners[k], corners[(k + 1) % count]];
@@ -185,7 +188,7 @@ fn check_simple(corners: &[Vec2]) -> Result<(), Flaw> {
         for j in i + 1..count {
             let is_next = j == i + 1 || (i == 0 && j == count - 1);
             let touch = if is_next {
-                // Neighbours share a corner; a side that comes back over the one before lies on it.
+                // Neighbours share a corner. If one side folds back onto the other, its end lies on the other.
                 let (one, two) = if j == i + 1 { (side(i), side(j)) } else { (side(j), side(i)) };
                 [(one, two[1]), (two, one[0])].iter().any(|&(own, end)| (end - nearest(end, own)).norm() <= near)
             } else {
@@ -207,7 +210,7 @@ fn meet([a, b]: [Vec2; 2], [c, d]: [Vec2; 2], near: f64) -> bool {
     crossing || ends.iter().any(|&(end, other)| (end - nearest(end, other)).norm() <= near)
 }
 
-/// Vectors of the library of shapes.
+/// Vectors of the geometry library.
 type Foreign = parry2d_f64::math::Vector;
 
 /// Corners of the convex hull, counter-clockwise.
@@ -219,14 +222,15 @@ fn foreign(places: &[Vec2]) -> Vec<Foreign> {
     places.iter().map(|place| Foreign::new(place.x, place.y)).collect()
 }
 
-/// Convex parts of a simple counter-clockwise polygon; `None` if it cannot be divided, for want of an area.
+/// Convex parts of a simple counter-clockwise polygon; `None` if it has too little area to be divided.
 ///
-/// Triangles by clipping ears (Meisters 1975), put together where that stays convex (Hertel and Mehlhorn 1983).
+/// Ear clipping gives triangles (Meisters 1975). They are merged as long as the parts stay convex (Hertel and Mehlhorn
+/// 1983).
 fn convex_parts(corners: &[Vec2]) -> Option<Vec<Vec<Vec2>>> {
     let triangles = triangles(corners)?;
     let of = |part: &Vec<u32>| part.iter().map(|&k| corners[k as usize]).collect::<Vec<Vec2>>();
     let parts: Vec<Vec<Vec2>> = hertel_mehlhorn_idx(&foreign(corners), &triangles).iter().map(of).collect();
-    // The parts are what distances are found with: what the library puts together is not taken on trust.
+    // Distances are computed from these parts, so the result of the library is checked.
     if parts.iter().all(|part| is_convex(part)) && agree(corners, &parts) {
         return Some(parts);
     }
@@ -240,7 +244,7 @@ fn area(corners: &[Vec2]) -> f64 {
     (0..corners.len()).map(around).sum::<f64>() / 2.0
 }
 
-/// Whether parts have together the area of the whole.
+/// Whether the areas of the parts add up to the area of the whole.
 fn agree(corners: &[Vec2], parts: &[Vec<Vec2>]) -> bool {
     let (whole, sum) = (area(corners), parts.iter().map(|part| area(part)).sum::<f64>());
     (whole - sum).abs() <= 1e-9 * whole && whole > 0.0
@@ -260,7 +264,7 @@ fn triangles(corners: &[Vec2]) -> Option<Vec<[u32; 3]>> {
     while left.len() > 3 {
         let count = left.len();
         let around = |k: usize| [left[(k + count - 1) % count], left[k], left[(k + 1) % count]];
-        // The widest ear first: slivers would make the parts thin.
+        // The widest ear comes first: slivers would make the parts thin.
         let ear = (0..count).filter(|&k| is_ear(corners, &left, around(k))).max_by(|&i, &j| {
             let width = |k: usize| sine(around(k).map(|corner| corners[corner]));
             width(i).total_cmp(&width(j)).then(j.cmp(&i))
@@ -271,7 +275,7 @@ fn triangles(corners: &[Vec2]) -> Option<Vec<[u32; 3]>> {
                 found.push(around(ear).map(|corner| corner as u32));
                 left.remove(ear);
             }
-            // A corner on the line between its neighbours bounds nothing.
+            // A corner on the line between its neighbours does not change the outline.
             None => {
                 left.remove(flat()?);
             }

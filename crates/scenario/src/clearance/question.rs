@@ -1,4 +1,4 @@
-//! What is asked: bodies with outlines, the pairs of them that must not meet, and how well it must be known.
+//! The question of clearance: bodies with outlines, the pairs that must not meet, and the requested accuracy.
 
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkId, Mechanism};
@@ -29,13 +29,13 @@ impl ClearanceBody {
 pub struct ClearanceQuestion {
     /// All bodies, in the order of reports.
     pub bodies: Vec<ClearanceBody>,
-    /// Pairs of bodies whose distance is wanted, by their numbers.
+    /// Pairs of bodies whose distance is requested, by their indices.
     pub pairs: Vec<[usize; 2]>,
-    /// The distance that no pair may fall to (m), if there is one.
+    /// The requested clearance (m), if there is one: no pair may come that close.
     pub wanted: Option<f64>,
-    /// Error that a smallest distance may have (m); a millionth of the mechanism's size unless given.
+    /// Tolerance of a smallest distance (m). The default is a millionth of the mechanism's size.
     pub tolerance: Option<f64>,
-    /// Error that a swept area may have, as a share of it.
+    /// Tolerance of a swept area, as a share of the area.
     pub area: f64,
 }
 
@@ -47,7 +47,8 @@ impl ClearanceQuestion {
     }
 }
 
-/// All pairs of bodies that can meet: links that are not joined, and every link with the housing, but those of `ignored`.
+/// All pairs of bodies that can meet, without those in `ignored`: links that are not joined, and every link with the
+/// housing.
 #[must_use]
 pub fn pairs(mechanism: &Mechanism, bodies: &[ClearanceBody], ignored: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
@@ -65,13 +66,13 @@ pub fn pairs(mechanism: &Mechanism, bodies: &[ClearanceBody], ignored: &[[usize;
     pairs
 }
 
-/// Whether a joint holds two links together, or both are on one pin with others between them.
+/// Whether two links share a joint, or are on the same pin with other links between them.
 #[must_use]
 pub fn are_joined(mechanism: &Mechanism, [a, b]: [LinkId; 2]) -> bool {
     if mechanism.joints().iter().any(|joint| joint.on(a).is_some() && joint.on(b).is_some()) {
         return true;
     }
-    // From pin to pin at the same place of each link.
+    // Follows the pins that lie at the same point of each link.
     let pins = mechanism.joints().iter().filter(|joint| joint.is_pin());
     for start in pins.filter_map(|joint| joint.on(a)) {
         let mut pin = vec![(a, start)];

@@ -1,4 +1,4 @@
-//! What is told of a section and of a key.
+//! The description of a section and of a key.
 
 use crate::unit::{
     ACCELERATION, ANGLE, ANGULAR_SPEED, DAMPING, FORCE, INERTIA, INPUTS, INPUTS_OR_TIMES, LENGTH, MASS, MOMENT,
@@ -8,7 +8,7 @@ use crate::unit::{
 /// A table of a scenario file.
 #[derive(Debug)]
 pub struct Section {
-    /// Keys that lead to it from the top of the file, with dots; `*` stands for any name.
+    /// Keys that lead to it from the top of the file, with dots; `*` means any name.
     pub path: &'static str,
     /// Its keys.
     pub keys: &'static [FileKey],
@@ -21,15 +21,15 @@ pub struct FileKey {
     pub name: &'static str,
     /// What stands there.
     pub kind: ValueKind,
-    /// Whether it must be there.
+    /// Whether the key is required.
     pub is_needed: bool,
     /// What it means, in one sentence of Markdown.
     pub meaning: &'static str,
-    /// What holds without it; empty of a key that must be there.
+    /// The default, in words; empty for a required key.
     pub default: &'static str,
 }
 
-/// What stands at a key.
+/// The kind of value of a key.
 #[derive(Clone, Copy, Debug)]
 pub enum ValueKind {
     /// Text.
@@ -38,7 +38,7 @@ pub enum ValueKind {
     Choice(fn() -> Vec<&'static str>),
     /// A list of texts.
     Texts,
-    /// A number, or an arithmetic of parameters.
+    /// A number, or an arithmetic expression of parameters.
     Number,
     /// A list of numbers.
     Numbers,
@@ -46,7 +46,7 @@ pub enum ValueKind {
     Integer,
     /// A whole number, `true` or `false`.
     IntegerOrBoolean,
-    /// A number whose key ends in a unit of one of these families, and which values it may have.
+    /// A number whose key ends in a unit of one of these families, and the sign that it may have.
     Quantity(&'static [&'static UnitFamily], Sign),
     /// A list of such numbers.
     Quantities(&'static [&'static UnitFamily]),
@@ -68,12 +68,12 @@ impl Section {
     }
 }
 
-/// A key that must be there.
+/// A required key.
 pub(crate) const fn needed(name: &'static str, kind: ValueKind) -> FileKey {
     FileKey { name, kind, is_needed: true, meaning: "", default: "" }
 }
 
-/// A key that may be left out, and what holds then.
+/// An optional key, and its default in words.
 pub(crate) const fn optional(name: &'static str, kind: ValueKind, default: &'static str) -> FileKey {
     FileKey { is_needed: false, default, ..needed(name, kind) }
 }
@@ -97,7 +97,7 @@ impl FileKey {
 impl ValueKind {
     pub(crate) const ACCELERATIONS: ValueKind = ValueKind::Quantity(&[&ACCELERATION], Sign::Any);
     pub(crate) const ANGLES: ValueKind = ValueKind::Quantity(&[&ANGLE], Sign::Any);
-    /// Values of an input, whatever it measures.
+    /// Values of an input, for every kind of input.
     pub(crate) const INPUTS: ValueKind = ValueKind::Quantity(&INPUTS, Sign::Any);
     pub(crate) const INPUTS_OR_TIMES: ValueKind = ValueKind::Quantity(&INPUTS_OR_TIMES, Sign::Any);
     pub(crate) const DAMPINGS_OR_SLOPES: ValueKind = ValueKind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED], Sign::Any);
@@ -115,12 +115,12 @@ impl ValueKind {
     pub(crate) const LIST_OF_ANGLES: ValueKind = ValueKind::Quantities(&[&ANGLE]);
     pub(crate) const LIST_OF_TIMES: ValueKind = ValueKind::Quantities(&[&TIME]);
 
-    /// Quantities of these values only.
+    /// Quantities restricted to these values.
     pub(crate) const fn of(self, sign: Sign) -> ValueKind {
         if let ValueKind::Quantity(families, _) = self { ValueKind::Quantity(families, sign) } else { self }
     }
 
-    /// The families of a quantity; none of anything else.
+    /// The families of a quantity; empty for any other kind.
     pub(crate) const fn families(self) -> &'static [&'static UnitFamily] {
         if let ValueKind::Quantity(families, _) | ValueKind::Quantities(families) = self { families } else { &[] }
     }

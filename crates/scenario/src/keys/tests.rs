@@ -1,4 +1,4 @@
-//! The table of keys against what the readers ask for.
+//! The table of keys, compared with the keys that the readers request.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -7,7 +7,7 @@ use super::{Section, section, sections};
 use crate::reader::asked;
 use crate::{Scenario, files_in};
 
-/// Changes of a scenario that bring readers to keys which no scenario of the repository has.
+/// Changes of a scenario that make readers request keys which no scenario of the repository has.
 const CHANGES: [(&str, &str, &str); 7] = [
     (
         "crank_rocker",
@@ -55,7 +55,7 @@ fn asked_by_readers() -> BTreeMap<String, BTreeSet<String>> {
         let path = top.join(format!("scenarios/{name}.toml"));
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.contains(old), "{name}: {old}");
-        // Whether it makes sense does not matter: what is read has been asked for.
+        // The scenario need not make sense: only the requested keys count.
         let _ = Scenario::parse(&text.replacen(old, new, 1), &path);
     }
     asked::all()
@@ -81,7 +81,7 @@ fn every_key_of_the_table_is_asked_for() {
     let names = |section: &Section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>();
     let mut never = Vec::new();
     for section in sections() {
-        // Places and printed numbers stand in several sections and have one reader.
+        // Positions and printed numbers occur in several sections but have one reader.
         let alike = || sections().filter(|other| names(other) == names(section));
         for spelling in section.keys.iter().flat_map(super::FileKey::spellings) {
             if !alike().any(|own| asked.get(own.path).is_some_and(|keys| keys.contains(&spelling))) {

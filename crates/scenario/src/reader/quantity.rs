@@ -13,39 +13,39 @@ use linkage::error::{Error, ErrorKind, Result};
 /// A quantity's family, the index of its entry, and its unit.
 type Spelled = (&'static UnitFamily, usize, &'static NamedUnit);
 
-/// Smallest size of a quantity in SI whose products with others, and their squares, are numbers.
+/// Smallest magnitude of a quantity in SI. Products with other quantities, and their squares, do not underflow.
 const SMALLEST: f64 = 1e-100;
 
 impl<'a> TomlTable<'a> {
-    /// The row of a quantity in the table of keys, which has its units and its sign.
+    /// The row of a quantity in the table of keys, which states its units and its sign.
     fn row(&self, key: &str) -> &'static FileKey {
         let is_own = |row: &&FileKey| row.name == key && !row.kind.families().is_empty();
         self.rows.iter().find(is_own).unwrap_or_else(|| panic!("section `{}` has no quantity `{key}`", self.section))
     }
 
-    /// Whether a quantity is there, under one of its spellings.
+    /// Whether a quantity is present under one of its spellings.
     pub fn has_si(&self, key: &str) -> bool {
         self.row(key).spellings().iter().any(|spelling| self.has(spelling))
     }
 
-    /// A quantity in SI, as its row tells; `None` if it is not there.
+    /// A quantity in SI, as described by its row; `None` if it is missing.
     pub fn optional_si(&mut self, key: &str) -> Result<Option<f64>> {
         Ok(self.optional_si_of(key)?.map(|(_, value)| value))
     }
 
-    /// The same with the family that it is of.
+    /// The same, with the family of the unit.
     pub fn optional_si_of(&mut self, key: &str) -> Result<Option<(&'static UnitFamily, f64)>> {
         let row = self.row(key);
         self.quantity_in(key, row.kind.families(), row.kind.sign())
     }
 
-    /// A list of quantities in SI, as its row tells, and the family that they are of; `None` if it is not there.
+    /// A list of quantities in SI, as described by its row, with the family of the unit; `None` if it is missing.
     pub fn optional_si_list(&mut self, key: &str) -> Result<Option<(&'static UnitFamily, Vec<f64>)>> {
         let family = self.row(key).kind.families()[0];
         Ok(self.optional_quantities(key, family)?.map(|values| (family, values)))
     }
 
-    /// A quantity in SI, as its row tells.
+    /// A quantity in SI, as described by its row.
     pub fn si(&mut self, key: &str) -> Result<f64> {
         let row = self.row(key);
         self.quantity(key, row.kind.families()[0], row.kind.sign())
@@ -65,7 +65,7 @@ impl<'a> TomlTable<'a> {
         if self.goes_on { Ok(sign.stand_in()) } else { Err(error) }
     }
 
-    /// Quantity of one of several families: its family, and its value in SI.
+    /// Quantity of one of several families: the family found, and the value in SI.
     fn quantity_in(
         &mut self,
         base: &str,
@@ -75,7 +75,7 @@ impl<'a> TomlTable<'a> {
         let (family, at, unit) = match self.spelled(base, families) {
             Ok(None) => return Ok(None),
             Ok(Some(found)) => found,
-            // Of several families nobody knows which one is meant.
+            // With several families, the intended one is unknown.
             Err(error) if families.len() > 1 => return Err(self.noted(error)),
             Err(error) => return self.instead(Some((families[0], sign.stand_in())), error),
         };
@@ -84,7 +84,7 @@ impl<'a> TomlTable<'a> {
         Ok(Some((family, value)))
     }
 
-    /// The number of an entry in SI, if it is one of those that are allowed.
+    /// The number of an entry in SI, if its sign and size are allowed.
     fn allowed(&self, at: usize, unit: &NamedUnit, family: &UnitFamily, sign: Sign) -> Result<f64> {
         let entry = &self.entries[at];
         let number = self.finite(entry.key, entry.value)?;
@@ -110,13 +110,13 @@ impl<'a> TomlTable<'a> {
         let si = |(index, element): (usize, &Spanned<DeValue>)| {
             let number =
                 self.finite(key, element).and_then(|number| self.in_range(key, element, unit.to_si(number), family));
-            // No two stand-ins are the same.
+            // Stand-ins must differ from each other.
             number.or_else(|error| self.instead(index as f64, error))
         };
         array.iter().enumerate().map(si).collect::<Result<_>>().map(Some)
     }
 
-    /// A number in SI that a mechanism may have: zero, or of a size between those of its family.
+    /// A number in SI that is plausible for a mechanism: zero, or of a size within the limits of its family.
     fn in_range(&self, key: &str, value: &Spanned<DeValue>, si: f64, family: &UnitFamily) -> Result<f64> {
         if si == 0.0 || (SMALLEST..=family.most).contains(&si.abs()) {
             return Ok(si);
@@ -133,8 +133,8 @@ impl<'a> TomlTable<'a> {
         Err(self.wrong_at(key, value.span(), message).help(sentences::CHECK_THE_UNIT_AND_THE_EXPONENT))
     }
 
-    /// The one entry that spells `base` in a unit of the families: its family, its own index, and the unit. All
-    /// spellings are recorded as asked for.
+    /// The only entry that spells `base` in a unit of the families: its family, its index, and the unit.
+    /// All spellings are recorded as requested.
     fn spelled(&mut self, base: &str, families: &[&'static UnitFamily]) -> Result<Option<Spelled>> {
         let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
         let mut present: Vec<usize> =
@@ -161,7 +161,7 @@ impl<'a> TomlTable<'a> {
         Ok(Some(found))
     }
 
-    /// A key that is `base` without its unit or with an unknown unit, and its error.
+    /// A key that is `base` without a unit or with an unknown unit, and the error for it.
     fn misspelt_unit(&self, base: &str, family: &UnitFamily, spellings: &[String]) -> Option<(&'a str, Error)> {
         let help = format!("write {}", choice(spellings.iter().map(String::as_str), "`"));
         let is_number =

@@ -1,4 +1,4 @@
-//! The mistakes of a table, and of several, all at once.
+//! All mistakes of one table, or of several tables, reported at once.
 
 use crate::sentences;
 use toml::de::DeValue;
@@ -7,16 +7,17 @@ use super::{Entry, TomlTable};
 use crate::words::{choice, nearest};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Unknown keys of a table for which the nearest known one is sought.
+/// Largest number of unknown keys of a table for which the nearest known key is searched.
 const MOST: usize = 20;
 
 /// The mistakes of a file.
 #[derive(Debug)]
 pub struct Faults {
     all: Vec<Error>,
-    /// Whether everything that others rest on could be read. What a table says beyond its own keys counts only then.
+    /// Whether all parts that others depend on could be read.
+    /// Only then do errors count that go beyond the keys and values of a table.
     pub whole: bool,
-    /// Whether all links and their points are there. What a table names in vain counts only then.
+    /// Whether all links and their points could be read. Only then do errors about unknown names count.
     pub names: bool,
 }
 
@@ -26,7 +27,7 @@ impl Faults {
         Faults { all: Vec::new(), whole: true, names: true }
     }
 
-    /// What `read` makes of a table; `None` after a mistake, which is noted.
+    /// What `read` makes of a table; `None` after a mistake. The mistake is noted.
     pub fn read<'a, T>(
         &mut self,
         table: &mut TomlTable<'a>,
@@ -42,7 +43,7 @@ impl Faults {
         None
     }
 
-    /// The value, or `None` after its error is noted.
+    /// The value, or `None` after an error. The error is noted.
     pub fn kept<T>(&mut self, value: Result<T>) -> Option<T> {
         value.map_err(|error| self.all.push(error)).ok()
     }
@@ -52,15 +53,17 @@ impl Faults {
         self.all.is_empty()
     }
 
-    /// Ends the reading if there are any.
+    /// Ends the reading if mistakes are noted.
     pub fn end(self) -> Result<()> {
         Error::all(self.all).map_or(Ok(()), Err)
     }
 }
 
 impl<'a> TomlTable<'a> {
-    /// What `read` makes of the table. All mistakes of its keys and values come together. What `read` says beyond them,
-    /// about what the values mean, counts only without them: it might follow from one of them.
+    /// What `read` makes of the table. All mistakes of its keys and values are reported together.
+    /// Errors about the meaning of the values are reported only if there is no such mistake, because a mistake might
+    /// cause
+    /// them.
     pub fn read<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         match self.tried(true, read) {
             (Ok(value), _) => Ok(value),
@@ -68,10 +71,10 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// What `read` makes of the table in spite of the mistakes that it notes, and these.
+    /// What `read` makes of the table in spite of mistakes, and the mistakes that it notes.
     ///
     /// # Errors
-    /// What ends the reading, with the mistakes noted before.
+    /// The error that ends the reading, with the mistakes noted before.
     pub fn read_on<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<(T, Option<Error>)> {
         self.goes_on = true;
         let found = read(self);
@@ -83,8 +86,8 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// The value, or else what `read` says beyond mistakes of keys and values; and these. Unknown names are among them
-    /// if all `names` could be read.
+    /// The value, or the error of `read` beyond mistakes of keys and values; and these mistakes.
+    /// They include unknown names if all `names` could be read.
     fn tried<T>(
         &mut self,
         names: bool,
@@ -92,7 +95,7 @@ impl<'a> TomlTable<'a> {
     ) -> (std::result::Result<T, Option<Error>>, Option<Error>) {
         self.goes_on = true;
         let found = read(self);
-        // Where the reading has stopped early, a key that was not asked for yet may be right.
+        // If the reading has stopped early, a key that was not requested yet may still be right.
         self.pair_missing();
         let unknown = std::mem::take(&mut self.unknown_names);
         let is_sound = self.faults.is_empty() && unknown.is_empty();
@@ -104,7 +107,7 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// The value that was read, or its default after its error is noted.
+    /// The value that was read, or its default after an error. The error is noted.
     pub fn part<T: Default>(&mut self, read: Result<T>) -> T {
         read.unwrap_or_else(|error| {
             self.faults.push(error);
@@ -117,7 +120,7 @@ impl<'a> TomlTable<'a> {
         Error::all(self.faults.iter().cloned()).map_or(Ok(()), Err)
     }
 
-    /// Notes an error if the reading goes on after one: `value` then stands for the one that is wrong.
+    /// Notes an error if the reading goes on after mistakes. `value` then replaces the wrong one.
     pub fn instead<T>(&mut self, value: T, error: Error) -> Result<T> {
         if !self.goes_on {
             return Err(error);
@@ -126,7 +129,7 @@ impl<'a> TomlTable<'a> {
         Ok(value)
     }
 
-    /// The same for a name that no other table has.
+    /// The same, for a name that no other table defines.
     pub fn unknown_name<T>(&mut self, value: T, error: Error) -> Result<T> {
         if !self.goes_on {
             return Err(error);
@@ -135,7 +138,7 @@ impl<'a> TomlTable<'a> {
         Ok(value)
     }
 
-    /// Notes an error after which nothing more can be read of the table.
+    /// Notes an error after which the rest of the table cannot be read.
     pub(super) fn noted(&mut self, error: Error) -> Error {
         if self.goes_on {
             self.faults.push(error.clone());
@@ -143,8 +146,8 @@ impl<'a> TomlTable<'a> {
         error
     }
 
-    /// The error for a key that is missing under all its spellings. What stands in its place is clear when all keys
-    /// have been asked for.
+    /// The error for a key that is missing under all its spellings.
+    /// A misspelt key in its place is identified after all keys have been requested.
     pub(super) fn missing(&mut self, spellings: Vec<String>) -> Error {
         self.lacking(spellings, None)
     }
@@ -157,15 +160,15 @@ impl<'a> TomlTable<'a> {
         error
     }
 
-    /// The same for keys of which one is needed; `help` tells of them.
+    /// The same for keys of which one is required; `help` describes them.
     pub fn lacks(&mut self, spellings: &[&str], help: &'static str) -> Error {
         self.lacking(spellings.iter().map(|&spelling| spelling.into()).collect(), Some(help))
     }
 
-    /// That error, and the entry that misspells the key.
+    /// The error for a missing key, and the entry that misspells the key.
     fn missing_by(&self, spellings: &[String], help: Option<&'static str>) -> (Error, Option<&'a str>) {
         let wanted = choice(spellings.iter().map(String::as_str), "`");
-        // At the top level there is no table to name.
+        // The top level has no table name.
         let error = self.fault(sentences::is_missing(&wanted)).key(spellings[0].clone());
         let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
         let unread = self.entries.iter().filter(|entry| self.is_unknown(entry));
@@ -183,7 +186,7 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// Notes the keys that are missing, each with the unknown key that stands in its place.
+    /// Notes the missing keys, each with the unknown key that misspells it.
     fn pair_missing(&mut self) {
         for (spellings, help) in std::mem::take(&mut self.missing) {
             let (error, misspelt) = self.missing_by(&spellings, help);
@@ -196,13 +199,13 @@ impl<'a> TomlTable<'a> {
         !self.used.contains(&entry.key) && !self.asked.iter().any(|asked| asked == entry.key)
     }
 
-    /// Whether there is a table, or an array, that nobody asked for.
+    /// Whether a table or an array is present that no reader requested.
     pub fn has_unknown_table(&self) -> bool {
         let is_table = |entry: &&Entry| matches!(entry.value.get_ref(), DeValue::Table(_) | DeValue::Array(_));
         self.entries.iter().filter(is_table).any(|entry| self.is_unknown(entry))
     }
 
-    /// Ends the reading. A key that nobody asked for is an error that names the nearest known key.
+    /// Ends the reading. A key that was not requested is an error, which names the nearest known key.
     pub fn finish(&mut self) -> Result<()> {
         #[cfg(test)]
         asked::put(&self.section, &self.asked);
@@ -231,14 +234,14 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// Those that are sound; the errors of the others are noted.
+    /// The sound results; the errors of the others are noted.
     pub(super) fn sound<T>(&mut self, all: Vec<Result<T>>) -> Result<Vec<T>> {
         let sound = all.into_iter().map(|one| one.map(Some).or_else(|error| self.instead(None, error)));
         sound.filter_map(Result::transpose).collect()
     }
 }
 
-/// Which keys readers have asked for, by section: for the test of the table of keys.
+/// The keys that readers have requested, by section, for the test of the table of keys.
 #[cfg(test)]
 pub mod asked {
     use std::cell::RefCell;
@@ -248,7 +251,7 @@ pub mod asked {
         static ASKED: RefCell<BTreeMap<String, BTreeSet<String>>> = const { RefCell::new(BTreeMap::new()) };
     }
 
-    /// Adds what was asked for in a section.
+    /// Adds the requested keys of a section.
     pub fn put(section: &str, asked: &[String]) {
         ASKED.with_borrow_mut(|all| all.entry(section.into()).or_default().extend(asked.iter().cloned()));
     }
@@ -258,7 +261,7 @@ pub mod asked {
         ASKED.with_borrow_mut(BTreeMap::clear);
     }
 
-    /// All that was asked for since.
+    /// All keys requested since the last reset.
     pub fn all() -> BTreeMap<String, BTreeSet<String>> {
         ASKED.with_borrow(Clone::clone)
     }

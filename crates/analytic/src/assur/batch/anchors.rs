@@ -19,7 +19,7 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 
-/// Numbers stored per link and interval: those of a start without the share of the way.
+/// Numbers stored per link and interval: those of a start, without the share of the way.
 const KEPT: usize = OF_START - 1;
 /// Distance between two anchors (rad): a step of [`PoseSolver`], reduced by more than rounding may add.
 const STEP: f64 = FOLLOWED_STEP * (1.0 - 1e-9);

@@ -295,7 +295,8 @@ impl Chain {
         self.determinant
     }
 
-    /// Reads the slides of the start pose, in which the links still are when the group is placed for the first time.
+    /// Reads the slides of the start pose.
+    /// The links are still in that pose when the group is placed for the first time.
     fn read_slides(&mut self, motions: &[Motion]) {
         for (slide, node) in self.slides.iter_mut().zip(&self.contours.nodes) {
             let from = motions[node.parent.link].point(node.parent.local);
@@ -471,8 +472,8 @@ impl Chain {
 
     /// Whether this step might lead over a dead point, near which the squared determinant is linear in the driving
     /// angles.
-    /// A step in which it would lose most of its value must be smaller, or it might end on the other side of a gap
-    /// between two branches.
+    /// A step in which the square would lose most of its value must be smaller.
+    /// Otherwise it might end on the other side of a gap between two branches.
     fn is_bold(&self) -> bool {
         let goes = self.step.iter().any(|step| step.abs() > SMALLEST_STEP);
         goes && self.square + self.foreseen() < LEAST_LEFT * self.square

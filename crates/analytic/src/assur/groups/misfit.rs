@@ -51,12 +51,12 @@ pub struct SingularityDistance {
 /// error.
 pub const SINGULAR: f64 = 1e-7;
 
-/// Sine of the angle between two axes below which it is zero to rounding.
+/// Sine below which two axes are parallel within rounding error.
 const PARALLEL: f64 = 1e-14;
 
 /// Returns the sign of the sine of the angle between two axes, checked against `side` once that is known.
-/// A dyad that has passed through infinity is on another branch. A dyad whose axes are parallel to rounding has no
-/// pose.
+/// A dyad that has passed through infinity is on another branch.
+/// A dyad whose axes are parallel within rounding error has no pose.
 pub(super) fn kept_side(side: f64, sine: f64) -> Result<f64, Misfit> {
     let now = sine.signum();
     if !(sine.abs() > PARALLEL) || side * now < 0.0 { Err(Misfit::Parallel) } else { Ok(now) }

@@ -15,7 +15,7 @@ use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{AssemblyMode, Group, LinkId, Mechanism};
 
-/// Steps of the crank for which a bound of a moving guide is made.
+/// Number of crank steps for which a bound of a moving guide holds.
 const FAR: f64 = 16.0;
 
 /// RRP dyad, prepared for solving.
@@ -76,14 +76,15 @@ impl Rrp {
         Self { sense: -self.sense, ..self }
     }
 
-    /// Its gauge at the last pose: the distance of the outer pin from the line of the inner joint (m).
+    /// Gauge at the last pose: the distance of the outer pin from the line of the inner joint (m).
     #[inline]
     pub(super) fn gauge(&self) -> f64 {
         self.gauge
     }
 
-    /// Speeds and accelerations of the outer pin, and of the inner joint's place on the guide's link at slide zero, Q;
-    /// the guide's link; and the largest distance of the two places while the crank turns by `way` from here.
+    /// Returns bounds of the outer pin (speed and acceleration), of the point Q (the same) and of the guide's link.
+    /// Q is the inner joint on the guide's link at slide zero.
+    /// The last value is the largest distance between pin and Q while the crank turns by `way` from here.
     fn outer_rates(&self, links: &Bounds, motions: &[Motion], way: f64) -> Option<([f64; 2], [f64; 2], Bound, f64)> {
         let (pin, link) = (self.rod.rates(links)?, links[self.guide.base.link]?);
         let (base, at_zero) = (&motions[self.guide.base.link], self.guide.at_zero(self.inner, motions));
@@ -92,8 +93,9 @@ impl Rrp {
         Some((pin, zero, link, (at_zero - self.rod.place(motions)).norm() + (pin[0] + zero[0]) * way))
     }
 
-    /// Its limit over a step of the crank.
-    /// h = n . (Q - P), so that |h''| <= |a| + 2 omega |v| + (alpha + omega^2) |Q - P|, of Q against P.
+    /// Limit of the gauge over a step of the crank.
+    /// h = n . (Q - P), so that |h''| <= |a| + 2 omega |v| + (alpha + omega^2) |Q - P|.
+    /// v and a are the velocity and acceleration of Q relative to P.
     pub(super) fn limit(&self, links: &Bounds, motions: &[Motion], step: f64) -> Option<Limit> {
         let way = FAR * step;
         let (pin, zero, link, distance) = self.outer_rates(links, motions, way)?;
@@ -103,13 +105,14 @@ impl Rrp {
         Some(Limit { range: [-length, length], second, way: if rests { f64::INFINITY } else { way } })
     }
 
-    /// Bounds of its links while its gauge stays in a band, and the crank on its way.
-    /// From the formulas of omega and alpha, with |e . r| >= l s.
+    /// Writes the bounds of the dyad's links while its gauge stays in a band and the crank within `FAR` steps.
+    /// They follow from the formulas of omega and alpha, with |e . r| >= l s.
     pub(super) fn bound(&self, band: [f64; 2], step: f64, motions: &[Motion], links: &mut Bounds) {
         let Some((pin, zero, guide, distance)) = self.outer_rates(links, motions, FAR * step) else { return };
         let length = self.span.norm();
         let along = least_product([-length, length], band).sqrt();
-        // The guide's link at the inner joint, which is not farther from the pin than the rod is long.
+        // Bounds of the guide's link at the inner joint. The distance of this joint from the pin is at most the rod's
+        // length.
         let speed = zero[0] + guide.turn * (distance + length);
         let second = zero[1] + guide.centripetal() * (distance + length);
         let turn = (speed + pin[0]) / along;

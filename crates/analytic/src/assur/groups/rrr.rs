@@ -20,7 +20,7 @@ struct Arm {
     base: JointSide,
     /// The outer joint in the link's own frame.
     outer: Vec2,
-    /// Whether that is the frame's origin, so that no vector turns with it.
+    /// Whether the outer joint is the frame's origin, so that the vector to it is zero.
     at_origin: bool,
     /// Vector from outer to inner joint in the link's own frame, divided by the square of its length (1/m).
     inverse_span: Vec2,
@@ -43,7 +43,7 @@ pub struct Rrr {
     bases: [Vec2; 2],
     /// World vectors from the origins of the dyad's own links to the outer joints (m).
     outers: [Vec2; 2],
-    /// World vectors from the outer joints to the inner one, r1 and r2 (m), and the place of the inner one (m).
+    /// World vectors from the outer joints to the inner joint, r1 and r2 (m), and the position of the inner joint (m).
     spans: [Vec2; 2],
     inner: Vec2,
     /// d^2 (m^2).
@@ -93,14 +93,15 @@ impl Rrr {
         (self.spans, self.inverse)
     }
 
-    /// World place of the inner joint (m). Positions must be known.
+    /// World position of the inner joint (m). Positions must be known.
     #[inline]
     pub(in crate::assur) fn inner(&self) -> Vec2 {
         self.inner
     }
 
-    /// The outer joint on the known link of an arm: the vector to it from the link's origin, its place, velocity and
-    /// acceleration. Of joints on the ground nothing is computed.
+    /// The outer joint on the known link of an arm: the vector to it from the link's origin, its position, velocity and
+    /// acceleration.
+    /// For joints on the ground, nothing is computed.
     #[inline(always)]
     fn base(arm: &Arm, motions: &[Motion]) -> [Vec2; 4] {
         let local = arm.base.local;
@@ -112,16 +113,16 @@ impl Rrr {
         [vector, motion.origin + vector, motion.velocity_beyond(vector), motion.acceleration_beyond(vector)]
     }
 
-    /// The vectors r1 and r2 between outer joints at these places, the product D and d^2.
+    /// The vectors r1 and r2 for outer joints at these positions, the product D and d^2.
     #[inline(always)]
     fn close(&self, [p1, p2]: [Vec2; 2]) -> Result<([Vec2; 2], [f64; 2]), Misfit> {
         let d = p2 - p1;
         let d_squared = d.norm_squared();
-        // f d^2, and 4 D^2 by Heron's formula, which loses no digits near a singular pose. The quotient by d^2 is not
-        // waited for by the root.
+        // f d^2, and 4 D^2 by Heron's formula, which loses no digits near a singular pose.
+        // The root does not wait for the division by d^2.
         let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared);
         let square = (self.range[1] - d_squared) * (d_squared - self.range[0]);
-        // Written this way round so that NaN is refused too.
+        // The comparison is negated so that NaN is refused too.
         if !(square >= 0.0) {
             return Err(self.too_far(d_squared));
         }
@@ -158,8 +159,9 @@ impl Rrr {
         Ok(())
     }
 
-    /// Positions, velocities and accelerations in one go: what they share stays in registers, and every motion is
-    /// written once. The arithmetic is that of the three, and so are the bits.
+    /// Positions, velocities and accelerations in one pass: shared values stay in registers, and every motion is
+    /// written once.
+    /// The arithmetic is that of the three separate functions, so the bits are the same.
     #[inline(always)]
     pub(super) fn motions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         let [[bases0, p1, v1, a1], [bases1, p2, v2, a2]] = [0, 1].map(|k| Self::base(&self.arms[k], motions));
@@ -198,29 +200,29 @@ impl Rrr {
         Self { half: -self.half, ..self }
     }
 
-    /// Its gauge at the last pose: the square of the distance of the outer joints (m^2).
+    /// Gauge at the last pose: the squared distance of the outer joints (m^2).
     #[inline]
     pub(super) fn gauge(&self) -> f64 {
         self.gauge
     }
 
-    /// Speeds and accelerations of the outer joints; `None` if those of a link that carries it are not known.
+    /// Speeds and accelerations of the outer joints; `None` if the bounds of a carrying link are not known.
     fn outer_rates(&self, links: &Bounds) -> Option<[[f64; 2]; 2]> {
         let [first, second] = self.arms.map(|arm| links[arm.base.link].map(|link| link.at(arm.base.local)));
         Some([first?, second?])
     }
 
-    /// Its limit over a step of the crank.
+    /// Limit of the gauge over a step of the crank.
     pub(super) fn limit(&self, links: &Bounds, step: f64) -> Option<Limit> {
         let [[v1, a1], [v2, a2]] = self.outer_rates(links)?;
         let range = self.range;
-        // Assembled at both ends, so never farther than this.
+        // The dyad is assembled at both ends, so the outer joints are never farther apart than this.
         let most = range[1].sqrt() + (v1 + v2) * step;
         Some(Limit { range, second: of_square([v1 + v2, a1 + a2], most), way: f64::INFINITY })
     }
 
-    /// Bounds of its links while its gauge stays in a band.
-    /// From omega1 = (v2 - v1) . r2 / D and |D| = l1 l2 s, where 4 l1^2 l2^2 s^2 = (g - low) (high - g).
+    /// Writes the bounds of the dyad's links while its gauge stays in a band.
+    /// They follow from omega1 = (v2 - v1) . r2 / D and |D| = l1 l2 s, where 4 l1^2 l2^2 s^2 = (g - low) (high - g).
     pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
         let rates = self.outer_rates(links);
         let sine = 0.5 * least_product(self.range, band).sqrt() * self.inverse_lengths;

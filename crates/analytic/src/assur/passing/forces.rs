@@ -1,8 +1,10 @@
-//! Reactions beside a change point.
+//! Reactions near a change point.
 //!
-//! Motion, and the power of the drives, go on smoothly there. Reactions need not: the pose in which a group's links no
-//! longer hold it lets only those loads be carried that do no work along the other branch, and the reactions of all
-//! others grow with the inverse of the distance. So a reaction is a pole of first order and a smooth part.
+//! The motion and the power of the drives are smooth there, but reactions need not be.
+//! In the singular pose a group's links no longer hold it. It carries only loads that do no work along the other
+//! branch.
+//! The reactions to all other loads grow with the inverse of the distance.
+//! A reaction is therefore the sum of a first-order pole and a smooth part.
 //! The residue is read from the reactions times the distance, which are smooth.
 
 use super::window::{Window, at_speed, weights};
@@ -12,13 +14,15 @@ use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Motion, Vec2, angle, cross};
 use linkage::solver::State;
 
-/// Residue below which there is none, as a multiple of what leaving out the innermost nodes changes in it, and as a
-/// share of the largest reaction times its distance.
+/// Threshold below which a residue counts as zero.
+/// It is a multiple of the residue's change without the innermost nodes, plus a share of the largest reaction times its
+/// distance.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
-/// Distance from a change point (rad) within which reactions with a residue are not told. The place of the change point
-/// is known to some 1e-14 rad, and their relative error is that over the distance.
+/// Distance from a change point (rad) within which reactions with a residue are not reported.
+/// The position of the change point is known to some 1e-14 rad.
+/// The relative error of these reactions is that error divided by the distance.
 const NEAREST: f64 = 1e-7;
 
 /// Writes the loads on all links at their motions and angles (rad).
@@ -28,11 +32,11 @@ pub(in crate::assur) type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut 
 pub(in crate::assur) struct Unbounded;
 
 impl Window {
-    /// Writes to `state`, whose motions and angles are known, the reactions and balancing moments with the driving link
-    /// at `place`, from its angular velocity and acceleration. `loads` finds the loads at motions and angles of the
-    /// links.
-    /// In free motion `shaft` has the moment on the driving link and the moment of inertia that turns with it: the
-    /// poses around then have accelerations of their own at the same speed, so that a residue is that of the motion.
+    /// Writes the reactions and balancing moments to `state`, whose motions and angles are known.
+    /// The driving link is at `place`, with this angular velocity and acceleration.
+    /// `loads` finds the loads from the motions and angles of the links.
+    /// In free motion, `shaft` holds the moment on the driving link and the moment of inertia that turns with it.
+    /// Each neighbouring pose then has its own acceleration at the same speed, so that a residue is that of the motion.
     pub(in crate::assur) fn reactions(
         &self,
         place: f64,
@@ -79,7 +83,8 @@ impl Window {
         Ok(())
     }
 
-    /// Values at the distance `x` from those at the nodes: each a pole of first order, if it has one, and a polynomial.
+    /// Values at the distance `x`, from the values at the nodes.
+    /// Each value is a polynomial and, where present, a pole of first order.
     fn with_poles(&self, x: f64, values: &[Vec<f64>]) -> Result<Vec<f64>, Unbounded> {
         let offsets = self.offsets();
         let nearest = offsets.iter().fold(f64::INFINITY, |least, offset| least.smaller(offset.abs()));

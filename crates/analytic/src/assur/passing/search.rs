@@ -5,19 +5,22 @@ use crate::assur::turns::FOLLOWED_STEP;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
-/// Share of the estimated distance that a step of the search takes. At a dead point the estimate is twice the distance:
-/// less than half of it stays on the branch.
+/// Step of the search, as a share of the estimated distance.
+/// At a dead point the estimate is twice the distance, so a step below half of it stays on the branch.
 const STEP: f64 = 0.4;
-/// The same for a higher group, which refuses steps over which its squared determinant might vanish.
+/// Step of the search for a higher group, as a share of the estimated distance.
+/// The group refuses steps over which its squared determinant might vanish.
 const FOLLOWED: f64 = 0.2;
 /// Smallest step (rad) in which a higher group is followed.
 const SMALLEST: f64 = 1e-9;
-/// Sine below which a group passes through zero, if it does so linearly. Rounding of the lengths leaves up to the root
-/// of the unit roundoff, and a mechanism that keeps more is another one.
+/// Sine below which a group counts as passing through zero, if its sine is linear there.
+/// Rounding of the lengths leaves at most the square root of the unit roundoff.
+/// A mechanism in which more remains is a different one.
 const MET: f64 = 1e-6;
-/// Sine from which on the slope is compared: at a dead point it grows with the inverse of the sine.
+/// Sine below which the slope for the comparison is taken. At a dead point the slope grows with the inverse of the
+/// sine.
 const LINEAR: f64 = 1e-3;
-/// The same two for a higher group, as shares of its determinant where the search begins, which may be near.
+/// Both limits for a higher group, as shares of its determinant at the start of the search. The start may be near.
 const HIGHER: [f64; 2] = [1e-4, 3e-2];
 const MOST_STEPS: usize = 200;
 
@@ -29,7 +32,7 @@ pub(super) struct Start<'a> {
 }
 
 /// The angle of the driving link at which a group has a change point, about `ahead` (rad) from a pose.
-/// Otherwise the angle up to which there is none.
+/// Otherwise the angle up to which the group has no change point.
 pub(super) fn change_point(start: &Start, group: GroupId, ahead: f64) -> Result<f64, f64> {
     let (mut plan, mut motions) = (start.plan.clone(), start.motions.to_vec());
     let (way, mut angle) = (ahead.signum(), start.angle);
@@ -41,7 +44,7 @@ pub(super) fn change_point(start: &Start, group: GroupId, ahead: f64) -> Result<
         let (sine, towards) = match (whole, clearance(&mut plan, &mut motions, group)) {
             (None, Some(SingularityDistance { sine, rate })) => (sine, -rate * way),
             (None, None) => return Err(angle),
-            // The determinant of a higher group, by secants.
+            // For a higher group, secants give the slope of the determinant.
             (Some(whole), _) => {
                 let share = plan.determinant(group).map_or(f64::NAN, |now| now.abs() / whole);
                 let towards = before.map_or(share / ahead.abs(), |(x, last)| (last - share) / (angle - x).abs());

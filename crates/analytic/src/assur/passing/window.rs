@@ -1,11 +1,14 @@
 //! The surroundings of a change point, and polynomials through poses on both sides of it.
 //!
-//! Rounding of a pose at the distance x grows as 1 / x, that of the second transfer functions as 1 / x^3; the error of
-//! the polynomials grows with the distance of the nodes. Ten nodes on each side, at Chebyshev's places of x^2 between a
-//! tenth of the half width and all of it, are near the best of both: where the next singular pose (a complex one too)
-//! is r away, second transfer functions have errors of about 5e-13 for r = 2 rad, 1e-12 for 1 rad, 4e-12 for 0.6 rad
-//! and 3e-11 for 0.3 rad, with half widths from 0.5 to 0.15 rad. The half width is chosen by what leaving out nodes
-//! changes.
+//! At the distance x, the rounding error of a pose grows as 1 / x, that of the second transfer functions as 1 / x^3.
+//! The error of the polynomials grows with the distance of the nodes.
+//! Each side has ten nodes at the Chebyshev points of x^2, from a tenth of the half width to all of it.
+//! This is nearly the best compromise.
+//! Let the next singular pose (real or complex) be r away.
+//! Second transfer functions then have errors of about 5e-13 for r = 2 rad, 1e-12 for 1 rad, 4e-12 for 0.6 rad and
+//! 3e-11 for 0.3 rad.
+//! The half widths in these cases are from 0.5 to 0.15 rad.
+//! The half width is chosen by how much the result changes when nodes are left out.
 
 use std::f64::consts::PI;
 
@@ -20,18 +23,20 @@ const SIDE: usize = 10;
 const CORE: f64 = 0.1;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.012];
-/// Largest share of a half width at which the mechanism cannot be followed. Another singular pose is there, towards
-/// which reactions may grow without bound.
+/// After a half width at which the mechanism cannot be followed, only half widths up to this share of it are tried.
+/// The failing width contains another singular pose, towards which reactions may grow without bound.
 const CLEAR: f64 = 0.5;
-/// Largest error of a second transfer function, as a share of the largest one, with which a change point is passed.
+/// Largest error of a second transfer function at which a change point is passed, as a share of the largest one.
 const WORST: f64 = 1e-6;
-/// Distance of two change points, as a share of that of the innermost nodes, that no longer is rounding or curvature.
+/// Distance between two change points above which it is not due to rounding or curvature.
+/// It is a share of the distance between the innermost nodes.
 const APART: f64 = 0.2;
-/// Steps of secants that improve the place of the change point.
+/// Number of secant steps that improve the position of the change point.
 const POLISHING: usize = 4;
-/// Cube root of the sum of the sizes of the weights, about four, with which the rounding of the poses enters.
+/// Cube root of the sum of the weights' magnitudes. This sum is about four and amplifies the rounding error of the
+/// poses.
 const WEIGHTS: f64 = 1.6;
-/// Rounding of accelerations over the unit roundoff and the cube of the condition number.
+/// Rounding error of accelerations, divided by the unit roundoff and by the cube of the condition number.
 const ULPS: f64 = 16.0;
 
 /// A pose beside a change point, at unit speed of the driving link without acceleration.
@@ -51,7 +56,7 @@ pub(in crate::assur) struct Window {
     /// Half width (rad).
     pub(super) reach: f64,
     pub(super) nodes: Vec<Node>,
-    /// Condition number by which rounding in the window goes.
+    /// Condition number that determines the rounding error in the window.
     pub(in crate::assur) condition: f64,
 }
 
@@ -141,7 +146,7 @@ impl Window {
             }
             from = at + offset;
             let (node, sine) = put(offset, &mut plan, &motions);
-            // The determinant of a higher group has its sign, the sine of a dyad none.
+            // The determinant of a higher group is signed, the sine of a dyad is not.
             sines.push(if node.plan.determinant(group).is_some() { sine } else { -sine });
             nodes.push(node);
         }
@@ -153,8 +158,8 @@ impl Window {
         Ok(window)
     }
 
-    /// A group that has another change point between the innermost nodes, if there is one. Reactions have poles at
-    /// both, and only one is known here.
+    /// A group with another change point between the innermost nodes, if there is one.
+    /// Reactions have poles at both change points, but only one is known here.
     fn other_inside(&mut self) -> Option<GroupId> {
         let near = |side: f64| {
             let own = self.nodes.iter().enumerate().filter(move |(_, node)| node.offset * side > 0.0);
@@ -168,7 +173,7 @@ impl Window {
             if let (Some(a), Some(b)) = (a, b) {
                 return a * b < 0.0 && is_apart(low + (high - low) * a / (a - b));
             }
-            // Both sides point to the same place, away from the middle.
+            // Both sides extrapolate to a change point away from the middle.
             let places = inner.map(|index| {
                 let node = &mut self.nodes[index];
                 let own = clearance(&mut node.plan, &mut node.motions.clone(), group);
@@ -178,7 +183,7 @@ impl Window {
         })
     }
 
-    /// Improves the place of the change point: there the sine with its sign is zero.
+    /// Improves the position of the change point, where the signed sine is zero.
     fn polish(&mut self, sines: &[f64]) {
         let offsets = self.offsets();
         let sine = |x: f64| weights(&offsets, x).iter().zip(sines).map(|(weight, sine)| weight * sine).sum::<f64>();
@@ -217,8 +222,9 @@ impl Window {
         node.plan.steps().ids().map(|group| node.plan.determinant(group)).collect()
     }
 
-    /// Error of the second transfer functions at the change point as a share of the largest one: what leaving out the
-    /// outermost or the innermost pair of nodes changes. The first shows the polynomials' error, the second rounding.
+    /// Error of the second transfer functions at the change point, as a share of the largest one.
+    /// It is their change when the outermost or the innermost pair of nodes is left out.
+    /// The first change shows the error of the polynomials, the second the rounding error.
     fn error(&self) -> f64 {
         let second = |kept: &dyn Fn(f64) -> bool| -> Vec<f64> {
             let nodes: Vec<&Node> = self.nodes.iter().filter(|node| kept(node.offset.abs())).collect();
@@ -273,7 +279,7 @@ impl Window {
     }
 }
 
-/// A motion at unit speed without acceleration, at a speed and acceleration of the driving link.
+/// Converts a motion at unit speed without acceleration to this speed and acceleration of the driving link.
 pub(super) fn at_speed(unit: &Motion, [omega, alpha]: [f64; 2]) -> Motion {
     Motion {
         velocity: unit.velocity * omega,

@@ -1,7 +1,8 @@
-//! Multipliers beside a change point.
+//! Multipliers near a change point.
 //!
-//! The Jacobian is singular there, and multipliers generally grow with the inverse of the distance: that which does
-//! work along the other branch has nothing to hold it. Multiplier times distance is smooth in any case.
+//! The Jacobian is singular there, and multipliers generally grow with the inverse of the distance.
+//! The reason is that no constraint holds a load that does work along the other branch.
+//! Multiplier times distance is always smooth.
 
 use super::WITHOUT_POLE;
 use super::window::{Window, neville};
@@ -11,23 +12,24 @@ use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
 
-/// Value at the change point of a multiplier times its distance that counts as zero: a multiple of the difference
-/// between all poses and those without the inner ones, and a share of the largest such product.
+/// Threshold below which a multiplier times its distance counts as zero at the change point.
+/// It is a multiple of the product's change without the inner poses, plus a share of the largest such product.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
-/// Distance from a change point (rad) within which such multipliers are not told: its place is known to about 1e-14
-/// rad.
+/// Distance from a change point (rad) within which such multipliers are not reported.
+/// The position of the change point is known to about 1e-14 rad.
 const NEAREST: f64 = 1e-7;
 
 /// Writes the loads on all links at their motions and angles (rad).
 type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]);
 
 impl Window {
-    /// Writes to the system the multipliers at the crank's angle `angle` (rad) for its angular velocity and
+    /// Writes the multipliers to the system, at the crank angle `angle` (rad) for the crank's angular velocity and
     /// acceleration.
-    /// `loads` finds the loads on all links. In free motion `shaft` has the moment on the crank and the moment of
-    /// inertia that turns with it: every pose then has the acceleration that belongs to it at this speed.
+    /// `loads` finds the loads on all links.
+    /// In free motion, `shaft` holds the moment on the crank and the moment of inertia that turns with it.
+    /// Every pose then has its own acceleration at this speed.
     pub(in crate::newton) fn multipliers(
         &self,
         system: &mut System,
@@ -55,7 +57,8 @@ impl Window {
             };
             let mut lambda = at(system, alpha);
             if let Some([moment, inertia]) = shaft {
-                // Multipliers are linear in the acceleration: gain per unit of it, then that which balances the crank.
+                // Multipliers are linear in the acceleration. Their gain per unit gives the acceleration that balances
+                // the crank.
                 let unit = 1.0 + alpha.abs() + omega * omega;
                 let gain: Vec<f64> =
                     at(system, alpha + unit).iter().zip(&lambda).map(|(more, own)| (more - own) / unit).collect();
@@ -75,7 +78,7 @@ impl Window {
         Ok(())
     }
 
-    /// Multipliers at the distance `x` from those at all poses. `None` where they grow without bound.
+    /// Multipliers at the distance `x`, from the multipliers at all poses. `None` where they grow without bound.
     fn beside(&self, x: f64, all: &[Vec<f64>]) -> Option<Vec<f64>> {
         let distances = &self.places;
         let nearest = distances.iter().fold(f64::INFINITY, |least, x| least.smaller(x.abs()));

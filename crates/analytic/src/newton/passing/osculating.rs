@@ -1,8 +1,8 @@
-//! Osculating polynomials: through values, first and second derivatives at several places (Hermite).
+//! Osculating polynomials through values, first and second derivatives at several positions (Hermite).
 //!
-//! p(x) = sum of l_i(x)^3 (c0 + c1 (x - x_i) + c2 (x - x_i)^2) with Lagrange's l_i and, from the derivatives of l_i^-3,
-//! c0 = f, c1 = f' - 3 s f, 2 c2 = f'' - 6 s f' + (9 s^2 + 3 t) f with s = sum of 1 / (x_i - x_j), t that of the
-//! squares.
+//! p(x) = sum of l_i(x)^3 (c0 + c1 (x - x_i) + c2 (x - x_i)^2) with Lagrange's l_i.
+//! The derivatives of l_i^-3 give c0 = f, c1 = f' - 3 s f, 2 c2 = f'' - 6 s f' + (9 s^2 + 3 t) f.
+//! Here s is the sum of 1 / (x_i - x_j), and t the sum of their squares.
 
 /// Value, first and second derivative.
 type Jet = [f64; 3];
@@ -11,16 +11,16 @@ fn product([a, da, dda]: Jet, [b, db, ddb]: Jet) -> Jet {
     [a * b, da * b + a * db, dda * b + 2.0 * da * db + a * ddb]
 }
 
-/// Polynomials of many functions through the same places.
+/// Polynomials of many functions through the same positions.
 #[derive(Clone, Debug)]
 pub(super) struct Osculating {
     places: Vec<f64>,
-    /// c0, c1, c2 of every function, place by place.
+    /// c0, c1, c2 of every function, position by position.
     coefficients: Vec<Vec<Jet>>,
 }
 
 impl Osculating {
-    /// Through the values and derivatives of all functions at these places.
+    /// Polynomials through the values and derivatives of all functions at these positions.
     pub(super) fn through(points: &[(f64, [&[f64]; 3])]) -> Self {
         let places: Vec<f64> = points.iter().map(|(x, _)| *x).collect();
         let of = |(i, (x, [f, df, ddf])): (usize, &(f64, [&[f64]; 3]))| -> Vec<Jet> {

@@ -1,4 +1,4 @@
-//! What a system has after it has followed its way: velocities, accelerations, multipliers.
+//! Results of a system after it has followed its path: velocities, accelerations, multipliers.
 
 use super::Passing;
 use super::spot::Spot;
@@ -13,7 +13,7 @@ use linkage::trajectory::Stage;
 type Loads<'a> = &'a mut dyn FnMut(&Case, &[Motion], &[f64], &mut [Wrench]);
 
 impl Passing {
-    /// The way from the settled start pose of a system, if its mechanism passes change points.
+    /// The path from the settled start pose of a system, if its mechanism passes change points.
     pub(in crate::newton) fn of(system: &mut System) -> Option<Self> {
         let case = system.case;
         (case.crank().passes() && case.drives.further().is_empty()).then(|| {
@@ -24,7 +24,7 @@ impl Passing {
         })
     }
 
-    /// Follows the way to an angle of the crank (rad, in the world). Sets the coordinates.
+    /// Follows the path to an angle of the crank (rad, in the world). Sets the coordinates.
     pub(in crate::newton) fn go_to(&mut self, system: &mut System, angle: f64) -> Result<()> {
         self.travel(system, angle)?;
         if self.inside().is_some() {
@@ -58,7 +58,7 @@ impl Passing {
         window.multipliers(system, [input.value, input.rate, input.acceleration], shaft, &mut own)
     }
 
-    /// Follows a prescribed motion to the time `t`, as far as its stage asks for.
+    /// Follows a prescribed motion to the time `t`, up to the stage that the system requests.
     pub(in crate::newton) fn pass_to(&mut self, system: &mut System, t: f64) -> Result<()> {
         system.set_time(t);
         let input = system.inputs[0];
@@ -77,7 +77,7 @@ impl Passing {
     }
 }
 
-/// Gives the crank its exact place, which no polynomial has to tell.
+/// Gives the crank its exact pose, for which no polynomial is needed.
 fn turn_crank(system: &mut System, spot: &mut Spot) {
     let crank = system.case.crank();
     let joint = &system.case.mechanism.joints()[crank.joint];

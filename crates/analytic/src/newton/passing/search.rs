@@ -7,19 +7,19 @@ use linkage::math::KeepNan;
 
 /// Share of the estimated distance that a step takes.
 const STEP: f64 = 0.4;
-/// Share of a block's determinant at which it counts as zero, if it goes there linearly: about a tenth of the sine of a
-/// dyad's transmission angle.
+/// Ratio of a block's determinant to the largest possible one, below which it counts as zero if it falls linearly.
+/// For a dyad the ratio is about a tenth of the sine of its transmission angle.
 const MET: f64 = 1e-7;
-/// Share from which on slopes are compared. At a dead point the determinant goes with the root of the distance, and its
-/// slope grows without bound.
+/// Ratio below which slopes are compared.
+/// At a dead point the determinant falls with the square root of the distance, and its slope grows without bound.
 const LINEAR: f64 = 1e-4;
 const MOST_STEPS: usize = 200;
 
 /// Change at which Newton's method ends near a change point, where rounding is magnified.
 const COARSE: f64 = 1e-7;
 
-/// The angle (rad) at which the determinant of a block goes through zero, about `ahead` (rad) from a spot. Otherwise
-/// the angle up to which it does not.
+/// The angle (rad) at which the determinant of a block passes through zero, about `ahead` (rad) from a spot.
+/// Otherwise the angle up to which the determinant has no zero.
 pub(super) fn change_point(system: &mut System, start: &Spot, block: usize, ahead: f64) -> Result<f64, f64> {
     let settled = std::mem::replace(&mut system.settled, COARSE);
     let found = approached(system, start, block, ahead);

@@ -1,11 +1,11 @@
-//! Poses on the way, and steps between them.
+//! Poses on the path, and steps between them.
 
 use crate::newton::steps::TRACKING_STEP;
 use crate::newton::system::System;
 use crate::sentences;
 use linkage::error::Result;
 
-/// A pose on the way: the crank's angle in the world (rad), all coordinates, and their derivatives by that angle.
+/// A pose on the path: the crank's angle in the world (rad), all coordinates, and their derivatives by that angle.
 #[derive(Clone, Debug, Default)]
 pub(in crate::newton) struct Spot {
     pub(in crate::newton) angle: f64,
@@ -14,7 +14,7 @@ pub(in crate::newton) struct Spot {
     pub(in crate::newton) curve: Vec<f64>,
     /// Signs of the blocks' determinants.
     pub(in crate::newton) signs: Vec<f64>,
-    /// Determinants of the blocks in shares of the largest possible ones, with their signs.
+    /// Signed ratios of the blocks' determinants to the largest possible ones.
     pub(in crate::newton) shares: Vec<f64>,
 }
 

@@ -1,9 +1,12 @@
 //! The surroundings of a change point.
 //!
-//! Coordinates go through six poses with their first and second derivatives, multipliers through sixteen poses.
-//! The half width is chosen by the difference of two polynomials that share neither degree nor data: the second
-//! derivative of the osculating one, and the one through the second derivatives at all sixteen poses.
-//! Rounding at the distance x grows as 1 / x^3 in second derivatives, the error of the polynomials with the width.
+//! Coordinates are polynomials through six poses with their first and second derivatives, multipliers through sixteen
+//! poses.
+//! The half width is chosen by the difference of two polynomials that share neither degree nor data.
+//! One is the second derivative of the osculating polynomial. The other passes through the second derivatives at all
+//! sixteen poses.
+//! At the distance x, the rounding error of second derivatives grows as 1 / x^3. The error of the polynomials grows
+//! with the width.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -16,27 +19,28 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkId};
 
-/// Poses on each side, and the numbers of those that coordinates go through, from the outermost inwards.
+/// Number of poses on each side, and indices of those used for coordinates, from the outermost inwards.
 const SIDE: usize = 8;
 const CHOSEN: [usize; 3] = [0, 3, 6];
 /// Distance of the innermost pose as a share of the half width.
 const CORE: f64 = 0.2;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025, 0.017, 0.01];
-/// Largest share of a half width over which the way is lost: another singular pose is near, and multipliers may grow
-/// without bound towards it.
+/// After a half width over which the path is lost, only half widths up to this share of it are tried.
+/// Another singular pose is near, towards which multipliers may grow without bound.
 const CLEAR: f64 = 0.5;
-/// Largest error of second derivatives, as a share of the largest one, with which a change point is passed.
+/// Largest error of second derivatives at which a change point is passed, as a share of the largest one.
 const WORST: f64 = 1e-6;
-/// Steps of secants that improve the place of a change point.
+/// Number of secant steps that improve the position of a change point.
 const SECANTS: usize = 4;
-/// Distance of two change points, as a share of the innermost distance, that no longer is rounding.
+/// Distance between two change points above which it is not due to rounding, as a share of the innermost distance.
 const APART: f64 = 0.01;
-/// Places, as shares of the half width, at which the two polynomials are compared.
+/// Positions, as shares of the half width, at which the two polynomials are compared.
 const COMPARED: [f64; 3] = [-0.1, 0.0, 0.1];
-/// Cube root of the sum of the sizes of the weights, about four, with which the rounding of the poses enters.
+/// Cube root of the sum of the weights' magnitudes. This sum is about four and amplifies the rounding error of the
+/// poses.
 const WEIGHTS: f64 = 1.6;
-/// Rounding of accelerations over the unit roundoff and the cube of the condition number.
+/// Rounding error of accelerations, divided by the unit roundoff and by the cube of the condition number.
 const ULPS: f64 = 16.0;
 
 /// The surroundings of a change point.
@@ -48,13 +52,13 @@ pub(in crate::newton) struct Window {
     pub(super) reach: f64,
     /// In ascending order of the angle.
     pub(super) spots: Vec<Spot>,
-    /// Their distances from the change point (rad).
+    /// Distances of these poses from the change point (rad).
     pub(super) places: Vec<f64>,
-    /// Whole turns of the links' angles, as the coordinates have them (rad; 0 for places). The polynomials are those of
-    /// coordinates without them, which keep their last digits.
+    /// Whole turns of the links' angles in the coordinates (rad; 0 for positions).
+    /// The polynomials use coordinates without these turns, which keep their last digits.
     turns: Vec<f64>,
     coordinates: Osculating,
-    /// Condition number by which rounding in the window goes.
+    /// Condition number that determines the rounding error in the window.
     pub(in crate::newton) condition: f64,
 }
 
@@ -102,7 +106,7 @@ impl Window {
                 let shares = window.spots.iter().map(|spot| spot.shares[block].abs());
                 let (least, most) = shares.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.smaller(s), b.larger(s)));
                 // About the inverse of the sine of the innermost pose.
-                // Rounding of all blocks that are singular at once adds up.
+                // The rounding errors of all blocks that are singular at once add up.
                 let inner = [&window.spots[SIDE - 1].shares, &window.spots[SIDE].shares];
                 let singular = inner[0].iter().zip(inner[1]).filter(|(a, b)| *a * *b < 0.0).count().max(1);
                 window.condition = (WEIGHTS * (singular as f64).cbrt() * most / least / window.reach)
@@ -148,7 +152,7 @@ impl Window {
         }
         spots.sort_by(|a, b| a.angle.total_cmp(&b.angle));
         let at = crossing(&spots, block).unwrap_or(at);
-        // No other change point in between: reactions have poles at both, and only one is known here.
+        // No other change point may lie in between: reactions have poles at both, but only one is known here.
         let inner = [&spots[SIDE - 1], &spots[SIDE]];
         let passes = |block: &usize| inner[0].shares[*block] * inner[1].shares[*block] < 0.0;
         for other in (0..spots[0].shares.len()).filter(passes) {
@@ -214,7 +218,7 @@ fn followed(system: &mut System, from: &Spot, to: f64) -> Result<Spot> {
     Ok(spot)
 }
 
-/// Refuses a pose beyond a change point at which velocities are not those expected.
+/// Refuses a pose beyond a change point whose velocities are not the expected ones.
 fn check_slopes(system: &System, found: &Spot, expected: &[f64]) -> Result<()> {
     let size = system.case.mechanism.size();
     let unit = |index: usize| if index % 3 == 2 { 1.0 } else { size };
@@ -231,13 +235,13 @@ fn point(spot: &Spot, at: f64) -> (f64, [&[f64]; 3]) {
     (spot.angle - at, [&spot.q, &spot.slope, &spot.curve])
 }
 
-/// The chosen poses of one side, of which the outermost comes first.
+/// The chosen poses of one side, the outermost first.
 fn chosen(spots: &[Spot], at: f64) -> Vec<(f64, [&[f64]; 3])> {
     CHOSEN.iter().map(|&k| point(&spots[k], at)).collect()
 }
 
-/// The angle at which a block's determinant is zero, by inverse interpolation. `None` if it does not change its sign,
-/// or not steadily.
+/// The angle at which a block's determinant is zero, by inverse interpolation.
+/// `None` if the determinant does not change its sign, or is not monotonic.
 fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
     let shares: Vec<f64> = spots.iter().map(|spot| spot.shares[block]).collect();
     let inner = SIDE / 2..2 * SIDE - SIDE / 2;
@@ -247,7 +251,7 @@ fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
     if !is_crossing {
         return None;
     }
-    // A first place by inverse interpolation, then secants on the polynomial through all poses.
+    // First estimate by inverse interpolation, then secants on the polynomial through all poses.
     let first = neville(&shares[inner.clone()], |k| spots[inner.start + k].angle, 0.0);
     let places: Vec<f64> = spots.iter().map(|spot| spot.angle - first).collect();
     let share = |x: f64| neville(&places, |k| shares[k], x);
@@ -262,7 +266,7 @@ fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
     Some(first + x)
 }
 
-/// Value at `x` of the polynomial through values at these places (Neville's scheme).
+/// Value at `x` of the polynomial through values at these positions (Neville's scheme).
 pub(super) fn neville(places: &[f64], value: impl Fn(usize) -> f64, x: f64) -> f64 {
     let mut row: Vec<f64> = (0..places.len()).map(value).collect();
     for level in 1..places.len() {

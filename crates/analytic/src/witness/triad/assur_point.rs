@@ -1,12 +1,13 @@
 //! Reactions of the group by its singular Assur point.
 //!
 //! At its foot a lead receives a force across its line and a force along it.
-//! The lead's own moments about its head give the first, `N_n = -M_head / l`.
+//! The moments on the lead about its head give the force across, `N_n = -M_head / l`.
 //! The forces along two leads pass through the intersection S of their lines, the singular Assur point.
-//! So the moments about S of the base link and those two leads leave one unknown, the force along the third lead.
-//! The equilibrium of the same three links gives the other two, and that of each lead the reaction at its head
-//! (kinetostatics of class III groups: Artobolevsky, "Theory of mechanisms and machines").
-//! Of the three Assur points, that of the two leads nearest to a right angle is used: parallel leads have theirs at
+//! In the moments of the base link and these two leads about S, one unknown remains: the force along the third lead.
+//! The equilibrium of the same three links gives the other two forces along leads.
+//! The equilibrium of each lead gives the reaction at its head (kinetostatics of class III groups: Artobolevsky,
+//! "Theory of mechanisms and machines").
+//! Of the three Assur points, that of the two leads nearest to a right angle is used. Parallel leads have theirs at
 //! infinity.
 
 use super::{KnownResultant, Places, Reactions, singular};
@@ -19,7 +20,7 @@ use linkage::math::{Vec2, cross, turned};
 pub struct AssurPoint {
     /// The two leads whose lines meet there, then the third.
     pub leads: [usize; 3],
-    /// Its world place (m); infinite or NaN if all leads are parallel.
+    /// World position of the Assur point (m); infinite or NaN if all leads are parallel.
     pub place: Vec2,
     /// Sine of the angle between the two lines, from 0 to 1.
     pub sine: f64,
@@ -44,7 +45,7 @@ pub fn best(places: &Places) -> AssurPoint {
     better(better(first, second), third)
 }
 
-/// Reactions (N) for the places of the joints and the known forces on leads and base link.
+/// Reactions (N) for the positions of the joints and the known forces on leads and base link.
 ///
 /// # Errors
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.

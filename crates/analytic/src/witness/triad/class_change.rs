@@ -1,28 +1,28 @@
 //! The class III group by exchange of the driving link.
 //!
-//! With one of its ground leads as conditional driver the mechanism is a chain of class II dyads: base link and other
-//! ground lead, then lead 3 and crank.
-//! The first dyad is placed in closed form. The second requires that the distance from the head F of lead 3 to the
-//! crank pin C is the length of lead 3.
+//! With one of its ground leads as conditional driver, the mechanism is a chain of class II dyads.
+//! The first dyad is the base link and the other ground lead, the second is lead 3 and the crank.
+//! The first dyad is placed in closed form.
+//! The second requires that the distance from the head F of lead 3 to the crank pin C is the length of lead 3.
 //! So the crank angle alpha is a function of the lead's angle theta, and the true motion is its inverse.
-//! For a given alpha the theta at which the second dyad closes, `|F(theta) - C(alpha)| = l_3`, is found between bounds
-//! by Newton's method with bisection. With q = F - C
+//! For a given alpha, the second dyad closes at the theta with `|F(theta) - C(alpha)| = l_3`.
+//! Newton's method with bisection finds this theta between bounds. With q = F - C
 //!
 //! `d alpha / d theta = (q . F') / (q . C')`, `omega_lead = omega_crank / (d alpha / d theta)`,
 //!
 //! and all other rates and the accelerations follow by differentiating twice along the same chain (class III groups
-//! reduced to class II by another driving link; Artobolevsky, "Theory of mechanisms and machines"). No system of
-//! equations is solved.
+//! reduced to class II by another driving link; Artobolevsky, "Theory of mechanisms and machines").
+//! No system of equations is solved.
 //!
 //! Dead points. At the limit positions of a ground lead d alpha / d theta is infinite: the conditional driver cannot
 //! drive there.
 //! There are two kinds.
-//! Where base link and *other* lead are in line, the first dyad is at its limit. Then the other ground lead is the
-//! driver: of the two, the one is used whose first dyad is farther from its limit.
-//! Where crank and lead 3 are in line, both ground leads stand still at once, and neither is better.
-//! There the second dyad changes from one of its two configurations to the other.
-//! Its closing condition holds for both and is smooth in theta. Solving it, instead of the angle of the dyad, passes
-//! such points without difficulty.
+//! If the base link and the *other* lead are in line, the first dyad is at its limit.
+//! The driver is therefore the ground lead whose first dyad is farther from its limit.
+//! If the crank and lead 3 are in line, both ground leads stand still at once, and neither is the better driver.
+//! The second dyad then changes from one of its two configurations to the other.
+//! Its closing condition holds for both configurations and is smooth in theta.
+//! Solving this condition, instead of the angle of the dyad, passes such points without difficulty.
 //! A dead point of the group itself, q . F' = 0, cannot be passed.
 
 mod chain;

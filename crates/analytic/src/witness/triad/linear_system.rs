@@ -12,7 +12,7 @@ use linkage::error::Result;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Vec2, cross};
 
-/// Reactions (N) for the places of the joints and the known forces on leads and base link.
+/// Reactions (N) for the positions of the joints and the known forces on leads and base link.
 ///
 /// # Errors
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
@@ -53,8 +53,8 @@ impl System {
         (0..3).for_each(|row| self.right[3 * link + row] = -values[row]);
     }
 
-    /// Adds `sign` times the force number `unknown` to the equations of a link, at `arm` from its pole in the link's
-    /// lengths.
+    /// Adds `sign` times the force number `unknown` to the equations of a link.
+    /// The force acts at `arm` from the link's pole, in units of the link's length.
     fn force(&mut self, link: usize, unknown: usize, sign: f64, arm: Vec2) {
         for (column, axis) in [(2 * unknown, Vec2::new(sign, 0.0)), (2 * unknown + 1, Vec2::new(0.0, sign))] {
             for (row, value) in [axis.x, axis.y, cross(arm, axis)].into_iter().enumerate() {

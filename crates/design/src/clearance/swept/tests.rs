@@ -8,9 +8,8 @@ use super::super::tests::slider_crank;
 use super::*;
 use linkage::mechanism::LinkId;
 
-/// A crank of 0.1 m, rounded by 0.02 m, sweeps a disc of 0.12 m: every covered square lies inside the disc and every
-/// free
-/// square outside.
+/// A crank of 0.1 m, rounded by 0.02 m, sweeps a disc of 0.12 m.
+/// Every covered square lies inside the disc and every free square outside.
 #[test]
 fn squares_are_covered_or_free_with_all_their_corners() {
     let case = slider_crank();
@@ -38,8 +37,8 @@ fn squares_are_covered_or_free_with_all_their_corners() {
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }
 
-/// A passing side has every point of the disc on one side at the start, on the other at the end, and between its ends
-/// throughout, for any ends within their errors.
+/// If a side passes, every point of the disc is on one side of it at the start and on the other at the end.
+/// The point stays between the side's ends throughout. This holds for any ends within their errors.
 #[test]
 fn what_passes_over_a_disc_passes_over_each_of_its_places() {
     // Knuth's MMIX generator: repeatable random numbers.

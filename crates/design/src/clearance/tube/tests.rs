@@ -1,6 +1,5 @@
-//! Tests the bounds against samples: random joints between random tubes. Some samples leave out a quantity, so that
-//! every
-//! term of a bound dominates somewhere.
+//! Tests the bounds against samples: random joints between random tubes.
+//! Some samples leave out a quantity, so that every term of a bound dominates somewhere.
 
 use linkage::math::unit;
 use linkage::mechanism::{JointKind, JointSide, LinkId};
@@ -25,7 +24,7 @@ impl Random {
         self.number() > 0.0
     }
 
-    /// Returns a number of at most `most`, or, as often, zero.
+    /// Returns a number of at most `most` in magnitude, or zero just as often.
     fn some(&mut self, most: f64) -> f64 {
         let number = most * self.number();
         if self.yes() { number } else { 0.0 }
@@ -107,9 +106,8 @@ impl Sample {
         Sample { joint, tubes, own, half }
     }
 
-    /// Residuals of the joint's two equations: the points coincide (revolute), or the second point lies on the first's
-    /// line
-    /// and both axes are parallel (prismatic).
+    /// Residuals of the joint's two equations.
+    /// Revolute: the points coincide. Prismatic: the second point lies on the first's line and both axes are parallel.
     fn open(&self, places: [Place; 2]) -> [f64; 2] {
         let sides = [self.joint.first, self.joint.second];
         let [first, second] = [0, 1].map(|k| point(&self.tubes[k], places[k], sides[k].local));
@@ -175,7 +173,7 @@ fn points_stay_within_the_error_of_their_tracks() {
     }
 }
 
-/// Links of the group move evenly; other links are anywhere in their tubes.
+/// Links of the group move uniformly; other links are anywhere in their tubes.
 #[test]
 fn equations_are_open_by_no_more_than_is_said() {
     let mut random = Random(2);
@@ -213,7 +211,7 @@ fn the_derivative_is_the_limit_of_differences() {
     }
 }
 
-/// The change of the derivative over the box, times the radii of the box.
+/// Bound on the change of the derivative over the box, times the radii of the box.
 #[test]
 fn the_derivative_changes_by_no_more_than_is_said() {
     let mut random = Random(4);

@@ -19,7 +19,7 @@ pub(super) fn site(xml: &mut Xml, name: &str, place: Vec2) {
     xml.leaf(format_args!(r#"site name="{}" pos="{}""#, escape(name), flat(place)));
 }
 
-/// Sites of a link at which loads act; on the ground also the one that tells the world's axes.
+/// Sites of a link at which loads act. The ground also gets the site that defines the world axes.
 pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: LinkId) {
     for (name, place) in places(forces, link) {
         site(xml, &name, place);
@@ -31,7 +31,7 @@ pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: LinkId) {
     }
 }
 
-/// Tendons: sums of angles that frictions and actuators act on, and springs and dampers between points.
+/// Tendons: sums of angles on which frictions and actuators act, and springs and dampers between points.
 pub(super) fn tendons<'a>(xml: &mut Xml, model: &MjcfModel, forces: &'a Forces) {
     let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();
     let sum = |own: &'a Actuator| match &own.target {
@@ -83,7 +83,7 @@ fn end(load: &str, index: usize) -> String {
     format!("{load}.{}", ["first", "second"][index])
 }
 
-/// Places at which loads act on a link, with the names of their sites.
+/// Positions at which loads act on a link, with the names of their sites.
 fn places(forces: &Forces, link: LinkId) -> Vec<(String, Vec2)> {
     let ends = forces.tendons.iter().flat_map(|tendon| {
         let named = |(index, side): (usize, &JointSide)| (*side, end(&tendon.name, index));
@@ -96,7 +96,7 @@ fn places(forces: &Forces, link: LinkId) -> Vec<(String, Vec2)> {
     ends.chain(pushed).filter(|(side, _)| side.link == link).map(|(side, name)| (name, side.local)).collect()
 }
 
-/// Motors and loads: no control enters, the force is `biasprm[0] + biasprm[1] length + biasprm[2] rate`.
+/// Motors and loads. They have no control input: the force is `biasprm[0] + biasprm[1] length + biasprm[2] rate`.
 pub(super) fn actuators(xml: &mut Xml, model: &MjcfModel, forces: &Forces) {
     if forces.actuators.is_empty() {
         return;

@@ -1,4 +1,4 @@
-//! Motors and loads as MuJoCo has them: actuators, and tendons with springs and dampers.
+//! Motors and loads in the terms of MuJoCo: actuators, and tendons with springs and dampers.
 
 use super::limits::line;
 use super::model::MjcfModel;
@@ -7,7 +7,7 @@ use linkage::error::Result;
 use linkage::math::{Vec2, angle};
 use linkage::mechanism::{JointSide, LinkId};
 
-/// Forces that are large enough never to be reached.
+/// Limit of a force that is never reached.
 const ENDLESS: f64 = 1e30;
 
 /// What an actuator acts on.
@@ -15,15 +15,15 @@ const ENDLESS: f64 = 1e30;
 pub(super) enum Target {
     /// The hinge of a branch.
     Hinge(usize),
-    /// A fixed tendon: branches with their coefficients, whose coordinates it adds.
+    /// A fixed tendon: the sum of the coordinates of these branches, each times its coefficient.
     Sum(Vec<(usize, f64)>),
-    /// A place of a link with a force (N).
+    /// A point of a link with a force (N).
     Place {
         /// The place.
         at: JointSide,
         /// The force.
         force: Vec2,
-        /// Whether it is given in the axes of the link; else in those of the world.
+        /// Whether the force is given in the axes of the link; otherwise in those of the world.
         follows: bool,
     },
 }
@@ -37,7 +37,7 @@ pub(super) struct Actuator {
     pub range: Option<[f64; 2]>,
 }
 
-/// A tendon between two places with a spring or a damper.
+/// A tendon between two points, with a spring or a damper.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tendon {
     pub name: String,
@@ -54,7 +54,7 @@ pub(super) struct Forces {
     pub tendons: Vec<Tendon>,
 }
 
-/// Forces of all motors and loads; those of resistances are [frictions](super::model::Friction).
+/// Forces of all motors and loads, except resistances, which are [frictions](super::model::Friction).
 pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
     let mut found = Forces::default();
     for drive in model.case.drives.iter() {
@@ -72,7 +72,7 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
             for &(link, sign) in links {
                 sum.extend(model.hinges(link).into_iter().map(|branch| (branch, sign)));
             }
-            // What both links turn with has no part in their twist.
+            // A hinge that turns both links has no effect on the twist between them.
             let both: Vec<usize> = sum.iter().filter(|(_, sign)| *sign < 0.0).map(|(branch, _)| *branch).collect();
             let is_common = |branch: usize| both.contains(&branch) && sum.contains(&(branch, 1.0));
             sum.iter().copied().filter(|&(branch, _)| !is_common(branch)).collect::<Vec<_>>()
@@ -85,7 +85,7 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
             };
             found.actuators.push(Actuator { name: name.clone(), target, bias, range: None });
         };
-        // Resistances are frictions; other sorts are refused before.
+        // Resistances are frictions. Types that cannot be written were refused before.
         if let Load::Moment { link, moment, .. } = load {
             put(Target::Sum(turning(&[(*link, 1.0)])), [constant(moment), 0.0, 0.0]);
         } else if let Load::Force { at, force: [x, y], follows } = load {
@@ -96,7 +96,7 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
         } else if let &Load::Damper { ends, damping } = load {
             found.tendons.push(Tendon { name, ends, stiffness: 0.0, free_length: 0.0, damping });
         } else if let &Load::TorsionSpring { links: [first, second], stiffness, free_angle } = load {
-            // A tendon's length is the difference of the angles as the poses have them; the twist begins in (-pi, pi].
+            // A tendon's length is the difference of the angles in the poses. The twist starts in (-pi, pi].
             let begun = model.case.start.0[second].angle - model.case.start.0[first].angle;
             let free = free_angle + begun - angle::wrapped(begun);
             put(Target::Sum(turning(&[(second, 1.0), (first, -1.0)])), [stiffness * free, -stiffness, 0.0]);
@@ -107,7 +107,7 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
     Ok(found)
 }
 
-/// A motor on the crank's hinge. Losses make two of it: what drives, and what brakes.
+/// A motor on the crank's hinge. With losses it becomes two actuators: one drives, the other brakes.
 fn motors(motor: &Motor, sense: f64, joint: &str, branch: usize) -> Result<Vec<Actuator>> {
     let [at_rest, slope] = line(&motor.law)?;
     let (constant, damping) = (sense * motor.ratio * at_rest, motor.ratio * motor.ratio * slope);

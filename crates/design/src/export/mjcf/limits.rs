@@ -1,4 +1,4 @@
-//! What MJCF has no words for, refused by name.
+//! Refuses by name what MJCF cannot express.
 
 use crate::sentences;
 use linkage::drive::{Acts, Drive, Load, MotorLaw};
@@ -11,7 +11,7 @@ fn refused(what: String, help: &'static str) -> Error {
 /// Checks that a load can be written.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for one that MJCF has no words for, by its name.
+/// [`ErrorKind::Unsupported`] with the name of a load that MJCF cannot express.
 pub(super) fn check(load: &Load) -> Result<()> {
     const ALONE: &str = sentences::LEAVE_IT_OUT_OF_THE_SCENARIO;
     let sort = load.sort();
@@ -30,7 +30,8 @@ pub(super) fn check(load: &Load) -> Result<()> {
 /// Checks that a drive can be written.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a law of motion with a changing speed, and for a motor's law that is no straight line.
+/// [`ErrorKind::Unsupported`] for a law of motion with a changing speed, and for a motor whose law is not a straight
+/// line.
 pub(super) fn check_drive(drive: &Drive) -> Result<()> {
     if let Some(motor) = drive.moving_motor() {
         return line(&motor.law).map(|_| ());

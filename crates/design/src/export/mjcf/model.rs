@@ -10,9 +10,10 @@ use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::{GROUND, JointId, JointKind, LinkId, PerLink, SpanningTree, TreeBranch};
 use linkage::solver::State;
 
-/// Inertia of a drive's rotor divided by the largest moment of inertia that the mechanism could have about one of its points.
+/// Inertia of a drive's rotor divided by the largest moment of inertia that the mechanism could have about one of its
+/// points.
 /// Inertia forces are of the size of that moment times the speed squared.
-/// They therefore change the speed by 1e-9 of it in a radian.
+/// They therefore change the speed by 1e-9 of its value per radian.
 const ROTOR: f64 = 1e9;
 /// Mass of a massless link, as a share of the mass of the whole mechanism: MuJoCo refuses zero.
 /// A smaller share would falsify reactions less.
@@ -20,7 +21,7 @@ const ROTOR: f64 = 1e9;
 /// docs/mjcf.md has the figures.
 const LIGHT: f64 = 1e-5;
 /// Radius of gyration of a link without inertia, divided by its size.
-/// Then the least size that counts for this, divided by the mechanism's size.
+/// The second constant is the smallest size used for this, divided by the mechanism's size.
 const GYRATION: f64 = 0.3;
 const SHORTEST: f64 = 0.1;
 
@@ -33,7 +34,7 @@ pub(super) struct Friction {
     pub moment: f64,
     /// Hinges from the ground to the link, as indices of branches: the sum of their angles is the link's angle.
     pub hinges: Vec<usize>,
-    /// Whether the only hinge is the joint that carries the link.
+    /// Whether the link has only one hinge, and that is the joint that carries it.
     pub own_hinge: bool,
 }
 
@@ -44,7 +45,7 @@ pub struct MjcfModel<'a> {
     pub(super) name: &'a str,
     pub(super) step: f64,
     pub(super) tree: SpanningTree,
-    /// One for each branch of the tree.
+    /// One body for each branch of the tree.
     pub(super) bodies: Vec<Body>,
     pub(super) frictions: Vec<Friction>,
 }
@@ -89,11 +90,12 @@ impl<'a> MjcfModel<'a> {
     #[must_use]
     pub fn rotor(&self) -> f64 {
         let (size, links) = (self.size(), self.case.mechanism.links());
-        // Of all mass one size away from a point.
+        // Moment of inertia with all mass at the distance `size` from a point.
         ROTOR * (links.iter().map(|link| link.inertia).sum::<f64>() + self.mass() * size * size)
     }
 
-    /// Inertia (kg m^2) that turns with a driven hinge: that rotor, or what a free link's motor has.
+    /// Inertia (kg m^2) that turns with a driven hinge: the rotor of a prescribed drive, or the inertia of a free
+    /// link's motor.
     pub(super) fn armature(&self, joint: JointId) -> Option<f64> {
         let drive = self.case.drives.iter().find(|drive| drive.joint == joint)?;
         if drive.is_free() { Some(drive.moving_inertia()).filter(|own| *own > 0.0) } else { Some(self.rotor()) }
@@ -172,7 +174,7 @@ impl<'a> MjcfModel<'a> {
     }
 }
 
-/// The one degree of freedom of a body in its parent.
+/// The only degree of freedom of a body relative to its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Freedom {
     /// Hinge about z at a point of the body's frame (m).
@@ -181,7 +183,7 @@ pub(super) enum Freedom {
     Slide(Vec2),
 }
 
-/// A link as a body in its parent.
+/// A link as a body within its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Body {
     /// Origin of the link's frame in that of its parent, in the start pose (m).
@@ -190,7 +192,8 @@ pub(super) struct Body {
     pub turn: f64,
     /// The joint.
     pub freedom: Freedom,
-    /// The joint's coordinate in the start pose: angle of the link minus that of its parent (rad), or slide (m).
+    /// The joint's coordinate in the start pose: the slide (m), or the angle of the link minus that of its parent
+    /// (rad).
     pub coordinate: f64,
     /// Its rate at the start (rad/s, m/s).
     pub rate: f64,

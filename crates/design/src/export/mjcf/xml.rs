@@ -27,8 +27,8 @@ pub(super) fn about_z(angle: f64) -> String {
     numbers([0.0, 0.0, 1.0, angle])
 }
 
-/// An XML document in memory, a line for every tag. Tags are given as they are written, without their brackets: names
-/// from outside must be [escaped](quick_xml::escape::escape).
+/// An XML document in memory, with one line for every tag. Tags are passed as they are written, without their brackets.
+/// Names from outside must be [escaped](quick_xml::escape::escape).
 pub(super) struct Xml {
     pub(super) text: String,
     depth: usize,

@@ -37,7 +37,7 @@ pub(super) fn of_share(share: f64, variable: &Variable) -> f64 {
     low + share * (high - low)
 }
 
-/// The variable that is the crank's zero, if its bounds span a full turn and no group is a higher one.
+/// The variable that is the crank's zero, if its bounds span a full turn and there is no higher group.
 /// It is then periodic, and shifts the motion along the crank angle.
 pub(super) fn free_zero(task: &Task) -> Option<usize> {
     let TaskNumber::Free(index) = task.zero else { return None };

@@ -17,11 +17,12 @@ const STEP: f64 = std::f64::consts::PI / 60.0;
 const BROKEN: f64 = 100.0;
 /// Share of the evaluations for the evolution strategy.
 const EVOLUTION: f64 = 0.5;
-/// Step sizes of the evolution strategy as shares of the bounds.
-/// The first one, and the one at which it restarts with a larger step.
+/// First step size of the evolution strategy, as a share of the bounds.
+/// The second constant is the step size at which the strategy restarts with a larger step.
 const FIRST: f64 = 0.05;
 const LAST: f64 = 1e-5;
-/// Growth of the step after a success. After a failure the step is divided by the fourth root of it.
+/// Factor by which the step grows after a success. After a failure, the step is divided by the fourth root of this
+/// factor.
 /// The step is therefore stationary with one success in five.
 const GROWTH: f64 = 1.5;
 /// Share of the variables that change from parent to child.
@@ -109,7 +110,7 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
 /// COBYLA from the best so far, with decreasing initial steps.
 fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
     let each = evaluations / RADII.len();
-    // Zero would mean no limit to COBYLA.
+    // COBYLA would take zero as no limit.
     if each == 0 {
         return;
     }

@@ -1,4 +1,4 @@
-//! Second derivatives that are answered.
+//! Second derivatives in the answers.
 
 use super::kind::kinds;
 use super::touch::{floating, moving_guide, on_arm, turner};
@@ -42,7 +42,7 @@ kinds! { Acceleration, Answer:
         |at, state, _| state.motions[floating(at.case)].acceleration.x = 0.0;
 }
 
-/// Takes a share of Coriolis' part from the acceleration of a slider on a moving guide.
+/// Removes a share of the Coriolis term from the acceleration of a slider on a moving guide.
 fn without_coriolis(case: &Case, state: &mut State, share: f64) -> Option<()> {
     let joint = case.mechanism.joints()[moving_guide(case)?].clone();
     let [_, speed, _] = state.slide(&joint)?;

@@ -92,7 +92,8 @@ fn initial(case: &Case, to: impl Fn(f64) -> f64) -> Option<Case> {
     })
 }
 
-/// Instants earlier by the time of an angle (rad) at top speed; none before t = 0 where the motion begins there.
+/// Instants moved earlier by the time of a rotation (rad) at top speed.
+/// If the motion begins at t = 0, no instant moves before that.
 fn shifted(case: &Case, angle: f64) -> Option<Case> {
     let begins = case.is_free() || case.crank().constant_speed().is_none();
     let by = angle / case.crank().top_speed().abs();

@@ -1,4 +1,4 @@
-//! Reactions and moments that are answered.
+//! Reactions and moments in the answers.
 
 use super::kind::kinds;
 use super::touch::{crank, crank_pin, output, slider};
@@ -103,19 +103,19 @@ kinds! { Force, Answer:
     };
 }
 
-/// Whether the first drive has a moment that is answered.
+/// Whether the first drive has a moment in the answers.
 fn has_moment(case: &Case) -> bool {
     case.crank().has_moment()
 }
 
-/// World vector from the crank's pivot to a place on the crank.
+/// World vector from the crank's pivot to a point on the crank.
 fn crank_arm(case: &Case, state: &State, place: Vec2) -> Option<Vec2> {
     let pivot = case.mechanism.joints()[case.crank().joint].on(crank(case))?;
     let motion = &state.motions[crank(case)];
     Some(motion.arm(place) - motion.arm(pivot))
 }
 
-/// The part of the reaction in the crank's pin along the next link, as it acts on the crank.
+/// Component of the reaction in the crank's pin along the next link, as it acts on the crank.
 fn dropped(case: &Case, state: &State) -> Option<Vec2> {
     let (pin, own) = (crank_pin(case), case.crank().joint);
     (pin != own && has_moment(case)).then_some(())?;

@@ -1,4 +1,4 @@
-//! Mistakes in formulas: those that a diagnosis knows, made on purpose, and claims of something else.
+//! Mistakes in formulas: deliberate ones that the diagnosis knows, and claims of another quantity.
 
 use super::kind::{FaultFamily, FaultKind, Mistake, Plant};
 use prover::check::SlipKind as Slip;

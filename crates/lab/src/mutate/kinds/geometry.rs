@@ -41,14 +41,14 @@ kinds! { Geometry, Case:
         |case, _| others(case).into_iter().next_back().map(|(_, other)| other);
 }
 
-/// All places on a link moved away from the first one by a factor.
+/// All points on a link moved away from the first one by a factor.
 fn stretched(case: &Case, link: LinkId, factor: f64) -> Option<Case> {
     let [first, _] = ends(case, link)?;
     placed(case, |links, joints| move_places(links, joints, link, |place| first + (place - first) * factor))
 }
 
-/// The last place of a pin on the ground that is not the crank's, moved; `to` is given the place and the size of the
-/// mechanism (m).
+/// Moves the last pin position on the ground that is not the crank's.
+/// `to` is given the position and the size of the mechanism (m).
 fn pivot(case: &Case, to: impl Fn(Vec2, f64) -> Vec2) -> Option<Case> {
     let pins = case.mechanism.joints().entries().filter(|(_, joint)| joint.is_pin());
     let fixed = pins.filter(|(index, _)| *index != case.crank().joint);
@@ -60,7 +60,7 @@ fn pivot(case: &Case, to: impl Fn(Vec2, f64) -> Vec2) -> Option<Case> {
     placed(case, |links, joints| move_places(links, joints, GROUND, |place| moved(place, new)))
 }
 
-/// A prismatic joint with another axis on its first link, and its place there moved across (m).
+/// A prismatic joint with another axis on its first link, and with its point there moved across (m).
 fn guided(case: &Case, joint: JointId, axis: impl Fn(Vec2) -> Vec2, across: f64) -> Option<Case> {
     placed(case, |_, joints| {
         let own = &mut joints[joint];

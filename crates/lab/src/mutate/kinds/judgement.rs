@@ -1,4 +1,4 @@
-//! Faults that a single comparison sees: each escapes where that part of the judging is left out.
+//! Faults that only one comparison sees: each escapes if that part of the judgement is left out.
 
 use super::kind::kinds;
 use super::touch::turner;
@@ -30,7 +30,8 @@ kinds! { Judgement, Answer:
             (arm.norm() > 0.0).then_some(())?;
             let across = Vec2::new(-arm.y, arm.x) / arm.norm();
             let force = across * (size * state.forces[first].norm().larger(state.forces[last].norm()));
-            // What a joint exerts on its second link; on the frame it has the other sign where the frame is the first.
+            // The force of a joint on its second link. If the frame is the first link, the force on the frame has the
+            // opposite sign.
             let sign = |index: JointId| if joints[index].first.link == GROUND { -1.0 } else { 1.0 };
             state.forces[first] -= force * sign(first);
             state.forces[last] += force * sign(last);

@@ -1,11 +1,11 @@
-//! What a kind of fault is.
+//! Definition of a kind of fault.
 
 use linkage::case::Case;
 use linkage::solver::State;
 use prover::check::SlipKind as Slip;
 
 linkage::words! {
-    /// What a fault is in.
+    /// The part that a fault affects.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     pub enum FaultFamily: name {
         /// Lengths, guides and configurations.
@@ -18,7 +18,7 @@ linkage::words! {
         Load = "load",
         /// Motor and reducer.
         Motor = "motor",
-        /// Positions and angles that are answered.
+        /// Positions and angles in the answers.
         Position = "position",
         /// First derivatives.
         Rate = "rate",
@@ -26,28 +26,29 @@ linkage::words! {
         Acceleration = "acceleration",
         /// Reactions and moments.
         Force = "force",
-        /// What only one comparison sees.
+        /// Faults that only one comparison sees.
         Judgement = "judgement",
-        /// Formulas of the scenario, and what they claim.
+        /// Formulas of the scenario, and their claims.
         Formula = "formula",
     }
 }
 
-/// One answered state among all of a run.
+/// One answered state of a run.
 #[derive(Clone, Copy)]
 pub struct FaultInstant<'a> {
-    /// The case that was asked.
+    /// The case that was solved.
     pub case: &'a Case,
     /// Row of the grid.
     pub row: usize,
 }
 
-/// How a fault is planted. A size is relative to what the fault is in: a share of a length, of a mass, an angle in rad.
+/// Method of planting a fault.
+/// A size is relative to the affected part: a share of a length or of a mass, or an angle in rad.
 #[derive(Clone, Copy)]
 pub enum Plant {
-    /// In the case that a party gets. `None` where the case has no such part.
+    /// In the case given to a party. `None` if the case has no such part.
     Case(fn(&Case, f64) -> Option<Case>),
-    /// In every state that a party answers. `None` where the state has no such part.
+    /// In every state of a party's answer. `None` if the state has no such part.
     Answer(fn(FaultInstant, &mut State, f64) -> Option<()>),
     /// In a formula of the scenario.
     Formula(Mistake),
@@ -75,22 +76,22 @@ pub struct FaultKind {
     pub says: &'static str,
     /// What it is in.
     pub family: FaultFamily,
-    /// Its size at first, if it has one that can be made smaller.
+    /// Its initial size, if the fault can be made smaller.
     pub size: Option<f64>,
     /// How it is planted.
     pub plant: Plant,
 }
 
 impl FaultKind {
-    /// The same with a size that can be made smaller.
+    /// The same with a size, so that the fault can be made smaller.
     pub(in crate::mutate) const fn sized(self, size: f64) -> FaultKind {
         FaultKind { size: Some(size), ..self }
     }
 }
 
-/// What a change has to say of itself.
+/// Conversion of a change's return value.
 pub(in crate::mutate) trait Told<T> {
-    /// What it comes to; `None` where there was nothing to change.
+    /// The changed value; `None` if there was nothing to change.
     fn told(self) -> Option<T>;
 }
 
@@ -106,8 +107,8 @@ impl Told<()> for () {
     }
 }
 
-/// The table of a family: `"name": "what is wrong", |..| how it is planted;`, the name followed by the size at first
-/// where it can be made smaller.
+/// The table of a family: `"name": "what is wrong", |..| how it is planted;`.
+/// If the fault can be made smaller, the initial size follows the name.
 macro_rules! kinds {
     ($family:ident, $plant:ident: $($name:literal $(($size:literal))?: $says:literal, |$($given:pat_param),*| $change:expr;)*) => {
         pub(super) const KINDS: &[$crate::mutate::kinds::FaultKind] = &[$($crate::mutate::kinds::FaultKind {

@@ -13,7 +13,8 @@ kinds! { Load, Case:
     "load-missing": "the first load is missing", |case, _| times(case, 0, 0.0);
     "last-load-missing": "the last load is missing", |case, _| times(case, case.loads.len().checked_sub(1)?, 0.0);
     "load-size" (1e-2): "the first load is larger by a share", |case, size| times(case, 0, 1.0 + size);
-    // Not of a spring: one that pushes where it should pull drives a free motion to infinity, and no file can say it.
+    // Springs are excluded: a spring that pushes where it should pull drives a free motion to infinity.
+    // No scenario file can describe such a spring.
     "load-sign": "the first load that can, but no spring, acts the other way", |case, _| {
         let others = (0..case.loads.len()).filter(|&index| !is_spring(&case.loads[index]));
         others.filter_map(|index| times(case, index, -1.0)).next()
@@ -87,7 +88,7 @@ kinds! { Load, Case:
     };
 }
 
-/// One load times a factor.
+/// The case with one load multiplied by a factor.
 fn times(case: &Case, index: usize, factor: f64) -> Option<Case> {
     parts(case, |parts| {
         let own = parts.loads.get(index)?.times(factor)?;
@@ -96,7 +97,7 @@ fn times(case: &Case, index: usize, factor: f64) -> Option<Case> {
     })
 }
 
-/// The first load that `change` knows, changed.
+/// The case with a change to the first load that `change` accepts.
 fn changed(case: &Case, change: &dyn Fn(&Load) -> Option<Load>) -> Option<Case> {
     let (index, wrong) = case.loads.iter().enumerate().find_map(|(index, load)| Some((index, change(load)?)))?;
     parts(case, |parts| {

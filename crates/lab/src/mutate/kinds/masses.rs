@@ -91,7 +91,7 @@ fn turning(case: &Case) -> Option<LinkId> {
     case.mechanism.links().ids().skip(1).rev().find(has)
 }
 
-/// The heaviest link whose mass centre is not at its frame.
+/// The heaviest link whose mass centre is not at the origin of its frame.
 fn off_frame(case: &Case) -> Option<LinkId> {
     let links = case.mechanism.links();
     let off = links.ids().skip(1).filter(|&link| links[link].mass > 0.0 && links[link].mass_centre.norm() > 0.0);
@@ -105,7 +105,7 @@ fn steiner(case: &Case, link: LinkId) -> f64 {
     place.map_or(0.0, |place| own.mass * (place - own.mass_centre).norm_squared())
 }
 
-/// The mass centre measured from the link's other end, if it is another place.
+/// The mass centre measured from the link's other end, if that changes its position.
 fn measured(case: &Case, link: LinkId) -> Option<Vec2> {
     let [first, last] = ends(case, link)?;
     let own = &case.mechanism.links()[link];

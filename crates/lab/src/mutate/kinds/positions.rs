@@ -1,4 +1,4 @@
-//! Positions and angles that are answered.
+//! Positions and angles in the answers.
 
 use super::kind::kinds;
 use super::touch::{arm, floating, output, turner};

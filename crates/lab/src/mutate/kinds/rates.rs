@@ -1,4 +1,4 @@
-//! First derivatives that are answered.
+//! First derivatives in the answers.
 
 use super::kind::kinds;
 use super::touch::{crank, floating, moving_guide, on_arm, turner};
@@ -60,7 +60,7 @@ kinds! { Rate, Answer:
         };
 }
 
-/// Velocity of the last moving frame's mass centre as the link turns about the frame.
+/// Velocity of the mass centre due to rotation about the frame's origin, for the last link with a moving frame.
 fn about_frame(case: &Case, state: &State) -> Vec2 {
     let link = floating(case);
     let motion = &state.motions[link];

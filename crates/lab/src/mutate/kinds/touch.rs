@@ -11,7 +11,7 @@ pub(super) fn with(case: &Case, change: impl FnOnce(&mut [Link], &mut [Joint])) 
     parts(case, |parts| changed(parts, change))
 }
 
-/// The case with changed links and joints, put together again.
+/// The case with changed links and joints, reassembled.
 pub(super) fn placed(case: &Case, change: impl FnOnce(&mut [Link], &mut [Joint])) -> Option<Case> {
     parts(case, |parts| {
         changed(parts, change)?;
@@ -26,12 +26,12 @@ pub(super) fn parts(case: &Case, change: impl FnOnce(&mut CaseParts) -> Option<(
     Case::new(parts).ok()
 }
 
-/// The last link: mostly the output.
+/// The last link, which is mostly the output.
 pub(super) fn output(case: &Case) -> LinkId {
     LinkId(case.mechanism.links().len() - 1)
 }
 
-/// The last link whose frame moves: one that no pin holds to the ground; the last link if there is none.
+/// The last link without a pin on the ground, so that its frame moves; the last link if every link has such a pin.
 pub(super) fn floating(case: &Case) -> LinkId {
     let held = |link: LinkId| {
         let joints = case.mechanism.joints().iter();
@@ -40,7 +40,7 @@ pub(super) fn floating(case: &Case) -> LinkId {
     case.mechanism.links().ids().skip(1).rev().find(|&link| !held(link)).unwrap_or_else(|| output(case))
 }
 
-/// The last link that can turn: of another, rates of turning are rounding.
+/// The last link that can turn. The angular rates of other links are only rounding noise.
 pub(super) fn turner(case: &Case) -> LinkId {
     case.mechanism.links().ids().skip(1).rev().find(|&link| case.can_turn(link)).unwrap_or_else(|| output(case))
 }
@@ -50,20 +50,20 @@ pub(super) fn crank(case: &Case) -> LinkId {
     case.crank().link
 }
 
-/// The heaviest moving link; of equal ones the last.
+/// The heaviest moving link; the last one if several are equal.
 pub(super) fn heaviest(case: &Case) -> Option<LinkId> {
     let moving = case.mechanism.links().entries().skip(1).filter(|(_, link)| link.mass > 0.0);
     moving.max_by(|a, b| a.1.mass.total_cmp(&b.1.mass)).map(|(index, _)| index)
 }
 
-/// The first moving link that is not driven and has two places of joints; else the last link with two.
+/// The first moving link that is not driven and has joints at two positions; else the last link with two.
 pub(super) fn coupler(case: &Case) -> Option<LinkId> {
     let is_driven = |link: LinkId| case.drives.iter().any(|drive| drive.link == link);
     let long = || case.mechanism.links().ids().skip(1).filter(|&link| ends(case, link).is_some());
     long().find(|&link| !is_driven(link)).or_else(|| long().next_back())
 }
 
-/// The places of joints on a link, each once, in the order of joints.
+/// The joint positions on a link, each once, in the order of joints.
 pub(super) fn places(case: &Case, link: LinkId) -> Vec<Vec2> {
     let mut places: Vec<Vec2> = Vec::new();
     for place in case.mechanism.joints().iter().filter_map(|joint| joint.on(link)) {
@@ -74,7 +74,7 @@ pub(super) fn places(case: &Case, link: LinkId) -> Vec<Vec2> {
     places
 }
 
-/// The first and the last place of joints on a link that has two or more.
+/// The first and the last joint position on a link that has two or more.
 pub(super) fn ends(case: &Case, link: LinkId) -> Option<[Vec2; 2]> {
     match places(case, link).as_slice() {
         [first, .., last] => Some([*first, *last]),
@@ -82,7 +82,7 @@ pub(super) fn ends(case: &Case, link: LinkId) -> Option<[Vec2; 2]> {
     }
 }
 
-/// Moves the places of joints on a link, its points with them.
+/// Moves the joint positions and the points of a link.
 pub(super) fn move_places(links: &mut [Link], joints: &mut [Joint], link: LinkId, to: impl Fn(Vec2) -> Vec2) {
     links[link].points.iter_mut().for_each(|point| point.local = to(point.local));
     let sides = joints.iter_mut().flat_map(|joint| [&mut joint.first, &mut joint.second]);
@@ -100,7 +100,7 @@ pub(super) fn moving_guide(case: &Case) -> Option<JointId> {
     case.mechanism.joints().find(is_moving)
 }
 
-/// The joint between the crank and the link after it; that of the crank itself if there is no other.
+/// The joint between the crank and the next link; the crank's driven joint if there is no other.
 pub(super) fn crank_pin(case: &Case) -> JointId {
     let (own, link) = (case.crank().joint, crank(case));
     let joints = case.mechanism.joints().entries();
@@ -111,14 +111,14 @@ pub(super) fn crank_pin(case: &Case) -> JointId {
         .unwrap_or(own)
 }
 
-/// Changes the motion of the last turning link, given its arm; `None` where that has no length.
+/// Changes the motion of the last turning link, given its arm; `None` if the arm has zero length.
 pub(super) fn on_arm(case: &Case, state: &mut State, change: impl FnOnce(&mut Motion, Vec2)) -> Option<()> {
     let link = turner(case);
     let arm = arm(case, state, link);
     (arm.norm() > 0.0).then(|| change(&mut state.motions[link], arm))
 }
 
-/// World vector from the frame of a link to its last place of a joint; its mass centre if that is at the frame.
+/// World vector from a link's frame to its last joint position, or to its mass centre if that position is the origin.
 pub(super) fn arm(case: &Case, state: &State, link: LinkId) -> Vec2 {
     let last = places(case, link).last().copied().unwrap_or_else(Vec2::zeros);
     let own = &case.mechanism.links()[link];

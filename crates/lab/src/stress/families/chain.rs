@@ -7,18 +7,18 @@ use linkage::mechanism::AssemblyMode;
 use super::four_bar::SPEED_OF_ALL;
 use crate::stress::{EngineUse, Setup, StressFamily};
 
-/// Length of the bars (m) and distance of their pivots (m).
+/// Length of the bars (m) and distance between their pivots (m).
 const BAR: f64 = 0.5;
 const PITCH: f64 = 1.0;
-/// The crank swings through the upright, from the first angle to the last (rad).
+/// The crank swings through the upright position, from the first angle to the last (rad).
 const ANGLES: [f64; 2] = [1.1, 2.0];
 /// Instants, less one.
 const INSTANTS: usize = 24;
-/// Chains up to this length are run by engines too.
+/// Largest length of chains that engines run too.
 const MOST_ENGINES: usize = 10;
 
-/// A chain of `count` four-bars, nearly parallelograms: bars differ by some thousandths, so that no two of them are
-/// alike and none comes near a dead point.
+/// A chain of `count` four-bars, nearly parallelograms.
+/// The bars differ by some thousandths, so that no two are alike and no four-bar comes near a dead point.
 pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
     let length = |k: usize| BAR * (1.0 + 2e-3 * (k as f64).sin());
     let rod = |length: f64| (10.0 * length, [0.5 * length, 0.05 * length], 10.0 * length.powi(3) / 12.0);
@@ -27,7 +27,7 @@ pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
     let places = pivots.iter().enumerate().map(|(k, name)| (name.as_str(), [PITCH * k as f64, 0.0]));
     let mut builder = Case::builder().ground(&places.collect::<Vec<_>>());
     for k in 0..=count {
-        // A bar carries the rod that moves it at A, and the next one, in the same place, at B.
+        // At A, a bar carries the rod that moves it; at B, in the same position, the next rod.
         let [o, a, b, bar, rod_name] = &names(k);
         let (end, (mass, centre, inertia)) = ([length(k), 0.0], rod(length(k)));
         builder = builder.link(bar, &[(o, [0.0; 2]), (a, end), (b, end)]).mass(bar, mass, centre, inertia);

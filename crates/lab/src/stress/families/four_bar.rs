@@ -8,7 +8,7 @@ use crate::stress::{Setup, StressFamily};
 
 /// Instants of a turn.
 const INSTANTS: usize = 36;
-/// Mass of a rod (kg) over its length (m).
+/// Mass per length of a rod (kg/m).
 const DENSITY: f64 = 10.0;
 /// Lengths of a crank-rocker (m): base, crank, coupler, rocker. Its transmission angle stays above 44 deg.
 pub(super) const LENGTHS: [f64; 4] = [0.4, 0.1, 0.35, 0.25];
@@ -82,10 +82,11 @@ pub(super) const TRANSMISSION: StressFamily = StressFamily {
     quick: &[0.01, 1.0, 30.0],
     samples: 1,
     setup: |degrees, _, _| {
-        // Coupler and rocker are equal: with the crank on the base, they are the legs of a triangle over what is left.
+        // Coupler and rocker are equal.
+        // With the crank on the base line, they are the legs of a triangle whose base is the remaining length.
         let (crank, rod) = (0.1, 0.3);
         let lengths = [crank + 2.0 * rod * (0.5 * degrees.to_radians()).sin(), crank, rod, rod];
-        // The turn begins at the least transmission angle, so that an instant lies there.
+        // The revolution begins at the smallest transmission angle, so that one instant is there.
         let case = builder(lengths, rods(lengths), SPEED_OF_ALL).start(0.0).build()?;
         Ok(Setup::usual(case))
     },

@@ -1,4 +1,4 @@
-//! Long runs: steps of an engine, turns of the analytic sides.
+//! Long runs: many steps of an engine, many revolutions of the analytic sides.
 
 use std::f64::consts::TAU;
 
@@ -8,19 +8,19 @@ use linkage::error::Result;
 use super::four_bar::{LENGTHS, SPEED_OF_ALL, builder, rods};
 use crate::stress::{EngineUse, Setup, StressFamily};
 
-/// Instants of the last turn.
+/// Instants of the last revolution.
 const INSTANTS: usize = 12;
-/// Step (deg of the crank) and sweeps of the engines.
+/// Step (deg of the crank) of the engines, and their sweeps.
 const STEP_OF_ALL: f64 = 1.0;
 const SWEEPS_OF_ALL: usize = 16;
 
-/// A crank-rocker whose wanted instants divide its last turn before `turns` (or all of them, if that is less).
+/// A crank-rocker whose requested instants divide the last revolution before `turns`, or all of them if they are fewer.
 fn last_turn(turns: f64) -> Result<Case> {
     let span = if turns < 1.0 { turns } else { 1.0 };
-    // The last instant is a part before the end: rounding leads no grid beyond what is allowed.
+    // The last instant is one interval before the end, so that rounding moves no grid beyond the limit.
     let at = |part: usize| TAU / SPEED_OF_ALL * (turns - span * (1.0 - part as f64 / (INSTANTS + 1) as f64));
     let times: Vec<f64> = (0..=INSTANTS).map(at).collect();
-    // Crank angles are measured from 0, so that the last one is `turns` turns, no more.
+    // Crank angles are measured from 0, so that the last one is not beyond `turns` revolutions.
     builder(LENGTHS, rods(LENGTHS), SPEED_OF_ALL).start(0.0).times(&times).build()
 }
 

@@ -6,7 +6,7 @@ use crate::specimens::dyads::{SORTS, chain, sample};
 use crate::specimens::sketch::RandomSource;
 use crate::stress::{Setup, StressFamily};
 
-/// Drawings until one keeps away from dead points.
+/// Largest number of drawings until one stays away from dead points.
 const MOST_DRAWN: usize = 100_000;
 /// Step of the grid (rad) and number of steps.
 const STEP: f64 = 0.05;
@@ -23,16 +23,16 @@ pub(super) const RANDOM: StressFamily = StressFamily {
     setup: |links, number, seed| drawn((links as usize - 2) / 2, number, seed),
 };
 
-/// The mechanism of `dyads` dyads with this number of a seed.
+/// The mechanism of `dyads` dyads with this sample number and seed.
 fn drawn(dyads: usize, number: u64, seed: u64) -> Result<Setup> {
     let mut random = RandomSource::of_sample(seed, 1000 * dyads as u64 + number);
     for _ in 0..MOST_DRAWN {
         let (mut spec, _) = chain(&mut random, &SORTS, dyads);
-        // Moments that jump where a link reverses have a family of tests of their own; numbers in double-double have
-        // none.
+        // Moments that jump where a link reverses have a separate family of tests.
+        // The double-double reference does not support them.
         spec.loads.clear();
         spec.dt = None;
-        // From the start on, with the crank.
+        // The grid begins at the start and follows the crank's direction.
         spec.grid = (spec.start, STEP.copysign(spec.speed), STEPS);
         if let Some(found) = sample(spec) {
             return Ok(Setup::usual(found.scenario.case));

@@ -4,9 +4,9 @@ use super::chain::chain;
 use super::four_bar::{LENGTHS, SPEED_OF_ALL, builder, rods};
 use crate::stress::{EngineUse, Setup, StressFamily};
 
-/// Sweeps where the step is the dial.
+/// Number of sweeps if the step is the dial.
 const SWEEPS_OF_ALL: usize = 64;
-/// Step where the sweeps are the dial (deg of the crank).
+/// Step if the number of sweeps is the dial (deg of the crank).
 const STEP_OF_ALL: f64 = 0.5;
 
 fn step_of(degrees: f64) -> f64 {

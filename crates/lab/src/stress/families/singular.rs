@@ -1,4 +1,4 @@
-//! Change points, and mechanisms with more links than they need.
+//! Change points, and mechanisms with redundant links.
 
 use linkage::case::Case;
 use linkage::mechanism::AssemblyMode;
@@ -63,7 +63,7 @@ pub(super) const REDUNDANT: StressFamily = StressFamily {
         let all = all.gravity([0.0, -9.81]).crank("O", SPEED_OF_ALL).start(0.3).instants(36);
         let case = all.mode(&["coupler", "rocker"], AssemblyMode::Left).build()?;
         let case = case.with(|parts| parts.drives.crank_mut().through = true)?;
-        // Numbers in double-double do not pass change points: the sides are held against each other.
+        // The double-double reference does not pass change points, so the sides are compared with each other.
         Ok(Setup { precise: false, ..Setup::usual(case) })
     },
 };

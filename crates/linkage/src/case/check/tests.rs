@@ -1,4 +1,4 @@
-//! The smallest fault in each part and the error it raises.
+//! The smallest fault in each part of a case, and the error that it raises.
 
 use crate::case::{Case, CaseParts, Grid};
 use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor, MotorLaw};
@@ -7,7 +7,7 @@ use crate::math::Vec2;
 use crate::mechanism::{AssemblyMode, JointId, JointSide, LinkId, LinkPose, Structure};
 use crate::{Error, ErrorKind};
 
-/// Error of the four-bar with one part changed.
+/// Error of the four-bar after `change`.
 fn refused(change: impl FnOnce(&mut CaseParts)) -> Error {
     turning(four_bar()).with(change).unwrap_err()
 }

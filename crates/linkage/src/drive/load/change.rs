@@ -40,7 +40,7 @@ impl Load {
         load
     }
 
-    /// Moves the point with this number in [`Load::points`] to the place `local` on its link (m).
+    /// Moves the point with this number in [`Load::points`] to the position `local` on its link (m).
     pub fn put_point(&mut self, number: usize, local: Vec2) {
         let mut points = self.parts().into_iter().filter_map(|part| match part {
             LoadPart::Point(side) => Some(side),
@@ -64,7 +64,7 @@ impl Load {
         })
     }
 
-    /// Whether all numbers are finite and those that may not be negative are not.
+    /// Whether all numbers are finite, and not negative where they must not be.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         self.clone().parts().into_iter().all(|part| match part {

@@ -1,4 +1,4 @@
-//! Properties that every load has, whatever its sort.
+//! Properties that every load has, whatever its kind.
 
 use crate::drive::Course;
 use crate::mechanism::{JointSide, LinkId};
@@ -15,8 +15,8 @@ pub enum Acts {
 }
 
 /// The motion on whose sense a load depends.
-/// The load's law changes where that motion reverses, so integration stops at that instant. The load need not jump
-/// there: see [`Load::jump`](super::Load::jump).
+/// The load's law changes where that motion reverses, so integration stops at that instant.
+/// The load need not jump at that instant: see [`Load::jump`](super::Load::jump).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Senses {
     /// The load does not depend on a sense of motion.
@@ -43,7 +43,7 @@ pub enum On {
 /// Name, place of action and dependencies of a load: see [`Load::nature`](super::Load::nature).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadNature<'a> {
-    /// Name of its sort in scenario files.
+    /// Name of this kind of load in scenario files.
     pub sort: &'static str,
     /// Place of action.
     pub on: On,
@@ -82,14 +82,14 @@ pub enum LoadPart<'a> {
     Number {
         /// Meaning of the number.
         role: LoadRole,
-        /// Its name in output, with its unit.
+        /// Name of the number in output, with its unit.
         name: &'static str,
         /// The number, in SI units.
         value: &'a mut f64,
     },
     /// Quantities that may depend on the crank angle. The load is proportional to them.
     Courses {
-        /// Their name in output, with their unit.
+        /// Name of the quantities in output, with their unit.
         name: &'static str,
         /// The quantities, in SI units.
         values: &'a mut [Course],

@@ -8,7 +8,7 @@ use crate::mechanism::{LinkId, LinkPose};
 pub struct LoadState<'a> {
     /// Motions of all links. Loads do not use the accelerations.
     pub motions: &'a [Motion],
-    /// Angles of all links (rad), turns kept. Only torsion springs use them.
+    /// Angles of all links (rad), unwrapped. Only torsion springs use them.
     pub angles: &'a [f64],
     /// Poses at t = 0.
     pub start: &'a [LinkPose],

@@ -162,7 +162,7 @@ fn loads_of_another_amount_act_in_proportion() {
     ];
     for load in &loads {
         for omega in [2.0, -1.5] {
-            // The ground's entry would cancel that of the other end.
+            // Without the ground: its entry would cancel that of the other end.
             let one = moments(std::slice::from_ref(load), omega);
             for factor in [0.0, 0.5, 3.0, -2.0] {
                 match load.times(factor) {

@@ -1,22 +1,23 @@
-//! The same elimination for orders that the compiler knows: its loops are then straight lines of arithmetic.
+//! The same elimination for orders known to the compiler: its loops become straight-line arithmetic.
 //!
-//! Operations and their order are those of any order, and so are the bits. NaN is refused wherever it stands.
-//! A group of four links costs a third of what the general loops take.
-//! Instead of the exchanges one after the other, the order of rows that they lead to is kept.
+//! The operations and their order are those of the general elimination, so the results agree bit for bit.
+//! NaN is rejected in any position.
+//! A group of four links costs a third of the time of the general loops.
+//! The resulting order of rows is stored instead of the single exchanges.
 
-/// The first numbers of a slice. It has at least that many.
+/// The first `N` numbers of a slice that has at least so many.
 #[inline(always)]
 fn first<T, const N: usize>(of: &[T]) -> &[T; N] {
     of.first_chunk().expect("as many numbers as the order says")
 }
 
-/// The same, to be changed.
+/// The same, mutable.
 #[inline(always)]
 fn first_mut<T, const N: usize>(of: &mut [T]) -> &mut [T; N] {
     of.first_chunk_mut().expect("as many numbers as the order says")
 }
 
-/// One step of the elimination, with column and row `K`. Returns whether the matrix can be regular.
+/// One step of the elimination, with column and row `K`. Returns false if the matrix is singular.
 #[inline(always)]
 #[expect(clippy::needless_range_loop, reason = "rows and columns are named as in the formula")]
 fn eliminate<const N: usize, const K: usize>(
@@ -54,16 +55,16 @@ fn eliminate<const N: usize, const K: usize>(
     true
 }
 
-/// Factors a matrix of order `N` in place, at most 6. Returns the sign of the exchange of rows and the
-/// determinant; `None` if it is singular.
-/// `order` becomes the rows' numbers in the order of elimination.
+/// Factors a matrix of order `N` in place, at most 6.
+/// Returns the sign of the row permutation and the determinant; `None` if the matrix is singular.
+/// `order` receives the row numbers in the order of elimination.
 pub(super) fn factor<const N: usize>(a: &mut [f64], order: &mut [usize], inverse: &mut [f64]) -> Option<(f64, f64)> {
     const { assert!(N <= 6, "every column is eliminated") };
     let rows: &mut [[f64; N]; N] = first_mut(a.as_chunks_mut().0);
     let (order, inverse): (&mut [usize; N], &mut [f64; N]) = (first_mut(order), first_mut(inverse));
     *order = std::array::from_fn(|row| row);
     let mut signs = [1.0; 2];
-    // Written out instead of a loop: only so are the bounds of the inner loops constants.
+    // Unrolled, because only then are the bounds of the inner loops constants.
     macro_rules! each {
         ($($column:literal)*) => {
             $(if $column < N && !eliminate::<N, $column>(rows, order, inverse, &mut signs) {

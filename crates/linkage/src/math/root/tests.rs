@@ -16,7 +16,7 @@ const EXACT: Close = Close { value: 0.0, width: 0.0 };
 #[test]
 fn signs_change_over_zero_and_not_over_what_is_no_number() {
     assert!(changes(-1.0, 2.0) && changes(2.0, -1.0) && changes(0.0, 1.0) && changes(-1.0, 0.0) && changes(0.0, 0.0));
-    // Their product would underflow to zero.
+    // The product of these values would underflow to zero.
     assert!(!changes(1e-200, 1e-200) && !changes(-1e-200, -1e-200));
     assert!(!changes(f64::NAN, 1.0) && !changes(-1.0, f64::NAN) && !changes(f64::NAN, 0.0));
 }
@@ -52,7 +52,7 @@ fn regula_falsi_refuses_what_has_no_change_of_sign() {
     assert_eq!(regula_falsi([(0.0, -0.3), (2.0, 1.7)], EXACT, 60, |_| Err("fails")), Err("fails"));
 }
 
-/// A bound that never moves would make regula falsi linear, here with 1000 steps and more.
+/// A bound that never moves would make regula falsi converge linearly, here in 1000 steps or more.
 #[test]
 fn a_bound_does_not_stay_for_long() {
     let mut steps = 0;
@@ -66,12 +66,12 @@ fn a_bound_does_not_stay_for_long() {
 
 #[test]
 fn newton_is_held_between_bounds() {
-    // From 0.1 Newton's method on atan(20 x) goes to -0.18, then to 0.7, and farther out each time.
+    // From 0.1 Newton's method on atan(20 x) goes to -0.18, then to 0.7, and then diverges.
     let steep = |x: f64| Ok::<_, Infallible>(((20.0 * x).atan(), 20.0 / (1.0 + 400.0 * x * x)));
     for (bounds, rises) in [([-0.3, 0.1], true), ([0.1, -0.3], false)] {
         assert!(sure(newton(bounds, rises, 0.1, 1e-9, steep)).unwrap().abs() < f64::EPSILON);
     }
-    // With zero slope only bisection remains.
+    // The reported slope is zero, so only bisection is left.
     let flat = |x: f64| Ok::<_, Infallible>((x - 0.3, 0.0));
     assert!((sure(newton([0.0, 1.0], true, 0.5, 1e-9, flat)).unwrap() - 0.3).abs() < 1e-15);
     let touched = |x: f64| Ok::<_, Infallible>(((x - 0.5).powi(3), 3.0 * (x - 0.5).powi(2)));
@@ -103,7 +103,7 @@ fn secants_keep_to_positive_lengths() {
     assert_eq!(secants((2.0, 3.0), 1.0, 6, |_| Err("fails")), Err("fails"));
 }
 
-/// Within rounding of the zero the values hardly differ, and the line through two of them meets zero anywhere.
+/// Close to the zero the values differ only by rounding, and the secant through two of them is arbitrary.
 #[test]
 fn secants_end_at_rounding() {
     let mut asked = 0.0;
@@ -115,7 +115,7 @@ fn secants_end_at_rounding() {
     assert!((sure(found) - 3f64.ln()).abs() < 1e-10, "{found:?}");
 }
 
-/// A cubic that rises all the way, with its zero, and its slope.
+/// A cubic that rises everywhere, with this zero; returns value and slope.
 fn cubic(zero: f64, a: f64, b: f64) -> impl Fn(f64) -> (f64, f64) {
     move |x: f64| {
         let d = x - zero;
@@ -124,7 +124,7 @@ fn cubic(zero: f64, a: f64, b: f64) -> impl Fn(f64) -> (f64, f64) {
 }
 
 proptest! {
-    /// All methods find the same zero, to rounding, for both signs.
+    /// All methods find the same zero up to rounding error, for both signs.
     #[test]
     fn every_way_finds_the_zero(zero in -5.0f64..5.0, below in 0.01f64..10.0, above in 0.01f64..10.0, a in 0.0f64..10.0, b in 0.1f64..10.0,
         falls in any::<bool>()) {
@@ -143,7 +143,7 @@ proptest! {
         }
         let polish = sure(polished(zero + 1e-3, 5, 1e-2, |x| Ok(f(x))));
         prop_assert!(near(polish) || a * 1e-4 > b, "{polish}");
-        // From one end in the direction of the zero, however far it is.
+        // From one end towards the zero, however far away it is.
         let wide = sure(widened(ends[0], 1e-3, 100.0, |x| Ok(f(x).0))).unwrap();
         prop_assert!(wide[0].0 <= zero && zero <= wide[1].0 && changes(wide[0].1, wide[1].1));
         let of_length = |length: f64| f(low + length).0;
@@ -152,7 +152,7 @@ proptest! {
         prop_assert!((length - below).abs() <= 16.0 * f64::EPSILON * low.abs().larger(high.abs()), "{length} {below}");
     }
 
-    /// The search keeps the requested width and makes no more steps than it needs.
+    /// The search keeps the requested width and makes no unnecessary steps.
     #[test]
     fn regula_falsi_ends_when_it_is_told(zero in -1.0f64..1.0, tolerance in 1e-9f64..1e-2) {
         let f = |x: f64| (x - zero).exp() - 1.0;

@@ -1,11 +1,12 @@
-//! Which group is to blame if one cannot be placed: perhaps not that one, but an earlier one in the wrong configuration.
+//! Finds the group to blame if a group cannot be placed.
+//! It may be an earlier group in the wrong configuration.
 
 use super::{StartGroup, configurations, first_choices};
 use crate::error::{Advice, Error, ErrorKind, ErrorSubject};
 use crate::mechanism::{AssemblyMode, Group, GroupId, Mechanism, Structure};
 use crate::sentences;
 
-/// A group whose configuration leaves no place for a later one.
+/// A group whose configuration makes it impossible to place a later one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blame {
     /// Index of the group in the structure.
@@ -16,7 +17,7 @@ pub struct Blame {
     pub mode: AssemblyMode,
 }
 
-/// Index of the group that an error of [`first_choices`] is about.
+/// Index of the group to which an error of [`first_choices`] refers.
 #[must_use]
 pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> Option<GroupId> {
     match error.part() {
@@ -25,10 +26,10 @@ pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> 
     }
 }
 
-/// The one earlier group that, in another configuration, lets the group of `error` be placed. The other arguments are
-/// those with which [`first_choices`] gave the error.
+/// The earlier group that, in another configuration, lets the group of `error` be placed.
+/// The other arguments are those with which [`first_choices`] gave the error.
 ///
-/// A group whose own rough places confirm its configuration is not blamed.
+/// A group is not blamed if its own approximate positions confirm its configuration.
 #[must_use]
 pub fn blame(
     mechanism: &Mechanism,
@@ -45,7 +46,8 @@ pub fn blame(
     let part = before(failed.index() + 1);
     let mut own = wanted.to_vec();
     own[failed].near.clear();
-    // Without its rough places the group may be placed where it stands. Then they must speak clearly for the change.
+    // Without its approximate positions the group may be placed in the present pose.
+    // If so, the positions must clearly favour the change.
     let stands = first_choices(mechanism, &part, drive_angles, &own).is_ok();
     let earlier = part.groups.entries().rev().filter(|(index, _)| *index < failed && wanted[*index].near.is_empty());
     for (index, group) in earlier {
@@ -64,8 +66,9 @@ pub fn blame(
     None
 }
 
-/// Whether `found` (m) from the rough places of the last group is less than half of what any of its configurations
-/// reaches without a change of an earlier group.
+/// Whether the change of an earlier group clearly improves the fit of the last group.
+/// `found` is the distance (m) from the approximate positions after the change.
+/// It must be less than half of the smallest distance without the change.
 fn clearly_nearer(
     mechanism: &Mechanism,
     part: &Structure,
@@ -85,7 +88,7 @@ fn clearly_nearer(
     matches!((found, least), (Some(found), Ok(least)) if 2.0 * found < least)
 }
 
-/// `error` as one about the group to blame. It keeps what was found and says in which configuration the group fits.
+/// Rewrites `error` for the group to blame. It keeps the message and adds the configuration in which the group fits.
 #[must_use]
 pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error: &Error) -> Error {
     let names = |group: &Group| group.names(mechanism);

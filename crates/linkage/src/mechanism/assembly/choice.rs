@@ -1,4 +1,4 @@
-//! The configuration of a group at the start: that of the required mode, number or rough places.
+//! The configuration of a group at the start: by required mode, number or approximate positions.
 
 use super::configurations::configurations;
 use super::mode::{AssemblyMode, Configuration, ConfigurationChoice, StartGroup};
@@ -90,7 +90,7 @@ fn contradiction(wanted: &StartGroup, mode: AssemblyMode) -> Error {
     Error::new(ErrorKind::Geometry, message).help(sentences::CORRECT_THE_MODE_OR_THE_ROUGH)
 }
 
-/// Largest distance of a configuration's points from their rough places (m).
+/// Largest distance of a configuration's points from their approximate positions (m).
 pub(super) fn distance(group: &Group, wanted: &StartGroup, one: &Configuration) -> f64 {
     let distances = wanted.near.iter().map(|(point, guess)| {
         let index = group.links.iter().position(|&link| link == point.side.link);
@@ -100,8 +100,8 @@ pub(super) fn distance(group: &Group, wanted: &StartGroup, one: &Configuration) 
     distances.fold(0.0, f64::larger)
 }
 
-/// The configuration nearest to the rough places, with its largest distance from them and that of the next
-/// configuration (m).
+/// The configuration nearest to the approximate positions, with its largest distance from them (m) and that of the next
+/// configuration.
 fn nearest<'a>(
     mechanism: &Mechanism,
     group: &Group,
@@ -110,8 +110,8 @@ fn nearest<'a>(
 ) -> Result<(&'a Configuration, f64, Option<f64>)> {
     let mut order: Vec<(f64, &Configuration)> = all.iter().map(|one| (distance(group, wanted, one), one)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Places that are less than twice as near to one configuration as to the next do not distinguish them. Neither do
-    // places that are farther from all configurations than the size of the mechanism.
+    // Two rejections. The nearest configuration must be at least twice as near as the next one.
+    // It must also not be farther away than the size of the mechanism.
     if let [(first, a), (second, b), ..] = order[..]
         && 2.0 * first > second
     {

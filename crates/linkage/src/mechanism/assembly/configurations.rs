@@ -5,13 +5,13 @@ use super::{dyads, four_link};
 use crate::error::Result;
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 
-/// All real configurations of a group, for links before it posed as in `pose`: up to two for a dyad, up to six for a
-/// group of four links.
+/// All real configurations of a group, with the links before it posed as in `pose`.
+/// A dyad has up to two, a group of four links up to six.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if there is none;
-/// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for groups whose configurations are not all known: those
-/// of more than four links.
+/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if there is no configuration.
+/// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for groups of more than four links, whose configurations
+/// are not all known.
 pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     match group.kind {
         GroupKind::Higher => four_link::configurations(mechanism, group, pose),
@@ -21,16 +21,16 @@ pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Resu
     }
 }
 
-/// Sine of a dyad's transmission angle in the given pose; `None` for higher groups. At zero the dyad is at a dead
-/// point.
+/// Sine of a dyad's transmission angle in the given pose; `None` for higher groups. It is zero at a dead point.
 ///
 /// - RRR: signed area of its triangle (first outer, second outer, inner joint) divided by half the product of its two
-///   link lengths,   positive in the mode [`AssemblyMode::Left`](super::AssemblyMode::Left).
-/// - RRP: share of the rod along the guide, e . r / |r| with r from the outer pin to the inner joint.
-///   It is the sine of the angle between the rod and the normal to the guide, positive in the mode
+///   link lengths, positive in the mode [`AssemblyMode::Left`](super::AssemblyMode::Left).
+/// - RRP: component of the rod along the guide as a fraction of its length, e . r / |r| with r from the outer pin to
+///   the inner joint. It is the sine of the angle between the rod and the normal to the guide, positive in the mode
 ///   [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
-/// - RPR: share of the outer pins' distance along the guide, e . d / |d| with d from the outer pin of the pair's first
-///   link   to that of its second, positive in the mode [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
+/// - RPR: component of the distance of the outer pins along the guide as a fraction of that distance, e . d / |d| with
+///   d from the outer pin of the pair's first link to that of its second, positive in the mode
+///   [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
 /// - RPP: e1 x e2 of the inner and the outer axis; PRP: of the outer axes, in the order of the group's links.
 #[must_use]
 pub fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<f64> {

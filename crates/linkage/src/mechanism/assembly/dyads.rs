@@ -1,9 +1,10 @@
 //! All configurations of the five dyads, and their transmission angles.
 //!
 //! With one outer joint on each link and the inner joint between them, a dyad is closed by one scalar equation.
-//! It is that of two circles (RRR), a circle and a line (RRP, and RPR seen from the guide), or two lines (RPP, PRP).
+//! It is the equation of two circles (RRR), a circle and a line (RRP, and RPR seen from the guide), or two lines (RPP,
+//! PRP).
 //! A prismatic pair gives the angle of one link from that of the other.
-//! It keeps the second link's place on the line through the first link's place along the axis.
+//! It keeps the joint's point on the second link on a line along the axis through its point on the first link.
 
 #[cfg(test)]
 mod tests;
@@ -14,11 +15,11 @@ use crate::math::{Vec2, cross, rotated, turned, unit};
 use crate::mechanism::{Group, GroupKind, Joint, LinkId, LinkPose, Mechanism, Pose};
 use crate::sentences;
 
-/// Sine of the angle between two axes below which they count as parallel. Rounding of their directions would then move
-/// the links by more than a ten-thousandth of the mechanism.
+/// Sine of the angle between two axes below which they count as parallel.
+/// At this angle, rounding errors of their directions move the links by more than a ten-thousandth of the mechanism.
 const PARALLEL: f64 = 1e-12;
 
-/// Angle (rad) that turns `from` into the direction of `to`.
+/// Angle (rad) that rotates `from` into the direction of `to`.
 pub(super) fn turn(from: Vec2, to: Vec2) -> f64 {
     cross(from, to).atan2(from.dot(&to))
 }
@@ -41,22 +42,22 @@ impl<'a> Member<'a> {
         })
     }
 
-    /// Place of the outer joint in the link's frame (m).
+    /// Position of the outer joint in the link's frame (m).
     fn outer_place(&self) -> Vec2 {
         self.outer.on(self.link).expect("the outer joint is on its link")
     }
 
-    /// Place of the inner joint in the link's frame (m).
+    /// Position of the inner joint in the link's frame (m).
     fn inner_place(&self) -> Vec2 {
         self.inner.on(self.link).expect("the inner joint is on both links")
     }
 
-    /// From the outer joint's place to the inner's, in the link's frame (m).
+    /// Vector from the outer joint to the inner joint, in the link's frame (m).
     fn span(&self) -> Vec2 {
         self.inner_place() - self.outer_place()
     }
 
-    /// Place of the outer joint on the base, in the world (m).
+    /// World position of the outer joint on the base (m).
     fn hook(&self) -> Vec2 {
         self.base.point(self.outer.other(self.link).local)
     }
@@ -72,7 +73,7 @@ impl<'a> Member<'a> {
         joint.axis_on(self.link).expect("the pair is prismatic")
     }
 
-    /// The link's angle (rad) if its axis of the prismatic `joint` has the world direction `axis`.
+    /// The link's angle (rad) at which its axis of the prismatic `joint` has the world direction `axis`.
     fn angle(&self, joint: &Joint, axis: Vec2) -> f64 {
         turn(self.axis_of(joint), axis)
     }
@@ -81,7 +82,7 @@ impl<'a> Member<'a> {
 /// All configurations of a dyad: `Left` before `Right`, `Ahead` before `Behind`.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] if there is none.
+/// [`ErrorKind::Geometry`] if there is no configuration.
 pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     let members = Member::both(mechanism, group, pose);
     match group.kind {
@@ -134,7 +135,7 @@ fn in_pair_order<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
     if a.inner.first.link == a.link { [a, b] } else { [b, a] }
 }
 
-/// The poses of both links in the group's order, from those of the given links.
+/// A configuration with the poses of both links in the group's order; the given poses may be in either order.
 fn configuration(members: &[Member; 2], mode: AssemblyMode, poses: [(LinkId, LinkPose); 2]) -> Configuration {
     let pose = |member: &Member| poses.iter().find(|(link, _)| *link == member.link).expect("both links are posed").1;
     Configuration { mode, links: members.iter().map(pose).collect() }
@@ -150,7 +151,7 @@ fn parallel(sine: f64) -> Error {
         .help(sentences::CHECK_THE_AXES_OR_START_AT_A_CRANK)
 }
 
-/// The inner joint lies where the circles about the outer joints meet.
+/// The inner joint lies at an intersection of the circles about the outer joints.
 fn rrr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [first, second] = members.each_ref().map(Member::hook);
     let [radius_1, radius_2] = members.each_ref().map(|member| member.span().norm());
@@ -176,8 +177,7 @@ fn rrr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Left, across), one(AssemblyMode::Right, -across)])
 }
 
-/// The inner joint moves on a line along the guide. It lies where the circle of the rod about the outer pin meets that
-/// line.
+/// The inner joint lies on a line along the guide, where the circle of the rod about the outer pin intersects it.
 fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [rod, slider] = prismatic_last(members);
     let (axis, pin, length) = (slider.guide(), rod.hook(), rod.span().norm());
@@ -199,8 +199,9 @@ fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
 }
 
-/// Across the axis e, the distance of the outer pins is given by both links' offsets: e x d = h.
-/// Along it, the distance is sqrt(d^2 - h^2), in one direction or the other. d and its components give e.
+/// Across the axis e, both links' offsets give the distance of the outer pins: e x d = h.
+/// Along the axis the distance is sqrt(d^2 - h^2), in one direction or the other.
+/// d and its components give e.
 fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [first, second] = in_pair_order(members);
     let offset = |member: &Member| cross(member.axis_of(member.inner), member.span());
@@ -223,8 +224,7 @@ fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
 }
 
-/// Both angles are those of the guides. The slider moves along the outer axis until the places of the inner joint are
-/// in line.
+/// The guides give both angles. The slider moves along the outer axis until the points of the inner joint are in line.
 fn rpp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [swivel, slider] = prismatic_last(members);
     let outer = slider.guide();
@@ -243,7 +243,7 @@ fn rpp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![configuration(members, AssemblyMode::Only, poses)])
 }
 
-/// The inner pin lies where the two lines cross on which the sliders move it.
+/// The inner pin lies at the intersection of the two lines along which the sliders move it.
 fn prp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let axes = members.each_ref().map(Member::guide);
     let sine = cross(axes[0], axes[1]);

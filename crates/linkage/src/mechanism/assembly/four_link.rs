@@ -1,9 +1,9 @@
 //! All real configurations of an Assur group of four links, with any revolute and prismatic pairs.
 //!
-//! There are two such groups: the class III group of order 3, a base link on three leads, and the class IV group of
-//! order 2, a quadrilateral of two ternary and two binary links that changes shape.
-//! The second is the first seen from one of its ternary links. That link is the frame and the other ternary link the
-//! base.
+//! There are two such groups. The class III group of order 3 is a base link on three leads.
+//! The class IV group of order 2 is a movable quadrilateral of two ternary and two binary links.
+//! Seen from one of its ternary links, the second group is the first.
+//! That link is then the frame, and the other ternary link the base.
 //! The leads are the two binary links and the links before the group, taken as one body.
 
 use super::mode::{AssemblyMode, Configuration};
@@ -81,15 +81,15 @@ impl Layout {
         Some(Layout { frame, base, leads })
     }
 
-    /// Poses of the four links, in the order of the group, from the base's pose in the frame; `None` if a lead can
-    /// slide freely.
+    /// Poses of the four links, in the order of the group, computed from the base's pose in the frame.
+    /// `None` if a lead can slide freely.
     fn poses(&self, group: &Group, base: &LinkPose) -> Option<Vec<LinkPose>> {
         let mut in_frame = Vec::with_capacity(3);
         for (body, lead) in &self.leads {
             in_frame.push((*body, lead.near.lead.place, lead.pose(base)?));
         }
         let frame = match in_frame.iter().find(|(body, ..)| *body == Body::World) {
-            // Seen from the frame, the world is a lead. One point of it gives the place of the frame in the world.
+            // Seen from the frame, the world is a lead. One point of the world gives the frame's position in the world.
             Some((_, place, world)) => LinkPose::through(world.point(*place), *place, -world.angle),
             None => LinkPose::GROUND,
         };
@@ -111,11 +111,10 @@ pub(super) fn is_handled(mechanism: &Mechanism, group: &Group, pose: &Pose) -> b
     Layout::of(mechanism, group, pose).is_some()
 }
 
-/// All real configurations of the group, ordered by the angle of its base or, in class IV, of the last of its ternary
-/// links.
+/// All real configurations of the group, ordered by the angle of its base or, in class IV, of its last ternary link.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] if there is none, [`ErrorKind::Unsupported`] if the group is neither of the two.
+/// [`ErrorKind::Geometry`] if there is no configuration, [`ErrorKind::Unsupported`] if the group is neither of the two.
 pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     let layout = Layout::of(mechanism, group, pose).ok_or_else(|| {
         let (links, class) = (group.links.len(), group.class);
@@ -136,7 +135,8 @@ pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) 
             .help(sentences::CHECK_THE_LENGTHS_AND_THE_GROUND));
     }
     let index = group.links.iter().position(|&link| link == layout.base).expect("the base is a link of the group");
-    // Counted from just below zero, so that an angle that is zero to rounding has a unique place in the order.
+    // Angles count from just below zero, so that an angle that is zero up to rounding has a unique position in the
+    // order.
     let rank = |one: &Configuration| (one.links[index].angle + 1e-9).rem_euclid(TAU);
     all.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
     Ok(all)

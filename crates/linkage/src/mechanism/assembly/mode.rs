@@ -4,7 +4,7 @@ use crate::math::Vec2;
 use crate::mechanism::LinkPose;
 use crate::mechanism::pose::SidePoint;
 
-/// The assembly mode of a group: which of its real configurations it has.
+/// The assembly mode of a group: which real configuration it has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AssemblyMode {
     /// Dyad: the inner joint lies to the left of the line from the first link's outer joint to the second link's.
@@ -12,9 +12,10 @@ pub enum AssemblyMode {
     /// Dyad: the inner joint lies to the right of that line.
     Right,
     /// RRP dyad: along the axis of its prismatic pair, the inner joint lies ahead of the outer pin.
-    /// RPR dyad: along that axis, the outer pin of the pair's second link lies ahead of that of its first.
+    /// RPR dyad: along that axis, the outer pin of the pair's second link lies ahead of the outer pin of its first
+    /// link.
     Ahead,
-    /// RRP or RPR dyad: it lies behind.
+    /// RRP or RPR dyad: the same joint or pin lies behind.
     Behind,
     /// RPP or PRP dyad, which has only one configuration.
     Only,
@@ -63,17 +64,17 @@ pub struct StartGroup {
     pub mode: Option<AssemblyMode>,
     /// Number of the required configuration in the list of [`configurations`](super::configurations), counted from 1.
     pub rank: Option<usize>,
-    /// Points of the group's links with their approximate places (m).
+    /// Points of the group's links with their approximate positions (m).
     pub near: Vec<(SidePoint, Vec2)>,
 }
 
-/// The configuration of a group at the start, and how clear the choice was.
+/// The configuration of a group at the start, and how distinct the choice was.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfigurationChoice {
     /// Its assembly mode.
     pub mode: AssemblyMode,
-    /// Largest distance of its points from their approximate places (m), if any were given.
+    /// Largest distance of the configuration's points from their approximate positions (m), if any were given.
     pub nearest_m: Option<f64>,
-    /// The same for the next configuration (m), if there is one and all are known.
+    /// The same distance for the next configuration (m), if there is one and all configurations are known.
     pub next_m: Option<f64>,
 }

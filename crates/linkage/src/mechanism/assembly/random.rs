@@ -26,7 +26,7 @@ impl Lcg {
         LinkPose { origin: self.place(), angle: self.number(-3.1, 3.1) }
     }
 
-    /// A joint between links `a` and `b`, in random order, at random places.
+    /// A joint between links `a` and `b` in random order, at random positions.
     pub fn joint(&mut self, name: &str, slides: bool, a: LinkId, b: LinkId) -> Joint {
         let [first, second] = if self.yes() { [a, b] } else { [b, a] };
         let side = |link, local| JointSide { link, local };
@@ -41,8 +41,8 @@ impl Lcg {
         }
     }
 
-    /// Moves the second side of a joint so that the joint is closed in `pose`: the place of a revolute one, place and
-    /// axis of a prismatic one.
+    /// Moves the second side of a joint so that the joint is closed in `pose`.
+    /// A revolute joint gets a new position, a prismatic joint a new position and axis.
     pub fn fitted(&mut self, mut joint: Joint, pose: &Pose) -> Joint {
         let (first, second) = (pose.0[joint.first.link], pose.0[joint.second.link]);
         let back = |v: Vec2| rotated(unit(-second.angle), v);
@@ -57,7 +57,7 @@ impl Lcg {
     }
 }
 
-/// A mechanism of `count` links and the given joints. Its points are the joints' places.
+/// A mechanism of `count` links and the given joints. Its points are the positions of the joints.
 pub fn mechanism(count: usize, joints: Vec<Joint>) -> Mechanism {
     let link = |index: usize| Link {
         name: if index == 0 { "ground".into() } else { format!("link{index}") },
@@ -90,7 +90,8 @@ pub fn group(mechanism: &Mechanism, links: &[LinkId], kind: GroupKind) -> Group 
     Group { links: links.into(), inner: all.filter(|&joint| inside(joint) == 2).collect(), outer, class: 2, kind }
 }
 
-/// Largest distance between joints of one link, and between bases (m). Errors are compared with it.
+/// Larger of the mechanism's size and the largest distance of a link's origin from the world's (m). Errors are compared
+/// with it.
 pub fn size(mechanism: &Mechanism, pose: &Pose) -> f64 {
     let bases = pose.0.iter().map(|link| link.origin.norm()).fold(0.0, f64::larger);
     mechanism.size().larger(bases)

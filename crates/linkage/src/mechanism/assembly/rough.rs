@@ -1,9 +1,9 @@
 //! First pose of a group whose configurations are not all known, from a rough drawing.
 //!
-//! Each link is placed by the rough places of its points, by joints with links that are placed already, and by their
+//! Each link is placed by the approximate positions of its points, by joints with links already placed, and by their
 //! axes.
-//! Then Newton's method closes all joints of the group at once, damped after Levenberg and Marquardt:
-//! (J^T J + lambda) dx = -J^T f with the gaps f of all joints, as many as unknowns.
+//! Then a Newton method with Levenberg-Marquardt damping closes all joints of the group at once:
+//! (J^T J + lambda) dx = -J^T f. The vector f has the gaps of all joints, as many as unknowns.
 
 use super::dyads::turn;
 use super::mode::{AssemblyMode, ConfigurationChoice};
@@ -20,13 +20,13 @@ mod tests;
 
 type Near = [(SidePoint, Vec2)];
 
-/// The group counts as closed when no joint is open by more than this share of the mechanism's size, which is rounding.
+/// Largest gap of a closed joint, as a fraction of the mechanism's size. It is at the level of rounding errors.
 const CLOSED: f64 = 1e-13;
-/// Largest number of steps of the damped iteration. From a drawing that is right to a tenth of a link it takes about
-/// ten.
+/// Largest number of steps of the damped iteration.
+/// From a drawing with errors of a tenth of a link it takes about ten.
 const STEPS: usize = 200;
 
-/// Poses the links of the group near the rough places `near`.
+/// Poses the links of the group near the approximate positions `near`.
 pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<ConfigurationChoice> {
     let mut drawn = pose.clone();
     lay_out(mechanism, group, near, &mut drawn)?;
@@ -52,8 +52,8 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mu
     Ok(ConfigurationChoice { mode: AssemblyMode::Followed, nearest_m: Some(farthest), next_m: None })
 }
 
-/// Half the length of the shortest link of the group that carries the point and has a length, otherwise of the longest
-/// link of all.
+/// Half the length of the shortest link of the group that carries the point and has a length.
+/// If there is no such link, half the mechanism's size.
 fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     let links = group.links.iter().map(|&link| &mechanism.links()[link]);
     let carriers = links.filter(|link| link.points.iter().any(|own| own.name == point));
@@ -61,7 +61,7 @@ fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     0.5 * if least.is_finite() { least } else { mechanism.size() }
 }
 
-/// Places every link of the group as well as the rough places and the placed links allow.
+/// Places every link of the group as well as the approximate positions and the placed links allow.
 fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<()> {
     let mut left = group.links.clone();
     while !left.is_empty() {
@@ -81,7 +81,7 @@ fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -
     Ok(())
 }
 
-/// The pose of a link from its rough places and its joints with placed links; `None` if they are not enough.
+/// The pose of a link from its approximate positions and its joints with placed links; `None` if they are not enough.
 fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose: &Pose) -> Option<LinkPose> {
     let own = |name: &str| mechanism.links()[link].points.iter().find(|point| point.name == name);
     let rough = near.iter().filter_map(|(point, place)| Some((own(&point.name)?.local, *place)));
@@ -98,7 +98,7 @@ fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose:
         let axis = rotated(unit(pose.0[other].angle), joint.axis_on(other)?);
         Some(turn(joint.axis_on(link)?, axis))
     });
-    // The rotation that fits the places best: that of the sum of conj(local) world, as complex numbers.
+    // The rotation that fits the positions best: that of the sum of conj(local) world, as complex numbers.
     let fit: Vec2 = places
         .iter()
         .map(|place| (place.0 - local, place.1 - world))
@@ -134,7 +134,7 @@ impl System<'_> {
         gaps.collect()
     }
 
-    /// The axis of a joint that keeps the angle, as its second link has it.
+    /// For a joint that keeps the angle: its axis on the second link.
     fn second_axis(&self, joint: &Joint, pose: &Pose) -> Option<Vec2> {
         Some(rotated(unit(pose.0[joint.second.link].angle), joint.kind.axes()?[1]))
     }
@@ -150,7 +150,7 @@ impl System<'_> {
             let places = sides.map(|side| pose.0[side.link].point(side.local));
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
                 let Some(at) = self.group.links.iter().position(|&link| link == sides[k].link) else { continue };
-                // The place moves by (dx, dy) and by the rotation of its arm.
+                // The point moves by (dx, dy) and by the rotation of its arm.
                 let arm = turned(places[k] - pose.0[sides[k].link].origin) / self.size;
                 let moves = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), arm];
                 for (column, by) in moves.into_iter().enumerate() {
@@ -165,7 +165,7 @@ impl System<'_> {
                     if column % 3 != 2 {
                         continue;
                     }
-                    // The line turns with the first link.
+                    // The line rotates with the first link.
                     if k == 0 {
                         rows[row][column] -= e.dot(&(places[1] - places[0])) / self.size;
                     }
@@ -230,7 +230,7 @@ impl System<'_> {
         self.polish(pose)
     }
 
-    /// A few undamped steps of Newton's method. They recover the digits that the normal equations lose.
+    /// A few undamped Newton steps. They recover the digits that the normal equations lose.
     fn polish(&self, pose: &mut Pose) -> Option<()> {
         let n = self.unknowns();
         for _ in 0..4 {
@@ -245,7 +245,7 @@ impl System<'_> {
             jacobian.solve(&mut step);
             *pose = self.moved(pose, &step);
         }
-        // Usual measure: opposite axes count as open.
+        // The usual measure, in which opposite axes count as open.
         let open = |joint: &Joint| {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| pose.0[side.link].point(side.local));

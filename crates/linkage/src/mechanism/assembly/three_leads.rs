@@ -1,19 +1,20 @@
 //! A base link on three leads: all its poses.
 //!
-//! Each lead has a pair with the frame (near) and one with the base (far), and gives the base one condition. With O the
-//! place of the base's reference point, b = e^(i beta) its direction and w the far joint on it:
+//! Each lead has a pair with the frame (near) and a pair with the base (far). It imposes one condition on the base.
+//! O is the position of the base's reference point, b = e^(i beta) its direction, and w the far joint on the base:
 //! - both pairs revolute: O + b w lies on a circle, |O + b w - a| = l;
 //! - near prismatic, far revolute: O + b w lies on a line of the frame, e x (O + b w - a) = h;
 //! - near revolute, far prismatic: the near pin lies on a line of the base, (b e) x (O + b w - a) = h;
 //! - both prismatic: the base's angle is given.
 //!
-//! For a given beta all are circles and lines for O. Measured from the centre of one circle of radius l, X = O - c, the
-//! other two conditions are linear, p1 + q1 . X = p2 + q2 . X = 0 (two circles by their radical line), and |X| = l
-//! leaves |q2 p1 - q1 p2|^2 = l^2 (q1 x q2)^2.
+//! For a given beta all conditions are circles and lines for O.
+//! Let X = O - c, measured from the centre c of one circle of radius l.
+//! The other two conditions are then linear, p1 + q1 . X = p2 + q2 . X = 0 (two circles by their radical line).
+//! With |X| = l this leaves |q2 p1 - q1 p2|^2 = l^2 (q1 x q2)^2.
 //! In e^(i beta), p has the powers -1 to 1, and q has 0 to 1 (circle), 0 (line of the frame) or 1 (line of the base).
-//! So the vector on the left has the powers -1 to 2 and its square -3 to 3.
+//! So the vector on the left has the powers -1 to 2, and its square -3 to 3.
 //! This is a trigonometric polynomial of degree 3 with at most six zeros, and all of them are found.
-//! Three lines meet in one point where a determinant of degree 2 is zero.
+//! If all conditions are lines, they meet in one point where a determinant of degree 2 is zero.
 
 mod condition;
 
@@ -24,7 +25,7 @@ use crate::math::{KeepNan, Vec2, cross, harmonic, turned, unit};
 use crate::mechanism::LinkPose;
 use condition::{Condition, Locus};
 
-/// A pose of the base: place of its reference point and angle.
+/// A pose of the base: position of its reference point, and angle.
 type Found = (Vec2, f64);
 
 /// The three conditions, relative to one joint of the frame and one of the base.
@@ -43,8 +44,8 @@ impl Conditions {
         Conditions { all, size, frame, base }
     }
 
-    /// All poses of the base in the frame; `None` if the base can move although the frame and the leads' lengths are
-    /// fixed.
+    /// All poses of the base in the frame.
+    /// `None` if the base can move although the frame and the lengths of the leads are fixed.
     pub(super) fn base_poses(&self) -> Option<Vec<LinkPose>> {
         let given: Vec<f64> = self
             .all
@@ -58,7 +59,7 @@ impl Conditions {
             [] if self.all.iter().any(|one| matches!(one, Condition::Circle { .. })) => self.by_circle()?,
             [] => self.by_lines()?,
             [beta] => self.at_angle(beta)?,
-            // Two leads give the base's angle, and nothing keeps it from sliding.
+            // Two leads fix the base's angle, so the base can slide.
             _ => return None,
         };
         if found.iter().any(|&one| self.is_loose(one)) {
@@ -67,8 +68,8 @@ impl Conditions {
         Some(found.into_iter().map(|(o, beta)| LinkPose::through(self.base, self.frame + o, beta)).collect())
     }
 
-    /// p and q of the other two conditions, measured from the centre of the longest lead's circle; that centre and its
-    /// radius.
+    /// p and q of the other two conditions, measured from the centre of the longest lead's circle.
+    /// Also returns that centre and the radius.
     fn reduced(&self, b: Vec2) -> ([(f64, Vec2); 2], Vec2, f64) {
         let length = |one: &Condition| if let Condition::Circle { length, .. } = one { *length } else { -1.0 };
         let pivot = (0..3).max_by(|&i, &j| length(&self.all[i]).total_cmp(&length(&self.all[j]))).unwrap_or(0);
@@ -101,8 +102,8 @@ impl Conditions {
         for beta in harmonic::zeros(3, self.most(terms), eliminant)? {
             let ([(p1, q1), (p2, q2)], centre, radius) = self.reduced(unit(beta));
             let met = turned(q2 * p1 - q1 * p2) / cross(q1, q2);
-            // Where the two lines coincide, the solutions are the points where that line meets the circle. Computing
-            // them always costs little, and a candidate counts only if it satisfies all conditions.
+            // Where the two lines coincide, the solutions are the intersections of that line with the circle.
+            // Computing them always costs little, and a candidate counts only if it satisfies all conditions.
             let (p, q) = if q1.norm() > q2.norm() { (p1, q1) } else { (p2, q2) };
             let foot = -q * (p / q.norm_squared());
             let along = turned(q) * (((radius - foot.norm()) * (radius + foot.norm())).larger(0.0).sqrt() / q.norm());
@@ -136,7 +137,7 @@ impl Conditions {
         Some(found)
     }
 
-    /// The base's angle is given, so that two conditions remain.
+    /// Solutions for a given angle of the base; two conditions remain.
     fn at_angle(&self, beta: f64) -> Option<Vec<Found>> {
         let mut loci = self.all.iter().filter_map(|one| one.locus(unit(beta)));
         let (first, second) = (loci.next()?, loci.next()?);
@@ -174,13 +175,13 @@ impl Conditions {
         Some(found)
     }
 
-    /// Largest value of a function of beta at a few places.
+    /// Largest value of a function of beta at a few angles.
     fn most(&self, of: impl Fn(f64) -> f64) -> f64 {
         (0..8).map(|k| of(f64::from(k) * std::f64::consts::FRAC_PI_4)).fold(0.0, f64::larger)
     }
 
-    /// Improves a candidate to rounding and adds it, if it satisfies the conditions and is not known yet.
-    /// Where Newton's method fails because the base can move, adds a nearby pose that satisfies them.
+    /// Refines a candidate to rounding error. Adds it if it satisfies the conditions and is not known yet.
+    /// If Newton's method fails because the base can move, adds a nearby pose that satisfies the conditions.
     fn keep(&self, found: &mut Vec<Found>, candidate: Found) {
         let apart = |known: &Found, one: &Found| {
             (known.0 - one.0).norm() > 1e-7 * self.size || (unit(known.1) - unit(one.1)).norm() > 1e-7
@@ -193,7 +194,7 @@ impl Conditions {
         }
     }
 
-    /// Rows of the Jacobian by x / size, y / size and beta, and the gaps.
+    /// Rows of the Jacobian with respect to x / size, y / size and beta, and the gaps.
     fn rows(&self, (o, beta): Found) -> [([f64; 3], f64); 3] {
         self.all.each_ref().map(|one| {
             let (gap, by_place, by_angle) = one.residual(o, beta, self.size);
@@ -202,8 +203,8 @@ impl Conditions {
     }
 
     /// Whether the base can move from a pose while all conditions hold.
-    /// It can if, after a step to either side along the free direction of the Jacobian, it returns to the conditions
-    /// but not to the pose.
+    /// The test makes a step to either side along the free direction of the Jacobian.
+    /// If the base then returns to the conditions but not to the pose, it can move.
     /// At a double root it cannot.
     fn is_loose(&self, at: Found) -> bool {
         let rows = self.rows(at).map(|(row, _)| row);
@@ -214,7 +215,7 @@ impl Conditions {
         let products = [0, 1, 2].map(|k: usize| product(rows[(k + 1) % 3], rows[(k + 2) % 3]));
         let free = products.into_iter().fold([0.0; 3], |best, one| if norm(one) > norm(best) { one } else { best });
         let volume: f64 = (0..3).map(|k| rows[0][k] * products[0][k]).sum();
-        // A double root is known to half the digits, 1e-7 of the size, and the volume goes to zero with it.
+        // A double root is accurate to half the digits, 1e-7 of the size, and the volume tends to zero there.
         if volume.abs() > 1e-5 * rows.map(norm).iter().product::<f64>() {
             return false;
         }
@@ -226,8 +227,8 @@ impl Conditions {
         })
     }
 
-    /// Result of damped steps from a pose, if the conditions hold there. Unlike Newton's method they do not move along
-    /// free directions.
+    /// Result of damped steps from a pose, if the conditions hold there.
+    /// Unlike Newton steps, damped steps do not move along free directions.
     fn settled(&self, mut pose: Found) -> Option<Found> {
         for _ in 0..30 {
             let (mut normal, mut step) = (Lu::new(3), [0.0; 3]);
@@ -247,11 +248,12 @@ impl Conditions {
         self.rows(pose).iter().all(|(_, gap)| gap.abs() <= 1e-11 * self.size).then_some(pose)
     }
 
-    /// Newton's method. Returns the best point on the way, if it satisfies all conditions and lies nearby.
+    /// Newton's method. Returns the best iterate if it satisfies all conditions and lies nearby.
     fn polish(&self, start: Found) -> Option<Found> {
         let (mut at, mut best, mut least) = (start, start, f64::INFINITY);
         let mut worse = 0;
-        // Near a double root the first steps may lead away. At rounding no step is better than the last.
+        // Near a double root the first steps may lead away. At the level of rounding errors no step improves on the
+        // last.
         while worse < 4 {
             let rows = self.rows(at);
             let worst = rows.iter().map(|(_, gap)| gap.abs()).fold(0.0, f64::larger);
@@ -270,13 +272,13 @@ impl Conditions {
             system.solve(&mut step);
             at = (at.0 - Vec2::new(step[0], step[1]) * self.size, at.1 - step[2]);
         }
-        // Lines may cross far away. Then rounding is that of far places.
+        // Lines may intersect far away. Rounding errors then scale with that distance.
         let reach = self.size + best.0.norm();
         let near = (best.0 - start.0).norm() <= 0.1 * reach && (best.1 - start.1).abs() <= 0.1;
         (least <= CLOSED * reach && near).then_some(best)
     }
 }
 
-/// A pose satisfies the conditions if its residuals are below this share of the size.
-/// This is rounding, with a margin for a double root, of which Newton's method finds only half the digits.
+/// Largest residual of the conditions in a valid pose, as a fraction of the size.
+/// It is rounding error with a margin for double roots, for which Newton's method finds only half the digits.
 const CLOSED: f64 = 1e-13;

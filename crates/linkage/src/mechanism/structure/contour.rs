@@ -4,7 +4,8 @@ use super::group::Group;
 use crate::mechanism::{JointId, LinkId, Mechanism};
 
 /// Number of sides of the highest closed contour of a group.
-/// A link with three or more pairs is a contour with as many sides, and so is every shortest loop of inner joints.
+/// A link with three or more pairs is a contour with as many sides.
+/// Every shortest loop of inner joints is a contour too.
 pub(super) fn highest_contour(mechanism: &Mechanism, group: &Group) -> usize {
     let joint = |&index: &JointId| &mechanism.joints()[index];
     let pairs_on = |link: LinkId| group.inner.iter().map(joint).filter(|j| j.on(link).is_some()).count();
@@ -13,7 +14,7 @@ pub(super) fn highest_contour(mechanism: &Mechanism, group: &Group) -> usize {
     rigid.max(loops).max(2)
 }
 
-/// Number of links in the shortest loop of inner joints through the joint `through`, if there is one.
+/// Number of links in the shortest loop of inner joints through `through`; `None` if there is no loop.
 fn shortest_loop(mechanism: &Mechanism, group: &Group, through: JointId) -> Option<usize> {
     let (start, goal) = (mechanism.joints()[through].first.link, mechanism.joints()[through].second.link);
     let mut layers = vec![(start, 1)];

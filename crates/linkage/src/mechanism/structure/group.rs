@@ -32,7 +32,7 @@ impl GroupKind {
         }
     }
 
-    /// Letters of a dyad's pairs from outer over inner to outer; `None` for higher groups.
+    /// Letters of a dyad's pairs, in the order outer, inner, outer; `None` for higher groups.
     #[must_use]
     pub fn letters(self) -> Option<&'static str> {
         match self {
@@ -46,7 +46,7 @@ impl GroupKind {
     }
 }
 
-/// Assur group: a set of links that has no mobility once its outer joints are held.
+/// Assur group: a set of links that has no mobility if its outer joints are fixed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
     /// Its links, in the mechanism's order.
@@ -91,7 +91,7 @@ impl Group {
         names.join(", ")
     }
 
-    /// The group's key in a description: the one of `start.groups` with its links.
+    /// The group's key in a description: the entry of `start.groups` with its links.
     #[must_use]
     pub fn key(&self, mechanism: &Mechanism) -> KeyPath {
         let links = self.links.iter().map(|&link| mechanism.links()[link].name.clone());

@@ -9,8 +9,9 @@ use crate::mechanism::{GROUND, JointId, LinkId, Mechanism};
 
 /// Checks Laman's condition for plane bodies: a part of k links, the ground included, carries at most 3 k - 3
 /// equations.
-/// An equivalent condition is tested: with three more copies of any one equation, all equations still find owners among
-/// all links, three per link (Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008).
+/// An equivalent condition is tested: three copies of any one equation are added.
+/// All equations must still find owners among all links, three per link (Lee and Streinu, "Pebble game algorithms and
+/// sparse graphs", 2008).
 pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[JointId]) -> Result<()> {
     let mut owners = Owners::unassigned(mechanism, drives, OWNED);
     owners.assign_all(mechanism)?;
@@ -19,7 +20,8 @@ pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[JointId]) -> Result<
         let ends = [joint.first.link, joint.second.link];
         owners.add((0..3).map(|_| Equation { joint: index, of_drive: false, ends }));
         owners.assign_from(count, mechanism)?;
-        // What the copies have pushed to other links stays there: the equations without the copies have owners again.
+        // Equations that the copies pushed to other links stay there, so all equations except the copies still have
+        // owners.
         owners.keep(count);
     }
     Ok(())
@@ -75,7 +77,7 @@ impl Owners {
         self.assign_from(0, mechanism)
     }
 
-    /// Finds owners for the equations from `first` on, none of which has one.
+    /// Finds owners for the equations from `first` on. None of them has an owner yet.
     fn assign_from(&mut self, first: usize, mechanism: &Mechanism) -> Result<()> {
         let mut visited = vec![false; mechanism.links().len()];
         for equation in first..self.equations.len() {
@@ -87,7 +89,7 @@ impl Owners {
         Ok(())
     }
 
-    /// Drops the equations from `count` on.
+    /// Removes the equations from `count` on.
     fn keep(&mut self, count: usize) {
         for equation in count..self.equations.len() {
             if let Some(link) = self.owner[equation] {
@@ -123,7 +125,7 @@ impl Owners {
         self.owner[index]
     }
 
-    /// The strongly connected parts, each sorted, in the order in which they can be solved.
+    /// The strongly connected components, each sorted, in the order in which they can be solved.
     pub(super) fn parts(&self, mechanism: &Mechanism) -> Vec<Vec<LinkId>> {
         let mut graph = DiGraph::<(), ()>::new();
         for _ in mechanism.links() {

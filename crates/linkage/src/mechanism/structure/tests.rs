@@ -21,7 +21,7 @@ fn the_same_chain_driven_at_the_other_pivot_turns_round() {
     assert_eq!(structure.formula(&mechanism), "I(ground, rocker) -> II.2 RRR(crank, coupler)");
 }
 
-/// Crank and a base link on three leads, one of them the crank's: class III, order 3.
+/// Crank and a base link on three leads, one of them attached to the crank: class III, order 3.
 fn triad() -> Mechanism {
     let links = vec![
         link("ground", &[("O", 0.0, 0.0), ("A", 3.0, 0.0), ("B", 0.0, 3.0)]),
@@ -101,8 +101,8 @@ fn two_links_pinned_together_twice_are_over_constrained_and_no_dyad() {
 
 #[test]
 fn a_floating_part_with_one_joint_too_many_is_found() {
-    // Four links in a ring, two of which share a fifth joint: 10 equations where 3*4 - 3 are enough. A loose link
-    // compensates for it.
+    // Four links in a ring, two of which share a fifth joint: 10 equations where 3*4 - 3 are enough.
+    // A loose link keeps the mobility right.
     let links = vec![
         link("ground", &[("O", 0.0, 0.0)]),
         link("crank", &[("O", 0.0, 0.0), ("A", 1.0, 0.0)]),

@@ -6,9 +6,9 @@ use crate::check::trial::Trial;
 use formula::{FormulaTree, Function, NodeShape, Operator, Program};
 use linkage::math::KeepNan;
 
-/// Largest number of angles of which functions are taken.
+/// Largest number of angles whose functions are included.
 const ANGLES: usize = 10;
-/// Largest number of steps tried, those right before the formula: the number of products of two steps grows with the
+/// Largest number of steps tried, those right before the formula. The number of products of two steps grows with its
 /// square.
 const STEPS: usize = 60;
 
@@ -20,18 +20,18 @@ pub(super) struct Entry {
     pub(super) weight: usize,
     /// Its values at the trial's few instants.
     pub(super) values: Vec<f64>,
-    /// Index after that of the last formula used in it.
+    /// One more than the index of the last formula used in it.
     pub(super) after: usize,
 }
 
 impl Entry {
-    /// Whether it is the constant one.
+    /// Whether it is the constant 1.
     pub(super) fn is_one(&self) -> bool {
         matches!(self.tree.shape, NodeShape::Number(_))
     }
 }
 
-/// The dictionary of a trial, with the constant steps before it by name and value.
+/// The dictionary of a trial, and the constant steps before its formula by name and value.
 pub(super) struct Dictionary {
     pub(super) entries: Vec<Entry>,
     pub(super) constants: Vec<(String, f64)>,
@@ -58,7 +58,7 @@ fn read(text: &str) -> Vec<(FormulaTree, usize)> {
 }
 
 impl Dictionary {
-    /// Collects what may be missing in the formula of a trial from everything that stands before it.
+    /// Collects, from everything before the formula of a trial, what may be missing in the formula.
     pub(super) fn of(trial: &Trial) -> Self {
         let before = trial.index.saturating_sub(STEPS)..trial.index;
         let steps: Vec<FormulaTree> =

@@ -50,7 +50,7 @@ fn others(part: &FormulaTree, names: &[&str], parameters: &[Parameter]) -> Vec<F
     names.iter().filter(is_other).map(|other| FormulaTree::name(*other)).collect()
 }
 
-/// A sum, difference, product or quotient of two quantities with the two exchanged wherever they occur in it.
+/// A sum, difference, product or quotient of two quantities, exchanged wherever they occur in it.
 fn exchanged(part: &FormulaTree, names: &[&str]) -> Vec<FormulaTree> {
     let NodeShape::Pair(Plus | Minus | Over | Times, _) = part.shape else { return Vec::new() };
     let mut own: Vec<&str> = part.names().into_iter().map(|(name, _)| name).filter(|own| names.contains(own)).collect();

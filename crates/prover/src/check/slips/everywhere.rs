@@ -1,4 +1,4 @@
-//! Slips repeated wherever a quantity or a function occurs.
+//! Slips that are repeated at every occurrence of a quantity or a function.
 
 use super::edits;
 use super::places::at_every_place;
@@ -8,8 +8,9 @@ use crate::check::trial::Trial;
 use formula::{DerivationSheet, FormulaTree, Function, NodeShape, Operator};
 use scenario::Formulas;
 
-/// Tries to correct every quantity and every function wherever it occurs: in the first of the formulas `used`, then in
-/// all of them. A part that occurs only once is not a slip of this kind.
+/// Tries to correct every quantity and every function at all its occurrences: in the first of the formulas `used`, then
+/// in all of them.
+/// A part that occurs only once is not a slip of this kind.
 pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimensions: &Dimensions, tried: &mut Tried) {
     use Function::{Cos, Sin, Tan};
     let formulas = trial.formulas.clone();
@@ -116,7 +117,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// What may have been meant by a name wherever it occurs.
+/// What a name may have been meant to be at all its occurrences.
 fn of_name(name: &str, names: &[&str], formulas: &Formulas) -> Vec<(SlipKind, FormulaTree)> {
     let own = FormulaTree::name(name);
     let of = |operator: Operator, right: FormulaTree| FormulaTree::pair(operator, own.clone(), right);

@@ -9,10 +9,11 @@ use scenario::INPUTS;
 use scenario::formula::OMEGA;
 
 /// Written form and possible corrections, the likeliest first.
-/// In the written form `a`, `b` and `c` are any parts; `n` is a number; `q` is neither a number nor pi; `u` is a `q`
-/// that is not a call; `t` has the form of an angle or a time (its multiples may change by whole turns from instant to
-/// instant); `r` is none of these; `g` is gravity where it has no name.
-/// `w` is the crank's angular velocity.
+/// Letters of the written form:
+/// `a`, `b` and `c` are any parts; `n` is a number; `q` is neither a number nor pi; `u` is a `q` that is not a call.
+/// `t` has the form of an angle or a time (its multiples may change by whole turns from instant to instant); `r` is
+/// none of these.
+/// `g` is gravity where it has no name; `w` is the crank's angular velocity.
 const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Sign, "a + b => a - b"),
     (SlipKind::Sign, "a - b => a + b; b - a"),
@@ -46,7 +47,7 @@ const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Function, "acos(a) => asin(a); atan(a); cos(a)"),
     (SlipKind::Function, "atan(a) => asin(a); acos(a); tan(a)"),
     (SlipKind::Function, "atan2(a, b) => atan2(b, a)"),
-    // For example a small angle taken for its sine.
+    // For example a small angle used in place of its sine.
     (SlipKind::Function, "u => sin(u); cos(u); tan(u); asin(u); atan(u)"),
     (SlipKind::Power, "a^b => a; a^2; a^3; a^4; a^0.5"),
     (SlipKind::Power, "sqrt(a) => a"),

@@ -27,7 +27,7 @@ linkage::words! {
         Sign = "a sign",
         /// Another branch of a square root or of an inverse function.
         Branch = "another branch",
-        /// Degrees for radians, turns a minute, millimetres, and the like.
+        /// Degrees for radians, revolutions per minute, millimetres, and the like.
         Unit = "a unit",
         /// Sine for cosine, and the like.
         Function = "another function",
@@ -56,37 +56,37 @@ linkage::words! {
     }
 }
 
-/// The simplest has the least: whether units contradict it, whether it is made in many places, whether it is in a step,
-/// and its kind.
+/// Smallest for the simplest slip. The parts: whether units contradict it, whether it is made in many places, whether
+/// it is in a step, and its kind.
 type Rank = (bool, bool, bool, SlipKind);
 
 /// A slip mended.
 pub(in crate::check) struct Mended {
     pub(in crate::check) slip: FormulaSlip,
     pub(in crate::check) rank: Rank,
-    /// Share of the largest difference that it leaves; zero if the formula is right with it.
+    /// Share of the largest difference that the correction leaves; zero if it makes the formula right.
     pub(in crate::check) left: f64,
-    /// Number of slips that had been tried by then: those that are as simple.
+    /// Number of slips tried up to this one: the equally simple ones.
     pub(in crate::check) among: usize,
 }
 
 /// Slips that were tried.
 #[derive(Default)]
 pub(in crate::check) struct Tried {
-    /// Those with which the formula is right, the simplest first.
+    /// Corrections that make the formula right, the simplest first.
     pub(in crate::check) right: Vec<Mended>,
-    /// Of all others, the one that leaves least, if it leaves little.
+    /// The other correction that leaves the least, if it leaves little.
     pub(in crate::check) nearest: Option<Mended>,
     /// How many were tried.
     pub(in crate::check) count: usize,
 }
 
 impl Tried {
-    /// Judges a slip that was mended, and keeps it if the formula is right with it, or nearer than before.
+    /// Judges a corrected slip. Keeps it if the formula is then right, or nearer than before.
     pub(super) fn put(&mut self, trial: &mut Trial, changed: &[(usize, FormulaTree)], slip: FormulaSlip, rank: Rank) {
         let Some(left) = trial.left(changed, 0.0) else { return };
         let mended = Mended { slip, rank, left, among: self.count };
-        // A simpler one that leaves hardly more is nearer.
+        // A simpler correction that leaves hardly more counts as nearer.
         if left == 0.0 {
             self.right.push(mended);
         } else if self.nearest.as_ref().is_none_or(|nearest| left < 0.8 * nearest.left) {
@@ -94,7 +94,7 @@ impl Tried {
         }
     }
 
-    /// The same for a part of the first formula that is changed: it was `replaced` by another, if units may stand so.
+    /// The same for a part of the first changed formula, `replaced` by another, if the units allow it.
     pub(super) fn put_standing(
         &mut self,
         trial: &mut Trial,

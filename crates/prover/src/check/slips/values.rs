@@ -1,8 +1,9 @@
-//! Numbers that are wrong: of a formula, and of the parameters.
+//! Wrong numbers of a formula and of the parameters.
 //!
-//! The number that would be right is calculated instant by instant. It must be the same at all of them, and one that
-//! people write. Where any number of the formula could be to blame, because the formula is wrong by a factor or is a
-//! constant itself, only one whose digits were confused is named.
+//! The right number is calculated instant by instant.
+//! It must be the same at all instants, and one that people write.
+//! Any number of the formula could be the wrong one if the formula is wrong by a factor or is a constant. Only a number
+//! with confused digits is then named.
 
 use std::collections::BTreeSet;
 
@@ -13,11 +14,11 @@ use crate::check::trial::Trial;
 use formula::{FormulaTree, NodeShape, Operator, information};
 use linkage::math::KeepNan;
 
-/// Most digits of a number that somebody writes.
+/// Largest number of digits in a number that people write.
 const DIGITS: usize = 6;
-/// Relative accuracy to which a number must be known to have digits.
+/// Relative accuracy from which the digits of a number count.
 const KNOWN: f64 = 1e-8;
-/// Bits of a factor so simple that it says nothing of digits.
+/// Information (bits) of a factor that is too simple to say anything about digits.
 const SIMPLE: f64 = 2.0;
 
 /// Tries every number of the formulas `used`, and every parameter in them.
@@ -27,7 +28,7 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
         used.iter().flat_map(|&index| formulas.list[index].tree.names()).map(|(name, _)| name).collect();
     for own in &formulas.parameters {
         let names: Vec<(String, f64)> = own.names().map(|(name, number)| (name.to_string(), number.value)).collect();
-        // With both names the two numbers would have to change together.
+        // If both names are used, the two numbers would have to change together.
         let names: Vec<&(String, f64)> = names.iter().filter(|(name, _)| known.contains(name.as_str())).collect();
         let &[(name, number)] = names.as_slice() else { continue };
         let Some(place) = trial.sheet.named(name) else { continue };
@@ -70,12 +71,12 @@ fn put(
 ) {
     let [written, right] = texts;
     let slip = FormulaSlip { formula: formula.into(), kind: SlipKind::Value, written, right, everywhere: false };
-    // A number changes no unit. What digits do not tell comes after what is missing.
+    // A number changes no unit. A correction without confused digits ranks after missing terms.
     let rank = (false, !is_confused, changed[0].0 != trial.index, SlipKind::Value);
     tried.put(trial, changed, slip, rank);
 }
 
-/// The number that was meant by a wrong one at a place, if one number of the same sign is right at all instants, and
+/// The right number in place of a wrong one, if one number of the same sign is right at all instants. Also returns
 /// whether its digits were confused.
 fn meant(trial: &mut Trial, place: usize, wrong: f64) -> Option<(f64, bool)> {
     if trial.is_spent() || wrong == 0.0 {
@@ -104,7 +105,7 @@ fn meant(trial: &mut Trial, place: usize, wrong: f64) -> Option<(f64, bool)> {
     (right * wrong > 0.0 && (!is_open || is_confused)).then_some((right, is_confused))
 }
 
-/// A number of few digits within an error, if there is one.
+/// A number with few digits within the error, if there is one.
 fn short(value: f64, error: f64) -> Option<f64> {
     (0..DIGITS).find_map(|digits| {
         let own: f64 = format!("{value:.digits$e}").parse().ok()?;
@@ -112,8 +113,9 @@ fn short(value: f64, error: f64) -> Option<f64> {
     })
 }
 
-/// Whether one number is written for another by confusing digits: two exchanged, one lost, added or doubled; or
-/// another value of gravity. A point in another place, and a simple factor, are no confusion of this number alone.
+/// Whether the digits of the right number were confused: two exchanged, one lost, added or doubled. Another value of
+/// gravity counts too.
+/// A decimal point in another place or a simple factor does not count.
 fn is_confused(wrong: f64, right: f64) -> bool {
     if edits::GRAVITY.contains(&wrong) && edits::GRAVITY.contains(&right) {
         return true;
@@ -129,7 +131,7 @@ fn is_confused(wrong: f64, right: f64) -> bool {
             && short.len() >= 3
             && (0..long.len()).any(|at| [&long[..at], &long[at + 1..]].concat() == short)
     };
-    // Noughts at the end are digits here: 106 for 160.
+    // Trailing zeros count as digits here: 106 for 160.
     let length = one.len().max(other.len());
     let padded =
         |digits: &[u8]| -> Vec<u8> { digits.iter().copied().chain(std::iter::repeat(b'0')).take(length).collect() };

@@ -1,26 +1,26 @@
-//! What is missing in numbers, by least squares over what the mechanism has: sines and cosines of its links' angles, the
-//! squares of their speeds, their accelerations.
+//! Terms that are missing in numbers, by least squares over quantities of the mechanism: sines and cosines of the
+//! links' angles, squares of their speeds, and their accelerations.
 
 use crate::check::KnownTrajectory;
 use linkage::math::{ColumnVector, KeepNan, Matrix};
 
 /// Numbers that are wrong.
 pub struct Wrong<'a> {
-    /// The instants of the course that they belong to.
+    /// The course rows that the numbers belong to.
     pub rows: &'a [usize],
-    /// What would have to be added to them.
+    /// What must be added to the numbers.
     pub differences: Vec<f64>,
-    /// How far the difference may be from zero.
+    /// Bounds on the differences.
     pub bounds: Vec<f64>,
     /// The right numbers.
     pub right: Vec<f64>,
-    /// Some of the places that everything is tried at first.
+    /// Some of the places. Everything is tried there first.
     pub few: &'a [usize],
 }
 
-/// A quantity of the mechanism by instants.
+/// A quantity of the mechanism, instant by instant.
 pub struct TermBasis {
-    /// What it is; empty for a constant.
+    /// Name of the quantity; empty for a constant.
     pub text: String,
     /// Its unit.
     pub unit: &'static str,
@@ -46,19 +46,19 @@ pub struct WeightedTerm<'a> {
 pub struct Explanation<'a> {
     /// One quantity or two.
     pub parts: Vec<WeightedTerm<'a>>,
-    /// Share of the largest difference that stays over; zero if nothing does.
+    /// Remaining share of the largest difference; zero if nothing remains.
     pub left: f64,
 }
 
-/// Fewest instants that say anything.
+/// Fewest instants from which terms are sought.
 const FEWEST: usize = 8;
-/// Error of a channel's number over the largest of its column, as a basis.
+/// Error of a quantity's values, relative to its largest value.
 const KNOWN: f64 = 1e-10;
-/// Share of the difference that may stay over at a few places for all of them to be tried.
+/// Largest remaining share of the difference at a few places for all places to be tried.
 const PROMISING: f64 = 1e-6;
 
-/// Calls `whole` with every explanation by one quantity or two that leaves nothing, as long as no single one has;
-/// returns the one that leaves least, if there is one.
+/// Calls `whole` with every explanation by one or two quantities that leaves nothing, up to the first single one.
+/// Returns the explanation that leaves least, if there is one.
 pub fn explanations<'a>(
     wrong: &Wrong,
     bases: &'a [TermBasis],
@@ -79,7 +79,7 @@ pub fn explanations<'a>(
         let Some((coefficients, left)) = fitted(bases, &chosen, differences, few) else { continue };
         if left < PROMISING && explains(wrong, bases, &chosen, &coefficients) {
             whole(parts(&chosen, &coefficients));
-            // Two terms are no better than one.
+            // Two terms are not better than one.
             if chosen.len() == 1 {
                 break;
             }
@@ -119,7 +119,7 @@ fn fitted(bases: &[TermBasis], chosen: &[usize], differences: &[f64], places: &[
     left.is_finite().then_some((coefficients, left))
 }
 
-/// Whether nothing is left over at any instant.
+/// Whether nothing remains at any instant.
 fn explains(wrong: &Wrong, bases: &[TermBasis], chosen: &[usize], coefficients: &[f64]) -> bool {
     let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()));
     let known: f64 =
@@ -129,7 +129,7 @@ fn explains(wrong: &Wrong, bases: &[TermBasis], chosen: &[usize], coefficients: 
     })
 }
 
-/// What the mechanism has, the simplest first.
+/// Quantities of the mechanism, the simplest first.
 pub fn bases(course: &KnownTrajectory, wrong: &Wrong) -> Vec<TermBasis> {
     let rows = wrong.rows;
     let mut all = Vec::new();
@@ -160,13 +160,13 @@ pub fn bases(course: &KnownTrajectory, wrong: &Wrong) -> Vec<TermBasis> {
     for (channel, values) in course.points() {
         put(&channel.to_string(), channel.kind.unit.symbol(), &|row| values[row]);
     }
-    // What does not change says the same as the constant.
+    // A quantity that does not change is equivalent to the constant.
     let changes = |own: &TermBasis| {
         let largest = own.values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()));
         own.text.is_empty() || own.values.iter().any(|value| (value - own.values[0]).abs() > 1e-6 * largest)
     };
     all.retain(changes);
-    // The claim itself, or what goes with it, explains nothing.
+    // The claim itself, or a multiple of it, explains nothing.
     let claimed = ColumnVector::from_column_slice(&wrong.right);
     let is_claim = |own: &TermBasis| {
         let values = ColumnVector::from_column_slice(&own.values);

@@ -1,5 +1,5 @@
-//! What a Parquet file announces of its sizes, looked at before its reader takes memory for them: it takes as much as
-//! a file says.
+//! Checks the sizes that a Parquet file announces, before its reader takes memory for them. The reader takes as much as
+//! the file announces.
 
 use crate::sentences;
 use std::fs::File;
@@ -12,18 +12,19 @@ use parquet::file::metadata::ColumnChunkMetaData;
 use super::thrift::{Found, Walk, wrong};
 use crate::tables::source::MAGIC;
 
-/// What stands behind the description of a file: its length, and the sign of the format.
+/// Bytes after the description of a file: its length, and the signature of the format.
 const TAIL: u64 = 8;
-/// Most columns and groups of columns within each other: the reader goes down by recursion.
+/// Deepest nesting of columns and groups of columns: the reader is recursive.
 const DEEPEST: usize = 32;
-/// Most bytes of a page for each of its values: eight, and levels and the unfinished blocks of delta encoding.
+/// Largest number of bytes of a page for each of its values: eight, plus levels and the unfinished blocks of delta
+/// encoding.
 const WIDEST: u64 = 16;
-/// Bytes of a page beside its values: a block of delta encoding is always whole.
+/// Bytes of a page in addition to its values: a block of delta encoding is always whole.
 const BESIDE: u64 = 1 << 12;
-/// Largest dictionary (bytes); writers begin to do without one from 1 MiB on.
+/// Largest dictionary (bytes). Writers stop using a dictionary from 1 MiB on.
 const DICTIONARY: u64 = 1 << 26;
 
-/// Fields of the description of a file, of a column there, and of the header of a page.
+/// Field numbers in the description of a file, of a column in it, and in the header of a page.
 const SCHEMA: i64 = 2;
 const CHILDREN: i64 = 5;
 const HELD: i64 = 2;
@@ -32,7 +33,7 @@ const OF_DATA: [i64; 2] = [5, 8];
 const OF_DICTIONARY: i64 = 7;
 const VALUES: i64 = 1;
 
-/// Looks at the description of a file: no more columns are announced than there are, and none too deep.
+/// Checks the description of a file: it announces no more columns than there are, and none that is nested too deep.
 pub(super) fn check_description(file: &File) -> io::Result<()> {
     let whole = file.metadata()?.len();
     let mut tail = [0; TAIL as usize];
@@ -51,7 +52,7 @@ pub(super) fn check_description(file: &File) -> io::Result<()> {
             return Ok(());
         }
         match (field, found) {
-            // A group has no more columns than there are bytes.
+            // A group cannot have more columns than bytes.
             (CHILDREN, Found::Number(count)) if (0..=length.cast_signed()).contains(&count) => own = count,
             (CHILDREN, Found::Number(_) | Found::Other) => {
                 return Err(wrong(sentences::IT_ANNOUNCES_COLUMNS_THAT_ARE_NOT_THERE));
@@ -79,8 +80,7 @@ pub(super) fn check_description(file: &File) -> io::Result<()> {
     Walk::new(BufReader::new(from).take(length)).structure(0, 0, &mut tell)
 }
 
-/// What the header of a page announces: bytes when it is unpacked, bytes in the file, values, and whether it is a
-/// dictionary.
+/// Sizes announced in the header of a page: unpacked bytes, bytes in the file, values, and values of a dictionary.
 #[derive(Default)]
 struct Page {
     held: Option<u64>,
@@ -90,7 +90,7 @@ struct Page {
 }
 
 impl Page {
-    /// Reads a header; returns also how long it is (bytes).
+    /// Reads a header. Also returns its length (bytes).
     fn read(from: impl Read) -> io::Result<(Self, u64)> {
         let mut page = Page::default();
         let mut tell = |depth: usize, [outer, field]: [i64; 2], found: Found| {
@@ -117,7 +117,7 @@ impl Page {
     }
 }
 
-/// Looks at the pages of a column of numbers, in a group with so many rows.
+/// Checks the pages of a column of numbers, in a group with this many `rows`.
 pub(super) fn check_pages(file: &File, rows: u64, column: &ColumnChunkMetaData) -> io::Result<()> {
     let (start, mut left) = column.byte_range();
     let mut from = BufReader::new(file);
@@ -135,7 +135,7 @@ pub(super) fn check_pages(file: &File, rows: u64, column: &ColumnChunkMetaData) 
             return Err(wrong(sentences::its_pages_have_more_values(&rows)));
         }
         let most = match page.dictionary {
-            // Every value of a dictionary stands there, with four bytes at least.
+            // A dictionary contains every one of its values, with at least four bytes each.
             Some(count) if count > held / 4 => {
                 return Err(wrong(sentences::a_dictionary_of_bytes_has_values(&held, &count)));
             }
@@ -147,7 +147,7 @@ pub(super) fn check_pages(file: &File, rows: u64, column: &ColumnChunkMetaData) 
         }
         let mut body = from.by_ref().take(stored);
         let unpacked = match column.compression() {
-            // Only this one unpacks further than it was asked to.
+            // Only gzip unpacks more than requested.
             Compression::GZIP(_) => io::copy(&mut MultiGzDecoder::new(&mut body).take(held + 1), &mut io::sink())?,
             Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::ZSTD(_) => 0,
             Compression::BROTLI(_) | Compression::LZ4 | Compression::LZ4_RAW | Compression::LZO => 0,

@@ -1,28 +1,28 @@
-//! The compact protocol of Thrift, in which a Parquet file describes itself: a walk over it that takes no memory.
+//! The compact protocol of Thrift, in which a Parquet file describes itself: it is read without taking memory.
 
 use crate::sentences;
 use std::io::{self, Read};
 
-/// Most elements of all lists together: the reader takes memory for as many as a list announces.
+/// Largest number of elements of all lists together: the reader takes memory for as many as a list announces.
 const MOST: u64 = 1 << 22;
-/// Most structures and lists within each other.
+/// Deepest nesting of structures and lists.
 const DEEPEST: usize = 32;
 
-/// What stands at a field.
+/// Content of a field.
 pub(super) enum Found {
     /// A whole number.
     Number(i64),
     /// Anything else.
     Other,
-    /// The structure that the field belongs to ends.
+    /// End of the structure that the field belongs to.
     End,
 }
 
-/// Is told how deep a field stands (0 in the outermost structure), the field of the structure that it belongs to, its
-/// number there, and what it holds.
+/// Receives the depth of a field (0 in the outermost structure), the enclosing field, the field's number there, and its
+/// content.
 pub(super) type Tell<'a> = &'a mut dyn FnMut(usize, [i64; 2], Found) -> io::Result<()>;
 
-/// A walk, with what it has read (bytes).
+/// A walk over the data, with the number of bytes read.
 pub(super) struct Walk<R> {
     from: R,
     pub read: u64,
@@ -51,7 +51,7 @@ impl<R: Read> Walk<R> {
                 step => field.saturating_add(step),
             };
             match head & 15 {
-                // Truth stands in the kind itself.
+                // A truth value is part of the kind itself.
                 1 | 2 => tell(depth, [outer, field], Found::Other)?,
                 kind => self.value(kind, depth, [outer, field], tell)?,
             }
@@ -124,7 +124,7 @@ impl<R: Read> Walk<R> {
         Err(wrong(sentences::IT_HAS_A_NUMBER_WITHOUT_AN_END))
     }
 
-    /// A whole number: its sign is its last bit.
+    /// A whole number. Its last bit is the sign.
     fn number(&mut self) -> io::Result<i64> {
         let value = self.varint()?;
         Ok((value >> 1).cast_signed() ^ -(value & 1).cast_signed())

@@ -36,7 +36,7 @@ pub(super) struct Place {
     pub(super) other: Vec2,
     /// Base link, driver's head to the head of lead 3.
     pub(super) arm: Vec2,
-    /// World place of the head of lead 3.
+    /// World position of the head of lead 3.
     pub(super) third: Vec2,
 }
 
@@ -62,7 +62,7 @@ impl Chain {
         let span = other.foot - head;
         let (b, l, d) = (own.norm(), other.length, span.norm());
         let area = (b + l + d) * (b + l - d) * (d + b - l) * (d - b + l);
-        // Written this way round so that NaN is refused too.
+        // The comparison is negated so that NaN is refused too.
         if !(area >= 0.0) {
             return None;
         }

@@ -42,7 +42,7 @@ impl Case {
         rotated(unit(pose.0[joint.first.link].angle), joint.axis_on(joint.first.link).unwrap())
     }
 
-    /// The pose with link `link` turned so that its prismatic `joint` has the axis of its other side.
+    /// The pose with link `link` rotated so that the axis of its prismatic `joint` agrees with that of the other side.
     fn with_turned(&self, mut pose: Pose, joint: JointId, link: LinkId) -> Pose {
         let other = self.joint(joint).other(link).link;
         let angle = |axis: Vec2| axis.y.atan2(axis.x);
@@ -51,7 +51,7 @@ impl Case {
         pose
     }
 
-    /// Distance of the places of a prismatic `joint` from its line.
+    /// Distance of the second point of a prismatic `joint` from the line through the first.
     fn off_line(&self, pose: &Pose, joint: JointId) -> f64 {
         let own = self.joint(joint);
         cross(
@@ -60,14 +60,14 @@ impl Case {
         )
     }
 
-    /// Whether the dyad has configurations, from the zeros of a sampled function, not of a derived formula.
-    /// Positive if it has, negative if not; the value is the margin.
+    /// Margin by which the dyad has configurations: positive if it has, negative if not.
+    /// It comes from the zeros of a sampled function, not from a derived formula.
     fn reach(&self) -> f64 {
         let outer_pin =
             |joint: JointId, link: LinkId| self.place(&self.pose, joint, self.joint(joint).other(link).link);
         match self.group.kind {
             GroupKind::Rrr => {
-                // The triangle inequality, three times.
+                // The triangle inequality for each of the three sides.
                 let span = |link: LinkId, outer: JointId| {
                     (self.joint(JointId(1)).on(link).unwrap() - self.joint(outer).on(link).unwrap()).norm()
                 };
@@ -98,8 +98,8 @@ impl Case {
                 rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
-                // Distance from the line as a function of the common angle: a harmonic plus a constant,
-                // from three values.
+                // Distance from the line as a function of the common angle: a sinusoid plus a constant, from three
+                // values.
                 let off = |angle: f64| {
                     let mut pose = self.pose.clone();
                     pose.0[LinkId(3)].angle = angle;
@@ -141,9 +141,9 @@ impl Case {
 }
 
 /// Checks 100 000 dyads of every kind, in all orders of links and sides.
-/// Every configuration closes, has the mode that it reports and a transmission sine of that sign; two configurations
-/// are different.
-/// There is no configuration exactly when an independent criterion says so.
+/// Every configuration closes and has the mode that it reports. Its transmission sine has the sign of that mode.
+/// Two configurations of a dyad differ.
+/// An independent criterion agrees on whether there is a configuration.
 #[test]
 fn random_dyads_of_every_kind() {
     let kinds = [GroupKind::Rrr, GroupKind::Rrp, GroupKind::Rpr, GroupKind::Rpp, GroupKind::Prp];
@@ -156,7 +156,7 @@ fn random_dyads_of_every_kind() {
             let all = match configurations(&case.mechanism, &case.group, &case.pose) {
                 Ok(all) => all,
                 Err(error) => {
-                    // The criterion has different rounding: exactly at the edge it cannot decide.
+                    // The criterion has other rounding errors, so it cannot decide exactly at the edge.
                     assert!(reach <= 1e-14, "{kind:?}: {error}, but there is room of {reach}");
                     assert!(error.kind() == ErrorKind::Geometry && error.way_out().is_some(), "{error}");
                     continue;
@@ -173,7 +173,7 @@ fn random_dyads_of_every_kind() {
                 })
                 .collect();
             for (one, pose) in all.iter().zip(&poses) {
-                // Two nearly parallel axes cross far away, so the size is that of the assembled dyad.
+                // Two nearly parallel axes intersect far away, so the size is that of the assembled dyad.
                 let size = size(&case.mechanism, pose);
                 let sine = transmission_sine(&case.mechanism, &case.group, pose).unwrap();
                 worst = worst.larger(pose.closure(&case.mechanism) / size);
@@ -199,7 +199,8 @@ fn random_dyads_of_every_kind() {
     }
 }
 
-/// Two-slider dyads with parallel axes have no configuration. With a tiny angle between the axes they have.
+/// Dyads of two sliders have no configuration if their axes are parallel. A tiny angle between the axes is enough for
+/// one.
 #[test]
 fn parallel_axes_are_refused() {
     for kind in [GroupKind::Rpp, GroupKind::Prp] {
@@ -212,7 +213,8 @@ fn parallel_axes_are_refused() {
             else {
                 panic!("two prismatic joints");
             };
-            // PRP: turn one base until its guide is parallel to the other's. RPP: give the slider two parallel axes.
+            // PRP: rotate one base until its guide is parallel to the other one. RPP: give the slider two parallel
+            // axes.
             let turned_by = |case: &mut Case, angle: f64| {
                 if kind == GroupKind::Prp {
                     let guide = |k: JointId, link: LinkId| {

@@ -7,7 +7,7 @@ use crate::math::KeepNan;
 use crate::mechanism::{GROUND, GroupId, GroupKind, JointId, LinkId, Structure};
 use scan::{Scan, scanned};
 
-/// Whether each pair of the three leads slides: pair with the frame, pair with the base.
+/// For each of the three leads: whether its pair with the frame and its pair with the base slide.
 type Pairs = [[bool; 2]; 3];
 
 const REVOLUTE: Pairs = [[false; 2]; 3];
@@ -19,7 +19,7 @@ struct Case {
     pose: Pose,
 }
 
-/// If `fitted`, the joints are closed in the case's pose.
+/// A random case. If `fitted`, the joints are closed in its pose.
 fn case(random: &mut Lcg, pairs: Pairs, triad: bool, fitted: bool) -> Case {
     let hook = |random: &mut Lcg| usize::from(random.yes());
     let ends = if triad {
@@ -52,9 +52,9 @@ fn posed(case: &Case, one: &Configuration) -> Pose {
 /// Results of many cases.
 #[derive(Debug, Default)]
 struct Tally {
-    /// Number of cases by number of configurations.
+    /// Number of cases for each number of configurations.
     counts: [usize; 7],
-    /// Largest closure, as a share of the size.
+    /// Largest closure error, as a fraction of the size.
     closure: f64,
     /// Cases with a root that is double to within 1e-9. Neither method can distinguish it from a near miss.
     double: usize,
@@ -97,14 +97,14 @@ fn compare(random: &mut Lcg, pairs: Pairs, triad: bool, cases: usize, tally: &mu
     }
 }
 
-/// The bounds of every comparison. Closure has the usual bound.
-/// Double roots are as rare as their share of the range, 1e-9^(1/2) per root, times some tens.
+/// Asserts the bounds of every comparison. Closure has the usual bound.
+/// A double root has a probability of 1e-9^(1/2) per root, times some tens.
 fn check(tally: &Tally, cases: usize) {
     assert!(tally.closure <= 1e-12, "{tally:?}");
     assert!(tally.double <= 1 + cases / 200, "{tally:?}");
 }
 
-/// Whether to run the many groups that take minutes, as `.ci/nightly` does.
+/// Whether to test the large number of groups, which takes minutes, as `.ci/nightly` does.
 fn many() -> bool {
     std::env::var_os("LINKPROOF_DRAWS").is_some()
 }
@@ -122,7 +122,8 @@ fn as_many_configurations_as_a_scan_finds() {
     }
 }
 
-/// All ways to put prismatic pairs into the leads. At most one lead may have two, or links would slide in a loop.
+/// All placements of prismatic pairs in the leads.
+/// At most one lead may have two of them, or links would slide in a loop.
 fn sliding() -> impl Iterator<Item = Pairs> {
     let lead = |bits: usize| [bits & 1 == 1, bits & 2 == 2];
     let all = (1..64).map(move |bits: usize| [lead(bits & 3), lead(bits >> 2 & 3), lead(bits >> 4)]);
@@ -145,7 +146,7 @@ fn as_many_configurations_as_a_scan_finds_with_prismatic_pairs() {
     assert_eq!(patterns, 2 * 53);
 }
 
-/// Three parallel leads of equal length move the base on circles: every angle of the leads is a configuration.
+/// Three parallel leads of equal length let the base move on circles: every angle of the leads is a configuration.
 #[test]
 fn a_group_that_can_move_is_refused() {
     let mut random = Lcg(3);
@@ -153,7 +154,7 @@ fn a_group_that_can_move_is_refused() {
         let mut case = case(&mut random, REVOLUTE, triad, true);
         let mut joints = case.mechanism.joints().to_vec();
         for pair in joints.chunks_mut(2) {
-            // The vector between the two joints of every lead is the same in the world.
+            // The vector between the two joints is the same in the world for every lead.
             let Some(lead) =
                 [pair[0].first.link, pair[0].second.link].into_iter().find(|&link| pair[1].on(link).is_some())
             else {

@@ -3,8 +3,8 @@ use super::*;
 use crate::math::KeepNan;
 use crate::mechanism::{GroupKind, JointSide, LinkId};
 
-/// Two base links 6 and 5, pinned to each other, each on two leads: a group of six links and nine joints, closed in the
-/// pose.
+/// Two base links 6 and 5, pinned to each other, each on two leads.
+/// They form a group of six links and nine joints, closed in the pose.
 fn case(random: &mut Lcg, slides: impl Fn(&mut Lcg) -> bool) -> (Mechanism, Group, Pose) {
     let mut pose = Pose((0..7).map(|_| random.pose()).collect());
     pose.0[LinkId(0)] = LinkPose::GROUND;
@@ -40,7 +40,7 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
     let mut random = Lcg(21);
     for _ in 0..20 {
         let (mechanism, group, mut pose) = case(&mut random, |random| random.yes());
-        // Far from the closed pose, where all terms count.
+        // Far from the closed pose all terms matter.
         pose.0[1..].iter_mut().for_each(|link| *link = random.pose());
         let system = System { mechanism: &mechanism, group: &group, size: mechanism.size() };
         let rows = system.jacobian(&pose);
@@ -53,14 +53,14 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
             let back = system.gaps(&system.moved(&pose, &step));
             for row in 0..18 {
                 let slope = (ahead[row] - back[row]) / (2.0 * h);
-                // Central differences: the error is h^2 times third derivatives, and rounding divided by h.
+                // The error of central differences is h^2 times third derivatives, plus rounding error divided by h.
                 assert!((slope - rows[row][column]).abs() < 1e-8, "{row} {column}: {slope} {}", rows[row][column]);
             }
         }
     }
 }
 
-/// A drawing that is right to two hundredths leads to the pose from which it was drawn, and that pose closes.
+/// A drawing with errors of two hundredths leads to the pose from which it was drawn, and that pose closes.
 #[test]
 fn a_rough_drawing_finds_its_configuration() {
     let mut random = Lcg(22);
@@ -96,7 +96,7 @@ fn a_rough_drawing_finds_its_configuration() {
         }
     }
     println!("{found} found, {refused} refused of 500");
-    // The others are drawings nearer to another configuration, or poses near a singular one.
+    // The other drawings are nearer to another configuration, or their poses are nearly singular.
     assert!(found > 350, "{found}");
 }
 
@@ -107,7 +107,7 @@ fn too_few_places_name_the_link() {
     let near = drawing(&mut random, &mechanism, &group, &pose, 0.0);
     let error = place(&mechanism, &group, &near[..1], &mut pose.clone()).unwrap_err();
     assert!(error.to_string().contains("do not tell where link \"link1\" of the group lies"), "{error}");
-    // Links 1 and 2 have joints with the ground. From these 5 follows, and so on.
+    // Links 1 and 2 have joints with the ground. They determine link 5, and so on.
     let few: Vec<(SidePoint, Vec2)> = ["E1", "F2", "G3", "H4"]
         .iter()
         .map(|name| near.iter().find(|(point, _)| point.name == *name).expect("a point of that name").clone())

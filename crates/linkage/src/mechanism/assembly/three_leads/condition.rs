@@ -1,11 +1,11 @@
-//! The condition of a lead on the base, and the pose of the lead once the base is placed.
+//! The condition that a lead imposes on the base, and the pose of the lead once the base is placed.
 
 use super::super::dyads::turn;
 use crate::math::angle::wrapped;
 use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 use crate::mechanism::LinkPose;
 
-/// One side of a pair: its place and, if it slides, its axis in the body's frame.
+/// One side of a pair: its position and, if the pair slides, its axis, both in the body's frame.
 #[derive(Clone, Copy, Debug)]
 pub struct PairEnd {
     pub place: Vec2,
@@ -18,7 +18,7 @@ pub struct LeadPair {
     pub slides: bool,
     /// On the lead.
     pub lead: PairEnd,
-    /// On the frame or the base.
+    /// The side on the frame or on the base.
     pub body: PairEnd,
 }
 
@@ -29,7 +29,7 @@ pub struct PlatformLead {
     pub far: LeadPair,
 }
 
-/// The condition of a lead on the base.
+/// The condition that a lead imposes on the base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Condition {
     Circle { a: Vec2, w: Vec2, length: f64 },
@@ -38,7 +38,7 @@ pub enum Condition {
     Angle(f64),
 }
 
-/// A condition for a given angle: the possible places of O.
+/// A condition at a given angle: the possible positions of O.
 #[derive(Clone, Copy, Debug)]
 pub enum Locus {
     Circle {
@@ -69,7 +69,7 @@ impl Condition {
         }
     }
 
-    /// Possible places of O for the base's direction `b`; `None` if the condition fixes its angle.
+    /// Possible positions of O for the base's direction `b`; `None` if the condition fixes the base's angle.
     pub fn locus(&self, b: Vec2) -> Option<Locus> {
         Some(match *self {
             Condition::Circle { a, w, length } => Locus::Circle { centre: a - rotated(b, w), radius: length },
@@ -84,8 +84,8 @@ impl Condition {
         })
     }
 
-    /// Residual of the condition for O and beta (m), and its derivatives by O and beta. The circle's is divided by
-    /// `size`.
+    /// Residual of the condition at O and beta (m), and its derivatives with respect to O and beta.
+    /// The residual of a circle is divided by `size`.
     pub fn residual(&self, o: Vec2, beta: f64, size: f64) -> (f64, Vec2, f64) {
         let b = unit(beta);
         match *self {
@@ -106,7 +106,7 @@ impl Condition {
         }
     }
 
-    /// Largest length in it (m).
+    /// Largest length in the condition (m).
     pub fn size(&self) -> f64 {
         match *self {
             Condition::Circle { a, w, length } => a.norm().larger(w.norm()).larger(length),
@@ -118,7 +118,7 @@ impl Condition {
 }
 
 impl PlatformLead {
-    /// Pose in the frame, once the base has its own; `None` if the lead can slide freely.
+    /// Pose of the lead in the frame, given the base's pose; `None` if the lead can slide freely.
     pub fn pose(&self, base: &LinkPose) -> Option<LinkPose> {
         let (near, far) = (self.near, self.far);
         let by_near = turn(near.lead.axis, near.body.axis);

@@ -1,12 +1,12 @@
-//! Counts the configurations of a base on three leads by a scan: a method without any polynomial, as an independent
-//! check for the tests of this module.
+//! Counts the configurations of a base on three leads by a scan.
+//! The method uses no polynomial and so is an independent check for the tests of this module.
 //!
-//! For every angle of the base, two leads allow one or two places of its reference point.
+//! For every angle of the base, two leads allow one or two positions of its reference point.
 //! The condition of the third lead holds where a function of the angle changes sign.
-//! Each place is followed over the angles where it exists, out on one branch and back on the other, so
-//! that the function is smooth and periodic.
-//! Samples are closer where the place moves fast. Between samples of one sign the extremum is computed, which
-//! distinguishes pairs of zeros from near misses.
+//! Each position is followed over the angles at which it exists, out on one branch and back on the other.
+//! The function is then smooth and periodic.
+//! Samples are closer where the position changes fast.
+//! Between samples of the same sign the extremum is computed, which distinguishes pairs of zeros from near misses.
 
 use crate::math::KeepNan;
 use std::convert::Infallible;
@@ -15,10 +15,11 @@ use std::f64::consts::{PI, TAU};
 use crate::math::{Vec2, cross, extremum, root, rotated, turned, unit};
 use crate::mechanism::assembly::three_leads::{LeadPair, PlatformLead};
 
-/// Halvings of an interval with a zero, and steps of golden section about an extremum. Both reach rounding.
+/// Bisections of an interval with a zero, and golden section steps about an extremum. Both reach rounding error.
 const STEPS: usize = 60;
 
-/// An extremum within this share of the function's largest value is a double root: neither method can decide.
+/// An extremum below this fraction of the function's largest value is a double root, for which neither method can
+/// decide.
 const DOUBLE: f64 = 1e-9;
 
 /// Result of a scan.
@@ -29,7 +30,7 @@ pub struct Scan {
     pub double: bool,
 }
 
-/// Possible places of the base's reference point.
+/// Possible positions of the base's reference point.
 #[derive(Clone, Copy)]
 enum Locus {
     Circle(Vec2, f64),
@@ -37,12 +38,13 @@ enum Locus {
     Line(Vec2, Vec2),
 }
 
-/// Follows the definition of the pairs literally: the lead is placed, then the base's far joint is put on the lead's.
+/// Possible positions, taken literally from the definition of the pairs: the lead is placed, then the base's far joint
+/// is put on that of the lead.
 fn locus(lead: &PlatformLead, b: Vec2) -> Option<Locus> {
     let (near, far) = (lead.near, lead.far);
     let span = far.lead.place - near.lead.place;
     let arm = rotated(b, far.body.place);
-    // Direction of the lead that turns its axis of a pair onto `axis`.
+    // Direction of the lead at which its axis of a pair points along `axis`.
     let onto = |pair: LeadPair, axis: Vec2| rotated(Vec2::new(pair.lead.axis.x, -pair.lead.axis.y), axis);
     match (near.slides, far.slides) {
         (false, false) => Some(Locus::Circle(near.body.place - arm, span.norm())),
@@ -58,7 +60,7 @@ fn locus(lead: &PlatformLead, b: Vec2) -> Option<Locus> {
     }
 }
 
-/// Distance of a point from a locus.
+/// Function of a point that is zero on the locus and changes its sign there.
 fn off(locus: Locus, o: Vec2) -> f64 {
     match locus {
         Locus::Circle(centre, radius) => (o - centre).norm_squared() - radius * radius,
@@ -66,7 +68,7 @@ fn off(locus: Locus, o: Vec2) -> f64 {
     }
 }
 
-/// A smooth function that is positive where the circle meets the other locus; and the meeting point on the branch
+/// A smooth function that is positive where the circle intersects the other locus, and the intersection on the branch
 /// `sign`.
 fn meet(centre: Vec2, radius: f64, other: Locus, sign: f64) -> (f64, Vec2) {
     match other {
@@ -86,7 +88,8 @@ fn meet(centre: Vec2, radius: f64, other: Locus, sign: f64) -> (f64, Vec2) {
     }
 }
 
-/// Zeros of a periodic function on [0, `period`), and whether one is double. `place` must not move far between samples.
+/// Zeros of a periodic function on [0, `period`), and whether one of them is double.
+/// Between samples `place` moves by at most `step`.
 fn zeros(f: &dyn Fn(f64) -> f64, place: &dyn Fn(f64) -> Vec2, period: f64, step: f64) -> (Vec<f64>, bool) {
     let first = 400;
     let mut at = vec![0.0];
@@ -133,13 +136,13 @@ fn bisect(f: &dyn Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// Place of the smallest value.
+/// Position of the smallest value.
 fn least(f: &dyn Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let Ok([low, high]) = extremum::golden([low, high], STEPS, |x| Ok::<_, Infallible>(-f(x)));
     f64::midpoint(low, high)
 }
 
-/// Counts the configurations. `None` if a lead fixes the base's angle, so that there is nothing to scan.
+/// Counts the configurations. `None` if a lead fixes the base's angle, because then there is nothing to scan.
 pub fn scanned(leads: &[PlatformLead; 3]) -> Option<Scan> {
     let at =
         |beta: f64| Some([locus(&leads[0], unit(beta))?, locus(&leads[1], unit(beta))?, locus(&leads[2], unit(beta))?]);
@@ -147,8 +150,8 @@ pub fn scanned(leads: &[PlatformLead; 3]) -> Option<Scan> {
     let at = |beta: f64| at(beta).expect("as at zero");
     let still = |_: f64| Vec2::zeros();
     let Some(circle) = circle else {
-        // Lines 1 and 2 meet at p1 + d1 (p2 - p1) x d2 / d1 x d2. The function is the distance of that point from line
-        // 3, times the denominator.
+        // Lines 1 and 2 intersect at p1 + d1 (p2 - p1) x d2 / d1 x d2.
+        // The function is the distance of that point from line 3, times the denominator.
         let f = |beta: f64| {
             let [Locus::Line(p1, d1), Locus::Line(p2, d2), Locus::Line(p3, d3)] = at(beta) else { return f64::NAN };
             cross(d1, d2) * cross(d3, p1 - p3) + cross(d3, d1) * cross(p2 - p1, d2)

@@ -1,0 +1,261 @@
+//! `-o FILE` of all commands: the ending says which result is written, and in which form.
+
+use crate::sentences;
+use std::collections::VecDeque;
+use std::fmt::Debug;
+use std::path::{Path, PathBuf};
+
+use clap::error::ErrorKind as Wrong;
+use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
+
+use super::{html, output};
+use linkage::error::{Error, Result};
+
+/// A form of results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    Csv,
+    Html,
+    Json,
+    Junit,
+    Markdown,
+    Mjcf,
+    /// A directory of files whose names the command chooses.
+    Results,
+    Scenario,
+    Svg,
+}
+
+impl Form {
+    /// Endings of files of this form; the first is the usual one.
+    fn endings(self) -> &'static [&'static str] {
+        match self {
+            Form::Csv => &["csv"],
+            Form::Html => &["html", "htm"],
+            Form::Json => &["json"],
+            Form::Junit => &["xml"],
+            Form::Markdown => &["md"],
+            Form::Mjcf => &["xml", "mjcf"],
+            Form::Results => &[],
+            Form::Scenario => &["toml"],
+            Form::Svg => &["svg"],
+        }
+    }
+
+    /// Options of earlier versions that mean this form.
+    fn aliases(self) -> &'static [&'static str] {
+        match self {
+            Form::Csv => &["csv"],
+            Form::Html => &["html"],
+            Form::Json => &["json"],
+            Form::Junit => &["junit"],
+            Form::Markdown => &["markdown", "page"],
+            Form::Mjcf => &["mjcf"],
+            Form::Results => &["out"],
+            Form::Scenario => &[],
+            Form::Svg => &["svg"],
+        }
+    }
+
+    /// The form as users see it: `.json`, or `DIR`.
+    pub(super) fn sign(self) -> String {
+        self.endings().first().map_or("DIR".into(), |ending| format!(".{ending}"))
+    }
+
+    /// Whether a directory may be named in place of a file.
+    fn is_folder(self) -> bool {
+        matches!(self, Form::Html | Form::Results)
+    }
+
+    /// The path of a result of this form.
+    fn target(self, text: &str) -> std::result::Result<PathBuf, String> {
+        match self {
+            Form::Html => html::target(text),
+            Form::Results => output::directory(text),
+            Form::Markdown => output::page(text),
+            Form::Scenario => output::writable(text.into()),
+            Form::Csv | Form::Json | Form::Junit | Form::Mjcf | Form::Svg => output::target(text),
+        }
+    }
+}
+
+/// The results of a command.
+pub(super) trait Results: Clone + Copy + Debug + PartialEq + Send + Sync + 'static {
+    /// The results, their forms and contents; the first is that of `-`.
+    const ALL: &'static [(Self, Form, &'static str)];
+
+    /// The form of this result.
+    fn form(self) -> Form {
+        Self::ALL.iter().find(|(own, ..)| *own == self).expect("the macro lists every result").1
+    }
+}
+
+/// Declares the results of a command: `Form = "contents"`.
+macro_rules! results {
+    ($name:ident { $($form:ident = $contents:expr,)* }) => {
+        /// Results of the command.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(in crate::cli) enum $name {
+            $($form,)*
+        }
+
+        impl $crate::cli::outputs::Results for $name {
+            const ALL: &'static [(Self, $crate::cli::outputs::Form, &'static str)] =
+                &[$(($name::$form, $crate::cli::outputs::Form::$form, $contents),)*];
+        }
+    };
+}
+pub(super) use results;
+
+/// The results that the user wants as files. An empty path leaves the name to the command.
+#[derive(Clone, Debug)]
+pub(super) struct Outputs<R: Results> {
+    all: Vec<(R, PathBuf)>,
+}
+
+/// Result and path of the value of `-o`.
+fn read<R: Results>(text: &str) -> std::result::Result<(R, PathBuf), String> {
+    let path = Path::new(text);
+    let (first, form, _) = R::ALL[0];
+    let all = || R::ALL.iter().map(|(own, form, _)| (*own, *form));
+    let standard = match text.strip_prefix("-.") {
+        Some(ending) => Some(ending),
+        None if output::is_standard(path) => Some(form.endings().first().copied().unwrap_or("")),
+        None => None,
+    };
+    let folder = all().find(|(_, form)| form.is_folder());
+    if let (Some((own, form)), None) = (folder, standard)
+        && (text.ends_with('/') || path.is_dir() || form == Form::Results && path.extension().is_none())
+    {
+        return Ok((own, form.target(text)?));
+    }
+    let ending = match standard {
+        Some(ending) => ending.to_string(),
+        None => path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default(),
+    };
+    let (own, form) = match all().find(|(_, form)| form.endings().contains(&ending.as_str())) {
+        Some(found) => found,
+        None if path.starts_with("/dev") => (first, form),
+        None if ending == "toml" => return output::target(text).map(|path| (first, path)),
+        None => {
+            let expected: Vec<String> = all().map(|(_, form)| form.sign()).collect();
+            let found = if ending.is_empty() { sentences::NO_ENDING.into() } else { format!(".{ending}") };
+            return Err(sentences::expected_a_file_that_ends_in_found(&expected.join(", "), &found));
+        }
+    };
+    Ok((own, form.target(if standard.is_some() { "-" } else { text })?))
+}
+
+impl<R: Results> clap::Args for Outputs<R> {
+    fn augment_args(command: Command) -> Command {
+        let contents: Vec<String> = R::ALL.iter().map(|(_, form, what)| format!("{} {what}", form.sign())).collect();
+        let first = R::ALL[0].1.sign();
+        let standard = if first == "DIR" { String::new() } else { sentences::is_standard_output_as(&first) };
+        let output = Arg::new("output")
+            .short('o')
+            .long("output")
+            .value_name("FILE")
+            .action(ArgAction::Append)
+            .value_parser(read::<R>)
+            .help(sentences::write_to_a_file_by_its_ending(&contents.join("; "), &standard));
+        R::ALL.iter().fold(command.arg(output), |command, (own, form, _)| {
+            let (own, form) = (*own, *form);
+            let old = move |text: &str| match text {
+                "" => Ok((own, PathBuf::new())),
+                _ => form.target(text).map(|path| (own, path)),
+            };
+            command.args(form.aliases().iter().map(|alias| {
+                Arg::new(*alias)
+                    .long(*alias)
+                    .hide(true)
+                    .action(ArgAction::Append)
+                    .num_args(if form == Form::Mjcf { 0..=1 } else { 1..=1 })
+                    .default_missing_value("")
+                    .value_parser(old)
+            }))
+        })
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl<R: Results> FromArgMatches for Outputs<R> {
+    fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
+        let names = R::ALL.iter().flat_map(|(_, form, _)| form.aliases()).chain(&["output"]);
+        let all: Vec<(R, PathBuf)> =
+            names.filter_map(|name| matches.get_many::<(R, PathBuf)>(name)).flatten().cloned().collect();
+        let outputs = Outputs { all };
+        match output::apart(&outputs.named()) {
+            Ok(()) => Ok(outputs),
+            Err(error) => Err(clap::Error::raw(Wrong::ArgumentConflict, format!("{}\n", error.message()))),
+        }
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> std::result::Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl<R: Results> Outputs<R> {
+    /// Whether standard output has a result; the text for people is then left out.
+    pub(super) fn take_standard(&self) -> bool {
+        self.each().any(|(_, path)| output::is_standard(path))
+    }
+
+    /// All results with their paths.
+    pub(super) fn each(&self) -> impl Iterator<Item = (R, &Path)> {
+        self.all.iter().map(|(own, path)| (*own, path.as_path()))
+    }
+
+    /// Whether no result is asked for.
+    pub(super) fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// Paths of a result.
+    pub(super) fn of(&self, result: R) -> impl Iterator<Item = &Path> {
+        self.each().filter(move |(own, _)| *own == result).map(|(_, path)| path)
+    }
+
+    /// First path of a result.
+    pub(super) fn first(&self, result: R) -> Option<&Path> {
+        self.of(result).next()
+    }
+
+    /// All paths as [`output::apart`] takes them.
+    pub(super) fn named(&self) -> Vec<(&'static str, &Path)> {
+        self.each().map(|(_, path)| ("--output", path)).collect()
+    }
+
+    /// Writes every result for which `make` gives a text. A result that cannot be written does not stop the others.
+    ///
+    /// # Errors
+    /// The first of those that stopped a result; the others are shown.
+    pub(super) fn write_some(&self, mut make: impl FnMut(R) -> Result<Option<String>>) -> Result<()> {
+        let mut one = |(own, to): (R, &Path)| make(own)?.map_or(Ok(()), |text| output::write(&text, to));
+        let mut errors: VecDeque<Error> = self.each().filter_map(|found| one(found).err()).collect();
+        let first = errors.pop_front();
+        errors.iter().for_each(output::show);
+        first.map_or(Ok(()), Err)
+    }
+
+    /// Writes every result, as [`Outputs::write_some`].
+    ///
+    /// # Errors
+    /// As there.
+    pub(super) fn write(&self, mut make: impl FnMut(R) -> Result<String>) -> Result<()> {
+        self.write_some(|own| make(own).map(Some))
+    }
+
+    /// Writes every result, then prints the text for people, unless standard output has a result.
+    ///
+    /// # Errors
+    /// Those of [`Outputs::write_some`].
+    pub(super) fn deliver(&self, make: impl FnMut(R) -> Result<String>, text: impl FnOnce() -> String) -> Result<()> {
+        self.write(make)?;
+        if self.take_standard() { Ok(()) } else { output::print(&text()) }
+    }
+}
