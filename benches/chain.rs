@@ -1,5 +1,7 @@
-//! How the cost of a chain of four-bars grows with its length: the case, the analytic sides, numbers in double-double,
-//! and the judgement of the sides. Ratios to the chain of ten times as few links, beside those of n and n log n.
+//! Cost of a chain of four-bars as a function of its length.
+//! It is measured for building the case, the analytic sides, the double-double solution, and the judgement of the
+//! sides.
+//! Cost ratios to a chain with a tenth of the links are printed beside the ratios of n and n log n.
 //!
 //! `cargo bench --bench chain [-- N..]`
 
@@ -11,7 +13,8 @@ use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use prover::run::beside::sides;
 
-/// Timings, of which the shortest counts. What takes longer than a second is timed once.
+/// Number of timings; the shortest counts.
+/// A measurement longer than a second is not repeated.
 const REPEATS: usize = 5;
 
 fn shortest(mut run: impl FnMut()) -> f64 {

@@ -1,5 +1,6 @@
-//! Cost of the harness: an engine's run as a ratio to a bare loop of the same Rapier world with the same settings.
-//! Both are timed in turns in the same process. `cargo bench --bench engine [-- SCENARIO|BUILD|SWEEPS...]`.
+//! Cost of the harness: the time of an engine's run, divided by that of a bare loop of the same Rapier world.
+//! The settings are the same, and the two are timed alternately in one process.
+//! `cargo bench --bench engine [-- SCENARIO|BUILD|SWEEPS...]`.
 
 use linkage::math::KeepNan;
 use std::hint::black_box;
@@ -14,9 +15,9 @@ use rapier_twin::tree::SpanningTree;
 use rapier_twin::{Build, Precision, Rapier};
 use scenario::Scenario;
 
-/// Steps per run. Short runs fit between other activity of the machine.
+/// Steps per run. Runs are short, so that some of them are not disturbed by other activity of the machine.
 const STEPS: usize = 500;
-/// Timings, of which the shortest counts: other activity of the machine only adds time.
+/// Number of timings; the shortest counts, because other activity of the machine only adds time.
 const REPEATS: usize = 40;
 
 fn scenario(name: &str) -> Scenario {
@@ -30,7 +31,7 @@ fn seconds(run: impl FnOnce()) -> f64 {
     since.elapsed().as_secs_f64()
 }
 
-/// The shortest program that only does the steps.
+/// The shortest program that only performs the steps.
 fn bare(engine: &Rapier, build: Build, case: &Case, steps: usize) {
     let tree =
         if build == Build::Impulse { SpanningTree::none(&case.mechanism) } else { SpanningTree::of(&case.mechanism) };

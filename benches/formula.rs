@@ -1,5 +1,6 @@
-//! What judging formulas costs over solving the poses, by value and with both derivatives, over 3600 poses of a turn.
-//! Ratios only, taken in one run: `cargo bench --bench formula`.
+//! Cost of judging formulas, by value and with both derivatives, divided by the cost of solving the poses.
+//! It is measured on 3600 poses of a revolution.
+//! Only ratios from one run are printed: `cargo bench --bench formula`.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -13,7 +14,7 @@ use linkage::trajectory::Trajectory;
 use prover::check::{KnownTrajectory, judge, needed};
 use scenario::{Scenario, files_in};
 
-/// Timings, of which the shortest counts: other activity of the machine only adds time.
+/// Number of timings; the shortest counts, because other activity of the machine only adds time.
 const REPEATS: usize = 15;
 /// Instants of a turn.
 const INSTANTS: usize = 3600;
@@ -40,7 +41,7 @@ fn main() {
         let grid = |first: f64| {
             Grid::of_inputs(crank, (0..INSTANTS).map(|k| first + turn * k as f64 / INSTANTS as f64).collect())
         };
-        // Only those that turn fully are followed over a turn.
+        // Mechanisms that do not turn fully are skipped.
         let Ok(whole) = scenario.case.on(grid(crank.start)) else { continue };
         let mut ratios = Vec::new();
         for (formula, claim) in scenario.formulas.claims() {

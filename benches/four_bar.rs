@@ -1,4 +1,4 @@
-//! A four-bar written out by hand, as in a special-purpose program. It is the measure for the general solver.
+//! A four-bar written by hand, as in a special-purpose program, for comparison with the general solver.
 
 /// Lengths, pivots and masses of one four-bar; SI units, mass centres on the links' centre lines.
 #[derive(Clone, Copy)]
@@ -9,7 +9,7 @@ pub struct FourBar {
     pub coupler: f64,
     /// Length of the rocker.
     pub rocker: f64,
-    /// Pivot of the rocker; the crank's is the origin.
+    /// Pivot of the rocker; the pivot of the crank is the origin.
     pub pivot: [f64; 2],
     /// Masses of crank, coupler, rocker.
     pub mass: [f64; 3],
@@ -27,7 +27,7 @@ pub struct FourBar {
 pub type Forces = [f64; 9];
 
 impl FourBar {
-    /// Positions alone: vectors OA, AB, CB. The general solver also gives a frame of each link.
+    /// Positions alone: vectors OA, AB, CB. The general solver also computes the frame of each link.
     #[inline(never)]
     pub fn positions(&self, angle: f64) -> [f64; 6] {
         let (s, c) = angle.sin_cos();

@@ -1,6 +1,7 @@
-//! Rapier's part of the comparison with other engines in `benches/peers`: error against time of plain runs and of
-//! combinations of runs at h, h/2, h/4, ... as CSV. `cargo bench --bench peers_rapier -- REPEATS FILE...` with the number
-//! of timings, of which the shortest counts, and scenario files.
+//! Rapier's part of the comparison with other engines in `benches/peers`, as CSV.
+//! It gives error and time of single runs, and of combinations of runs at h, h/2, h/4, ...
+//! `cargo bench --bench peers_rapier -- REPEATS FILE...` takes the number of timings, of which the shortest counts, and
+//! scenario files.
 
 use linkage::math::KeepNan;
 use std::path::Path;
@@ -14,15 +15,16 @@ use linkage::trajectory::{Stage, Trajectory};
 use rapier_twin::{Build, Precision, Rapier};
 use scenario::Scenario;
 
-/// Channels that are compared, the crank angle apart.
+/// Compared channels, besides the crank angle.
 const CHANNELS: [&str; 2] = ["joint.B.fx_N", "joint.B.fy_N"];
 /// Steps (s) of the coarsest runs.
 const STEPS: [f64; 6] = [1e-3, 7e-4, 5e-4, 4.5e-4, 3.5e-4, 2.5e-4];
-/// Most runs in a combination.
+/// Largest number of runs in a combination.
 const RUNS: usize = 5;
-/// Finest step (s): below it second differences are rounding noise.
+/// Finest step (s); with smaller steps, second differences are rounding noise.
 const FINEST: f64 = 1.2e-5;
-/// Sweeps a step. More change nothing; with 8 the reaction at the first instant is wrong by a few percent.
+/// Sweeps per step.
+/// More sweeps change nothing; with 8 sweeps the reaction at the first instant is wrong by a few percent.
 const SWEEPS: [usize; 2] = [12, 16];
 
 /// Crank angle (rad) and reaction (N) over the grid, and the shortest time of the run (s).
@@ -38,17 +40,18 @@ fn columns(trajectory: &Trajectory) -> Vec<Vec<f64>> {
     [cranks].iter().chain(&forces).map(|column| column.to_vec()).collect()
 }
 
-/// Time (s) that this thread has used; where Linux does not tell, time on the clock.
-/// Other work on the machine then disturbs less.
+/// Processor time (s) of this thread; other work on the machine hardly disturbs it.
+/// Without Linux, the elapsed time since `since`.
 fn used(since: Instant) -> f64 {
-    // Linux brings the number up to date when the thread yields.
+    // Linux updates the processor time when the thread yields.
     std::thread::yield_now();
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = told.and_then(|told| told.split_whitespace().next()?.parse::<f64>().ok());
     nanoseconds.map_or_else(|| since.elapsed().as_secs_f64(), |nanoseconds| nanoseconds * 1e-9)
 }
 
-/// The run of a case at a step with so many sweeps, and the shortest times of it with and without reading reactions.
+/// Runs a case with this step and number of sweeps.
+/// Returns the values, and the shortest times with and without reading reactions.
 fn run(case: &Case, step: f64, sweeps: usize, repeats: usize) -> Option<Run> {
     let engine = Rapier::new(Build::Multibody, Precision::Double, step);
     let engine = engine.set(Settings { sweeps, ..engine.settings() });
@@ -66,14 +69,15 @@ fn run(case: &Case, step: f64, sweeps: usize, repeats: usize) -> Option<Run> {
     Some(Run { columns: columns(&found?), seconds, bare })
 }
 
-/// Weights of runs at h, h/2, h/4, ... for the limit at step zero, when the error is a series in all powers of h.
+/// Weights of the runs at h, h/2, h/4, ... for extrapolation to step zero.
+/// They assume an error that is a series in all powers of h.
 fn weights(runs: usize) -> Vec<f64> {
     let at = |k: usize| 0.5f64.powi(k as i32);
     let others = |k: usize| (0..runs).filter(move |&j| j != k);
     (0..runs).map(|k| others(k).map(|j| at(j) / (at(j) - at(k))).product()).collect()
 }
 
-/// Largest errors over the instants, as shares of the channels' ranges, and the instant of the largest of the forces.
+/// Largest errors over the instants, divided by the channels' ranges, and the instant of the largest force error.
 fn errors(reference: &[Vec<f64>], found: &[&Run]) -> ([f64; 2], usize) {
     let weights = weights(found.len());
     let (mut worst, mut place) = ([0.0f64; 2], 0);

@@ -1,5 +1,5 @@
 //! Cost of one pose: positions, velocities, accelerations, all reactions and the balancing moment.
-//! It is given as a ratio to a four-bar written out by hand and timed in the same process. `cargo bench --bench pose`.
+//! It is divided by the cost of a four-bar written by hand and timed in the same process. `cargo bench --bench pose`.
 
 mod four_bar;
 
@@ -16,9 +16,9 @@ use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 use scenario::Scenario;
 
-/// Poses per timing: one turn in as many steps.
+/// Poses per timing, over one turn.
 const POSES: usize = 3600;
-/// Timings, of which the shortest counts: other activity of the machine only adds time.
+/// Number of timings; the shortest counts, because other activity of the machine only adds time.
 const REPEATS: usize = 200;
 
 fn scenario(name: &str) -> Scenario {
@@ -26,7 +26,7 @@ fn scenario(name: &str) -> Scenario {
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Shortest time of a turn, per pose (ns).
+/// Shortest time of `turn`, divided by the number of poses (ns).
 fn shortest(mut turn: impl FnMut()) -> f64 {
     let time = |_| {
         let since = Instant::now();
@@ -57,7 +57,7 @@ fn by_hand(scenario: &Scenario) -> FourBar {
     }
 }
 
-/// Both must compute the same, or the ratio means nothing.
+/// Asserts that both solutions are equal; otherwise the ratio is meaningless.
 fn check(scenario: &Scenario, hand: &FourBar) {
     let omega = scenario.case.crank().at(0.0).rate;
     let mut poses = PoseSolver::new(&scenario.case).unwrap();
@@ -71,7 +71,7 @@ fn check(scenario: &Scenario, hand: &FourBar) {
     }
 }
 
-/// What is timed of a mechanism.
+/// The timed part of a mechanism's solution.
 #[derive(Clone, Copy, Debug)]
 enum Part {
     All,
@@ -81,7 +81,7 @@ enum Part {
 
 const PARTS: [(&str, Part); 3] = [("all", Part::All), ("positions", Part::Positions), ("batch", Part::Batch)];
 
-/// Solves one turn of a mechanism whenever it is called.
+/// Returns a function that solves one revolution of a mechanism.
 fn turns_of(case: &Case, part: Part) -> Box<dyn FnMut() + '_> {
     let (start, omega) = (case.crank().start, case.crank().at(0.0).rate);
     let one_by_one = |deepest: Stage| -> Box<dyn FnMut() + '_> {
@@ -99,7 +99,7 @@ fn turns_of(case: &Case, part: Part) -> Box<dyn FnMut() + '_> {
         Part::Batch => {
             let cranks: Vec<f64> = (0..POSES).map(|k| start + angle(k)).collect();
             let mut found = Poses::new();
-            // A new batch for every turn, because one that has been used knows the anchors of its higher groups.
+            // Every revolution uses a new batch: a used batch already knows the anchors of its higher groups.
             Box::new(move || {
                 let mut batch = Batch::of(case).unwrap();
                 batch.solve(black_box(&cranks), omega, 0.0, Stage::BalancingMoment, &mut found).unwrap();
@@ -110,7 +110,7 @@ fn turns_of(case: &Case, part: Part) -> Box<dyn FnMut() + '_> {
     }
 }
 
-/// Solves a few turns and nothing else, for programs that count instructions:
+/// Only solves a few revolutions, without timing, for programs that count instructions:
 /// `valgrind --tool=callgrind target/release/deps/pose-... --turns ov7_new all 3`.
 fn count(name: &str, part: &str, turns: usize) {
     if name == "hand" {

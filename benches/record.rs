@@ -1,5 +1,6 @@
-//! What a recording costs: beside the proof it keeps, and beside the plain MCAP writer that is given the same messages
-//! ready made. Ratios only, taken in one run: `cargo bench --bench record`.
+//! Cost of writing a recording, divided by the cost of the proof that it stores.
+//! Also divided by the cost of the plain MCAP writer for the same prepared messages.
+//! Only ratios from one run are printed: `cargo bench --bench record`.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -17,9 +18,9 @@ use mcap::{Channel, MessageStream, WriteOptions};
 use recording::{RecordedSide, Recording, Show, write};
 use scenario::Scenario;
 
-/// Timings, of which the shortest counts: other activity of the machine only adds time.
+/// Number of timings; the shortest counts, because other activity of the machine only adds time.
 const REPEATS: usize = 9;
-/// Samples a second of the mechanism's time, and in the long recording of one turn.
+/// Samples per second of mechanism time; in the long recording, samples per revolution.
 const RATE: f64 = 1000.0;
 const LONG: usize = 20_000;
 
@@ -59,7 +60,7 @@ fn record(scenario: &Scenario, sides: &[RecordedSide], errors: Option<&Trajector
     write(&recording, path).unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// A message as it stands in a file.
+/// A message as stored in a file.
 struct Ready<'a> {
     channel: Arc<Channel<'a>>,
     header: MessageHeader,
@@ -77,7 +78,7 @@ fn messages(bytes: &[u8]) -> Vec<Ready<'_>> {
     all
 }
 
-/// The same messages by the writer of the MCAP library, with its own settings.
+/// Writes the same messages with the MCAP library's writer at its default settings.
 fn plain(messages: &[Ready<'_>], path: &Path) {
     let mut writer = WriteOptions::new().create(BufWriter::new(File::create(path).unwrap())).unwrap();
     let mut topics: BTreeMap<&str, u16> = BTreeMap::new();
@@ -88,7 +89,7 @@ fn plain(messages: &[Ready<'_>], path: &Path) {
     writer.finish().unwrap();
 }
 
-/// Adds a channel of another file.
+/// Adds a channel read from another file.
 trait FromChannel {
     fn add_channel_from(&mut self, channel: &Channel) -> u16;
 }

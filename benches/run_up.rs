@@ -1,7 +1,8 @@
 //! Cost of a run-up at several accuracies, with the crank alone and with all channels, and of the steady motion.
-//! The run-up is half a second of `crank_rocker`, 501 output points. `cargo bench --bench run_up`.
+//! The run-up is half a second of `crank_rocker`, 501 output points.
+//! `cargo bench --bench run_up`.
 //!
-//! What comes of an accuracy does not depend on the clock and stands in `tests/suite/bench.rs`.
+//! The errors at these accuracies do not depend on the clock, and are tested in `tests/suite/bench.rs`.
 
 use std::path::Path;
 use std::sync::LazyLock;
@@ -26,7 +27,7 @@ fn main() {
     divan::main();
 }
 
-/// Range of motion and kinks.
+/// The reduced model: range of motion and kinks.
 #[divan::bench]
 fn model(bencher: Bencher) {
     let case = &*CASE;

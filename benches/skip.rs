@@ -1,5 +1,6 @@
-//! What a question costs against everything: the whole solution, stored, by both sides and by Rapier at one setting.
-//! Ratios only, taken in one run: `cargo bench --bench skip`.
+//! Cost of answering a single question, divided by the cost of the whole stored solution.
+//! It is measured for both sides, and for Rapier at one setting.
+//! Only ratios from one run are printed: `cargo bench --bench skip`.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -12,13 +13,13 @@ use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use scenario::Scenario;
 
-/// Timings, of which the shortest counts: other activity of the machine only adds time.
+/// Number of timings; the shortest counts, because other activity of the machine only adds time.
 const REPEATS: usize = 15;
 /// Instants of a turn.
 const INSTANTS: usize = 3600;
 
-/// Mechanisms with their questions: all positions, a point of the first group, one of the last, its motion without
-/// forces, and one joint.
+/// Mechanisms with their questions: all positions, positions of a point of the first or the last group, a point's whole
+/// motion without forces, and one joint.
 const QUESTIONS: [(&str, &[&str]); 4] = [
     ("crank_rocker", &["positions", "point.B.positions", "joint.B"]),
     ("ov7_base", &["positions", "point.3.positions", "point.9.positions", "point.9", "joint.7"]),

@@ -1,10 +1,10 @@
-//! Time of the settings that `tune` chooses, against the cheapest settings of an exhaustive search.
-//! Both are timed in turns.
+//! Time of the settings that `tune` chooses, divided by the time of the cheapest settings of an exhaustive search.
+//! The two are timed alternately.
 //! The search covers engines, routes, extrapolation, substeps, sweeps and steps.
 //! `cargo bench --bench tune [-- SCENARIO...]`.
-//! With `-- prices` it measures what the price model of `crates/lab/src/tune/price.rs` needs.
-//! With `-- whole` it searches the whole space of the price model for three required accuracies.
-//! That fails where `tune` misses its promise.
+//! With `-- prices` it measures the constants of the cost model in `crates/lab/src/tune/price.rs`.
+//! With `-- whole` it searches the whole space by the cost model, for three required accuracies.
+//! It fails if `tune` breaks its promise.
 
 use linkage::math::KeepNan;
 use std::hint::black_box;
@@ -28,10 +28,10 @@ use exhaustive::{Met, REFERENCES, Space, cheaper, error_of, thinned, truth};
 use near::near_the_cheapest;
 
 const WITHIN: f64 = 1e-3;
-/// Only every so many instants of a scenario's grid are compared.
+/// Only every eighth instant of a scenario's grid is compared.
 const EVERY: usize = 8;
 const SPACE: Space = Space { sweeps: &[4, 8, 16, 32, 64, 128, 256], factor: 1.15 };
-/// Timings in turns, of which the shortest counts: other activity of the machine only adds time.
+/// Number of alternating timings; the shortest counts, because other activity of the machine only adds time.
 const REPEATS: usize = 7;
 /// Number of cheapest settings of the exhaustive search that are timed again.
 const FINALISTS: usize = 5;
@@ -41,7 +41,7 @@ fn scenario(name: &str) -> Scenario {
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Seconds per run, the shortest of `repeats`; infinite if it fails.
+/// Shortest time of `repeats` runs (s); infinite if a run fails.
 fn seconds(engine: &dyn Engine, case: &Case, repeats: usize) -> f64 {
     let mut shortest = f64::INFINITY;
     for _ in 0..repeats {
@@ -54,7 +54,8 @@ fn seconds(engine: &dyn Engine, case: &Case, repeats: usize) -> f64 {
     shortest
 }
 
-/// The price of a row's settings: a constant plus a part proportional to the number of steps, fitted to runs at two steps.
+/// Cost of the settings of a row: a constant plus a part proportional to the number of steps.
+/// Runs at two steps determine the two parts.
 struct Clock<'a> {
     case: &'a Case,
     row: Option<(Settings, &'static str)>,
@@ -73,7 +74,7 @@ impl Clock<'_> {
             let slope = (b - a) / (1.0 / fine - 1.0 / coarse);
             self.fit = [b - slope / fine, slope];
         }
-        // If a run of one degree per step fails, nothing is known, and no requirement would be met.
+        // If a run with steps of one degree fails, the cost is unknown and counts as infinite.
         let price = self.fit[0] + self.fit[1] / own.resolution;
         if price.is_finite() { price } else { f64::INFINITY }
     }
@@ -181,7 +182,8 @@ fn measure_prices() {
     println!("unit: {:.2} us", unit * 1e6);
 }
 
-/// Three required accuracies on the whole space, by the price model: no timing, but minutes of run time.
+/// Compares by the cost model on the whole space, for three required accuracies.
+/// Nothing is timed, but it runs for minutes.
 fn whole(names: &[&str]) {
     const SWEEPS: &[usize] = &[1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024];
     const WHOLE: Space = Space { sweeps: SWEEPS, factor: 1.1 };
@@ -201,7 +203,7 @@ fn main() {
     let named = |name: &&str| words.len() == usize::from(of_model) || words.iter().any(|word| word == name);
     let names: Vec<&str> = REFERENCES.into_iter().filter(named).collect();
     if of_model {
-        // The searches are not timed, so both halves run at the same time.
+        // The searches are not timed, so both halves run in parallel.
         let (one, other) = names.split_at(names.len() / 2);
         return std::thread::scope(|scope| {
             scope.spawn(|| whole(one));

@@ -1,5 +1,5 @@
-//! Error against time of every engine, by every route, raw and extrapolated: a Markdown table for docs/engines.md.
-//! `cargo bench --bench work_precision [-- SCENARIO]`, with `--features simbody` for that engine too.
+//! Error and time of every engine, with every route, raw and extrapolated: a Markdown table for docs/engines.md.
+//! `cargo bench --bench work_precision [-- SCENARIO]`; with `--features simbody` it includes that engine.
 
 use linkage::math::KeepNan;
 use std::path::Path;
@@ -15,11 +15,12 @@ use scenario::Scenario;
 
 /// Steps of fixed-step engines, in degrees of crank angle.
 const STEPS: [f64; 3] = [0.8, 0.24, 0.08];
-/// Accuracies of engines that control their error.
+/// Requested accuracies of engines that control their error.
 const ACCURACIES: [f64; 2] = [1e-4, 1e-10];
-/// Timings, of which the shortest counts. Runs longer than a second are timed once.
+/// Number of timings; the shortest counts. Runs longer than a second are timed once.
 const REPEATS: usize = 3;
-/// Sweeps of the multibody build: enough here, because of the flywheel. The impulse build needs all of its default.
+/// Sweeps of the multibody build; the flywheel makes this number sufficient here.
+/// The impulse build needs its full default number.
 const SWEEPS: usize = 256;
 
 struct Row {
@@ -30,7 +31,7 @@ struct Row {
     seconds: f64,
 }
 
-/// Largest error divided by the scale, over the channels of some stages.
+/// Largest error divided by the channel's scale, over the channels of some stages.
 fn error(reference: &Trajectory, found: &Trajectory, stages: &[Stage]) -> f64 {
     let residuals = residuals(reference, found).expect("both stand on one grid");
     let own = residuals.iter().filter(|r| stages.contains(&r.channel.kind.stage));

@@ -1,9 +1,10 @@
-//! Compares a user's own solver with both analytic sides: a crank-rocker by Freudenstein's equation.
+//! Compares a user's solver with both analytic sides: a crank-rocker by Freudenstein's equation.
 //!
-//! It takes the geometry from the case, finds only angles and angular velocities, and is compared in these.
+//! The solver takes the geometry from the case and computes only angles and angular velocities, which are compared.
 //!
-//! `cargo run --release --example own_solver`. In a crate that takes them from the registry, the manifest names them as this
-//! workspace does: `linkage = { package = "linkproof-linkage", version = "0.1" }`, and `prover` in the same way.
+//! `cargo run --release --example own_solver`.
+//! A crate that takes the crates from the registry names them in its manifest as this workspace does.
+//! The names are `linkage = { package = "linkproof-linkage", version = "0.1" }`, and `prover` in the same way.
 
 use linkage::error::Result;
 use linkage::math::{Motion, Vec2, unit};

@@ -1,4 +1,4 @@
-//! Proves a scenario file, and prints which channel uses most of its bound.
+//! Proves a scenario file, and prints the channel with the largest ratio of error to bound.
 //!
 //! `cargo run --release --example prove_file -- scenarios/ov7_base.toml`
 

@@ -1,9 +1,10 @@
-//! Writes random correct mechanisms as scenario files: four-bars, dyads with and without sliders, higher groups, with
-//! prescribed and free motions. The same seed gives the same files.
+//! Writes random correct mechanisms as scenario files: four-bars, dyads with and without sliders, higher groups.
+//! Their motions are prescribed or free.
+//! The same seed gives the same files.
 //!
 //! `cargo run --release --example random_mechanisms -- --seed 1 --count 400 --out DIR [--from 0] [--no-step]`
 //!
-//! The mechanisms have the numbers from `--from` on, and each depends on its number and the seed only.
+//! The numbering of the mechanisms starts at `--from`; each mechanism depends only on its number and the seed.
 //! With `--no-step` the files have no `[engine]` section.
 
 #[allow(dead_code, unused_imports)]

@@ -1,9 +1,9 @@
-//! Runs a built `linkproof run` over many scenario files, and counts how they end.
+//! Runs a built `linkproof run` on many scenario files, and counts the outcomes.
 //!
 //! `cargo run --release --example random_run -- BINARY FILE_OR_DIR.. [--jobs 2] [--limit SECONDS] [-- OPTIONS OF RUN]`
 //!
-//! It prints one line for each file that does not agree, the counts, and the processor time of all runs together.
-//! Any binary can be given, so that two states of the program can be compared.
+//! It prints one line for each file that does not agree, the counts, and the total processor time of the runs.
+//! The binary is an argument, so that two versions of the program can be compared.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io::Read;
@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-/// How a run ended, and why.
+/// Outcome of a run, and its reason.
 struct Outcome {
     word: &'static str,
     why: String,
@@ -74,7 +74,7 @@ fn listed(path: &Path) -> Vec<PathBuf> {
 fn run(binary: &str, file: &Path, limit: Duration, further: &[String]) -> Outcome {
     let since = Instant::now();
     let mut command = Command::new(binary);
-    command.arg("run").arg(file).args(["--no-record", "--json", "-"]).args(further);
+    command.arg("run").arg(file).args(["--no-record", "-o", "-"]).args(further);
     let spawned = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
     let mut child = spawned.unwrap_or_else(|error| panic!("{binary}: {error}"));
     let reader = |mut from: Box<dyn Read + Send>| {
@@ -107,7 +107,7 @@ fn run(binary: &str, file: &Path, limit: Duration, further: &[String]) -> Outcom
     Outcome { word, why, seconds: since.elapsed().as_secs_f64() }
 }
 
-/// Verdict, and what is to blame for it: the check or channel that uses most of its bound, or the widest bound.
+/// Verdict and its cause: the check or channel with the largest ratio to its bound, or the one with the widest bound.
 fn judged(report: &Value) -> (&'static str, String) {
     let Some(run) = report["runs"].get(0) else {
         let error = &report["errors"][0];
@@ -152,11 +152,11 @@ fn judged(report: &Value) -> (&'static str, String) {
     (word, why.join("; ").replace('\n', " "))
 }
 
-/// Processor time of all finished children (s), as Linux counts it in hundredths of a second.
+/// Processor time of all finished child processes (s); Linux counts it in hundredths of a second.
 fn processor_time() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or("").split_whitespace().collect();
     let ticks = |place: usize| fields.get(place).and_then(|text| text.parse::<f64>().ok()).unwrap_or(f64::NAN);
-    // The 16th and 17th field; the first two end with the bracket.
+    // Fields 16 and 17 of the file; `fields` begins with field 3, after the closing bracket.
     (ticks(13) + ticks(14)) / 100.0
 }

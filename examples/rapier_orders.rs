@@ -2,8 +2,9 @@
 //!
 //! `cargo run --release --example rapier_orders -- SCENARIO DEG [ENGINE,..] [ROUTE,..] [plain|extrapolated] [SWEEPS]`
 //!
-//! It prints the largest error of any channel of a stage over half its range at a step of DEG degrees of the crank.
-//! It also prints the order observed between that step and half of it.
+//! For each stage it prints the largest error of any channel, divided by half of the channel's range.
+//! The step is DEG degrees of the crank.
+//! It also prints the order of convergence observed between this step and half of it.
 
 use std::path::Path;
 use std::time::Instant;

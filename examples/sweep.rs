@@ -1,4 +1,4 @@
-//! A sweep of ten thousand poses by the batch call, as dense as needed: the largest balancing moment of a turn.
+//! Largest balancing moment of a turn, from ten thousand poses solved in one batch call.
 //!
 //! `cargo run --release --example sweep -- scenarios/ov7_base.toml`
 

@@ -1,26 +1,29 @@
-//! Formulas against a mechanism, over its whole motion.
+//! Checks formulas against a mechanism over its whole motion.
 
 use linkage::error::{Error, ErrorKind, Result};
 use prover::run::solved::{Claimed, judge};
 use scenario::formula::{fault_of_claim, refused};
 use scenario::{Claim, Scenario};
 
-/// A formula that is claimed to be a channel of a mechanism: what [`check_formula`] judges.
+/// A formula, and the channel of a mechanism that the formula claims to equal.
+/// [`check_formula`] judges it.
 #[derive(Clone, Debug, Default)]
 pub struct FormulaQuestion {
-    /// The formula, over the crank angle `phi` (rad), the time `t` (s), parameters and formulas of the scenario.
+    /// The formula: a function of the crank angle `phi` (rad), the time `t` (s), and parameters and formulas of the
+    /// scenario.
     pub formula: String,
-    /// What it claims to be: a channel in its unit, such as `link.rocker.angle_deg`, or an arithmetic of channels.
+    /// The quantity that the formula claims to equal: a channel in its unit, such as `link.rocker.angle_deg`, or an
+    /// expression of channels.
     pub channel: String,
-    /// Steps of the derivation, by their names: formulas that those after them and `formula` may use.
+    /// Steps of the derivation, by name: formulas that later steps and `formula` may use.
     pub steps: Vec<(String, String)>,
-    /// First and last crank angle (rad) for which the formula is claimed.
+    /// First and last crank angle (rad) between which the formula is claimed to hold.
     pub valid: [Option<f64>; 2],
-    /// Error that it is claimed to have, in the channel's unit: for series and approximations.
+    /// Claimed error in the channel's unit, for series and approximations.
     pub error: Option<f64>,
 }
 
-/// What messages call the parts of a [`FormulaQuestion`].
+/// Names that messages use for the parts of a [`FormulaQuestion`].
 pub(crate) struct Words {
     pub formula: &'static str,
     pub channel: &'static str,
@@ -37,7 +40,7 @@ impl FormulaQuestion {
         FormulaQuestion { formula: formula.into(), channel: channel.into(), ..FormulaQuestion::default() }
     }
 
-    /// The scenario that asks this, and nothing of what its file claims.
+    /// The scenario with only this question, without the claims of its file.
     pub(crate) fn of_scenario(&self, mut scenario: Scenario, words: &Words) -> Result<Scenario> {
         scenario.formulas.list.iter_mut().for_each(|formula| formula.claim = None);
         for (name, text) in &self.steps {
@@ -57,9 +60,10 @@ impl FormulaQuestion {
     }
 }
 
-/// Judges every `[[formula]]` of a scenario that claims a channel: by value and by its derivatives, at all instants of
-/// the grid and against both analytic sides, within the rounding of the formula. A wrong one is explained, where that
-/// is simple.
+/// Judges every `[[formula]]` of a scenario that claims a channel.
+/// The values and the derivatives of the formula are compared with both analytic sides at all instants of the grid.
+/// The bound is the rounding of the formula.
+/// If a formula is wrong and the cause is simple, the result names the cause.
 ///
 /// ```
 /// use linkproof::{Scenario, check};
@@ -71,12 +75,13 @@ impl FormulaQuestion {
 /// ```
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if no formula claims a channel, and those of the sides, with the crank angle.
+/// [`ErrorKind::Input`] if no formula claims a channel.
+/// Also the errors of the sides, with the crank angle.
 pub fn check(scenario: &Scenario) -> Result<Claimed> {
     judge(scenario)
 }
 
-/// Judges one formula against a scenario, as [`check`] does those of its file.
+/// Judges one formula against a scenario, as [`check`] judges the formulas of a file.
 ///
 /// ```
 /// use linkproof::parts::FormulaQuestion;
@@ -92,7 +97,8 @@ pub fn check(scenario: &Scenario) -> Result<Claimed> {
 /// ```
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for a formula or channel that is not understood, with its place; those of [`check`].
+/// [`ErrorKind::Input`] for an invalid formula or channel, with its location.
+/// Also the errors of [`check`].
 pub fn check_formula(scenario: &Scenario, question: &FormulaQuestion) -> Result<Claimed> {
     check(&question.of_scenario(scenario.clone(), &WORDS)?)
 }

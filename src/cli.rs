@@ -45,6 +45,7 @@ use std::process::ExitCode;
 
 use crate::plain::style::wrapped;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use linkage::error::Result;
 use output::End;
 
 /// Most columns of help.
@@ -58,7 +59,7 @@ struct Cli {
     command: Command,
 }
 
-/// The commands: what each is for, its arguments, and what runs it.
+/// The commands: purpose, arguments, and function.
 macro_rules! commands {
     ($($group:literal { $($(#[$about:meta])* $name:ident($args:ty) = $run:path,)* })*) => {
         #[derive(Debug, Subcommand)]
@@ -67,7 +68,7 @@ macro_rules! commands {
         }
 
         impl Command {
-            /// Commands by what one comes for.
+            /// Commands by purpose.
             const GROUPS: &[(&str, &[&str])] = &[$(($group, &[$(stringify!($name)),*])),*];
 
             fn run(&self) -> u8 {
@@ -81,15 +82,18 @@ macro_rules! commands {
 
 commands! {
     "Prove" {
-        /// Write a mechanism to begin with: a commented scenario, with dimensions as options
+        /// Write a first mechanism: a commented scenario, with dimensions as options
         New(new::Args) = new::new,
-        /// Solve scenarios both ways, compare, check, record, and say whether the two sides agree
+        /// Solve scenarios analytically and with an engine, compare the solutions, record them, and say whether they
+        /// agree
         Run(Box<run::Args>) = run::run,
-        /// Keep the figures of proven scenarios in files beside them, and judge later runs by these, within their bounds
+        /// Store the figures of proven scenarios in files beside them, and judge later runs against these figures and
+        /// their bounds
         Accept(accept::Args) = accept::run,
         /// Judge formulas over the whole motion, by value and by derivative, against both analytic sides
         Check(check::Args) = check::check,
-        /// Hold a table, a recording or another scenario against a scenario, or two of them against each other
+        /// Compare a table, a recording or another scenario with a scenario, or two tables or recordings with each
+        /// other
         Compare(compare::Args) = compare::compare,
         /// Solve a scenario with one solver and write the solution as CSV, one row per instant
         Solve(solve::Args) = solve::solve,
@@ -104,7 +108,7 @@ commands! {
         Plan(plan::Args) = plan::plan,
         /// Velocity and acceleration from a displacement by the chord method, and back, with their errors
         Diagram(diagram::Args) = diagram::diagram,
-        /// Show a recording: in Rerun, seen from above beside plots of both sides, or with a layout for Foxglove
+        /// Show a recording in Rerun or Foxglove: the mechanism from above, beside plots of both sides
         View(view::Args) = view::view,
         /// List scenarios, or the available channels and solvers
         List(list::Args) = list::list,
@@ -114,36 +118,38 @@ commands! {
         Bearings(bearings::Args) = bearings::bearings,
         /// Smallest distances of links from each other and from a housing over the whole turn, first collision, swept areas
         Clearance(clearance::Args) = clearance::clearance,
-        /// The mechanism reduced to its crank, its steady motion under its motor, flywheel and run-up; choice of a motor
+        /// The mechanism reduced to its crank; its steady motion under its motor; flywheel and run-up; choice of a
+        /// motor
         Drive(drive::Args) = drive::drive,
-        /// Find dimensions for a wanted motion: crank-rocker and slider-crank in closed form, any linkage by search
+        /// Find dimensions for a required motion: crank-rocker and slider-crank in closed form, any linkage by search
         Synthesize(synthesize::Args) = synthesize::synthesize,
         /// Write a mechanism for another program: MuJoCo's MJCF, or JSON
         Export(export::Args) = export::export,
     }
     "Study" {
-        /// Find the cheapest settings of an engine that meet a wanted error, by measurement
+        /// Find the cheapest settings of an engine that reach a required accuracy, by measurement
         Tune(tune::Args) = tune::run,
-        /// Turn one dial at a time until numbers are lost: where every solver and engine holds to, with maps of stability
+        /// Change one parameter at a time until results become wrong: the limit of every solver and engine, with maps
+        /// of stability
         Stress(stress::Args) = stress::run,
-        /// Plant faults in one party of a proof, or in what all share, and say which are found
+        /// Plant faults in one party of a proof, or in code that all parties share, and say which faults are found
         Mutate(mutate::Args) = mutate::run,
         /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and numbers
         Bench(bench::Args) = bench::run,
     }
     "Help" {
-        /// Show a page of the documents
+        /// Show a page of the documentation
         Docs(docs::Args) = docs::docs,
-        /// Write the format of scenario files as a JSON Schema, by which editors complete and check keys
+        /// Write the JSON Schema of scenario files, with which editors complete and check keys
         Schema(schema::Args) = schema::schema,
-        /// Write the completions of a shell
-        Completions(completions::Args) = completions::run,
+        /// Write the command-line completions for a shell
+        Completions(completions::Args) = completions,
         /// Write the manual: the page of linkproof, or the pages of all commands
-        Man(man::Args) = man::run,
+        Man(man::Args) = man,
     }
 }
 
-/// The command line with its commands listed by what one comes for.
+/// The command line with its commands listed by purpose.
 fn command() -> clap::Command {
     let command = Cli::command();
     let mut listed = String::new();
@@ -159,6 +165,14 @@ fn command() -> clap::Command {
     command.help_template(format!(
         "{{about-with-newline}}\n{{usage-heading}} {{usage}}{listed}\n\nOptions:\n{{options}}{{after-help}}"
     ))
+}
+
+fn completions(args: &completions::Args) -> Result<()> {
+    completions::run(args, Cli::command())
+}
+
+fn man(args: &man::Args) -> Result<()> {
+    man::run(args, Cli::command())
 }
 
 /// Runs the command line and returns its exit code.
@@ -181,10 +195,12 @@ mod tests {
         Cli::command().debug_assert();
     }
 
-    /// Commands that need no room besides `src/cli/NAME.rs`: their work is done by the solvers, the scenario or the documents.
+    /// Commands without a separate module besides `src/cli/NAME.rs`: the solvers, the scenario or the documents do
+    /// their work.
     const ONLY_HERE: [&str; 9] = ["completions", "docs", "inspect", "list", "man", "new", "schema", "solve", "view"];
 
-    /// From a command's name to its room in one hop: `src/cli/NAME.rs`, and the room `NAME` of the crate that does the work.
+    /// A command's name leads directly to its code: to `src/cli/NAME.rs`, and to the module `NAME` of the crate that
+    /// does the work.
     #[test]
     fn every_command_has_a_room_of_its_name() {
         let top = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -197,7 +213,7 @@ mod tests {
         }
     }
 
-    /// Our documents: those of the top, of `docs` and of the example for Python.
+    /// The documents of the repository: those at the top, in `docs`, and in the Python example.
     fn documents() -> Vec<PathBuf> {
         let top = Path::new(env!("CARGO_MANIFEST_DIR"));
         let all =
@@ -208,7 +224,7 @@ mod tests {
         files
     }
 
-    /// Commands in the blocks of shell and CI files of a document, with lines that go on joined.
+    /// Commands in the shell and CI blocks of a document, with continuation lines joined.
     fn commands(page: &str) -> Vec<Vec<String>> {
         let mut found = Vec::new();
         let mut language = None;
@@ -223,32 +239,32 @@ mod tests {
         found
     }
 
-    /// The words of the line from `linkproof` on, or from where `cargo run` hands them over, up to where the shell would
-    /// end the command.
+    /// The words of a line from `linkproof` to the end of the command, such as a pipe or `;`.
+    /// For a line with `cargo run`, the words begin at `--`.
     fn command(line: &str) -> Option<Vec<String>> {
         let words = shlex::split(line).unwrap_or_else(|| panic!("no shell understands {line}"));
         let is_ours = |word: &String| word == "linkproof" || word.ends_with("/linkproof") && !word.contains('=');
         let is_run =
             words.starts_with(&["cargo".into(), "run".into()]) && !words.iter().any(|word| word == "--example");
         let start = words.iter().position(|word| if is_run { word == "--" } else { is_ours(word) })?;
-        // Before it stand only a list's or a key's sign, and variables.
+        // Only a list marker, `run:` and variable assignments may precede the command.
         let begins = |word: &String| matches!(word.as_str(), "-" | "run:") || word.contains('=');
         let ends = |word: &&String| !matches!(word.as_str(), "|" | ">" | ">>" | "&&" | ";");
         let words: Vec<String> = words[..start]
             .iter()
             .all(|word| is_run || begins(word))
             .then(|| words[start..].iter().take_while(ends).cloned().collect())?;
-        // Alone it is a name, not a command.
+        // A single word is a name, not a command.
         (words.len() > 1).then_some(words)
     }
 
     #[test]
-    fn every_command_of_the_documents_is_understood() {
+    fn every_command_in_the_documents_parses() {
         let mut count = 0;
         for file in documents() {
             for words in commands(&fs::read_to_string(&file).unwrap()) {
                 if let Err(error) = Cli::try_parse_from(&words) {
-                    // Help is no error, but an answer.
+                    // Help is a result, not an error.
                     assert_eq!(error.exit_code(), 0, "{}: {}\n{error}", file.display(), words.join(" "));
                 }
                 count += 1;
@@ -263,16 +279,16 @@ mod tests {
         std::iter::once(command.clone()).chain(inner).collect()
     }
 
-    /// Commands of the examples of a help, with lines that go on joined; what they do stands behind two blanks.
+    /// Example commands of a help text, with continuation lines joined; an explanation follows after two blanks.
     fn examples(help: &str) -> Vec<Vec<String>> {
         let joined: String = help.split("\\\n").map(str::trim_start).collect();
         let lines = joined.lines().filter_map(|line| line.strip_prefix("  linkproof "));
         lines.map(|line| command(&format!("linkproof {}", line.split("  ").next().unwrap())).unwrap()).collect()
     }
 
-    /// The first example brings the files that the others name; the program carries them.
+    /// The first example creates the files that the other examples name; the program contains these files.
     #[test]
-    fn every_example_of_help_is_understood_and_has_its_files() {
+    fn every_help_example_parses_and_its_files_are_shipped() {
         let shipped = crate::shipped::files();
         let is_there = |word: &str| {
             let (begin, end) = word.split_once('*').unwrap_or((word, ""));
@@ -300,9 +316,9 @@ mod tests {
         assert!(count >= 90, "only {count} examples are found");
     }
 
-    /// Whoever has installed the program has no other files of the repository.
+    /// An installed program has only the embedded files of the repository.
     #[test]
-    fn no_option_points_at_a_file_that_is_not_there() {
+    fn help_texts_name_no_repository_file() {
         for command in with_all(&Cli::command()) {
             let told = command.clone().render_long_help().to_string();
             for word in told.split_whitespace() {
@@ -315,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn a_command_that_is_not_understood_is_found_wherever_it_stands() {
+    fn an_invalid_command_is_found_in_any_code_block() {
         for block in [
             "```sh\nlinkproof prove a.toml\n```",
             "```yaml\n  run: linkproof run a.toml --juint x\n```",

@@ -12,11 +12,11 @@ use scenario::Scenario;
 pub use media::{Medium, PictureOptions};
 pub(crate) use subject::{Drawn, Note};
 
-/// Room of a picture that stands alone, and of one among others (mm).
+/// Size of a picture with one mechanism, and of each picture among several (mm).
 const ALONE: [f64; 2] = [150.0, 120.0];
 const AMONG: [f64; 2] = [100.0, 96.0];
 
-/// Draws a mechanism; gives the bytes of a file.
+/// Draws a mechanism; returns the bytes of a file.
 ///
 /// ```
 /// use linkproof::parts::{Medium, PictureOptions};
@@ -30,8 +30,8 @@ const AMONG: [f64; 2] = [100.0, 96.0];
 /// ```
 ///
 /// # Errors
-/// [`ErrorKind::Input`](crate::parts::ErrorKind::Input) for a crank angle or a point that there is not; what keeps the
-/// mechanism from being assembled at the crank angle.
+/// [`ErrorKind::Input`](crate::parts::ErrorKind::Input) for an invalid crank angle or an unknown point.
+/// Also the error that prevents assembly at the crank angle.
 pub fn draw(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result<Vec<u8>> {
     let drawn = Drawn::of(scenario, wish, medium)?;
     match &drawn.fault {
@@ -40,12 +40,12 @@ pub fn draw(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result
     }
 }
 
-/// The picture of several files, those that have faults as far as they go.
+/// The picture of several files; files with faults are drawn as far as possible.
 pub(crate) fn picture(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> Result<Vec<u8>> {
     let frames = medium.frames(wish);
     let count: usize = all.iter().map(|own| if wish.each_mode { own.shots.len() } else { 1 }).sum();
     let room = Vec2::from(if columns(count) == 1 { ALONE } else { AMONG });
-    // Per frame, the cells of all files.
+    // The cells of all files, for each frame.
     let mut sheets: Vec<Vec<SheetCell>> = vec![Vec::new(); frames];
     for own in all {
         let mut cells = own.cells(wish, medium, room);
@@ -54,7 +54,7 @@ pub(crate) fn picture(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> R
         }
         match wish.each_mode {
             true => sheets[0].extend(cells),
-            // What cannot move stands still in every frame.
+            // A mechanism that cannot move looks the same in every frame.
             false => {
                 let last = cells.last().cloned().into_iter().cycle();
                 sheets.iter_mut().zip(cells.into_iter().chain(last)).for_each(|(sheet, cell)| sheet.push(cell));

@@ -1,9 +1,11 @@
 //! Builds every planar mechanism twice, once analytically and once as a Rapier multibody, and proves that the two
 //! agree.
 //!
-//! One line, one fork, one join: a [`Scenario`] holds a [`Case`], an analytic side and an engine solve it, and their
-//! trajectories are compared. [`prove`] runs the whole line; [`solve`] gives the analytic solution alone. [`check`]
-//! judges formulas, [`compare`] tables and recordings of other programs; `draw` shows a mechanism (feature `command`).
+//! A [`Scenario`] holds a [`Case`].
+//! An analytic side and an engine solve the case, and their trajectories are compared.
+//! [`prove`] does all of this; [`solve`] gives only the analytic solution.
+//! [`check`] judges formulas, and [`compare`] judges tables and recordings of other programs.
+//! `draw` shows a mechanism (feature `command`).
 //!
 //! From a file:
 //!
@@ -68,8 +70,8 @@
 //! linkproof::assert_proven!("scenarios/crank_rocker.toml", only = ["positions"]);
 //! ```
 //!
-//! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere; other units exist
-//! only in scenario files and carry their suffix there.
+//! All values are in SI units and world axes (x right, y up, angles counter-clockwise from +x).
+//! Only scenario files use other units, as suffixes of the keys.
 
 #[doc(hidden)]
 #[macro_use]
@@ -104,7 +106,7 @@ pub use prover::run::{Options, Proof, prove, solve};
 #[doc(inline)]
 pub use scenario::Scenario;
 
-/// What the front door's signatures name besides: errors, choices, what a proof and a solution consist of.
+/// Types that the main functions use: errors, choices, and the parts of a proof and a solution.
 pub mod parts {
     pub use crate::check::FormulaQuestion;
     #[cfg(feature = "command")]

@@ -1,10 +1,11 @@
-//! A proof, its diagnosis and an error as plain text: what a failed test shows, and what every report has in common.
+//! A proof, its diagnosis and an error as plain text.
+//! The text is the message of a failed test, and the common part of all reports.
 
 /// Adds a line to a text: a format with its values, or a sentence.
 macro_rules! say {
     ($text:expr, $format:literal $($values:tt)*) => {{
         use std::fmt::Write as _;
-        // A text takes whatever is written to it.
+        // Writing to a string never fails.
         let _ = writeln!($text, $format $($values)*);
     }};
     ($text:expr, $sentence:expr) => {
@@ -12,7 +13,7 @@ macro_rules! say {
     };
 }
 
-/// Adds to the last line of a text: a format with its values, or a sentence.
+/// Appends to the last line of a text: a format with its values, or a sentence.
 macro_rules! put {
     ($text:expr, $format:literal $($values:tt)*) => {{
         use std::fmt::Write as _;
@@ -32,5 +33,6 @@ pub mod judged;
 pub mod reasons;
 pub mod style;
 
-/// Function that words an advice. A program with options names them; `Advice::to_string` names none.
+/// Function that puts advice into words.
+/// A program with options can name them in the advice; `Advice::to_string` names no options.
 pub type Tell = fn(&linkage::error::Advice) -> String;

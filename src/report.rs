@@ -1,5 +1,5 @@
-//! Presentation of the results of every command, as text and as JSON: pure functions of data, without files, clock or
-//! terminal.
+//! Presents the results of every command as text and as JSON.
+//! The functions are pure: they use no files, clock or terminal.
 
 pub(crate) mod accept;
 pub(crate) mod bearings;

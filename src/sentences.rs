@@ -1,4 +1,4 @@
-//! Every sentence that the command and its reports can show, in one place, to be read as a list.
+//! All sentences that the command and its reports can show, in one place, so that they can be read as a list.
 
 #[cfg(feature = "command")]
 mod command;

@@ -1,4 +1,4 @@
-//! The files that help and documents speak of, in the program itself: `cargo install` brings no others.
+//! Files that help and documents mention, embedded in the program, because `cargo install` installs no others.
 
 use include_dir::{Dir, include_dir};
 
@@ -6,7 +6,7 @@ static SCENARIOS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/scenarios");
 static CATALOGUES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/catalogues");
 const FINDINGS: &[u8] = include_bytes!("../docs/findings.md");
 
-/// Scenarios of a study that nothing speaks of; they are as many as all others.
+/// Directory of study scenarios, which no document mentions and which are half of all scenarios.
 const STUDY: &str = "variants60";
 
 fn below(directory: &'static Dir<'static>, path: &str, found: &mut Vec<(String, &'static [u8])>) {
@@ -17,8 +17,8 @@ fn below(directory: &'static Dir<'static>, path: &str, found: &mut Vec<(String, 
     }
 }
 
-/// Paths, with `/`, and bytes of all files: scenarios with their tables, catalogues, and the findings that published
-/// numbers refer to.
+/// Paths, with `/`, and bytes of all embedded files.
+/// They are the scenarios with their tables, the catalogues, and the findings that published numbers refer to.
 #[must_use]
 pub fn files() -> Vec<(String, &'static [u8])> {
     let mut found = vec![("docs/findings.md".to_string(), FINDINGS)];
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_file_is_the_one_of_the_repository() {
+    fn every_shipped_file_equals_the_repository_file() {
         let top = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
         let files = files();
         for (path, bytes) in &files {

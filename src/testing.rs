@@ -1,8 +1,9 @@
-//! Proofs in test suites: one line a scenario ([`assert_proven!`](crate::assert_proven)), or one line a folder of them
-//! (`testing::main`, with the feature `testing`).
+//! Proofs in test suites.
+//! One line tests a scenario ([`assert_proven!`](crate::assert_proven)).
+//! One line tests a folder of scenarios (`testing::main`, with the feature `testing`).
 //!
-//! A test fails where a proof does not end in *agree*, also where it is inconclusive: then nothing is proven. Its
-//! message is the report.
+//! A test passes only if its proof ends in *agree*; an inconclusive proof also fails the test.
+//! The failure message is the report.
 
 #[cfg(feature = "testing")]
 mod folder;
@@ -22,10 +23,10 @@ use prover::run::{Options, Proof, prove};
 use scenario::grid::listed;
 use scenario::{Scenario, StartRequest};
 
-/// Proves a scenario file, and panics with the report unless it agrees; gives the [`Proof`].
+/// Proves a scenario file, and panics with the report unless it agrees; returns the [`Proof`].
 ///
-/// The path is relative to the directory of the caller's `Cargo.toml`. What follows are methods of
-/// [`Proving`](crate::testing::Proving) with their argument.
+/// The path is relative to the directory of the caller's `Cargo.toml`.
+/// Further arguments are methods of [`Proving`](crate::testing::Proving), each with its argument.
 ///
 /// ```
 /// use linkproof::{Options, assert_proven};
@@ -50,13 +51,13 @@ macro_rules! assert_proven {
     }};
 }
 
-/// What a test wants of a [`Proof`]: its report, and a panic unless it agrees.
+/// Methods for testing a [`Proof`]: the report, and a panic unless the proof agrees.
 pub trait AssertProven: Sized {
     /// The report, as the terminal shows it.
     #[must_use]
     fn report(&self) -> String;
 
-    /// Gives the proof back if it agrees.
+    /// Returns the proof if it agrees.
     ///
     /// ```
     /// use linkproof::testing::AssertProven;
@@ -69,7 +70,7 @@ pub trait AssertProven: Sized {
     /// ```
     ///
     /// # Panics
-    /// If it disagrees or is inconclusive, with the verdict and the report.
+    /// If the proof disagrees or is inconclusive, with the verdict and the report.
     #[track_caller]
     fn assert(self) -> Self;
 }
@@ -88,7 +89,7 @@ impl AssertProven for Proof {
     }
 }
 
-/// Why a test that wants this proof fails; `None` if it does not.
+/// Message of a test that fails with this proof; `None` if the proof agrees.
 fn failure(proof: &Proof) -> Option<String> {
     let word = match proof.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => return None,
@@ -101,7 +102,8 @@ fn failure(proof: &Proof) -> Option<String> {
     Some(told)
 }
 
-/// A proof to be made of a scenario file: [`Proving::of`]. What is not set is the file's.
+/// A proof of a scenario file, prepared by [`Proving::of`].
+/// Values that are not set come from the file.
 #[derive(Clone, Debug)]
 #[must_use = "nothing is proven before `prove` or `assert`"]
 pub struct Proving {
@@ -113,7 +115,7 @@ pub struct Proving {
     tolerance: Option<f64>,
 }
 
-/// The instants of a grid: crank angles (rad) or times (s), and what makes a grid of them.
+/// The values of a grid, crank angles (rad) or times (s), and the function that makes a grid from them.
 #[derive(Clone, Debug)]
 struct Instants {
     values: Vec<f64>,
@@ -146,15 +148,18 @@ impl Proving {
         self
     }
 
-    /// Asks for these channels only, by the words of `want` in `[channels]`: a stage (`positions`), a subject
-    /// (`point.P`), a subject's stage (`point.P.positions`) or a channel (`joint.B.fx_N`). May be called several times.
+    /// Requests only these channels, by the words of `want` in `[channels]`.
+    /// A word is a stage (`positions`), a subject (`point.P`), a subject's stage (`point.P.positions`) or a channel
+    /// (`joint.B.fx_N`).
+    /// May be called several times.
     pub fn only<W: Into<String>>(mut self, words: impl IntoIterator<Item = W>) -> Self {
         self.only.extend(words.into_iter().map(Into::into));
         self
     }
 
-    /// Sets a parameter by its key in `[parameters]`, in the unit of the key. Published numbers, which belong to the
-    /// file's own parameters, are then left out. May be called several times.
+    /// Sets a parameter by its key in `[parameters]`, in the unit of the key.
+    /// Published numbers hold only for the file's parameters, so the proof then omits them.
+    /// May be called several times.
     pub fn set(mut self, key: impl Into<String>, number: f64) -> Self {
         self.asked.set.push((key.into(), number));
         self
@@ -184,8 +189,10 @@ impl Proving {
         self
     }
 
-    /// Sets the largest error of the engine, as a share of a channel's scale, at which agreement still is a proof:
-    /// `engine_rel` of `[tolerances]`. The bounds themselves are derived and cannot be chosen.
+    /// Sets the largest error of the engine, as a fraction of a channel's scale, at which agreement still counts as a
+    /// proof.
+    /// It replaces `engine_rel` of `[tolerances]`.
+    /// The bounds themselves are derived and cannot be chosen.
     pub fn tolerance(mut self, share: f64) -> Self {
         self.tolerance = Some(share);
         self
@@ -194,15 +201,16 @@ impl Proving {
     /// Proves the scenario.
     ///
     /// # Errors
-    /// Those of [`Scenario::load`] and of [`prove`], and [`ErrorKind::Input`] for what was set and cannot be.
+    /// Those of [`Scenario::load`] and of [`prove`], and [`ErrorKind::Input`] for invalid settings.
     pub fn prove(&self) -> Result<Proof> {
         prove(&self.scenario()?, &self.options)
     }
 
-    /// Proves the scenario, and gives the proof if it agrees.
+    /// Proves the scenario, and returns the proof if it agrees.
     ///
     /// # Panics
-    /// If it disagrees, is inconclusive or cannot be made, with the verdict and the report, or with the error.
+    /// If the proof disagrees or is inconclusive, with the verdict and the report.
+    /// If the proof cannot be made, with the error.
     #[track_caller]
     pub fn assert(&self) -> Proof {
         match self.prove() {
@@ -211,7 +219,7 @@ impl Proving {
         }
     }
 
-    /// The scenario with what was set.
+    /// The scenario with all settings applied.
     fn scenario(&self) -> Result<Scenario> {
         let asked = StartRequest { without_grid: self.instants.is_some(), ..self.asked.clone() };
         let mut scenario = Scenario::load_as(&self.file, &asked)?;

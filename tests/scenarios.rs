@@ -1,4 +1,4 @@
-//! One test a textbook scenario, as users write it for a folder of theirs.
+//! One test per textbook scenario, set up like a user's test of a scenario folder.
 
 use std::process::ExitCode;
 

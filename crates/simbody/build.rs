@@ -1,4 +1,4 @@
-//! Compiles the shim and links Simbody, which the system's package provides.
+//! Compiles the shim and links Simbody, which a package of the system provides.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -9,11 +9,12 @@ fn main() {
     for file in ["src/shim.cpp", "src/shim.h"] {
         println!("cargo::rerun-if-changed={file}");
     }
-    // docs.rs has no Simbody, and documentation needs no library.
+    // docs.rs has no Simbody, and the documentation does not need the library.
     if env::var_os("DOCS_RS").is_some() {
         return;
     }
-    // First the variable that Simbody's own build files read; then the prefixes of Debian and of a build from source.
+    // The first candidate is the variable that Simbody's build files read. The others are the prefixes of Debian and of
+    // a build from source.
     let home = env::var_os("SIMBODY_HOME").map(PathBuf::from);
     let prefixes: Vec<PathBuf> = match &home {
         Some(home) => vec![home.clone()],
@@ -33,12 +34,12 @@ fn main() {
         .cpp(true)
         .std("c++11")
         .file("src/shim.cpp")
-        // Simbody's headers cause warnings; as system headers they cause none.
+        // Simbody's headers cause compiler warnings. Included as system headers, they cause none.
         .flag("-isystem")
         .flag(headers(prefix))
         .warnings_into_errors(false)
         .extra_warnings(true)
-        // The library is built with this definition, and its headers contain assertions.
+        // Simbody's library was built with this definition. Its headers contain assertions, so this build must match.
         .define("NDEBUG", None)
         .compile("linkproof_simbody_shim");
     if home.is_some() {

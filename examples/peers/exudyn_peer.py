@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Exudyn as a peer of `linkproof bench`: plane rigid bodies and revolute joints (pip install exudyn numpy).
 
-    linkproof bench scenarios/crank_rocker.toml --out bench --peer exudyn='python3 examples/peers/exudyn_peer.py'
+    linkproof bench scenarios/crank_rocker.toml -o bench --peer exudyn='python3 examples/peers/exudyn_peer.py'
 
 Timed is the solver alone, without building the model and without writing.
 """

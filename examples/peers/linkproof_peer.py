@@ -19,7 +19,7 @@ class Refused(Exception):
 
 
 class Case:
-    """The scenario: `data` is the JSON of `linkproof export --json`."""
+    """The scenario: `data` is the JSON of `linkproof export -o FILE.json`."""
 
     def __init__(self, data):
         self.data = data

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""MuJoCo as a peer of `linkproof bench`, on the model of `linkproof export --mjcf` (pip install mujoco).
+"""MuJoCo as a peer of `linkproof bench`, on the model of `linkproof export` (pip install mujoco).
 
-    linkproof bench scenarios/crank_rocker.toml --out bench --peer mujoco='python3 examples/peers/mujoco_peer.py'
+    linkproof bench scenarios/crank_rocker.toml -o bench --peer mujoco='python3 examples/peers/mujoco_peer.py'
 
 Timed are the steps and one forward computation at every instant, without building the model and without reading:
 velocities, accelerations and forces are read afterwards from the states that were kept.

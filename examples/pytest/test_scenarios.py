@@ -24,7 +24,7 @@ def test_there_are_scenarios():
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_proven(file):
-    command = [LINKPROOF, "run", str(file), "--no-record", "--json", "-"]
+    command = [LINKPROOF, "run", str(file), "--no-record", "-o", "-"]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
     if not done.stdout:
         pytest.fail(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}", pytrace=False)

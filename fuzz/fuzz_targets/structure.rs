@@ -1,4 +1,4 @@
-//! Any links, joints and drives, decomposed into Assur groups.
+//! Any set of links, joints and drives, decomposed into Assur groups.
 #![no_main]
 
 #[allow(dead_code)]

@@ -23,10 +23,10 @@ pub(super) struct Args {
     /// Scenario files
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Write nothing: judge by the figures that were accepted, and show what has moved
+    /// Write nothing: judge the run against the accepted figures, and show the changes
     #[arg(long, conflicts_with = "unproven")]
     check: bool,
-    /// Accept figures also where the proof disagrees or is inconclusive; the file then says so
+    /// Also accept figures if the proof disagrees or is inconclusive; the file then states this verdict
     #[arg(long)]
     unproven: bool,
     #[command(flatten)]
@@ -39,7 +39,7 @@ results! { AcceptResults {
     Json = "the results",
 } }
 
-/// Goes through all files. A bad one does not stop the others.
+/// Processes all files; a bad file does not stop the others.
 pub(super) fn run(args: &Args) -> u8 {
     let mut document = Document::told_by(advice::told);
     let mut worst = exit_code::AGREE;
@@ -76,7 +76,7 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
         Some((kept, comparison)) => (Deed::Renewed, Some(renewed(kept, found.clone(), comparison))),
     };
     if let Some(figures) = written {
-        // What is there has been read as figures of this scenario.
+        // The existing file was read above as the accepted figures of this scenario.
         output::make_by(accepted::text(&figures).as_bytes(), &place, &|_| kept.is_some())?;
     }
     let item = Item { proof: &proof, found: &found, comparison: comparison.as_ref(), deed, file: &place };

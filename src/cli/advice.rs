@@ -1,4 +1,4 @@
-//! Advice in the words of the command line: it names the options and commands.
+//! Advice worded for the command line: it names options and commands.
 
 use crate::sentences;
 use linkage::error::{Advice, rounded_up};
@@ -33,7 +33,7 @@ pub(super) fn told(advice: &Advice) -> String {
     }
 }
 
-/// An option with a value to try, or the option alone.
+/// An option with a suggested value, or the option alone.
 fn option(name: &str, to: Option<f64>) -> String {
     match to {
         Some(to) => sentences::such_as(&name, &format_args!("{to:e}")),
@@ -41,7 +41,8 @@ fn option(name: &str, to: Option<f64>) -> String {
     }
 }
 
-/// A text that speaks of pages as files, for whom may not have the files: `docs/scenario.md` is the command that shows it.
+/// Replaces the file names of documentation pages by commands that show the pages, for example `docs/scenario.md`.
+/// The user may not have the files.
 fn as_commands(text: &str) -> String {
     let is_of_path = |sign: char| sign.is_alphanumeric() || matches!(sign, '/' | '.' | '#' | '-' | '_');
     let mut told = String::new();
@@ -65,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn advice_becomes_options() {
+    fn advice_names_command_line_options() {
         for (advice, words) in [
             (Advice::SmallerStep { to: Some(5e-4) }, "choose a smaller time step, such as --dt 5e-4"),
             (Advice::SmallerStep { to: None }, "choose a smaller time step (--dt)"),
@@ -74,8 +75,8 @@ mod tests {
             (Advice::LooserAccuracy { to: 1e-9 }, "choose a looser accuracy, such as --accuracy 1e-9"),
             (Advice::MoreSweeps { to: Some(64) }, "raise the number of sweeps, such as --sweeps 64"),
             (Advice::MoreMemory { to: 5.23e9 }, "allow more memory, such as --memory 5.3"),
-            (Advice::OtherEngine, "take another engine: `linkproof list --solvers` names them"),
-            (Advice::OtherReference { solver: "newton" }, "take side \"newton\": --reference newton"),
+            (Advice::OtherEngine, "use another engine: `linkproof list --solvers` lists them"),
+            (Advice::OtherReference { solver: "newton" }, "use side \"newton\" as the reference: --reference newton"),
             (Advice::AllResults, "all of them with --json"),
             ("check the lengths".into(), "check the lengths"),
             (Advice::ShortenGrid, "shorten the grid to the crank angles that can be reached on this branch"),
@@ -89,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn pages_become_commands() {
+    fn page_references_become_docs_commands() {
         for (text, told) in [
             ("docs/scenario.md describes it.", "`linkproof docs scenario` describes it."),
             ("see docs/findings.md#a-b.", "see `linkproof docs findings#a-b`."),

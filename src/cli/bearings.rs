@@ -43,5 +43,5 @@ pub(super) fn bearings(args: &Args) -> Result<()> {
     let peaks = bearings::over_range(&scenario.case).map_err(|error| explained(&scenario.case, error))?;
     let journals = Journals { lever_mm: args.lever_mm, stress_mpa: args.stress_mpa };
     let json = |_| Ok(report::json(journals, &scenario, &peaks));
-    args.outputs.deliver(json, || report::text(journals, &scenario, &peaks))
+    args.outputs.deliver(json, |width| report::text(journals, &scenario, &peaks, width))
 }

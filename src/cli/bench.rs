@@ -26,7 +26,7 @@ use scenario::{Scenario, files_in};
 const TOTAL: &str = "bench.json";
 /// Directory without `-o`.
 const NAME: &str = "bench";
-/// Longest time of one call of a peer (s).
+/// Time limit for one call of a peer (s).
 const LIMIT: f64 = 60.0;
 
 #[derive(Debug, clap::Args)]
@@ -37,10 +37,10 @@ pub(super) struct Args {
     files: Vec<PathBuf>,
     #[command(flatten)]
     outputs: Outputs<Benches>,
-    /// Fewer settings and one round of timing
+    /// Measure fewer settings, and time each only once
     #[arg(long)]
     quick: bool,
-    /// Ask everybody for these channels only, as in `run`. May be given several times
+    /// Request only these channels from all parties, as in `run`. May be given several times
     #[arg(long, value_name = "WORD")]
     only: Vec<String>,
     /// Engine. May be given several times [default: all of this build]
@@ -49,20 +49,20 @@ pub(super) struct Args {
     /// Another program, by a name and the command that runs it. May be given several times
     #[arg(long, value_name = "NAME=COMMAND", value_parser = peer)]
     peer: Vec<(String, String)>,
-    /// Longest time in seconds of one call of a peer
+    /// Time limit in seconds for one call of a peer
     #[arg(long, value_name = "S", default_value_t = LIMIT, allow_hyphen_values = true, value_parser = number::positive)]
     peer_limit: f64,
     /// Work allowed to the engines of a scenario, in steps without sweeps [default: 2e6, with `--quick` 3e5]
     #[arg(long, value_name = "STEPS", allow_hyphen_values = true, value_parser = number::positive)]
     budget: Option<f64>,
-    /// Rounds of timing, of which the shortest counts [default: 3, with `--quick` 1]
+    /// Number of timing rounds; the shortest time counts [default: 3, with `--quick` 1]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
     rounds: Option<usize>,
 }
 
 results! { Benches {
     Results = "diagrams and numbers [default: bench]",
-    Markdown = "a page with the results of all scenarios",
+    Page = "a page with the results of all scenarios",
 } }
 
 /// Reads a peer's name and command.
@@ -107,18 +107,19 @@ pub(super) fn run(args: &Args) -> Result<()> {
     output::make(&report::json(&benches, &machine), &out.join(TOTAL))?;
     let page =
         |page: &Path| output::write(&bench_page::page(&benches, &machine, &command(args), &seen_from(page, out)), page);
-    args.outputs.of(Benches::Markdown).try_for_each(page)
+    args.outputs.of(Benches::Page).try_for_each(page)
 }
 
-/// Processor time (s) that this thread has used; where Linux does not tell, time on the clock. Other work on the machine
-/// then disturbs less.
+/// Processor time (s) that this thread has used; other work on the machine disturbs it less than elapsed time.
+/// On systems other than Linux, the function returns the elapsed time.
 fn used(since: Instant) -> f64 {
-    // Linux brings the number up to date when the thread yields.
+    // Linux updates the processor time when the thread yields.
     std::thread::yield_now();
     processor_time().unwrap_or_else(|| since.elapsed().as_secs_f64())
 }
 
-/// One scenario, with a progress bar. Runs are timed by the first clock, peers stopped by the second.
+/// Measures one scenario, with a progress bar.
+/// The clock `used` times the runs; the clock `wall` limits the peers.
 fn one(args: &Args, scenario: &Scenario, options: &BenchOptions, used: Clock, wall: Clock) -> Result<Bench> {
     let case = &scenario.case;
     let exports = match args.peer.is_empty() {
@@ -161,7 +162,7 @@ fn put(out: &Path, found: &Bench, machine: &report::Machine) -> Result<()> {
     Ok(())
 }
 
-/// The command, as it can be given again: all scenarios of a directory by one word.
+/// The command in a repeatable form; if the scenarios are all files of a directory, one pattern replaces them.
 fn command(args: &Args) -> String {
     let files: Vec<String> = args.files.iter().map(|file| file.to_string_lossy().into_owned()).collect();
     let directory = args.files[0].parent().unwrap_or(Path::new("."));
@@ -179,7 +180,7 @@ fn command(args: &Args) -> String {
     words.join(" ")
 }
 
-/// A word of a command line as a shell takes it.
+/// A word of a command line, quoted for a shell.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
@@ -189,7 +190,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// The directory as a link on the page needs it.
+/// The directory, relative to the page, for links.
 fn seen_from(page: &Path, directory: &Path) -> String {
     let beside = page.parent().and_then(|parent| directory.strip_prefix(parent).ok()).unwrap_or(directory);
     let text = beside.to_string_lossy();

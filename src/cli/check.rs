@@ -19,23 +19,23 @@ pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     file: PathBuf,
-    /// Formula over phi, t, parameters and named formulas [default: every `[[formula]]` of the file]
+    /// Formula of phi, t, parameters and named formulas [default: every `[[formula]]` of the file]
     #[arg(value_name = "EXPR", requires = "channel", allow_hyphen_values = true)]
     expression: Option<String>,
-    /// What the formula claims to be: a channel such as link.rocker.angle_deg, drive.reduced_inertia_kg_m2, or an
-    /// arithmetic of channels
+    /// Channel that the formula claims to equal, such as link.rocker.angle_deg or drive.reduced_inertia_kg_m2, or an
+    /// expression of channels
     #[arg(long, value_name = "CHANNEL", requires = "expression", allow_hyphen_values = true)]
     channel: Option<String>,
-    /// Step of the derivation: a formula with a name, which those after it and EXPR may use; may be given several times
+    /// Step of the derivation: a named formula that later steps and EXPR may use; may be given several times
     #[arg(long = "let", value_name = "NAME=EXPR", requires = "expression", value_parser = step)]
     steps: Vec<(String, String)>,
-    /// First crank angle in degrees for which the formula is claimed
+    /// First crank angle in degrees at which the formula is claimed to hold
     #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true, value_parser = number::finite)]
     from_deg: Option<f64>,
-    /// Last crank angle in degrees for which the formula is claimed
+    /// Last crank angle in degrees at which the formula is claimed to hold
     #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true, value_parser = number::finite)]
     to_deg: Option<f64>,
-    /// Error that the formula is claimed to have, in the channel's unit: for series and approximations
+    /// Claimed error of the formula in the channel's unit, for series and approximations
     #[arg(long, value_name = "NUMBER", requires = "expression", allow_hyphen_values = true, value_parser = number::positive)]
     error: Option<f64>,
     #[command(flatten)]
@@ -62,7 +62,7 @@ fn step(text: &str) -> std::result::Result<(String, String), String> {
     Ok((name.trim().into(), expression.trim().into()))
 }
 
-/// Judges, reports, and says how it ended.
+/// Judges the formulas, reports the result, and returns the exit code.
 pub(super) fn check(args: &Args) -> Result<u8> {
     let scenario = asked(args)?;
     let found = judged(&scenario)?;
@@ -78,11 +78,11 @@ pub(super) fn check(args: &Args) -> Result<u8> {
     Ok(exit_code::of(&found.verdict))
 }
 
-/// What messages call the arguments.
+/// Names that messages use for the arguments.
 const WORDS: Words =
     Words { formula: "EXPR", channel: "--channel", step: "--let", valid: "--to-deg", error: "--error" };
 
-/// The scenario with the formulas that are asked about.
+/// The scenario with the formulas to be judged.
 fn asked(args: &Args) -> Result<Scenario> {
     let (Some(formula), Some(channel)) = (&args.expression, &args.channel) else {
         return args.start.load(&args.file, &args.grid);

@@ -28,11 +28,11 @@ pub(super) struct Args {
 
 results! { ClearanceResults {
     Json = "the results",
-    Svg = "outlines, housing, swept areas and nearest points of one scenario",
-    Csv = "distance of every pair at the instants of the grid, of one scenario",
+    Svg = "outlines, housing, swept areas and nearest points, for one scenario",
+    Csv = "distance of every pair at the instants of the grid, for one scenario",
 } }
 
-/// Answers for every file. A bad file does not stop the others.
+/// Computes the clearance for every file; a bad file does not stop the others.
 pub(super) fn clearance(args: &Args) -> Result<u8> {
     if args.outputs.each().any(|(form, _)| form != ClearanceResults::Json) && args.files.len() > 1 {
         let message = sentences::scenarios_are_given_but_a_drawing(&args.files.len());
@@ -88,7 +88,7 @@ fn answer(args: &Args, file: &Path) -> Result<(Scenario, ClearanceResult)> {
         output::write(&report::distances(asked, &scenario.case.grid.times, &course)?, to)?;
     }
     if !args.outputs.take_standard() {
-        output::print(&report::text(&scenario, asked, &found))?;
+        output::print(&report::text(&scenario, asked, &found, output::width()))?;
     }
     Ok((scenario, found))
 }

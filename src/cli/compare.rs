@@ -23,7 +23,7 @@ use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/compare.txt").trim_ascii_end())]
 pub(super) struct Args {
-    /// Scenario, recording or table that B is held against
+    /// Scenario, recording or table with which B is compared
     #[arg(value_name = "A")]
     first: PathBuf,
     /// Scenario, recording or table
@@ -36,14 +36,14 @@ pub(super) struct Args {
     /// Columns of A, if both are tables
     #[arg(long, value_name = "EXPR=CHANNEL|FILE", allow_hyphen_values = true)]
     map_a: Vec<String>,
-    /// Write what --map, --rel, --rel-value and --abs say to a mapping file
+    /// Write the settings of --map, --rel, --rel-value and --abs to a mapping file
     #[arg(long, value_name = "FILE", value_parser = mapping_target)]
     write_map: Option<PathBuf>,
-    /// Allow differences of this share of a channel's scale, half its range over the scenario's run: for all channels,
-    /// or for one channel, subject or stage
+    /// Allow differences of this fraction of a channel's scale (half its range over the scenario's run), for all
+    /// channels or for one channel, subject or stage
     #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share(Size::Relative))]
     rel: Vec<Allowed>,
-    /// Allow differences of this share of each value: 0.05 for 5 %; near zero only what --abs allows
+    /// Allow differences of this fraction of each value: 0.05 for 5 %. Near zero only --abs allows a difference
     #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share(Size::OfValue))]
     rel_value: Vec<Allowed>,
     /// Allow differences of this size, in the unit of the channel
@@ -52,10 +52,10 @@ pub(super) struct Args {
     /// Compare these channels only: a channel, a subject (point.P) or a stage (positions); may be given several times
     #[arg(long, value_name = "WORD")]
     only: Vec<String>,
-    /// Bring rows together by time or by crank angle [default: by time, where both have times]
+    /// Match rows by time or by crank angle [default: by time, if both have times]
     #[arg(long, value_name = "WHAT", value_parser = word(["time", "crank"], by))]
     by: Option<By>,
-    /// Interpolate the first of two tables between its rows, with what that may be wrong by in the bound
+    /// Interpolate the first of two tables between its rows; the interpolation error is added to the bound
     #[arg(long)]
     interpolate: bool,
     /// Side of the recordings that is compared, such as reference or engine [default: all]
@@ -65,7 +65,7 @@ pub(super) struct Args {
     memory: MemoryArgs,
     #[command(flatten)]
     start: StartArgs,
-    /// Show every channel, not only those that use most of their bounds
+    /// Show every channel, not only the channels that use most of their bounds
     #[arg(long, short)]
     verbose: bool,
     /// Show the verdicts alone
@@ -77,7 +77,7 @@ pub(super) struct Args {
 
 results! { Comparisons {
     Json = "the results",
-    Junit = "JUnit: a suite a comparison, a case a channel",
+    Junit = "JUnit: one suite per comparison, one case per channel",
     Markdown = "a comment for a pull request",
 } }
 
@@ -89,7 +89,7 @@ fn by(word: &str) -> Option<By> {
     }
 }
 
-/// A path that a mapping may be written to: a mapping there is replaced, another file is not.
+/// A path for a mapping file. An existing mapping is replaced; any other existing file is refused.
 fn mapping_target(text: &str) -> std::result::Result<PathBuf, String> {
     let path = output::writable(PathBuf::from(text))?;
     if path.extension().is_none_or(|ending| ending != "toml") {
@@ -101,7 +101,7 @@ fn mapping_target(text: &str) -> std::result::Result<PathBuf, String> {
     Ok(path)
 }
 
-/// Reads `[CHANNEL=]SHARE`, a share of what `size` says.
+/// Reads `[CHANNEL=]SHARE`; `size` states whether the share refers to the scale or to each value.
 fn share(size: fn(f64) -> Size) -> impl Fn(&str) -> std::result::Result<Allowed, String> + Clone {
     move |text| {
         let (of, number) = text.rsplit_once('=').map_or((None, text), |(of, number)| (Some(of.trim().into()), number));
@@ -117,7 +117,7 @@ fn size(text: &str) -> std::result::Result<Allowed, String> {
     }
 }
 
-/// Compares, reports, and says how it ended.
+/// Compares the parties, reports the result, and returns the exit code.
 pub(super) fn compare(args: &Args) -> Result<u8> {
     let given = [("A", Some(&args.first)), ("B", Some(&args.second)), ("--write-map", args.write_map.as_ref())];
     for (name, path) in given {
@@ -158,7 +158,7 @@ pub(super) fn compare(args: &Args) -> Result<u8> {
     Ok(graver(exit_code::of(&found.verdict), written.code()))
 }
 
-/// Refuses options that mean nothing for these parties.
+/// Refuses options that do not apply to these parties.
 fn check_parties(args: &Args) -> Result<()> {
     let tables = [&args.first, &args.second].map(|path| is_table(path));
     let has_recording =
@@ -191,7 +191,8 @@ fn is_table(path: &Path) -> bool {
     !path.extension().is_some_and(|ending| ending == "toml" || ending == "mcap")
 }
 
-/// The mapping for the first party: its own, or that of the command where only the first is a table.
+/// The mapping for the first party.
+/// It is the separate mapping of that party, or the command's mapping if only the first party is a table.
 fn mapping_of_first(args: &Args, mapping: &Mapping) -> Result<Mapping> {
     match args.map_a.is_empty() && !is_table(&args.second) {
         true => Ok(mapping.clone()),
@@ -199,7 +200,7 @@ fn mapping_of_first(args: &Args, mapping: &Mapping) -> Result<Mapping> {
     }
 }
 
-/// What lines and files of a mapping say.
+/// The mapping given by lines and files.
 fn mapping(lines: &[String], option: &str) -> Result<Mapping> {
     let mut mapping = Mapping::default();
     for line in lines {
@@ -211,7 +212,7 @@ fn mapping(lines: &[String], option: &str) -> Result<Mapping> {
     Ok(mapping)
 }
 
-/// A party; `other` is the path of the one beside it.
+/// Reads a party; `other` is the path of the other party.
 fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<ComparedParty> {
     let path = if load::is_standard_input(path) { Path::new("/dev/stdin") } else { path };
     let ending = path.extension().and_then(|ending| ending.to_str());
@@ -224,7 +225,7 @@ fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Co
             let may = |bytes: f64, rows: usize| {
                 let most = Some(args.memory.bytes());
                 memory::check_input(&sentences::the_table(&path.display()), bytes, most)?;
-                // At least that: columns that are called as channels may come to it.
+                // This is a lower limit: columns named like channels may need more memory.
                 let compared = if is_solved && rows > 0 { memory::of_comparison(rows, claims, claims) } else { 0.0 };
                 memory::check_input(&sentences::comparing_rows(&rows), compared, most)
             };

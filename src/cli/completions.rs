@@ -1,9 +1,9 @@
-//! `linkproof completions`: the completions of a shell, from the arguments of the command line.
+//! `linkproof completions`: shell completions from the arguments of the command line.
 
-use clap::CommandFactory;
+use clap::Command;
 use clap_complete::Shell;
 
-use super::{Cli, output};
+use super::output;
 use linkage::error::Result;
 
 #[derive(Debug, clap::Args)]
@@ -14,8 +14,8 @@ pub(super) struct Args {
 }
 
 /// Writes the completions of a shell to standard output.
-pub(super) fn run(args: &Args) -> Result<()> {
+pub(super) fn run(args: &Args, mut command: Command) -> Result<()> {
     let mut text = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "linkproof", &mut text);
-    output::print(&String::from_utf8_lossy(&text))
+    clap_complete::generate(args.shell, &mut command, "linkproof", &mut text);
+    output::data(&String::from_utf8_lossy(&text))
 }

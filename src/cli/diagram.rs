@@ -51,5 +51,5 @@ pub(super) fn diagram(args: &Args) -> Result<()> {
             DiagramResults::Json => report::json(&scenario, &diagram),
         })
     };
-    args.outputs.deliver(result, || report::text(&scenario, &diagram))
+    args.outputs.deliver(result, |_| report::text(&scenario, &diagram))
 }

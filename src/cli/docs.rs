@@ -1,4 +1,4 @@
-//! `linkproof docs`: the documents, in the program itself.
+//! `linkproof docs`: shows the documentation, which is embedded in the program.
 
 use super::output;
 use crate::sentences;
@@ -8,7 +8,7 @@ use scenario::words::suggestion;
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/docs.txt").trim_ascii_end())]
 pub(super) struct Args {
-    /// Page, or one section of it; without one, the pages are listed
+    /// Page, or one section of a page; without this argument, the pages are listed
     #[arg(value_name = "PAGE[#SECTION]")]
     page: Option<String>,
 }
@@ -41,8 +41,8 @@ pub(super) fn docs(args: &Args) -> Result<()> {
         );
     };
     match section {
-        None => output::print(text),
-        Some(anchor) => output::print(&part(text, anchor).ok_or_else(|| {
+        None => output::data(text),
+        Some(anchor) => output::data(&part(text, anchor).ok_or_else(|| {
             Error::new(ErrorKind::Input, sentences::the_page_has_no_section(&name, &anchor)).help(suggestion(
                 anchor,
                 headings(text).map(|(_, _, own)| own).collect::<Vec<_>>().iter().map(String::as_str),
@@ -58,7 +58,7 @@ fn list() -> String {
     PAGES.iter().map(|(name, text)| format!("{name:width$}  {}\n", title(text))).collect()
 }
 
-/// Headings outside of blocks: where their line begins, their level, and the anchor that web pages give them.
+/// Headings outside code blocks: position of their line, level, and anchor on web pages.
 fn headings(text: &str) -> impl Iterator<Item = (usize, usize, String)> {
     let mut at = 0;
     let mut is_block = false;
@@ -75,7 +75,7 @@ fn headings(text: &str) -> impl Iterator<Item = (usize, usize, String)> {
     })
 }
 
-/// The section with an anchor, up to the next of its level or above.
+/// The section with this anchor, up to the next heading of the same or a higher level.
 fn part(text: &str, anchor: &str) -> Option<String> {
     let mut all = headings(text);
     let (begins, level, _) = all.find(|(_, _, own)| own == anchor)?;
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_page_is_there() {
+    fn every_docs_page_is_included() {
         let pages = |folder: &str| {
             let files = std::fs::read_dir(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(folder));
             let name = |file: std::io::Result<std::fs::DirEntry>| file.unwrap().file_name().into_string().unwrap();

@@ -24,7 +24,7 @@ pub(super) struct Args {
     /// Crank angle in degrees, as the scenario states it [default: that of the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     crank_deg: Option<f64>,
-    /// Start a group in another assembly mode than the file states, as in `linkproof run`
+    /// Start a group in a different assembly mode from that of the file, as in `linkproof run`
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
     /// Number of a parameter, by its key in `[parameters]`; may be given several times
@@ -33,10 +33,10 @@ pub(super) struct Args {
     /// Draw all configurations at this crank angle, each with the modes of its groups
     #[arg(long)]
     each_mode: bool,
-    /// Draw forces and moments as arrows with their sizes, and gravity
+    /// Draw gravity, and forces and moments as arrows with their sizes
     #[arg(long)]
     loads: bool,
-    /// Draw the paths of the points that are no joints
+    /// Draw the paths of the points without a joint
     #[arg(long)]
     traces: bool,
     /// Draw the path of this point; may be given several times
@@ -59,14 +59,14 @@ pub(super) struct Args {
     with: Reference,
 }
 
-/// Path of a picture: one whose ending says how it is written, or standard output.
+/// Reads the path of a picture, whose ending selects the format, or `-` for standard output.
 fn target(text: &str) -> std::result::Result<PathBuf, String> {
     let path = output::target(text)?;
     Medium::of(&path)?;
     Ok(path)
 }
 
-/// Refuses options that mean nothing for the medium.
+/// Refuses options that do not apply to the medium.
 fn fits(args: &Args, medium: Medium) -> Result<()> {
     let still = [("--frames", args.frames.is_some()), ("--seconds", args.seconds.is_some())];
     match still.iter().find(|(_, is_given)| *is_given) {
@@ -84,7 +84,8 @@ fn fits(args: &Args, medium: Medium) -> Result<()> {
     }
 }
 
-/// Draws and writes. What cannot be assembled is drawn as far as possible, with a warning on standard error.
+/// Draws the mechanisms and writes the picture.
+/// If a mechanism cannot be assembled, the part that can be assembled is drawn, with a warning on standard error.
 pub(super) fn draw(args: &Args) -> Result<()> {
     let medium = args.output.as_ref().map_or(Ok(Medium::Svg), Medium::of);
     let medium = medium.map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
@@ -105,7 +106,7 @@ pub(super) fn draw(args: &Args) -> Result<()> {
     let asked = StartRequest { modes: args.mode.clone(), set: args.set.clone(), ..StartRequest::default() };
     let drawn = |file: &PathBuf| match load::as_asked(file, &asked) {
         Ok(scenario) => Drawn::of(scenario, &wish, medium).map_err(|error| error.key("--crank-deg")),
-        // What is wrong with the text itself is told by the reading of the draft.
+        // If the text itself has errors, reading the draft reports them.
         Err(error) => Drawn::of_draft(load::draft(file, &asked)?, &wish, error),
     };
     let all = args.files.iter().map(drawn).collect::<Result<Vec<_>>>()?;

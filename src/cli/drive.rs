@@ -27,10 +27,10 @@ pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Start a group in another assembly mode than the file states, as in `linkproof run`
+    /// Start a group in a different assembly mode from that of the file, as in `linkproof run`
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
-    /// Find the flywheel on the crank's shaft for this coefficient of non-uniformity
+    /// Find the flywheel that the crank's shaft needs for this coefficient of non-uniformity
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = number::finite)]
     non_uniformity: Option<f64>,
     /// Show the reduced quantities and the steady motion by crank angle
@@ -39,13 +39,14 @@ pub(super) struct Args {
     /// Crank angle between two rows of the table, in degrees
     #[arg(long, value_name = "DEG", default_value = "10", allow_hyphen_values = true, value_parser = number::positive)]
     step_deg: f64,
-    /// Write the run-up with all wanted channels as CSV to a file, or to standard output instead of the text with `-`
+    /// Write the run-up with all requested channels as CSV to a file, or to standard output instead of the text with
+    /// `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     run_up: Option<PathBuf>,
     /// Duration of the run-up
     #[arg(long, value_name = "S", default_value = "0.5", allow_hyphen_values = true, requires = "run_up", value_parser = number::positive)]
     seconds: f64,
-    /// Number of equal time intervals of the run-up; a row is written at both ends of each
+    /// Number of equal time intervals of the run-up; the table has a row at both ends of each interval
     #[arg(long, value_name = "N", default_value = "500", requires = "run_up", allow_hyphen_values = true, value_parser = number::count)]
     points: usize,
     /// Speed of the crank at the start of the run-up, in turns per minute, counter-clockwise positive
@@ -76,7 +77,7 @@ struct Choosing {
     synchronous_rpm: Option<f64>,
 }
 
-/// Number of equal intervals between the points of a graph over the period: half a degree each over one turn.
+/// Number of equal intervals of a graph over the period; over one revolution each interval is half a degree.
 const PARTS: u32 = 720;
 
 /// Largest number of rows of a table or a run-up.
@@ -111,7 +112,7 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     };
     match is_said {
         true => args.outputs.write(result),
-        false => args.outputs.deliver(result, || report::text(scenario, &found, args.table)),
+        false => args.outputs.deliver(result, |_| report::text(scenario, &found, args.table)),
     }
 }
 
@@ -127,7 +128,8 @@ fn check(args: &Args) -> Result<()> {
     output::apart(&args.outputs.named().into_iter().chain(run_up).collect::<Vec<_>>())
 }
 
-/// The reduced quantities every `step_deg` of the crank, the steady motion, and the flywheel for a wanted non-uniformity.
+/// The reduced quantities every `step_deg` of the crank, the steady motion, and the flywheel for a required
+/// non-uniformity.
 pub(super) fn find(
     scenario: &Scenario,
     model: &ReducedModel,
@@ -159,7 +161,7 @@ pub(super) fn find(
     Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, flywheel })
 }
 
-/// Data of the graphs: at equal intervals, and at the kinks of the reduced quantities.
+/// Data of the graphs: rows at equal intervals, and at the kinks of the reduced quantities.
 pub(super) fn curves(scenario: &Scenario, model: &ReducedModel, found: &Found) -> Result<Curves> {
     let (start, sense) = (scenario.case.crank().start, scenario.case.crank().sense());
     let period = model.kinks().period.unwrap_or(TAU);
@@ -178,7 +180,7 @@ fn run_up(args: &Args, model: &ReducedModel) -> Result<RunUp> {
     RunUp::of(model, args.from_rpm * TAU / 60.0, &times, ACCURACY)
 }
 
-/// Chooses a motor and reports it.
+/// Chooses a motor and reports the choice.
 fn choose(args: &Args, file: &Path, scenario: &Scenario) -> Result<()> {
     let Choosing { efficiency, synchronous_rpm, .. } = args.choice;
     let mut motors = catalogue::load(file)?;
@@ -195,5 +197,5 @@ fn choose(args: &Args, file: &Path, scenario: &Scenario) -> Result<()> {
         DriveResults::Svg => output::refused("--output", sentences::NO_GRAPHS_OF_A_CHOICE, sentences::WRITE_JSON),
         DriveResults::Json => Ok(motor_choice::json(scenario, &choice)),
     };
-    args.outputs.deliver(result, || motor_choice::text(scenario, &choice))
+    args.outputs.deliver(result, |_| motor_choice::text(scenario, &choice))
 }

@@ -38,29 +38,29 @@ impl Which {
 /// The engines and their settings.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct EngineArgs {
-    /// Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, else the
-    /// first]
+    /// Engine, or `all` to run every engine. May be given several times [default: that of the scenario, else the first]
     #[arg(long, value_name = "ENGINE", value_parser = Which::parser())]
     pub(super) engine: Vec<Which>,
     #[command(flatten)]
     settings: SettingArgs,
-    /// Work allowed for finding the settings that are not given, in steps without sweeps [default: 2e7, of `tune` 5e6]
+    /// Work allowed for finding the settings that are not given, in engine steps without sweeps [default: 2e7, of
+    /// `tune` 5e6]
     #[arg(long, value_name = "STEPS", allow_hyphen_values = true, value_parser = number::positive)]
     budget: Option<f64>,
     #[command(flatten)]
     pub(super) memory: MemoryArgs,
 }
 
-/// Memory that a run may take.
+/// Memory that a run may use.
 #[derive(Clone, Copy, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct MemoryArgs {
-    /// Memory allowed in GB, for everything that runs at a time; a run that is estimated to need more does not begin
+    /// Memory allowed in GB for everything that runs at the same time; a run does not begin if its estimate is higher
     #[arg(long, value_name = "GB", default_value = "4", allow_hyphen_values = true, value_parser = number::positive)]
     memory: f64,
 }
 
-/// Memory (bytes) from which a run tells what it needs before it begins.
+/// If a run needs more memory (bytes) than this, the command reports the need in advance.
 const TOLD: f64 = 5e8;
 
 impl MemoryArgs {
@@ -69,7 +69,7 @@ impl MemoryArgs {
         self.memory * 1e9
     }
 
-    /// Tells what a run needs, if that is much and allowed.
+    /// Reports the memory that a run needs, if the need is large but allowed.
     pub(super) fn tell(self, case: &Case, needed: f64) {
         if needed >= TOLD && needed <= self.bytes() {
             output::note(&memory::told(case, needed));
@@ -77,12 +77,13 @@ impl MemoryArgs {
     }
 }
 
-/// The settings of an engine, one argument for each row of [`ROWS`]. What is not given is the scenario's, else found by
-/// the proof or the engine's own.
+/// The settings of an engine: one argument for each row of [`ROWS`].
+/// If a setting is not given, the scenario's setting applies.
+/// If the scenario has none, the proof finds the setting, or the engine uses its default.
 #[derive(Clone, Debug)]
 pub(super) struct SettingArgs {
     settings: EngineSettings,
-    /// The first of them that is given.
+    /// The first given option.
     first: Option<&'static str>,
 }
 
@@ -117,7 +118,7 @@ impl FromArgMatches for SettingArgs {
     }
 }
 
-/// The argument of a row; `None` for that of the engines, which commands have in their own ways.
+/// The argument of a row; `None` for the row of engines, which each command defines separately.
 fn argument(row: &'static SettingRow) -> Option<Arg> {
     let own = Arg::new(row.argument).long(row.argument).value_name(row.value).help(row.help);
     Some(match (row.slot)(&mut EngineSettings::default()) {
@@ -136,7 +137,7 @@ fn given<T: Clone + Send + Sync + 'static>(matches: &ArgMatches, row: &SettingRo
     value.map_or(EngineSetting::Free, |value| EngineSetting::Given(value, SettingOrigin::Argument(row.argument)))
 }
 
-/// What one of these words stands for.
+/// A parser that accepts only these words and converts each to its value.
 pub(super) fn word<T: Clone + Send + Sync + 'static>(
     words: impl IntoIterator<Item = &'static str>,
     named: impl Fn(&str) -> Option<T> + Clone + Send + Sync + 'static,
@@ -162,16 +163,16 @@ impl EngineArgs {
 }
 
 impl SettingArgs {
-    /// An engine with these settings, else the scenario's, else its own.
+    /// An engine with these settings; missing settings come from the scenario, or else from the engine's defaults.
     ///
     /// # Errors
-    /// Those of settings that an engine cannot have.
+    /// Those of settings that an engine does not support.
     pub(super) fn engine(&self, engine: EngineName, scenario: &Scenario) -> Result<Box<dyn Engine>> {
         let options = Options { settings: self.settings.clone(), ..Options::default() };
         Ok(options.engine(engine).set_engines(scenario)?.remove(0))
     }
 
-    /// The first option given. An analytic solver has none of them.
+    /// The first of these options that the user gave; analytic solvers accept none of these options.
     pub(super) fn given(&self) -> Option<String> {
         self.first.map(|name| format!("--{name}"))
     }

@@ -1,4 +1,4 @@
-//! The `[engine]` section that keeps settings which a command has found.
+//! The `[engine]` section, which stores the settings that a command has found.
 
 use crate::sentences;
 use std::io::{self, Write};
@@ -12,14 +12,15 @@ use prover::engines::named;
 use scenario::{EngineSetting, EngineSettings};
 use scenario::{Scenario, edit};
 
-/// What a scenario must state to run an engine at `settings`. The engine's usual route is left out unless the scenario
-/// states one: without it the engine's own forces are judged too.
+/// The keys with which a scenario runs an engine at `settings`.
+/// The route is omitted if it is the engine's usual route and the scenario states no route.
+/// Without a stated route, a proof also judges the forces that the engine itself exerts.
 pub(super) fn keys(scenario: &Scenario, name: &str, settings: Settings) -> EngineSettings {
     let Some(engine) = named(name, settings.resolution) else { return EngineSettings::default() };
     let own = &scenario.engine;
     let usual = engine.routes().first().copied();
     let mut keys = EngineSettings::exactly(engine.with(settings).as_ref());
-    // For an engine that chooses its own steps, the scenario's step stays: it belongs to the other engines.
+    // For an engine that chooses its own steps, the scenario's step is kept for the other engines.
     if engine.controls_error() {
         keys.step = own.step.clone();
     }
@@ -31,7 +32,7 @@ pub(super) fn keys(scenario: &Scenario, name: &str, settings: Settings) -> Engin
     keys
 }
 
-/// Writes the section into the scenario's file. Everything else in the file stays as it is.
+/// Writes the section into the scenario's file and leaves the rest of the file unchanged.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] if the file cannot be written, and those of [`edit::with_engine`].

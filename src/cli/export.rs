@@ -20,11 +20,11 @@ pub(super) struct Args {
     file: PathBuf,
     #[command(flatten)]
     outputs: Outputs<Exports>,
-    /// Time step in seconds that the file starts with [default: the scenario's, else a quarter of a degree of the
+    /// Initial time step of the file in seconds [default: that of the scenario, else a quarter of a degree of the
     /// fastest driving link]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = number::positive)]
     dt: Option<f64>,
-    /// Start a group in another assembly mode than the file states, or in the configuration with that number in
+    /// Start a group in a different assembly mode from that of the file, or in the configuration with that number in
     /// `inspect --modes`. May be given for several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
@@ -51,7 +51,7 @@ pub(super) fn export(args: &Args) -> Result<()> {
             output::write(&text, to)?;
             continue;
         }
-        // The user did not choose this name, so it is printed.
+        // The program chose this file name, so the name is printed.
         let name = format!("{}{}", scenario.name, form.form().sign());
         output::make(&text, Path::new(&name))?;
         output::print(&format!("{name}\n"))?;

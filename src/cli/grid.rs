@@ -8,7 +8,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
 use scenario::grid::{listed, range};
 
-/// The instants of a command, instead of the scenario's grid.
+/// The instants of a command, which replace the scenario's grid.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub(super) struct GridArgs {
@@ -22,7 +22,7 @@ pub(super) struct GridArgs {
 }
 
 impl GridArgs {
-    /// The scenario with the grid given, else with its own.
+    /// The scenario on the given grid, or on the grid of its file if no grid is given.
     pub(super) fn on(&self, scenario: Scenario) -> Result<Scenario> {
         let case = self.case(&scenario.case)?;
         Ok(Scenario { case, ..scenario })
@@ -48,7 +48,7 @@ impl GridArgs {
         case.on(grid)
     }
 
-    /// The grid given, as name and text; `None` if it is the scenario's.
+    /// The option and the text of the given grid; `None` if no grid is given.
     pub(super) fn told(&self) -> Option<(&'static str, &str)> {
         match &self.crank_deg {
             Some(values) => Some(("crank_deg", &values.text)),
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_ranges_say_what_is_expected() {
+    fn bad_ranges_are_refused_with_a_message() {
         for text in ["0:360", "a:1:2", "0:360:0", "0:360:-1", "0:1:nan", "0:1e99:1e-9", "", "0,,1", "inf", "0:10:5,5"] {
             let message = values(text).unwrap_err();
             assert!(!message.is_empty(), "{text}");

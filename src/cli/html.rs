@@ -16,10 +16,10 @@ use linkage::error::{Error, ErrorKind, Result};
 use prover::run::Proof;
 use scenario::Scenario;
 
-/// Crank angle between two rows of the reduced quantities (deg): only their means and extremes are told.
+/// Crank angle between two rows of the reduced quantities (deg); the page shows only means and extremes of these rows.
 const STEP_DEG: f64 = 10.0;
 
-/// Where pages go: one file, or a directory with a page for each scenario.
+/// Destination of pages: one file, or a directory with a page for each scenario.
 pub(super) struct Pages {
     to: PathBuf,
     is_directory: bool,
@@ -28,10 +28,11 @@ pub(super) struct Pages {
 }
 
 impl Pages {
-    /// The pages of this many scenarios. Tries whether they can be written, before any work is done.
+    /// The pages of this many scenarios.
+    /// Tests in advance whether the pages can be written.
     ///
     /// # Errors
-    /// What is in the way.
+    /// If a page cannot be written.
     pub(super) fn of(to: &Path, scenarios: usize) -> Result<Pages> {
         let is_directory = scenarios > 1 || to.is_dir() || to.as_os_str().to_string_lossy().ends_with('/');
         let tried = if is_directory { files::may_fill(to) } else { files::may_write(to) };
@@ -70,7 +71,7 @@ impl Pages {
         Ok(path)
     }
 
-    /// `NAME.html` in the directory; `NAME-2.html` if a scenario before had that name.
+    /// `NAME.html` in the directory; `NAME-2.html` if an earlier scenario had that name.
     fn place(&mut self, name: &str) -> Result<PathBuf> {
         if !self.is_directory {
             return Ok(self.to.clone());
@@ -85,16 +86,7 @@ impl Pages {
     }
 }
 
-/// Path for a page or for several; standard output has the report.
-pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
-    match text {
-        "-" => Err(sentences::A_PAGE_GOES_TO_A_FILE_EXPECTED.into()),
-        _ if text.ends_with(".toml") => output::target(text),
-        _ => Ok(PathBuf::from(text)),
-    }
-}
-
-/// The mechanism reduced to its crank, or why it is not.
+/// The mechanism reduced to its crank, or the reason why it cannot be reduced.
 fn reduced(scenario: &Scenario) -> std::result::Result<Graphs, String> {
     let scenario = scenario.clone().nominal();
     let graphs = || {

@@ -18,7 +18,7 @@ pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// List all real configurations of every group, with angles, angular velocities and places of points
+    /// List all real configurations of every group, with angles, angular velocities and positions of points
     #[arg(long)]
     modes: bool,
     /// Show the crank angles over which the mechanism can be followed, its singular and extreme positions, and its
@@ -31,7 +31,7 @@ pub(super) struct Args {
     /// Work allowed for --range, in steps of an engine without sweeps [default: 2e7]
     #[arg(long, value_name = "STEPS", allow_hyphen_values = true, requires = "range", value_parser = number::positive)]
     budget: Option<f64>,
-    /// Start a group in another assembly mode than the file states, as in `linkproof run`
+    /// Start a group in a different assembly mode from that of the file, as in `linkproof run`
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
     #[command(flatten)]
@@ -44,7 +44,7 @@ results! { Inspected {
 
 pub(super) fn inspect(args: &Args) -> Result<()> {
     let asked = StartRequest { modes: args.mode.clone(), ..StartRequest::default() };
-    // A list of configurations is wanted above all where the file does not decide between them.
+    // If the file leaves the configuration open, a list of all configurations is most useful.
     let (scenario, undecided) = match args.modes {
         true => load::to_list(&args.file, &asked)?,
         false => (load::as_asked(&args.file, &asked)?, Vec::new()),
@@ -66,9 +66,9 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
         false => None,
     };
     let modes = modes.as_ref().map(|(crank, all)| (*crank, all.as_slice()));
-    let text = || match (modes, &range) {
+    let text = |width| match (modes, &range) {
         (Some((crank, modes)), _) => modes::text(&scenario, crank, modes, &undecided),
-        (None, Some(range)) => range::text(&scenario, range),
+        (None, Some(range)) => range::text(&scenario, range, width),
         (None, None) => report::text(&scenario),
     };
     args.outputs.deliver(|_| Ok(report::json(&scenario, modes, &undecided, range.as_ref())), text)

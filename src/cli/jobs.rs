@@ -1,4 +1,5 @@
-//! Work on several files side by side, with results in the order of the files whatever the number of threads.
+//! Processes several files in parallel.
+//! The results have the order of the files, whatever the number of threads.
 
 use crate::sentences;
 use std::any::Any;
@@ -9,14 +10,15 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Memory that the work in hand takes together. A share is held until the result has been given on.
+/// Memory for all items in progress.
+/// An item holds its reserved memory until its result has been passed on.
 pub(super) struct Room {
     most: f64,
     held: Mutex<Held>,
     freed: Condvar,
 }
 
-/// Who is next, and what is held.
+/// The index of the next item, and the memory that each item holds.
 #[derive(Debug, Default)]
 struct Held {
     next: usize,
@@ -33,8 +35,11 @@ impl Room {
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits until item `index` may take `bytes`. Items take their shares in their order, and one alone always gets
-    /// its share: so the first one whose result is missing never waits for a later one. `tell` is called in that order.
+    /// Waits until item `index` may take `bytes`.
+    /// Items reserve memory in their order.
+    /// If no other item holds memory, the item always gets its memory.
+    /// The first item without a result therefore never waits for a later item.
+    /// `tell` is called when the item gets its memory.
     pub(super) fn take(&self, index: usize, bytes: f64, tell: impl FnOnce()) {
         let full = |held: &mut Held| held.next != index || (held.bytes > 0.0 && held.bytes + bytes > self.most);
         let mut held = self.freed.wait_while(self.lock(), full).unwrap_or_else(PoisonError::into_inner);
@@ -45,16 +50,16 @@ impl Room {
         self.freed.notify_all();
     }
 
-    /// Gives the share of an item back; one that has none yet is passed over.
+    /// Frees the memory of an item; an item without reserved memory changes nothing.
     fn give_back(&self, index: usize) {
         let mut held = self.lock();
         held.shares.remove(&index);
-        // Summed anew, so that nothing is left by rounding.
+        // The sum is computed anew, so that no rounding error accumulates.
         held.bytes = held.shares.values().sum();
         self.freed.notify_all();
     }
 
-    /// Lets the others go on if an item ends before it has taken its share.
+    /// Lets the next items continue if an item ends before it has reserved memory.
     fn pass(&self, index: usize) {
         let mut held =
             self.freed.wait_while(self.lock(), |held| held.next < index).unwrap_or_else(PoisonError::into_inner);
@@ -65,11 +70,13 @@ impl Room {
     }
 }
 
-/// Does `work` on all items, on so many threads, with `most` bytes of memory for all in hand together. `give` receives
-/// the results in the order of the items, each as soon as all before it are there. Work that panics ends as an error.
+/// Does `work` on all items, on `threads` threads, with `most` bytes of memory for all items in progress.
+/// `give` receives the results in the order of the items.
+/// It receives each result as soon as all earlier results are available.
+/// If `work` panics, the result is an error.
 ///
-/// `work` gets the index of its item and the room, which it asks once, before it takes memory. With one thread, the next
-/// item begins when the result before it has been given on.
+/// `work` gets the index of its item, and the [`Room`] in which it reserves memory once, before it allocates.
+/// With one thread, the next item begins after the previous result has been passed on.
 pub(super) fn side_by_side<T, R: Send>(
     items: &[T],
     threads: usize,
@@ -103,7 +110,7 @@ pub(super) fn side_by_side<T, R: Send>(
     );
 }
 
-/// A panic as an error. Its place is on standard error already.
+/// A panic as an error; its location is already on standard error.
 fn panicked(panic: &(dyn Any + Send)) -> Error {
     let text = panic.downcast_ref::<&str>().copied().or(panic.downcast_ref::<String>().map(String::as_str));
     let message = sentences::this_is_a_fault_of_the_program(&text.unwrap_or("it panicked"));
@@ -129,10 +136,10 @@ mod tests {
     }
 
     #[test]
-    fn results_come_in_order_from_any_number_of_threads() {
+    fn results_are_in_order_for_any_number_of_threads() {
         for threads in [1, 2, 7, 100] {
             let squares = results(threads, 1.0, |index, room| {
-                // The first ones take longest.
+                // The first items take longest.
                 std::thread::sleep(Duration::from_millis(20 - index as u64));
                 room.take(index, 0.0, || {});
                 Ok(index * index)
@@ -143,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_is_an_error_of_its_own_item() {
+    fn a_panic_fails_only_its_item() {
         let given = results(3, 1.0, |index, room| {
             assert!(index != 4, "item four");
             room.take(index, 1.0, || {});
@@ -159,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn all_in_hand_take_no_more_than_there_is_and_too_large_a_one_goes_alone() {
+    fn jobs_share_the_memory_and_an_oversized_job_runs_alone() {
         let taken = AtomicUsize::new(0);
         let given = results(6, 100.0, |index, room| {
             let own = if index == 11 { 500 } else { 10 * (index % 5) };

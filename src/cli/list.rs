@@ -15,7 +15,7 @@ pub(super) struct Args {
     /// Directory of scenario files [default: scenarios, or else this directory]; with --channels a scenario file
     #[arg(value_name = "DIR")]
     place: Option<PathBuf>,
-    /// List the channels instead: those of a scenario, with a file
+    /// List channels instead: all, or with a file those of its scenario
     #[arg(long)]
     channels: bool,
     /// List the solvers instead
@@ -38,8 +38,10 @@ pub(super) fn list(args: &Args) -> Result<()> {
         let directory = args.place.as_deref().unwrap_or(if usual.is_dir() { usual } else { Path::new(".") });
         let files =
             scenario::files_in(directory).map_err(|error| error.help(sentences::NAME_THE_DIRECTORY_THAT_HOLDS))?;
-        let all: Vec<_> = files.into_iter().map(|file| (Scenario::load(&file), file)).collect();
-        lists::scenarios(directory, &all, advice::told)
+        let bare = |file: PathBuf| file.strip_prefix(".").map(Path::to_path_buf).unwrap_or(file);
+        let all: Vec<_> = files.into_iter().map(bare).map(|file| (Scenario::load(&file), file)).collect();
+        let list = lists::scenarios(directory, &all, advice::told);
+        if all.is_empty() { format!("{list}{}\n", sentences::NEW_WRITES_ONE) } else { list }
     };
     output::print(&text)
 }

@@ -1,14 +1,16 @@
-//! `--live`: what a proof has found, moving in viewers that listen to Foxglove's WebSocket.
+//! `--live`: serves the result of a proof, as an animation, to viewers that connect by Foxglove's WebSocket.
 //!
-//! - Source: a `recording::Reel` in memory, the same `Sink` that a recording fills.
-//! - Protocol: the former name (`foxglove.websocket.v1`) and the present one (`foxglove.sdk.v1`). The server of Foxglove's
-//!   library speaks the present one only; Lichtblick and the open Foxglove Studio offer the former one only. So `tungstenite`
-//!   does handshake and frames, and `report::live` has the messages.
-//! - Clock: times sent are log times of the recording. The clock of the machine decides only when they are sent; no byte
-//!   depends on it.
-//! - Viewers have a thread and a place in the reel each, so that one that pauses, seeks or is slow disturbs no other.
-//! - Stage: the reference is shown while the engine is at work, the whole afterwards. Channels get new numbers then, and
-//!   viewers ask for them again.
+//! - Source: a `recording::Reel` in memory; the `Sink` that fills it also fills recordings.
+//! - Protocol: the former name (`foxglove.websocket.v1`) and the present one (`foxglove.sdk.v1`).
+//!   The server of Foxglove's library supports only the present name.
+//!   Lichtblick and the open Foxglove Studio offer only the former name.
+//!   Therefore `tungstenite` does handshake and frames, and `report::live` has the messages.
+//! - Clock: the times sent are log times of the recording.
+//!   The clock of the machine decides only when they are sent; no byte depends on it.
+//! - Viewers: each has a thread and a position in the reel.
+//!   A viewer that pauses, seeks or is slow does not disturb the other viewers.
+//! - Stage: while the engine works, viewers see only the reference; afterwards they see everything.
+//!   Channels then get new numbers, and viewers subscribe again.
 
 #[cfg(feature = "live")]
 mod player;
@@ -36,10 +38,10 @@ use {
     std::path::Path,
 };
 
-/// Where viewers listen unless another address is given, as Foxglove proposes it.
+/// Default address for viewers, as Foxglove proposes it.
 const USUAL: &str = "127.0.0.1:8765";
 
-/// Whether viewers are served, and where.
+/// Whether the command serves live viewers, and at which address.
 #[derive(Clone, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct LiveArgs {
@@ -55,10 +57,10 @@ impl LiveArgs {
         self.live.is_some()
     }
 
-    /// Listens for viewers of a scenario, if they are to be served.
+    /// Listens for viewers of a scenario, if requested.
     ///
     /// # Errors
-    /// If this build cannot; if there are several scenarios; if the address cannot be listened at.
+    /// If this build has no server, if there are several scenarios, or if the address cannot be used.
     pub(super) fn start(&self, files: &[PathBuf]) -> Result<Option<Live>> {
         let Some(address) = &self.live else { return Ok(None) };
         if let [_, _, ..] = files {
@@ -70,7 +72,7 @@ impl LiveArgs {
     }
 }
 
-/// What stands in for the server where a build has none.
+/// Replaces the server in builds without one.
 #[cfg(not(feature = "live"))]
 pub(super) enum Live {}
 

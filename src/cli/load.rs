@@ -1,4 +1,4 @@
-//! The common first step of every command: a scenario from a file, or from standard input in its place.
+//! The common first step of every command: reads a scenario from a file or from standard input.
 
 use crate::sentences;
 use std::io::{self, IsTerminal};
@@ -10,17 +10,17 @@ use super::{number, output};
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::{Draft, Scenario, StartRequest, Undecided};
 
-/// Another start than that of the file.
+/// A different start from that of the file.
 #[derive(Clone, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct StartArgs {
-    /// Start a group in another assembly mode than the file states, or in the configuration with that number in
-    /// `inspect --modes`; published numbers belong to the file's own modes and are then left out. May be given for
+    /// Start a group in a different assembly mode from that of the file, or in the configuration with that number in
+    /// `inspect --modes`; published numbers hold only for the modes of the file and are then left out. May be given for
     /// several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     pub(super) mode: Vec<String>,
     /// Crank angle at t = 0 in degrees, measured as in the scenario, instead of the `crank` of its `[start]`; published
-    /// numbers stay if the start lies on the file's own branch
+    /// numbers stay if the start lies on the branch of the file
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     pub(super) start_crank_deg: Option<f64>,
     /// Number of a parameter, by its key in `[parameters]`; may be given several times
@@ -29,12 +29,12 @@ pub(super) struct StartArgs {
 }
 
 impl StartArgs {
-    /// Reads a scenario with this start, on the grid given, else on its own.
+    /// Reads a scenario with this start, on the given grid or, without a given grid, on the file's grid.
     pub(super) fn load(&self, file: &Path, grid: &GridArgs) -> Result<Scenario> {
         self.load_as(file, grid, StartRequest::default())
     }
 
-    /// The same with what is asked `besides`.
+    /// Like `load`, with the additional requests in `besides`.
     pub(super) fn load_as(&self, file: &Path, grid: &GridArgs, besides: StartRequest) -> Result<Scenario> {
         let crank = self.start_crank_deg.map(f64::to_radians);
         let asked = StartRequest {
@@ -48,7 +48,7 @@ impl StartArgs {
     }
 }
 
-/// The scenario with only the channels that `words` ask for; as it is, without words.
+/// The scenario with only the channels that `words` select; unchanged if there are no words.
 pub(super) fn only(scenario: Scenario, words: &[String]) -> Result<Scenario> {
     if words.is_empty() { Ok(scenario) } else { scenario.only(words).map_err(|error| error.key("--only")) }
 }
@@ -59,7 +59,7 @@ pub(super) fn setting(text: &str) -> std::result::Result<(String, f64), String> 
     Ok((key.trim().into(), number::decimal(value, sentences::A_FINITE_NUMBER_BEHIND_THE_SUCH_AS_A_MM)?))
 }
 
-/// Reads a scenario as it is.
+/// Reads a scenario without changes.
 pub(super) fn plain(file: &Path) -> Result<Scenario> {
     as_asked(file, &StartRequest::default())
 }
@@ -77,7 +77,8 @@ pub(super) fn as_asked(file: &Path, asked: &StartRequest) -> Result<Scenario> {
     found.map_err(|error| of_mode(asked, error))
 }
 
-/// The same for a list of configurations: with the groups that the file does not decide.
+/// Like `load`, for a list of configurations.
+/// Also returns the groups whose configuration the file leaves open.
 pub(super) fn to_list(file: &Path, asked: &StartRequest) -> Result<(Scenario, Vec<Undecided>)> {
     let found = match is_standard_input(file) {
         true => Scenario::parse_to_list(standard_input()?, named(file), asked),
@@ -86,7 +87,7 @@ pub(super) fn to_list(file: &Path, asked: &StartRequest) -> Result<(Scenario, Ve
     found.map_err(|error| of_mode(asked, error))
 }
 
-/// The mechanism of a file that cannot be assembled, as far as the file states it.
+/// The readable part of the mechanism in a file that cannot be assembled.
 pub(super) fn draft(file: &Path, asked: &StartRequest) -> Result<Draft> {
     match is_standard_input(file) {
         true => Draft::parse(standard_input()?, named(file), asked),
@@ -94,24 +95,25 @@ pub(super) fn draft(file: &Path, asked: &StartRequest) -> Result<Draft> {
     }
 }
 
-/// An error that has no place in the file is one of the modes asked for.
+/// Adds the option's location to an error that has no location in the file, because a requested mode caused it.
 fn of_mode(asked: &StartRequest, error: Error) -> Error {
     let is_asked = !asked.modes.is_empty() && error.place().is_none() && error.kind() != ErrorKind::Io;
     if is_asked { error.key("--mode") } else { error }
 }
 
-/// What stands for standard input in place of a path.
+/// Path that means standard input.
 const DASH: &str = "-";
 
-/// What messages call it. Files that the scenario names are relative to the working directory.
+/// Name of standard input in messages.
+/// Files that the scenario names are relative to the working directory.
 const NAME: &str = "<standard input>";
 
-/// Whether a path stands for standard input.
+/// Whether a path means standard input.
 pub(super) fn is_standard_input(path: &Path) -> bool {
     path == Path::new(DASH)
 }
 
-/// The path, as messages name it.
+/// The name of the path in messages.
 pub(super) fn named(path: &Path) -> &Path {
     if is_standard_input(path) { Path::new(NAME) } else { path }
 }
@@ -131,7 +133,7 @@ fn standard_input() -> Result<&'static str> {
     TEXT.get_or_init(read).as_ref().map(String::as_str).map_err(Error::clone)
 }
 
-/// Refuses to write settings into what is no file.
+/// Refuses to write settings if the scenario comes from standard input.
 pub(super) fn refuse_writing(path: &Path) -> Result<()> {
     if !is_standard_input(path) {
         return Ok(());

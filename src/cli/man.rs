@@ -5,30 +5,30 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_mangen::Man;
 
-use super::{Cli, output};
+use super::output;
 use linkage::error::{Error, ErrorKind, Result};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/man.txt").trim_ascii_end())]
 pub(super) struct Args {
-    /// Directory for the pages of linkproof and of all its commands; it is made if it is missing [default: the page of
-    /// linkproof, to standard output]
+    /// Directory for the pages of linkproof and of all its commands; it is created if it is missing [default: the page
+    /// of linkproof, to standard output]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 }
 
 /// Writes one page to standard output, or all of them to a directory.
-pub(super) fn run(args: &Args) -> Result<()> {
-    // Without it both ways give the same page.
-    let mut command = Cli::command().disable_help_subcommand(true);
+pub(super) fn run(args: &Args, command: Command) -> Result<()> {
+    // Without the help subcommand, the page of linkproof is the same in both outputs.
+    let mut command = command.disable_help_subcommand(true);
     command.build();
     let Some(directory) = &args.output else {
         let mut page = Vec::new();
         Man::new(command).render(&mut page).map_err(|error| failed(Path::new("-"), &error))?;
-        return output::print(&String::from_utf8_lossy(&page));
+        return output::data(&String::from_utf8_lossy(&page));
     };
     let mut all = Vec::new();
     let made = fs::create_dir_all(directory).and_then(|()| pages(&command, &mut all));
@@ -36,7 +36,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
     all.iter().try_for_each(|(name, text)| output::make(text, &directory.join(name)))
 }
 
-/// Adds the pages of all commands below one, and its page: names and texts.
+/// Adds the page of a command and the pages of all its subcommands: names and texts.
 fn pages(command: &Command, all: &mut Vec<(String, String)>) -> io::Result<()> {
     command.get_subcommands().filter(|own| !own.is_hide_set()).try_for_each(|own| pages(own, all))?;
     let page = Man::new(command.clone());

@@ -25,13 +25,13 @@ pub(super) struct Args {
     /// Kind of fault, or family of kinds. May be given several times [default: all]
     #[arg(long, value_name = "KIND", value_parser = kind)]
     kind: Vec<String>,
-    /// Who gets the fault. May be given several times [default: each in turn]
+    /// Party that gets the fault. May be given several times [default: each party in turn]
     #[arg(long, value_name = "PARTY", value_parser = PossibleValuesParser::new(FaultyParty::ALL.map(FaultyParty::name)))]
     party: Vec<String>,
-    /// Do not search the size at which a fault is lost
+    /// Do not search for the size below which a fault is missed
     #[arg(long)]
     no_sizes: bool,
-    /// Number of faults examined side by side; results do not depend on it [default: the number of cores]
+    /// Number of faults tested in parallel; results do not depend on it [default: the number of cores]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     jobs: usize,
     /// List the kinds of faults
@@ -48,10 +48,10 @@ results! { Mutations {
     Markdown = "figures and tables",
 } }
 
-/// Plants faults in every file's proof. A bad file does not stop the others.
+/// Plants faults in the proof of every file; a bad file does not stop the others.
 pub(super) fn run(args: &Args) -> Result<u8> {
     if args.list {
-        return output::print(&report::all_kinds()).map(|()| exit_code::AGREE);
+        return output::print(&report::all_kinds(output::width())).map(|()| exit_code::AGREE);
     }
     let options = args.engine.options(Reference::Assur);
     if options.engine_count() > 1 {
@@ -79,7 +79,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
         Mutations::Markdown => Ok(report::markdown(&found)),
         Mutations::Json => Ok(report::json(&found, &failures)),
     };
-    args.outputs.deliver(result, || report::text(&found))?;
+    args.outputs.deliver(result, |_| report::text(&found))?;
     Ok(match tally(&found).end() {
         _ if !failures.is_empty() => exit_code::BAD_INPUT,
         FaultTally::AllFound => exit_code::AGREE,

@@ -12,7 +12,7 @@ use scenario::templates::{self, TEMPLATES, Template};
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/new.txt").trim_ascii_end())]
 pub(super) struct Args {
-    /// Mechanism to begin with; without one, the templates are listed
+    /// Mechanism to start from; without this argument, the templates are listed
     #[arg(value_name = "TEMPLATE")]
     template: Option<String>,
     /// File to write, or `-` for standard output [default: the template's name, in this directory]
@@ -21,7 +21,7 @@ pub(super) struct Args {
     /// Dimension, by its key in `[parameters]`; may be given several times
     #[arg(long, value_name = "KEY=NUMBER", requires = "template", value_parser = load::setting)]
     set: Vec<(String, f64)>,
-    /// Replace files that are there
+    /// Replace existing files
     #[arg(long)]
     force: bool,
     /// List the templates
@@ -54,14 +54,14 @@ fn list() -> String {
     sentences::linkproof_new_template_writes_one_its_dimensions(&lines)
 }
 
-/// What has been written, and what to do with it.
+/// Message about the written file and its use.
 fn begun(template: &Template, file: &str) -> String {
     let stem = Path::new(file).with_extension("");
     let stem = stem.display();
     sentences::next_linkproof_draw_svg_linkproof(&file, &template.title(), &stem)
 }
 
-/// Refuses what would replace a file.
+/// Refuses to replace an existing file.
 fn free(path: &Path, args: &Args, other: &str) -> Result<()> {
     if args.force || path.symlink_metadata().is_err() {
         return Ok(());
@@ -77,7 +77,7 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let text = template.scenario(&stem, &args.set).map_err(|error| error.key("--set"))?;
     if output::is_standard(path) {
-        output::print(&text)?;
+        output::data(&text)?;
         return Ok(told(&text, Path::new("standard output"), template));
     }
     free(path, args, sentences::GIVE_ANOTHER_NAME_WITH_OUTPUT)?;
@@ -92,7 +92,7 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
     Ok(code)
 }
 
-/// Says why the mechanism cannot be assembled or does not turn; the exit code.
+/// Reports why the mechanism cannot be assembled or its crank cannot rotate; returns the exit code.
 fn told(text: &str, path: &Path, template: &Template) -> u8 {
     let Err(error) = Scenario::parse(text, path).and_then(|scenario| prover::run::solve(&scenario.case)) else {
         return exit_code::AGREE;

@@ -1,4 +1,4 @@
-//! Numbers on the command line: what a value may be, and what is said of another.
+//! Numbers on the command line: the allowed values, and the messages about invalid values.
 
 use crate::sentences;
 use std::fmt::Display;
@@ -18,7 +18,7 @@ pub(super) fn positive(text: &str) -> Parsed<f64> {
     allowed(text, sentences::A_FINITE_NUMBER_GREATER_THAN, |number| number > 0.0)
 }
 
-/// A finite number from zero on.
+/// A finite number that is not negative.
 pub(super) fn not_negative(text: &str) -> Parsed<f64> {
     allowed(text, sentences::A_FINITE_NUMBER_THAT_IS_OR_GREATER, |number| number >= 0.0)
 }
@@ -38,7 +38,7 @@ pub(super) fn efficiency(text: &str) -> Parsed<f64> {
     allowed(text, sentences::A_NUMBER_ABOVE_AND_AT_MOST, |number| number > 0.0 && number <= 1.0)
 }
 
-/// A whole number from one on.
+/// A whole number of at least one.
 pub(super) fn count(text: &str) -> Parsed<usize> {
     let count = text.trim().parse().ok().filter(|count| *count > 0);
     count.ok_or_else(|| sentences::EXPECTED_A_WHOLE_NUMBER_FROM_ON.into())
@@ -50,10 +50,10 @@ pub(super) fn times(text: &str) -> Parsed<usize> {
     times.ok_or_else(|| sentences::expected_a_whole_number_from_to(&MOST_TIMES))
 }
 
-/// A decimal number from a text.
+/// Reads a decimal number; `such` names the kind of number that the option expects.
 ///
 /// # Errors
-/// What is expected instead, `such` a number.
+/// A message that names the expected kind, `such` a number.
 pub(super) fn decimal(text: &str, such: impl Display) -> Parsed<f64> {
     let text = text.trim();
     match f64::from_str(text) {
@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_is_allowed_is_read() {
+    fn only_allowed_numbers_are_accepted() {
         assert_eq!(
             [finite("-1e3"), positive("0.5"), not_negative(" 0"), not_zero("-2")],
             [Ok(-1e3), Ok(0.5), Ok(0.0), Ok(-2.0)]
@@ -86,7 +86,7 @@ mod tests {
                 let told = read(text).unwrap_err();
                 assert!(told.starts_with("expected ") && !told.contains("decimals"), "{text}: {told}");
             }
-            assert!(read("30,5").unwrap_err().ends_with("; decimals take a point: 30.5"));
+            assert!(read("30,5").unwrap_err().ends_with("; write decimals with a point: 30.5"));
         }
         for refused in [
             positive("0"),

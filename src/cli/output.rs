@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 
 use super::{advice, exit_code};
 use crate::plain::errors;
-use crate::plain::style::COLUMNS;
+use crate::plain::style::{COLUMNS, fitted};
 use anstream::AutoStream;
 use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
-use terminal_size::{Width, terminal_size_of};
+use terminal_size::{Height, Width, terminal_size_of};
 
-/// Path that results may be written to, `-` for standard output. Scenario files are refused: in `--json
-/// scenarios/*.toml` the first of them would become the target.
+/// Path for results, or `-` for standard output.
+/// Scenario files are refused: a shell expands `--json scenarios/*.toml`, and the first scenario would be overwritten.
 pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     if path.extension().is_some_and(|extension| extension == "toml") {
@@ -23,7 +23,8 @@ pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
     writable(path)
 }
 
-/// A path that can be written to, `-` for standard output. What is in the way is found before any work is done.
+/// A writable path, or `-` for standard output.
+/// Obstacles to writing are reported before any work is done.
 pub(super) fn writable(path: PathBuf) -> std::result::Result<PathBuf, String> {
     if !is_standard(&path) {
         files::may_write(&path)?;
@@ -31,12 +32,12 @@ pub(super) fn writable(path: PathBuf) -> std::result::Result<PathBuf, String> {
     Ok(path)
 }
 
-/// Whether a path stands for standard output: `-`.
+/// Whether a path means standard output: `-`.
 pub(super) fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Refuses two options that name one file: the second result would take the place of the first.
+/// Refuses two options with the same file, because the second result would replace the first.
 pub(super) fn apart(targets: &[(&str, &Path)]) -> Result<()> {
     let place = |path: &Path| match path.starts_with("/dev") || is_standard(path) {
         true => path.to_path_buf(),
@@ -55,7 +56,7 @@ pub(super) fn apart(targets: &[(&str, &Path)]) -> Result<()> {
     Ok(())
 }
 
-/// As [`target`], also in a directory that the command makes.
+/// Like [`target`], but the directory may be missing; the command creates it.
 pub(super) fn page(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.parent().filter(|parent| *parent != Path::new("") && !parent.exists()) {
@@ -64,7 +65,7 @@ pub(super) fn page(text: &str) -> std::result::Result<PathBuf, String> {
     }
 }
 
-/// A directory that can be filled with results; it is made when there are some.
+/// A directory for results; it is created with the first result.
 pub(super) fn directory(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     files::may_fill(&path)?;
@@ -89,19 +90,19 @@ pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<
     if is_standard(to) { printed(fill) } else { put(&OutputTarget::Named(to), to, None, fill) }
 }
 
-/// Writes text with its seal to a file whose name the program made up. What is there is replaced if its seal is
-/// unbroken, else it is an error.
+/// Writes text, with its seal, to a file whose name the program chose.
+/// If the file exists and its seal is unbroken, it is replaced; without an unbroken seal it is an error.
 pub(super) fn make(text: &str, to: &Path) -> Result<()> {
     make_by(files::sealed(text, to).as_bytes(), to, &files::is_sealed)
 }
 
-/// Writes bytes to a file whose name the program made up. What is there is replaced if `is_ours` says so, else it is an
-/// error.
+/// Writes bytes to a file whose name the program chose.
+/// An existing file is replaced if `is_ours` accepts its bytes; otherwise it is an error.
 pub(super) fn make_by(bytes: &[u8], to: &Path, is_ours: &dyn Fn(&[u8]) -> bool) -> Result<()> {
     put(&OutputTarget::Made(to, is_ours), to, Some(bytes.len() as u64), |out| out.write_all(bytes))
 }
 
-/// Why [`make`] would be refused at one of these places: what is there may not be replaced.
+/// Checks these paths in advance; an error if [`make`] may not replace an existing file.
 pub(super) fn may_make(places: &[PathBuf]) -> Result<()> {
     for to in places {
         if let Some(why) = OutputTarget::Made(to, &files::is_sealed).in_the_way() {
@@ -124,8 +125,14 @@ fn put(
     })
 }
 
-/// Writes text to standard output. A reader that has closed the pipe (`| head`) is not an error.
+/// Writes text for people to standard output, wrapped to the width of the terminal.
+/// A reader that has closed the pipe (`| head`) is not an error.
 pub(super) fn print(text: &str) -> Result<()> {
+    data(&fitted(text, width()))
+}
+
+/// Writes text for programs to standard output, without changes.
+pub(super) fn data(text: &str) -> Result<()> {
     printed(|out| out.write_all(text.as_bytes()))
 }
 
@@ -139,23 +146,27 @@ fn printed(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     }
 }
 
-/// Columns below which a table is not worth reading; a narrower terminal breaks the lines itself.
+/// Smallest width of a table in columns; in a narrower terminal, the terminal itself wraps the lines.
 const LEAST: usize = 60;
 
-/// Columns of the terminal, or 80 where standard output is no terminal.
+/// Columns of the terminal, or 80 if standard output is not a terminal.
 pub(super) fn columns() -> usize {
     width().unwrap_or(COLUMNS)
 }
 
-/// Columns of the terminal; `None` where standard output is no terminal.
+/// Columns of the terminal; `None` if standard output is not a terminal and `COLUMNS` is not set.
 pub(super) fn width() -> Option<usize> {
     let out = io::stdout();
-    let known = if out.is_terminal() { terminal_size_of(&out) } else { None };
-    known.map(|(Width(columns), _)| usize::from(columns).max(LEAST))
+    columns_of(if out.is_terminal() { terminal_size_of(&out) } else { None })
 }
 
-/// Writes a report to standard output. Its colours stay where standard output takes them: on a terminal, unless NO_COLOR
-/// is set, or with CLICOLOR_FORCE.
+fn columns_of(terminal: Option<(Width, Height)>) -> Option<usize> {
+    let set = || std::env::var("COLUMNS").ok()?.trim().parse().ok();
+    terminal.map(|(Width(columns), _)| usize::from(columns)).or_else(set).map(|columns| columns.max(LEAST))
+}
+
+/// Writes a report to standard output.
+/// On a terminal, colours are kept unless NO_COLOR is set; elsewhere they are kept only with CLICOLOR_FORCE.
 pub(super) fn report(report: &str) -> Result<()> {
     let choice = AutoStream::choice(&io::stdout());
     let mut text = AutoStream::new(Vec::new(), choice);
@@ -164,7 +175,7 @@ pub(super) fn report(report: &str) -> Result<()> {
     print(&String::from_utf8_lossy(&text.into_inner()))
 }
 
-/// What a command, or a part of it, comes to: nothing more to say, an exit code of its own, or an error, which is shown.
+/// Outcome of a command or of a part of a command: success, an exit code, or an error that is shown.
 pub(super) trait End {
     /// The exit code.
     fn code(self) -> u8;
@@ -194,7 +205,7 @@ impl<T: End> End for Result<T> {
     }
 }
 
-/// Makes a directory for results; `option` names it.
+/// Makes a directory for results; messages name the `option` that requested the directory.
 pub(super) fn make_directory(path: &Path, option: &str, help: &str) -> Result<()> {
     fs::create_dir_all(path).map_err(|error| {
         Error::new(ErrorKind::Io, sentences::cannot_be_made(&path.display(), &error)).key(option).help(help)
@@ -208,19 +219,22 @@ pub(super) fn refused<T>(option: &str, message: impl Into<String>, help: &str) -
 
 /// Shows a line on standard error.
 pub(super) fn note(text: &str) {
-    // If standard error is closed, nothing can be done.
-    let _ = writeln!(io::stderr(), "note: {text}");
+    say(&format!("note: {text}"));
 }
 
-/// Shows on standard error what kept a result from being complete.
+/// Shows a warning on standard error: the reason why a result is incomplete.
 pub(super) fn warn(error: &Error) {
-    // If standard error is closed, nothing can be done.
-    let _ = writeln!(io::stderr(), "{}", errors::warning(error, advice::told));
+    say(&errors::warning(error, advice::told));
 }
 
-/// Shows an error on standard error: the line of the file concerned, what was found there, and the way out.
+/// Shows an error on standard error: the line of the file, the value found there, and the remedy.
 pub(super) fn show(error: &Error) {
-    let text = errors::text(error, advice::told);
-    // If standard error is closed, nothing can be done.
-    let _ = writeln!(io::stderr(), "{text}");
+    say(&errors::text(error, advice::told));
+}
+
+fn say(text: &str) {
+    let mut stream = io::stderr();
+    let width = columns_of(if stream.is_terminal() { terminal_size_of(&stream) } else { None });
+    // If standard error is closed, an error cannot be reported.
+    let _ = writeln!(stream, "{}", fitted(text, width));
 }

@@ -1,4 +1,4 @@
-//! `-o FILE` of all commands: the ending says which result is written, and in which form.
+//! The option `-o FILE` of all commands: the file ending selects the result and its form.
 
 use crate::sentences;
 use std::collections::VecDeque;
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use clap::error::ErrorKind as Wrong;
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
 
-use super::{html, output};
+use super::output;
 use linkage::error::{Error, Result};
 
 /// A form of results.
@@ -20,6 +20,8 @@ pub(super) enum Form {
     Junit,
     Markdown,
     Mjcf,
+    /// A page of Markdown in a directory that the command makes.
+    Page,
     /// A directory of files whose names the command chooses.
     Results,
     Scenario,
@@ -34,7 +36,7 @@ impl Form {
             Form::Html => &["html", "htm"],
             Form::Json => &["json"],
             Form::Junit => &["xml"],
-            Form::Markdown => &["md"],
+            Form::Markdown | Form::Page => &["md"],
             Form::Mjcf => &["xml", "mjcf"],
             Form::Results => &[],
             Form::Scenario => &["toml"],
@@ -49,8 +51,9 @@ impl Form {
             Form::Html => &["html"],
             Form::Json => &["json"],
             Form::Junit => &["junit"],
-            Form::Markdown => &["markdown", "page"],
+            Form::Markdown => &["markdown"],
             Form::Mjcf => &["mjcf"],
+            Form::Page => &["page"],
             Form::Results => &["out"],
             Form::Scenario => &[],
             Form::Svg => &["svg"],
@@ -70,18 +73,27 @@ impl Form {
     /// The path of a result of this form.
     fn target(self, text: &str) -> std::result::Result<PathBuf, String> {
         match self {
-            Form::Html => html::target(text),
+            Form::Html => page_target(text),
             Form::Results => output::directory(text),
-            Form::Markdown => output::page(text),
+            Form::Page => output::page(text),
             Form::Scenario => output::writable(text.into()),
-            Form::Csv | Form::Json | Form::Junit | Form::Mjcf | Form::Svg => output::target(text),
+            Form::Csv | Form::Json | Form::Junit | Form::Markdown | Form::Mjcf | Form::Svg => output::target(text),
         }
+    }
+}
+
+/// Path of a page, or of a directory of pages; `-` is refused because standard output carries the report.
+fn page_target(text: &str) -> std::result::Result<PathBuf, String> {
+    match text {
+        "-" => Err(sentences::A_PAGE_GOES_TO_A_FILE_EXPECTED.into()),
+        _ if text.ends_with(".toml") => output::target(text),
+        _ => Ok(PathBuf::from(text)),
     }
 }
 
 /// The results of a command.
 pub(super) trait Results: Clone + Copy + Debug + PartialEq + Send + Sync + 'static {
-    /// The results, their forms and contents; the first is that of `-`.
+    /// The results with their forms and contents. `-o -` writes the first result of this list.
     const ALL: &'static [(Self, Form, &'static str)];
 
     /// The form of this result.
@@ -107,7 +119,7 @@ macro_rules! results {
 }
 pub(super) use results;
 
-/// The results that the user wants as files. An empty path leaves the name to the command.
+/// The results that the user requests as files. If a path is empty, the command chooses the name.
 #[derive(Clone, Debug)]
 pub(super) struct Outputs<R: Results> {
     all: Vec<(R, PathBuf)>,
@@ -138,9 +150,10 @@ fn read<R: Results>(text: &str) -> std::result::Result<(R, PathBuf), String> {
         None if path.starts_with("/dev") => (first, form),
         None if ending == "toml" => return output::target(text).map(|path| (first, path)),
         None => {
-            let expected: Vec<String> = all().map(|(_, form)| form.sign()).collect();
+            let named = |form: Form| if form == Form::Results { "DIR".into() } else { format!("FILE{}", form.sign()) };
+            let expected: Vec<String> = all().map(|(_, form)| named(form)).collect();
             let found = if ending.is_empty() { sentences::NO_ENDING.into() } else { format!(".{ending}") };
-            return Err(sentences::expected_a_file_that_ends_in_found(&expected.join(", "), &found));
+            return Err(sentences::expected_found(&expected.join(", "), &found));
         }
     };
     Ok((own, form.target(if standard.is_some() { "-" } else { text })?))
@@ -155,6 +168,7 @@ impl<R: Results> clap::Args for Outputs<R> {
             .short('o')
             .long("output")
             .value_name("FILE")
+            .allow_hyphen_values(true)
             .action(ArgAction::Append)
             .value_parser(read::<R>)
             .help(sentences::write_to_a_file_by_its_ending(&contents.join("; "), &standard));
@@ -167,9 +181,10 @@ impl<R: Results> clap::Args for Outputs<R> {
             command.args(form.aliases().iter().map(|alias| {
                 Arg::new(*alias)
                     .long(*alias)
+                    .value_name("FILE")
                     .hide(true)
                     .action(ArgAction::Append)
-                    .num_args(if form == Form::Mjcf { 0..=1 } else { 1..=1 })
+                    .num_args(if R::ALL[0].1 == Form::Mjcf { 0..=1 } else { 1..=1 })
                     .default_missing_value("")
                     .value_parser(old)
             }))
@@ -189,7 +204,10 @@ impl<R: Results> FromArgMatches for Outputs<R> {
         let outputs = Outputs { all };
         match output::apart(&outputs.named()) {
             Ok(()) => Ok(outputs),
-            Err(error) => Err(clap::Error::raw(Wrong::ArgumentConflict, format!("{}\n", error.message()))),
+            Err(error) => {
+                let help = error.way_out().map_or(String::new(), |help| format!("\n  = help: {help}"));
+                Err(clap::Error::raw(Wrong::ArgumentConflict, format!("{}{help}\n", error.message())))
+            }
         }
     }
 
@@ -200,7 +218,7 @@ impl<R: Results> FromArgMatches for Outputs<R> {
 }
 
 impl<R: Results> Outputs<R> {
-    /// Whether standard output has a result; the text for people is then left out.
+    /// Whether a result goes to standard output; the text for people is then omitted.
     pub(super) fn take_standard(&self) -> bool {
         self.each().any(|(_, path)| output::is_standard(path))
     }
@@ -225,15 +243,16 @@ impl<R: Results> Outputs<R> {
         self.of(result).next()
     }
 
-    /// All paths as [`output::apart`] takes them.
+    /// All paths, in the form that [`output::apart`] requires.
     pub(super) fn named(&self) -> Vec<(&'static str, &Path)> {
         self.each().map(|(_, path)| ("--output", path)).collect()
     }
 
-    /// Writes every result for which `make` gives a text. A result that cannot be written does not stop the others.
+    /// Writes every result for which `make` returns a text.
+    /// If a result cannot be written, the other results are still written.
     ///
     /// # Errors
-    /// The first of those that stopped a result; the others are shown.
+    /// The first error is returned; the other errors are shown.
     pub(super) fn write_some(&self, mut make: impl FnMut(R) -> Result<Option<String>>) -> Result<()> {
         let mut one = |(own, to): (R, &Path)| make(own)?.map_or(Ok(()), |text| output::write(&text, to));
         let mut errors: VecDeque<Error> = self.each().filter_map(|found| one(found).err()).collect();
@@ -242,20 +261,25 @@ impl<R: Results> Outputs<R> {
         first.map_or(Ok(()), Err)
     }
 
-    /// Writes every result, as [`Outputs::write_some`].
+    /// Writes every result, like [`Outputs::write_some`].
     ///
     /// # Errors
-    /// As there.
+    /// Those of [`Outputs::write_some`].
     pub(super) fn write(&self, mut make: impl FnMut(R) -> Result<String>) -> Result<()> {
         self.write_some(|own| make(own).map(Some))
     }
 
-    /// Writes every result, then prints the text for people, unless standard output has a result.
+    /// Writes every result, then prints the text for people.
+    /// If a result goes to standard output, the text is omitted.
     ///
     /// # Errors
     /// Those of [`Outputs::write_some`].
-    pub(super) fn deliver(&self, make: impl FnMut(R) -> Result<String>, text: impl FnOnce() -> String) -> Result<()> {
+    pub(super) fn deliver(
+        &self,
+        make: impl FnMut(R) -> Result<String>,
+        text: impl FnOnce(Option<usize>) -> String,
+    ) -> Result<()> {
         self.write(make)?;
-        if self.take_standard() { Ok(()) } else { output::print(&text()) }
+        if self.take_standard() { Ok(()) } else { output::print(&text(output::width())) }
     }
 }

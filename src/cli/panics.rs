@@ -1,9 +1,11 @@
-//! The panic hook of the process. Panics that are caught and become an error print nothing on the terminal.
+//! The panic hook of the process.
+//! A panic that is caught and becomes an error prints nothing on the terminal.
 
 use std::panic::{set_hook, take_hook};
 
-/// Sets a hook that passes every panic on to the present hook, except those for which `is_caught` returns true. Call it
-/// once, at the start of the process. A hook runs on the thread that panics.
+/// Sets a hook that forwards every panic to the present hook, except panics for which `is_caught` returns true.
+/// Call it once, at the start of the process.
+/// A hook runs on the thread that panics.
 pub(super) fn silence(is_caught: fn() -> bool) {
     let previous = take_hook();
     set_hook(Box::new(move |info| {
@@ -23,15 +25,15 @@ mod tests {
     use std::thread;
 
     const ALONE: &str = "LINKPROOF_TEST_OF_THE_SILENCED_HOOK";
-    const NAME: &str = "cli::panics::tests::only_caught_panics_are_kept_from_the_hook";
+    const NAME: &str = "cli::panics::tests::only_caught_panics_bypass_the_hook";
 
     thread_local! {
         static CAUGHT: Cell<bool> = const { Cell::new(false) };
     }
 
-    /// A hook belongs to the whole process, so the test runs again in a process of its own.
+    /// A hook applies to the whole process, so the test runs again in a separate process.
     #[test]
-    fn only_caught_panics_are_kept_from_the_hook() {
+    fn only_caught_panics_bypass_the_hook() {
         static HEARD: AtomicUsize = AtomicUsize::new(0);
         if std::env::var_os(ALONE).is_none() {
             let mut again = Command::new(std::env::current_exe().unwrap());

@@ -39,7 +39,8 @@ results! { PlanResults {
     Svg = "kinematic diagram and both plans, to scale",
 } }
 
-/// Most points of a link: their relative vectors grow with the square of their number.
+/// Largest number of points of a link.
+/// The number of relative vectors grows with its square.
 const POINTS: usize = 100;
 
 pub(super) fn plan(args: &Args) -> Result<()> {
@@ -70,5 +71,5 @@ pub(super) fn plan(args: &Args) -> Result<()> {
             PlanResults::Json => report::json(&scenario, &plans, &singular, advice::told),
         })
     };
-    args.outputs.deliver(result, || report::text(&scenario, is_free, &plans, &singular, advice::told))
+    args.outputs.deliver(result, |width| report::text(&scenario, is_free, &plans, &singular, advice::told, width))
 }

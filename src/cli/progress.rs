@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Work shorter than this shows no bar.
+/// If the work takes less time than this, no bar is shown.
 const PATIENCE: Duration = Duration::from_millis(700);
 
 /// Bar on standard error (only on a terminal), from 0 to 1.
@@ -22,7 +22,7 @@ impl Bar {
         Bar { what: what.into(), since: Instant::now(), bar: None }
     }
 
-    /// Sets the finished share of the work.
+    /// Sets the finished fraction of the work.
     pub(super) fn at(&mut self, part: f64) {
         if self.bar.is_none() && self.since.elapsed() > PATIENCE {
             let style = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} % {eta:>4}");
@@ -43,24 +43,24 @@ impl Drop for Bar {
     }
 }
 
-/// One bar for work on several files side by side.
+/// One bar for parallel work on several files.
 #[derive(Debug)]
 pub(super) struct Shared(Mutex<(Bar, Vec<f64>)>);
 
 impl Shared {
-    /// A bar for the work called `what`, on so many files.
+    /// A bar for the work called `what`, on `files` files.
     pub(super) fn new(what: &str, files: usize) -> Self {
         Shared(Mutex::new((Bar::new(what), vec![0.0; files])))
     }
 
-    /// Sets the finished share of the work on a file.
+    /// Sets the finished fraction of the work on a file.
     pub(super) fn at(&self, file: usize, part: f64) {
         let (bar, parts) = &mut *self.0.lock().unwrap_or_else(PoisonError::into_inner);
         parts[file] = part;
         bar.at(parts.iter().sum::<f64>() / parts.len() as f64);
     }
 
-    /// Prints while the bar is hidden, so that neither writes into the other.
+    /// Hides the bar while `print` runs, so that the bar and the printed text do not mix.
     pub(super) fn hidden<R>(&self, print: impl FnOnce() -> R) -> R {
         let shown = self.0.lock().unwrap_or_else(PoisonError::into_inner).0.bar.clone();
         match shown {

@@ -1,4 +1,4 @@
-//! Options of recordings, and what is said of one that is written.
+//! Options of recordings, and the message about a recording that was written.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -20,19 +20,19 @@ use {
     recording::{Level, LogEntry, Reel},
 };
 
-/// Size from which on a recording is called large (bytes): viewers then take seconds to open it.
+/// Size (bytes) above which a recording is called large: viewers then take seconds to open it.
 const LARGE: u64 = 20_000_000;
-/// Size that is proposed instead (bytes).
+/// Size of the smaller recording that the message suggests (bytes).
 const HANDY: f64 = 5e6;
 
 /// Name of the reference's side.
 const REFERENCE: &str = "reference";
 
-/// Where a recording goes, and what is in it.
+/// Destination and contents of a recording.
 #[derive(Clone, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct RecordArgs {
-    /// Directory that the recordings (MCAP) are written to, with a layout for Foxglove and Lichtblick beside each
+    /// Directory for the recordings (MCAP), with a layout for Foxglove and Lichtblick beside each
     #[arg(long, value_name = "DIR", default_value = "recordings")]
     record: PathBuf,
     /// Write no recording
@@ -45,7 +45,7 @@ pub(super) struct RecordArgs {
     /// Record at most this many instants per second of the mechanism's time, beside the first and the last [default: all]
     #[arg(long, value_name = "HZ", allow_hyphen_values = true, value_parser = number::positive)]
     record_hz: Option<f64>,
-    /// Record reactions as arrows too; their numbers are recorded anyway
+    /// Also record reactions as arrows; their numbers are recorded anyway
     #[arg(long)]
     record_forces: bool,
 }
@@ -56,17 +56,17 @@ pub(super) struct Recorded {
     pub path: PathBuf,
     /// Its layout.
     pub layout: Option<PathBuf>,
-    /// Where it is, how large, and what opens it well.
+    /// Its path, its size, and a suitable viewer.
     pub told: String,
 }
 
 impl RecordArgs {
-    /// Whether nothing is to be recorded.
+    /// Whether recording is off.
     pub(super) fn is_off(&self) -> bool {
         self.no_record
     }
 
-    /// Refuses an option that nothing would follow, where nobody looks on live.
+    /// Refuses options without effect when neither a recording nor a live view is requested.
     pub(super) fn refuse_idle(&self) -> Result<()> {
         let given = [
             ("--slow", self.slow.is_some()),
@@ -82,7 +82,7 @@ impl RecordArgs {
         }
     }
 
-    /// Tries whether recordings can be written, if there are to be any, before any work is done.
+    /// Tests in advance whether the requested recordings can be written.
     pub(super) fn target(&self) -> Result<()> {
         if self.no_record {
             return Ok(());
@@ -93,7 +93,8 @@ impl RecordArgs {
         })
     }
 
-    /// Records a proof, with its layout, unless recording is off. A recording of another run is left alone.
+    /// Records a proof, with its layout, unless recording is off.
+    /// A recording of a different run is not replaced.
     pub(super) fn record(
         &self,
         scenario: &Scenario,
@@ -132,13 +133,13 @@ impl RecordArgs {
         Ok(Some(Recorded { path, layout, told: told + "\n" }))
     }
 
-    /// What a recording of a proof holds, for viewers that look on.
+    /// The recorded contents of a proof, for live viewers.
     #[cfg(feature = "live")]
     pub(super) fn reel(&self, scenario: &Scenario, proof: &Proof) -> Result<Reel> {
         self.as_recorded(scenario, proof, &BTreeMap::new(), recording::reel)
     }
 
-    /// The same before there is a proof: the reference alone.
+    /// The recorded contents of the reference alone, before the proof is finished.
     #[cfg(feature = "live")]
     pub(super) fn first_reel(&self, scenario: &Scenario, case: &Case, reference: &Trajectory) -> Result<Reel> {
         let text = sentences::THE_ENGINE_IS_AT_WORK_ITS_SIDE;
@@ -155,7 +156,7 @@ impl RecordArgs {
         })
     }
 
-    /// Calls `visit` with what is recorded of a proof.
+    /// Calls `visit` with the recorded contents of a proof.
     fn as_recorded<T>(
         &self,
         scenario: &Scenario,
@@ -192,7 +193,7 @@ fn sides(proof: &Proof) -> Vec<RecordedSide<'_>> {
     sides
 }
 
-/// What is said of a large recording of these instants (s): how many there are, and how to have fewer.
+/// Message about a large recording of these instants (s): how many there are, and how to reduce the recording.
 fn large(bytes: u64, times: &[f64], hz: Option<f64>) -> String {
     if bytes < LARGE {
         return String::new();
@@ -201,7 +202,7 @@ fn large(bytes: u64, times: &[f64], hz: Option<f64>) -> String {
         .iter()
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &time| [low.smaller(time), high.larger(time)]);
     let rate = hz.unwrap_or(times.len() as f64 / (ends[1] - ends[0]));
-    // One digit is enough for a proposal.
+    // One significant digit is enough for a suggestion.
     let fewer = rate * HANDY / bytes as f64;
     let digit = 10f64.powf(fewer.log10().floor());
     let fewer = (fewer / digit).floor() * digit;
@@ -213,12 +214,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_a_large_recording_is_told_what_makes_it_smaller() {
+    fn a_lower_rate_is_suggested_only_for_large_recordings() {
         let times: Vec<f64> = (0..36_001).map(|k| f64::from(k) * 1e-3).collect();
         assert_eq!(large(19_999_999, &times, None), "");
         assert_eq!(
             large(62_000_000, &times, None),
-            "\n           it is large; --record-hz 80 would make about 5.0 MB of it"
+            "\n           it is large; --record-hz 80 would reduce it to about 5.0 MB"
         );
         assert!(large(62_000_000, &times, Some(200.0)).contains("--record-hz 10 "));
     }

@@ -23,7 +23,7 @@ pub(super) use args::Args;
 
 /// Proves every file. A bad file does not stop the others from being proven.
 pub(super) fn run(args: &Args) -> Result<u8> {
-    // The default directory need not be there if nothing is recorded.
+    // If nothing is recorded, the default directory may be missing.
     if !args.live.is_on() {
         args.record.refuse_idle()?;
     }
@@ -46,7 +46,8 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     Ok(session.end())
 }
 
-/// Number of files that are proven at a time. A file that is given twice and written is read again when it is written.
+/// Number of files that are proven in parallel.
+/// With `--write`, a file that is given twice must be read again after it was written, so the number is one.
 fn threads(args: &Args) -> usize {
     let mut seen = BTreeSet::new();
     let is_new = |file: &PathBuf| seen.insert(fs::canonicalize(file).unwrap_or_else(|_| file.clone()));
@@ -56,7 +57,7 @@ fn threads(args: &Args) -> usize {
     }
 }
 
-/// Proves a file when there is room for it.
+/// Proves a file; waits until enough memory is free.
 fn prove_file(
     args: &Args,
     live: Option<&Live>,

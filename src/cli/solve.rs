@@ -35,7 +35,8 @@ pub(super) struct Args {
     settings: SettingArgs,
     #[command(flatten)]
     memory: MemoryArgs,
-    /// Ask for these channels only, as in `run`: what they do not depend on is not computed. May be given several times
+    /// Request only these channels, as in `run`; quantities that they do not depend on are not computed. May be given
+    /// several times
     #[arg(long, value_name = "WORD")]
     only: Vec<String>,
     #[command(flatten)]
@@ -43,7 +44,7 @@ pub(super) struct Args {
 }
 
 results! { Solutions {
-    Csv = "one row an instant",
+    Csv = "one row per instant",
 } }
 
 /// Who solves.
@@ -85,7 +86,8 @@ pub(super) fn solve(args: &Args) -> Result<()> {
     output::stream(to, |out| table_csv::solution(&trajectory, out))
 }
 
-/// The error for an engine's setting given to an analytic solver: it shows a misunderstanding, so it is not ignored.
+/// The error if an engine setting is given to an analytic solver.
+/// Such a setting is a misunderstanding, so it is not ignored.
 fn no_engine(solver: &str, option: &str) -> Error {
     Error::new(ErrorKind::Input, sentences::is_a_setting_of_an_engine(&option, &solver))
         .help(sentences::leave_out_or_solve_with_one_of(&option, &EngineName::ALL.map(EngineName::name).join(", ")))

@@ -21,28 +21,28 @@ const SEED: u64 = 1;
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/stress.txt").trim_ascii_end())]
 pub(super) struct Args {
-    /// Families; all if none is given
+    /// Families to run [default: all]
     #[arg(value_name = "FAMILY", value_parser = PossibleValuesParser::new(FAMILIES.iter().map(|family| family.name)))]
     families: Vec<String>,
     #[command(flatten)]
     outputs: Outputs<Stresses>,
-    /// A few points of every family
+    /// Run only a few points of every family
     #[arg(long)]
     quick: bool,
     /// Seed of the random mechanisms
     #[arg(long, value_name = "N", default_value_t = SEED)]
     seed: u64,
-    /// Points that are run side by side [default: as many as there are cores]
+    /// Number of points that run in parallel [default: the number of cores]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
     jobs: Option<usize>,
 }
 
 results! { Stresses {
-    Results = "tables and maps; points in it are not run again [default: stress]",
-    Markdown = "a page, with the maps in a directory of its name beside it",
+    Results = "tables and maps; points already in it are not run again [default: stress]",
+    Page = "a page; its maps go to a directory of the same name next to it",
 } }
 
-/// Runs what is open, writes everything, and returns the exit code.
+/// Runs the points without a stored result, writes all files, and returns the exit code.
 pub(super) fn run(args: &Args) -> Result<u8> {
     let chosen =
         |family: &&StressFamily| args.families.is_empty() || args.families.iter().any(|name| name == family.name);
@@ -59,7 +59,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
         })?;
         all.extend(jobs(family, args.quick, args.seed, &kept.map_or_else(Vec::new, |text| report::outcomes(&text))));
     }
-    // What cannot be written is found before minutes are spent.
+    // Unwritable files are reported before the run, which takes minutes.
     let pictures = families.iter().map(|family| out.join(format!("{}.svg", family.name)));
     output::may_make(&pictures.chain([out.join("report.txt")]).collect::<Vec<_>>())?;
     for &family in &families {
@@ -83,7 +83,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
         output::make_by(rows.as_bytes(), &place("csv"), &|old| first_line(old) == first_line(rows.as_bytes()))?;
         output::make(&report::map(family, outcomes), &place("svg"))?;
     }
-    for to in args.outputs.of(Stresses::Markdown) {
+    for to in args.outputs.of(Stresses::Page) {
         write_page(args, to, &found)?;
     }
     let text = report::text(&found);
@@ -93,7 +93,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     Ok(if tally.silent == 0 && tally.panics == 0 { exit_code::AGREE } else { exit_code::DISAGREE })
 }
 
-/// The header of a table: no other program has the same.
+/// The first line of a table, its header; no other program writes this header.
 fn first_line(bytes: &[u8]) -> Option<&[u8]> {
     bytes.split(|&byte| byte == b'\n').next().map(<[u8]>::trim_ascii_end)
 }
@@ -106,13 +106,13 @@ fn of<'a>(family: &'static StressFamily, jobs: &'a [Job]) -> impl Iterator<Item 
     jobs.iter().filter(move |job| job.family.name == family.name).filter_map(|job| job.outcome.as_ref())
 }
 
-/// Writes what is finished of a family.
+/// Writes the finished results of a family.
 fn write_json(seed: u64, out: &Path, family: &'static StressFamily, jobs: &[Job]) -> Result<()> {
     let text = report::json(family, seed, of(family, jobs));
     output::make_by(text.as_bytes(), &json_of(out, family), &|old| report::is_kept(old, family))
 }
 
-/// The page, and the maps in a directory of its name.
+/// Writes the page, and the maps into a directory with the page's name.
 fn write_page(args: &Args, to: &Path, found: &[(&StressFamily, Vec<&StressOutcome>)]) -> Result<()> {
     let stem = to.file_stem().and_then(|stem| stem.to_str()).unwrap_or("stress");
     let maps = to.with_file_name(stem);

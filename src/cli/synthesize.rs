@@ -16,9 +16,9 @@ pub(super) struct Args {
 enum Command {
     /// Crank-rocker from the pivots, the rocker's length, one extreme position and the swing
     CrankRocker(closed_form::CrankRockerArgs),
-    /// Slider-crank from stroke and offset, and the rod's length or the time ratio
+    /// Slider-crank from stroke and offset, and either the rod's length or the time ratio
     SliderCrank(closed_form::SliderCrankArgs),
-    /// Lengths and pivots of any linkage so that its output follows a timing: random search, then refinement of the
+    /// Lengths and pivots of any linkage whose output should follow a timing: random search, then refinement of the
     /// best candidates
     Search(search::Args),
     /// Show how well a scenario keeps the timing of a synthesis file

@@ -21,10 +21,10 @@ pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Largest error wanted, as a share of each channel's scale
+    /// Largest allowed error, as a fraction of each channel's scale
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = number::share)]
     within: f64,
-    /// Channel, or stage of channels, that must meet it [default: all that the scenario wants]
+    /// Channel, or stage of channels, that must meet the allowed error [default: all that the scenario requests]
     #[arg(long, value_name = "CHANNEL")]
     channel: Vec<String>,
     #[command(flatten)]
@@ -59,7 +59,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
     }
     args.outputs.deliver(
         |_| Ok(report::json(&scenario, &found, args.within)),
-        || {
+        |_| {
             let section = edit::engine_section(best_keys(&scenario, &found.best));
             let place = report::Section { text: &section, file: load::named(&args.file), is_written: args.write };
             let hints = report::Hints { why: &|engine| format!("`linkproof run --engine {engine}`"), write: "--write" };
@@ -68,7 +68,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
     )
 }
 
-/// Names the argument that asked for an unknown channel.
+/// Names the argument that requested an unknown channel.
 fn of_argument(error: Error) -> Error {
     match error.advice() {
         [Advice::OtherChannel { .. }] => error.key("--channel"),

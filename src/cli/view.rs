@@ -11,10 +11,10 @@ use crate::report::{layout, plotjuggler};
 use lab::outside;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Viewers that have a way of their own.
+/// Viewers with special output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Viewer {
-    /// Rerun, with a recording and blueprint of its own
+    /// Rerun, with a separate recording and blueprint
     Rerun,
     /// Foxglove or Lichtblick, with a layout
     Foxglove,
@@ -25,16 +25,16 @@ enum Viewer {
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/view.txt").trim_ascii_end())]
 pub(super) struct Args {
-    /// Recording (MCAP) that `linkproof run` has written
+    /// Recording (MCAP) written by `linkproof run`
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Viewer to show it in
+    /// Viewer for the recording
     #[arg(long, value_enum, default_value = "rerun")]
     with: Viewer,
     /// Write to this file and open no viewer: a recording of Rerun (.rrd), or a layout (.json, .xml)
     #[arg(short, long, value_name = "FILE", value_parser = output::target)]
     output: Option<PathBuf>,
-    /// Python that has Rerun's library (`pip install rerun-sdk`)
+    /// Python command whose installation has Rerun's library (`pip install rerun-sdk`)
     #[arg(long, value_name = "COMMAND", default_value = "python3")]
     python: String,
 }
@@ -80,7 +80,7 @@ pub(super) fn view(args: &Args) -> Result<()> {
     Ok(())
 }
 
-/// Writes a layout, over no other one that nobody named.
+/// Writes a layout; if the program chose the name, no other file is replaced.
 fn put(args: &Args, text: &str, to: &Path) -> Result<()> {
     match args.output {
         Some(_) => output::write(text, to),
@@ -88,13 +88,15 @@ fn put(args: &Args, text: &str, to: &Path) -> Result<()> {
     }
 }
 
-/// Whether a file is a recording of Rerun that this program made: its application, near the beginning, is called so.
+/// Whether this program made the Rerun recording: the application's name stands near the file's beginning.
 fn is_film(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(4096)];
     head.starts_with(b"RRF") && head.windows(9).any(|part| part == b"linkproof")
 }
 
-/// The recording as its layout names it: by its name beside it, so that both can be moved together, else absolute.
+/// The recording's path, as its layout states it.
+/// If layout and recording are in one directory, the path is the file name, so that both can be moved together.
+/// Otherwise the path is absolute.
 fn seen_from(layout: &Path, recording: &Path) -> PathBuf {
     match recording.file_name() {
         Some(name) if layout.parent() == recording.parent() => name.into(),

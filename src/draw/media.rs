@@ -1,4 +1,4 @@
-//! What is asked of a picture, and how it is written: by its ending.
+//! Options of a picture, and its format, given by the file ending.
 
 use crate::sentences;
 use std::path::Path;
@@ -9,18 +9,18 @@ use drawing::paper::figure::DrawnFigure;
 use linkage::error::Result;
 use prover::run::Reference;
 
-/// What is asked of a picture.
+/// Options of a picture.
 #[derive(Clone, Debug, Default)]
 pub struct PictureOptions {
-    /// Crank angle (rad, as the scenario states it); `None` for that of the start.
+    /// Crank angle (rad, as the scenario states it); `None` for the crank angle of the start.
     pub crank: Option<f64>,
     /// All configurations at the crank angle, each with the modes of its groups.
     pub each_mode: bool,
-    /// Forces and moments as arrows with their sizes, and gravity.
+    /// Gravity, and forces and moments as arrows with their sizes.
     pub loads: bool,
     /// Lengths of the links.
     pub dimensions: bool,
-    /// Paths of all points that are no joints.
+    /// Paths of all points without a joint.
     pub all_traces: bool,
     /// Paths of these points.
     pub traces: Vec<String>,
@@ -54,7 +54,7 @@ impl Medium {
     /// The format of a path, by its ending; SVG for `-`.
     ///
     /// # Errors
-    /// What is wrong, if no picture ends so.
+    /// A message if no picture format has this ending.
     pub fn of(path: impl AsRef<Path>) -> std::result::Result<Medium, String> {
         let path = path.as_ref();
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());

@@ -9,22 +9,23 @@ use linkage::mechanism::LinkId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-/// Instants of a turn over which travels and paths are found.
+/// Number of instants of a revolution at which travels and paths are computed.
 const INSTANTS: usize = 180;
 
-/// The states of the grid of a motion under forces that is no turn of the crank: a pendulum does not turn because its
-/// crank could.
+/// The states of a free motion on the grid, if the crank does not make a full revolution.
+/// An example is a pendulum, which swings although its crank could rotate fully.
 pub(super) fn swung(case: &Case, solver: &dyn Solver) -> Option<Vec<State>> {
     let states = case.is_free().then(|| visited(&case.wanting(seen()), solver))??;
     (case.drives.len() > 1 || !turns(&states, case.crank().link)).then_some(states)
 }
 
-/// What is solved of a motion to be drawn.
+/// The channels needed to draw a motion.
 fn seen() -> Wanted {
     Wanted::of(&[Stage::Positions, Stage::Velocities])
 }
 
-/// The states of one turn from the start on, or of the grid where a turn is out of reach, and the travels in them.
+/// The states of one revolution from the start on, and the travels in them.
+/// If a revolution is out of reach, the states are those of the grid.
 pub(super) fn turned(case: &Case, solver: &dyn Solver) -> (Vec<State>, Travels) {
     let crank = case.crank();
     let turn: Vec<f64> =
@@ -34,7 +35,7 @@ pub(super) fn turned(case: &Case, solver: &dyn Solver) -> (Vec<State>, Travels) 
     with_travels(case, states)
 }
 
-/// States with what every link does in them.
+/// States with the travels of every link.
 pub(super) fn with_travels(case: &Case, states: Vec<State>) -> (Vec<State>, Travels) {
     let mut travels = Travels::none(&case.mechanism);
     for state in &states {
@@ -50,7 +51,7 @@ fn turns(states: &[State], link: LinkId) -> bool {
     most - least >= TAU
 }
 
-/// The states of a case on its grid; `None` if there is an instant that cannot be reached.
+/// The states of a case on its grid; `None` if an instant of the grid cannot be reached.
 fn visited(case: &Case, solver: &dyn Solver) -> Option<Vec<State>> {
     let mut states: Vec<Option<State>> = vec![None; case.grid.len()];
     let mut visit = |row: usize, state: &State| {

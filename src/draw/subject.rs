@@ -1,4 +1,4 @@
-//! What is drawn of a file: the mechanism in its poses, or as far as it can be laid.
+//! The drawn content of a file: the mechanism in its poses, or as far as it can be laid out.
 
 use super::media::{Medium, PictureOptions};
 use super::motion::{swung, turned, with_travels};
@@ -16,13 +16,13 @@ use linkage::mechanism::{AssemblyMode, GroupId, JointId, LinkId, LinkPose, Mecha
 use linkage::solver::State;
 use scenario::{Draft, Scenario};
 
-/// Most configurations on a sheet, and most mistakes below one.
+/// Largest number of configurations on a sheet, and of mistakes listed below a picture.
 const MOST: usize = 24;
 const SHOWN: usize = 3;
 
-/// What is said beside a picture.
+/// A note beside a picture.
 pub(crate) enum Note {
-    /// What is wrong, or guessed.
+    /// A fault, or an assumption that the drawing makes.
     Said(String),
     /// The picture shows one of several configurations.
     OneOfMany,
@@ -32,7 +32,7 @@ pub(crate) enum Note {
 pub(crate) struct Drawn {
     pub(crate) name: String,
     pub(super) title: String,
-    /// Crank angle of the first shot (rad).
+    /// Crank angle of the first frame (rad).
     crank: f64,
     mechanism: Mechanism,
     drives: Vec<Drive>,
@@ -43,15 +43,15 @@ pub(crate) struct Drawn {
     headings: Vec<Vec<String>>,
     travels: Travels,
     traces: Vec<Trace>,
-    /// What is wrong with the file or with the question.
+    /// Fault of the file or of the request.
     pub(crate) fault: Option<Error>,
-    /// Whether the file has mistakes, which are then told below the picture.
+    /// Whether the file has mistakes; they are then listed below the picture.
     has_mistakes: bool,
     pub(crate) note: Option<Note>,
 }
 
 impl Drawn {
-    /// A mechanism that can be assembled somewhere.
+    /// A mechanism that can be assembled at some crank angle.
     pub(crate) fn of(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result<Drawn> {
         let crank = wish.crank.unwrap_or(scenario.case.crank().start);
         let drawn = match wish.each_mode {
@@ -61,7 +61,7 @@ impl Drawn {
         Ok(drawn?.with_unknown_traces(wish))
     }
 
-    /// What a file states of a mechanism that cannot be read as a scenario, because of an error.
+    /// The readable part of a mechanism whose file is not a valid scenario, because of an error.
     pub(crate) fn of_draft(draft: Draft, wish: &PictureOptions, error: Error) -> Result<Drawn> {
         let crank = wish.crank.unwrap_or(draft.crank);
         let drawn = match wish.each_mode && draft.structure.is_ok() {
@@ -82,7 +82,7 @@ impl Drawn {
         sentences::crank_at(&self.name, &((self.crank.to_degrees() * 1e6).round() / 1e6 + 0.0))
     }
 
-    /// The cells of all shots, in a room of this size (mm).
+    /// The cells of all frames; `room` is the size of the area (mm).
     pub(super) fn cells(&self, wish: &PictureOptions, medium: Medium, room: Vec2) -> Vec<SheetCell> {
         let Drawn { mechanism, drives, loads, gravity, .. } = self;
         let subject = DrawnSubject { mechanism, drives, loads, gravity: *gravity };
@@ -95,7 +95,7 @@ impl Drawn {
                 Some(fault) if self.has_mistakes => mistakes(fault),
                 _ => faults.collect(),
             };
-            // Configurations say above themselves what they are.
+            // Configurations have their own headings.
             if let (true, Some(fault), true) = (cell.faults.is_empty(), &self.fault, self.headings.is_empty()) {
                 cell.faults.push(fault.message().to_string());
             }
@@ -163,14 +163,14 @@ impl Drawn {
         let traces = points.iter().map(|&(link, local)| (link, path(link, local))).collect();
         let mut drawn = Drawn { traces, ..Drawn::new(draft_of(&scenario), crank, shots) };
         let own = std::mem::replace(&mut drawn.travels, travels);
-        // The instant asked for lies on the way, but between two instants of it.
+        // The requested instant lies between two instants of the computed path.
         if frames == 1 {
             drawn.travels.widen(&own);
         }
         Ok(drawn)
     }
 
-    /// A mechanism as far as it can be laid at a crank angle (rad), with the reason.
+    /// A mechanism, placed as far as possible at a crank angle (rad), with the error that stops it.
     fn partial(draft: Draft, crank: f64, error: Error) -> Drawn {
         let angles = angles(&draft.drives, crank);
         let laid = match &draft.structure {
@@ -208,7 +208,8 @@ impl Drawn {
         all.truncate(MOST);
         let own = lay(&draft.mechanism, &structure, &angles, &draft.starts);
         let headings = all.iter().map(|laid| heading(&draft.mechanism, &structure, laid, &own)).collect();
-        // A file that leaves its mode open is answered by the list, and a configuration that does not close is no fault.
+        // If the file leaves its mode open, the list of configurations answers it, so this is not a fault.
+        // A configuration that does not close is not a fault either.
         let is_answered = draft.mistakes.is_none() && all.iter().any(Laid::is_whole);
         let cut = is_cut.then(|| sentences::only_the_first_configurations_are_drawn(&MOST));
         let open = error.as_ref().filter(|_| is_answered).map(|error| error.message().to_string());
@@ -221,7 +222,7 @@ impl Drawn {
     }
 }
 
-/// Mistakes in short: the first of them with their lines, and how many there are beyond.
+/// A short list of mistakes: the first mistakes with their lines, and the number of further mistakes.
 fn mistakes(fault: &Error) -> Vec<String> {
     let short = |own: &Error| {
         let line = own.place().map_or_else(String::new, |place| format!("line {}: ", place.line()));
@@ -234,14 +235,14 @@ fn mistakes(fault: &Error) -> Vec<String> {
     lines
 }
 
-/// What turns where no drive could be read.
+/// The link that turns if no drive could be read.
 fn of_guess(draft: &Draft) -> Option<String> {
     let drive = draft.drives.first().filter(|_| draft.is_driven_by_guess)?;
     let link = &draft.mechanism.links()[drive.link].name;
     Some(sentences::no_drive_could_be_read_drawn(&draft.name, &link))
 }
 
-/// World angles of the driving links with the crank at an angle (rad), the others at their start.
+/// World angles of the driving links: the crank at an angle (rad), the other driving links at their start angles.
 fn angles(drives: &[Drive], crank: f64) -> Vec<f64> {
     let angle = |(index, drive): (usize, &Drive)| drive.world_angle(if index == 0 { crank } else { drive.start });
     drives.iter().enumerate().map(angle).collect()
@@ -282,7 +283,7 @@ fn poses(state: &State) -> Vec<LinkPose> {
     state.motions.iter().zip(&state.angles).map(pose).collect()
 }
 
-/// The points whose paths are asked for, each with its link, and an error for each that there is not.
+/// The points whose paths are requested, each with its link, and an error for each unknown point.
 fn traced(mechanism: &Mechanism, wish: &PictureOptions) -> (Vec<(LinkId, Vec2)>, Vec<Error>) {
     let points: Vec<_> = mechanism.moving_points().collect();
     let is_joint = |link, local| mechanism.joints().iter().any(|joint| joint.on(link) == Some(local));
@@ -303,7 +304,7 @@ fn traced(mechanism: &Mechanism, wish: &PictureOptions) -> (Vec<(LinkId, Vec2)>,
     (found, unknown)
 }
 
-/// The modes of a configuration: what the key `mode` takes, or the number where there are no names.
+/// The modes of a configuration: values for the key `mode`, or the number if the modes have no names.
 fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid) -> Vec<String> {
     let line = |&GroupPlacement { group, mode, number }: &GroupPlacement| {
         let names = structure.groups[group].names(mechanism).replace(", ", ",");

@@ -1,4 +1,5 @@
-//! The short report of a proof: the verdict in one line, the channels that are worst, and whatever is needed to act.
+//! The short report of a proof: the verdict in one line, the worst channels, and all information that the user needs to
+//! act.
 
 use super::cells::{flush, trimmed};
 use super::judged::{self, Grade, counts, grade, ranked, verdicts};
@@ -12,8 +13,10 @@ use prover::run::{EngineInfo, Proof};
 /// Channels that are shown with their values.
 const WORST: usize = 3;
 
-/// The verdict in one line: scenario, verdict, how much was judged, at which step. Channels are those of the scenario,
-/// whatever the number of engines, and forces that are judged twice count once; numbers are all that were judged.
+/// The verdict in one line: scenario, verdict, how much was judged, and the step.
+/// Each channel of the scenario counts once, whatever the number of engines.
+/// Forces that are judged twice also count once.
+/// The count of numbers covers everything that was judged.
 #[must_use]
 pub fn verdict_line(proof: &Proof) -> String {
     let (checks, all) = (proof.all_checks().count(), judged::of(proof).len());
@@ -31,7 +34,7 @@ pub fn verdict_line(proof: &Proof) -> String {
     format!("{}: {}: {what}; {}", proof.scenario, style::verdict(&proof.verdict), resolution(proof))
 }
 
-/// The step or accuracy of the engine, or how many engines there are.
+/// The step or accuracy of the engine, or the number of engines.
 pub fn resolution(proof: &Proof) -> String {
     match proof.engines.as_slice() {
         [only] => of_engine(&only.info),
@@ -47,7 +50,7 @@ fn of_engine(info: &EngineInfo) -> String {
     }
 }
 
-/// The short report, in lines of at most `width` columns; advice is worded by `tell`.
+/// The short report, in lines of at most `width` columns; `tell` words the advice.
 #[must_use]
 pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
     let width = Some(width);
@@ -66,7 +69,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
             paragraph(engines::sentence(fault));
         }
     }
-    // What is open beside an agreement takes nothing from it.
+    // If the proof agrees, open points besides do not weaken the agreement.
     let most = if grade(&proof.verdict) == Grade::Agree { 1 } else { WORST };
     reasons::reasons(proof, tell, width, most, &mut text);
     reasons::diagnosed(proof, width, &mut text);
@@ -90,16 +93,16 @@ pub fn worst(proof: &Proof, width: Option<usize>, text: &mut String) {
     for (engine, channel) in all.into_iter().take(WORST) {
         let (residual, kind) = (&channel.residual, channel.residual.channel.kind);
         let name = match proof.engines.len() {
-            1 => residual.channel.to_string(),
-            _ => format!("{} ({})", residual.channel, engine.info.name),
+            1 => residual.channel.without_unit(),
+            _ => format!("{} ({})", residual.channel.without_unit(), engine.info.name),
         };
         let (factor, unit) = read(kind.unit);
         let [difference, bound] = [factor * residual.max, factor * channel.bound];
         let value = |side: &Trajectory| at(side, &residual.channel, residual.worst_time).map(|value| factor * value);
-        // Every channel that is judged has both values.
+        // Every judged channel has a value on both sides.
         let found = engine.trajectory.as_ref().and_then(value);
         let (Some(right), Some(found)) = (value(&proof.reference_trajectory), found) else { continue };
-        // An angle may differ by whole turns, which nobody counts as a difference.
+        // An angle may differ by whole revolutions, which do not count as a difference.
         let turns = if kind.periodic { 360.0 * ((found - right) / 360.0).round() } else { 0.0 };
         let [right, found] = numbers::beside([right, found - turns], bound);
         table.add_row([
@@ -121,7 +124,7 @@ fn at(side: &Trajectory, channel: &Channel, time: f64) -> Option<f64> {
     side.column(channel)?.get(row).copied()
 }
 
-/// Factor and symbol of the unit that people read: degrees and millimetres.
+/// Factor and symbol of the unit for display: degrees and millimetres.
 fn read(unit: Unit) -> (f64, &'static str) {
     match unit {
         Unit::Radian => (1f64.to_degrees(), "deg"),
@@ -131,6 +134,6 @@ fn read(unit: Unit) -> (f64, &'static str) {
         | Unit::MetrePerSecond
         | Unit::MetrePerSecondSquared
         | Unit::Newton
-        | Unit::NewtonMetre => (1.0, unit.symbol()),
+        | Unit::NewtonMetre => (1.0, unit.shown()),
     }
 }

@@ -6,8 +6,9 @@ use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Wi
 use linkage::math::statistics;
 use prover::numbers;
 
-/// An empty table without lines. Its header names the columns between bars; those of numbers end in `>` and are aligned
-/// right.
+/// An empty table without ruled lines.
+/// Bars separate the column names in its header.
+/// If a name ends in `>`, the column is numeric and aligned right.
 pub fn table(header: &str) -> Table {
     let mut table = Table::new();
     let columns = header.split('|').map(|own| own.trim_matches(' '));
@@ -20,7 +21,7 @@ pub fn table(header: &str) -> Table {
     table
 }
 
-/// What there is, each once, in the order in which it first stands.
+/// The distinct items, in the order of their first occurrence.
 pub fn distinct<T: PartialEq>(all: impl IntoIterator<Item = T>) -> Vec<T> {
     let mut found = Vec::new();
     for one in all {
@@ -41,7 +42,7 @@ pub fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// The first `most` of some names; the others are counted.
+/// The first `most` names, and the number of further names.
 pub fn some<T: ToString>(names: &[T], most: usize) -> String {
     let named = names.iter().take(most).map(ToString::to_string).collect::<Vec<_>>().join(", ");
     match names.len().saturating_sub(most) {
@@ -50,11 +51,12 @@ pub fn some<T: ToString>(names: &[T], most: usize) -> String {
     }
 }
 
-/// Fewest columns of a text that is broken.
+/// Smallest number of columns of wrapped text.
 const NARROWEST: u16 = 16;
 
-/// A table in at most `width` columns if there is a width: there the texts of the first column are broken, and numbers
-/// stay whole. Where these leave no room for the texts, the table is wider.
+/// A table in at most `width` columns, if a width is given.
+/// The texts of its first column are then wrapped; numbers are not broken.
+/// If the numbers leave no space for the texts, the table is wider than `width`.
 pub fn fitted(header: &str, width: Option<usize>) -> Table {
     let mut table = table(header);
     if let Some(width) = width {
@@ -69,7 +71,23 @@ pub fn fitted(header: &str, width: Option<usize>) -> Table {
     table
 }
 
-/// The same without a margin on the left.
+/// A table in at most `width` columns, if a width is given.
+/// The texts of its last column are then wrapped; the other columns are not.
+pub fn worded(header: &str, width: Option<usize>) -> Table {
+    let mut table = fitted(header, width);
+    let last = table.column_count() - 1;
+    if width.is_some() {
+        table.column_iter_mut().enumerate().for_each(|(index, column)| {
+            column.set_constraint(match index == last {
+                true => ColumnConstraint::LowerBoundary(Width::Fixed(NARROWEST)),
+                false => ColumnConstraint::ContentWidth,
+            });
+        });
+    }
+    table
+}
+
+/// Like [`fitted`], without a margin on the left.
 pub fn flush(header: &str, width: Option<usize>) -> Table {
     let mut table = fitted(header, width);
     let last = table.column_count() - 1;
@@ -79,8 +97,8 @@ pub fn flush(header: &str, width: Option<usize>) -> Table {
     table
 }
 
-/// A table as text, without blanks at the ends of its lines. One that is too wide has columns one blank apart, not two,
-/// so that fewer texts are broken.
+/// A table as text, without trailing blanks.
+/// If it is too wide, its columns are one blank apart instead of two, so that fewer texts wrap.
 pub fn trimmed(table: &Table) -> String {
     let mut table = table.clone();
     let needed: u16 = table.column_iter().map(|column| column.padding_width()).sum::<u16>()
@@ -93,7 +111,7 @@ pub fn trimmed(table: &Table) -> String {
     table.lines().map(|line| line.trim_end().to_string()).collect::<Vec<_>>().join("\n")
 }
 
-/// A value over its scale; 0 of a scale of 0 is 0.
+/// A value divided by its scale; 0 if both are zero.
 pub fn share(value: f64, scale: f64) -> String {
     numbers::significant(statistics::share(value, scale), 2)
 }
@@ -103,14 +121,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_header_names_the_columns_and_says_which_hold_numbers() {
+    fn headers_name_columns_and_mark_numeric_ones() {
         let mut numbers = table("channel | error> | ");
         numbers.add_row(["x", "1", "m"]);
         assert_eq!(trimmed(&numbers), " channel  error\n x            1  m");
     }
 
     #[test]
-    fn what_is_not_listed_is_counted() {
+    fn omitted_items_are_counted() {
         assert_eq!([some(&["a", "b"], 2), some(&["a", "b", "c"], 2)], ["a, b", "a, b and 1 more"]);
         assert_eq!([counted(1, "row"), counted(2, "row")], ["1 row", "2 rows"]);
     }

@@ -15,7 +15,7 @@ pub const INDENT: usize = 12;
 /// Note on a diagnosis that ended early.
 pub const CUT: &str = sentences::THE_SEARCH_FOR_A_CAUSE_ENDED;
 
-/// Channels that are named; the others are counted.
+/// Number of channels that are named; further channels are only counted.
 const NAMED: usize = 3;
 
 /// A diagnosis as lines of text, without a newline at the end.
@@ -25,7 +25,7 @@ pub fn text(diagnosis: &Diagnosis) -> String {
     let mut line = |what: &str, told: String| {
         put!(text, "\n  {what:<10}{told}");
     };
-    line("alone", standing(&diagnosis.alone));
+    line("suspect", standing(&diagnosis.alone));
     if let Some(first) = diagnosis.since.first() {
         line("since", since(diagnosis, first));
     }
@@ -40,7 +40,7 @@ pub fn text(diagnosis: &Diagnosis) -> String {
         Some(found) => {
             line("cause", sentences::no_single_one_a_part_is_explained(&cause(found)));
             let left = &diagnosis.left_over;
-            line("left over", format!("{} of {wrong}: {}", left.len(), names(left)));
+            line("remaining", format!("{} of {wrong}: {}", left.len(), names(left)));
         }
     }
     if let Some(own) = diagnosis.nature {
@@ -170,7 +170,7 @@ fn duration(seconds: f64) -> String {
     if seconds < 0.1 { format!("{} ms", number(1e3 * seconds)) } else { format!("{} s", number(seconds)) }
 }
 
-/// What an error without a simple cause looks like.
+/// Description of an error without a simple cause.
 #[must_use]
 pub fn nature(nature: ErrorNature) -> String {
     let percent = prover::numbers::percent;
@@ -189,10 +189,10 @@ pub fn nature(nature: ErrorNature) -> String {
 
 /// A fitted amount with its unit; angles in degrees.
 fn amount(by: f64, unit: &str) -> String {
-    if unit == "rad" { format!("{} deg", number(by.to_degrees())) } else { format!("{} {unit}", number(by)) }
+    if unit == "rad" { format!("{} deg", number(by.to_degrees())) } else { with_unit(&number(by), unit) }
 }
 
-/// A difference between two cases in words.
+/// Describes a difference between two cases in words.
 #[must_use]
 pub fn change(change: &Change) -> String {
     let how = match &change.how {
@@ -250,7 +250,7 @@ fn part(part: &CasePart) -> String {
     }
 }
 
-/// A number with so many digits that it differs from another.
+/// A number with enough digits to distinguish it from another number.
 pub fn told_apart(value: f64, other: f64) -> String {
     let differ = |digits: &usize| significant(value, *digits) != significant(other, *digits);
     significant(value, (6..15).find(differ).unwrap_or(15))

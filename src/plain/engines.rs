@@ -1,5 +1,5 @@
-//! Several engines side by side, the one that disagrees with all others, and forces as an engine itself exerts them, beside
-//! those that follow from its motion.
+//! Several engines side by side, and the party that disagrees with all other parties.
+//! Also the forces that an engine itself exerts, beside the forces that follow from its motion.
 
 use super::cells::{fitted, share, trimmed};
 use super::judged::{Grade, grade, worst};
@@ -10,7 +10,7 @@ use prover::bounds::overall;
 use prover::numbers;
 use prover::run::{EngineProof, ForceFault, Proof};
 
-/// One row per engine, one column per stage: the channel that uses the largest share of its bound.
+/// One row per engine, one column per stage: the channel that uses most of its bound.
 pub fn table(engines: &[EngineProof], width: Option<usize>) -> String {
     let rows = engines.iter().map(|engine| {
         let verdict = engine.failure.as_ref().map_or(engine.verdict.word(), |_| "failed").to_string();
@@ -21,7 +21,7 @@ pub fn table(engines: &[EngineProof], width: Option<usize>) -> String {
     trimmed(fitted(&header, width).add_rows(rows))
 }
 
-/// Error and bound of the worst channel of a stage, over its scale, and the verdict if it is not agreement.
+/// Error and bound of the worst channel of a stage, both divided by its scale, and a mark if the stage does not agree.
 fn of_stage(engine: &EngineProof, stage: Stage) -> String {
     let own = || engine.channels.iter().filter(|channel| channel.residual.channel.kind.stage == stage);
     let Some(worst) = worst(own()) else { return "-".into() };
@@ -34,7 +34,7 @@ fn of_stage(engine: &EngineProof, stage: Stage) -> String {
     format!("{} ({}){mark}", share(residual.max, residual.scale), share(worst.bound, residual.scale))
 }
 
-/// Which sides disagree with each other, and the one that disagrees with all others.
+/// States which parties disagree with each other, and which party disagrees with all other parties.
 pub fn disputes(proof: &Proof) -> String {
     let mut text = String::new();
     for engine in &proof.engines {
@@ -62,7 +62,7 @@ pub fn disputes(proof: &Proof) -> String {
     text
 }
 
-/// Where the forces among an engine's channels come from.
+/// Source of the forces among an engine's channels.
 pub fn source(engine: &EngineProof) -> &str {
     match engine.info.provides.iter().find(|(stage, _)| *stage == Stage::Reactions.name()) {
         Some((_, Provision::Derived(how))) => how,
@@ -79,7 +79,7 @@ pub fn exerted(own: &EngineProof) -> String {
     sentences::channels_at_most(&own.channels.len(), &own.verdict.word(), &numbers)
 }
 
-/// What both judgements of an engine's forces say together.
+/// One sentence for both judgements of an engine's forces.
 pub fn sentence(fault: ForceFault) -> &'static str {
     match fault {
         ForceFault::Reading => sentences::THE_ENGINE_MOTION_AND_THE_FORCES_THAT_IT_EXERTS,

@@ -1,16 +1,19 @@
-//! Errors: the line of the file concerned, what was found there, and the way out.
+//! Errors: the line of the file, the value found there, and the remedy.
 
 use std::borrow::Cow;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::Tell;
+use super::cells::{distinct, some};
+use crate::sentences;
 use files::{visible, visible_lines};
 use linkage::error::Error;
 use linkage::mechanism::is_unseen;
 
-/// A text for a snippet, whose places are counted in bytes: every letter that is not seen gives way to a sign of as many
-/// bytes. Those of ASCII the renderer replaces itself.
+/// A text for a snippet, in which positions are counted in bytes.
+/// Every invisible character is replaced by a visible sign of the same number of bytes.
+/// The renderer itself replaces invisible ASCII characters.
 fn of_same_length(text: &str) -> Cow<'_, str> {
     let is_hidden = |letter: char| !letter.is_ascii() && is_unseen(letter);
     if !text.contains(is_hidden) {
@@ -25,19 +28,33 @@ fn of_same_length(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(shown).collect())
 }
 
-/// An error, and those that were found with it, as text without a newline at its end; advice is worded by `tell`.
+/// Largest number of lines that are listed for one cause.
+const MOST_LINES: usize = 12;
+
+/// An error, and the errors found together with it, as text without a newline at its end.
+/// `tell` words the advice.
 pub fn text(error: &Error, tell: Tell) -> String {
     all(error, tell, ("error", Level::ERROR))
 }
 
-/// The same as a warning: the command has done what it could.
+/// The same text as a warning, because the command continued as far as possible.
 pub(crate) fn warning(error: &Error, tell: Tell) -> String {
     all(error, tell, ("warning", Level::WARNING))
 }
 
 fn all(error: &Error, tell: Tell, level: (&str, Level<'static>)) -> String {
-    let each = error.each().map(|error| one(error, tell, &level));
+    let each = error.by_cause().into_iter().map(|group| one(group[0], tell, &level) + &others(&group[1..]));
     each.chain(error.rest().map(|rest| format!("{}: {rest}", level.0))).collect::<Vec<_>>().join("\n\n")
+}
+
+/// Locations of further errors with the same cause.
+fn others(others: &[&Error]) -> String {
+    let lines = others.iter().filter_map(|error| error.place()).map(|place| place.line().to_string());
+    let lines = distinct(lines);
+    match lines.as_slice() {
+        [] => String::new(),
+        lines => sentences::also_in_places(&others.len(), &some(lines, MOST_LINES)),
+    }
 }
 
 fn one(error: &Error, tell: Tell, (word, level): &(&str, Level<'static>)) -> String {
@@ -48,13 +65,14 @@ fn one(error: &Error, tell: Tell, (word, level): &(&str, Level<'static>)) -> Str
     let title = visible(&title);
     let help = error.way_out_by(tell).map(|help| visible_lines(&help));
     let Some(place) = error.place() else {
-        // The renderer would draw a margin for lines that do not exist.
+        // The renderer would draw a margin for non-existent lines.
         let help = help.map(|help| format!("\n  = help: {help}")).unwrap_or_default();
         return format!("{word}: {title}{help}");
     };
     let path = visible(&place.file.display().to_string());
     let source = of_same_length(&place.text);
-    // A span may end within a letter, as where a text is cut after so many bytes; the renderer would panic.
+    // A span may end within a character, for example if a text is cut after a number of bytes.
+    // The renderer would then panic.
     let start = (0..=place.span.start.min(source.len())).rfind(|&at| source.is_char_boundary(at)).unwrap_or(0);
     let end = (place.span.end.clamp(start, source.len())..=source.len()).find(|&at| source.is_char_boundary(at));
     let annotation = AnnotationKind::Primary.span(start..end.unwrap_or(source.len()));

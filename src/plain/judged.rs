@@ -1,5 +1,6 @@
-//! The model that every report of a proof is a view of: each channel, each force that an engine exerts itself and each
-//! check with its verdict, decided once for text, JSON, JUnit, Markdown, logs and pages.
+//! The model behind every report of a proof.
+//! It holds each channel, each force that an engine itself exerts, and each check, with its verdict.
+//! Text, JSON, JUnit, Markdown, logs and pages all use these verdicts.
 
 use crate::sentences;
 use std::cmp::Reverse;
@@ -9,10 +10,10 @@ use prover::bounds::{Check, Verdict};
 use prover::run::{ChannelProof, EngineProof, Proof};
 
 linkage::words! {
-    /// What a verdict comes to; the gravest is the last.
+    /// Grade of a verdict; the most serious comes last.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     pub enum Grade: capitals {
-        /// It agrees, or a printed number is wrong as expected.
+        /// The numbers agree, or a printed number is wrong as expected.
         Agree = "AGREE",
         /// Inconclusive.
         Open = "INCONCLUSIVE",
@@ -21,7 +22,7 @@ linkage::words! {
     }
 }
 
-/// What a verdict comes to.
+/// Grade of a verdict.
 #[must_use]
 pub fn grade(verdict: &Verdict) -> Grade {
     match verdict {
@@ -31,7 +32,7 @@ pub fn grade(verdict: &Verdict) -> Grade {
     }
 }
 
-/// How many agree, are wrong as expected, disagree, and are open.
+/// Numbers of verdicts that agree, are wrong as expected, disagree, and are open.
 pub fn counts<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> [usize; 4] {
     let mut counts = [0; 4];
     for verdict in verdicts {
@@ -50,7 +51,7 @@ pub fn counts<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> [usize; 4]
 pub enum Sort {
     /// A channel of an engine.
     Channel,
-    /// A force as an engine itself exerts it.
+    /// A force that an engine itself exerts.
     OwnForce,
     /// A check of a side or of an engine.
     Check,
@@ -59,22 +60,22 @@ pub enum Sort {
 /// A number with its bound and its verdict.
 pub struct JudgedNumber<'a> {
     pub sort: Sort,
-    /// The engine; `None` where the analytic sides are judged.
+    /// The engine; `None` for a check of the analytic sides.
     pub engine: Option<&'a EngineProof>,
-    /// Without the name of the engine.
+    /// The name of the number, without that of the engine.
     pub name: String,
     pub value: f64,
     pub bound: f64,
     pub unit: &'static str,
-    /// Why the bound is what it is.
+    /// Origin of the bound.
     pub basis: String,
     pub verdict: &'a Verdict,
-    /// Instant (s) at which a channel is worst.
+    /// Instant (s) at which the channel uses most of its bound.
     pub worst: Option<f64>,
 }
 
-/// All that is judged: checks of the sides, then for each engine its channels, the forces that it exerts itself, and its
-/// checks.
+/// All judged numbers: first the checks of the sides.
+/// Then for each engine its channels, the forces that it exerts itself, and its checks.
 pub fn of(proof: &Proof) -> Vec<JudgedNumber<'_>> {
     let of_engine = |engine| of_engine(engine).chain(checks(Some(engine), &engine.checks));
     checks(None, &proof.checks).chain(proof.engines.iter().flat_map(of_engine)).collect()
@@ -118,7 +119,7 @@ fn checks<'a>(engine: Option<&'a EngineProof>, checks: &'a [Check]) -> impl Iter
 /// All verdicts of a proof by name: channels, forces that engines exert themselves, and checks.
 pub fn verdicts(proof: &Proof) -> Vec<(String, &Verdict)> {
     let several = proof.engines.len() > 1;
-    // An engine without a run that stands has no channel to say so.
+    // An engine without a valid run has no channels, so no channel reports its failure.
     let without_run = proof.engines.iter().filter(|engine| engine.channels.is_empty() && engine.failure.is_none());
     let mut all: Vec<_> = without_run.map(|engine| (engine.info.name.to_string(), &engine.verdict)).collect();
     for engine in &proof.engines {
@@ -135,7 +136,7 @@ pub fn verdicts(proof: &Proof) -> Vec<(String, &Verdict)> {
     all
 }
 
-/// Those of all verdicts that disagree or are open, the gravest first.
+/// All verdicts that disagree or are open, the most serious first.
 pub fn unproven(proof: &Proof) -> Vec<(String, &Verdict)> {
     let mut all = verdicts(proof);
     all.retain(|(_, verdict)| grade(verdict) != Grade::Agree);
@@ -143,7 +144,7 @@ pub fn unproven(proof: &Proof) -> Vec<(String, &Verdict)> {
     all
 }
 
-/// All channels of all engines, the one that uses most of its bound first.
+/// All channels of all engines, sorted: the channel that uses most of its bound comes first.
 pub fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
     let engines = proof.engines.iter();
     let mut all: Vec<_> = engines.flat_map(|engine| engine.channels.iter().map(move |own| (engine, own))).collect();
@@ -156,7 +157,8 @@ pub fn worst<'a>(channels: impl IntoIterator<Item = &'a ChannelProof>) -> Option
     channels.into_iter().max_by(|a, b| used(a).total_cmp(&used(b)))
 }
 
-/// Share of its bound that a channel uses. A verdict other than agreement counts more than any share.
+/// Fraction of its bound that a channel uses. A channel that is open or disagrees counts more than any agreeing
+/// channel.
 fn used(channel: &ChannelProof) -> f64 {
     let share = share(channel.residual.max, channel.bound);
     match grade(&channel.verdict) {

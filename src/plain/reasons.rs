@@ -1,5 +1,5 @@
-//! What an engineer needs besides the verdict to act on it: why something disagrees or is open, what was not judged, and
-//! which printed numbers are known to be wrong.
+//! All information besides the verdict that an engineer needs to act.
+//! It says why something disagrees or is open, what was not judged, and which printed numbers are known to be wrong.
 
 use super::cells::distinct;
 use super::judged::{Grade, grade, unproven};
@@ -10,7 +10,8 @@ use linkage::error::Advice;
 use prover::bounds::{Check, Verdict};
 use prover::run::Proof;
 
-/// Why something disagrees or is open, with the way out: `most` reasons in full, what disagrees first.
+/// Reasons why something disagrees or is open, with the remedies.
+/// `most` reasons are shown in full; disagreements come first.
 pub fn reasons(proof: &Proof, tell: Tell, width: Option<usize>, most: usize, text: &mut String) {
     let open = unproven(proof);
     for (name, verdict) in open.iter().take(most) {
@@ -41,11 +42,11 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
         return;
     }
     let (count, told) = (findings.len(), distinct(findings));
-    // One a line: a command that is broken cannot be copied.
+    // One command per line: a wrapped command cannot be copied.
     say!(text, sentences::checks_disagree_as_expected_see(&count, &(told.join(",\n  "))));
 }
 
-/// How many instants are not judged, and of what.
+/// Number of instants that are not judged, with the quantities concerned.
 pub fn left_out(proof: &Proof, width: Option<usize>, text: &mut String) {
     for engine in &proof.engines {
         let left = || engine.channels.iter().filter(|channel| channel.left_out > 0);

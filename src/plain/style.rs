@@ -1,5 +1,5 @@
-//! Colour and width of what a terminal shows. Colours are escape codes, which the command line takes out again where
-//! nobody sees them.
+//! Colour and width of terminal output.
+//! Colours are escape codes, which the command line removes if the output is not a terminal.
 
 use anstyle::{AnsiColor, Style};
 use textwrap::{Options, WordSplitter, wrap};
@@ -7,19 +7,19 @@ use textwrap::{Options, WordSplitter, wrap};
 use super::judged::{Grade, grade};
 use prover::bounds::Verdict;
 
-/// How much a report tells.
+/// How detailed a report is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detail {
     /// The verdict, in one line.
     Verdict,
-    /// What is needed to act.
+    /// Everything needed to act.
     Short,
     /// Everything.
     Whole,
 }
 
 impl Detail {
-    /// That of the options `--quiet` and `--verbose`.
+    /// The level set by the options `--quiet` and `--verbose`.
     #[must_use]
     pub fn asked(quiet: bool, verbose: bool) -> Detail {
         match (quiet, verbose) {
@@ -30,7 +30,7 @@ impl Detail {
     }
 }
 
-/// Columns of a report that goes to a file or a pipe.
+/// Width of a report for a file or a pipe, in columns.
 pub const COLUMNS: usize = 80;
 
 /// The same text without colours.
@@ -54,7 +54,8 @@ pub fn verdict(verdict: &Verdict) -> String {
     format!("{style}{}{style:#}", grade.capitals())
 }
 
-/// Text in lines of at most `width` columns, if there is a width. Lines after the first of each line given are indented.
+/// Text in lines of at most `width` columns, if a width is given.
+/// Continuation lines are indented.
 /// A word is never broken: names and commands stay whole.
 pub fn wrapped(text: &str, width: Option<usize>, indent: usize) -> String {
     let Some(width) = width else { return text.into() };
@@ -68,9 +69,54 @@ pub fn wrapped(text: &str, width: Option<usize>, indent: usize) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
+/// Text in lines of at most `width` columns, if a width is given.
+/// Continuation lines begin below the text of their line: behind `error: `, or behind the name of a value.
+/// Lines of a file in a message stay as they are.
+pub(crate) fn fitted(text: &str, width: Option<usize>) -> String {
+    let Some(width) = width else { return text.into() };
+    let fit = |line: &str| match textwrap::core::display_width(line) > width && !is_quoted(line) {
+        true => wrapped(line, Some(width), hanging(line)),
+        false => line.to_string(),
+    };
+    text.split('\n').map(fit).collect::<Vec<_>>().join("\n")
+}
+
+/// Whether a line of a message quotes a line of a file, or names its location.
+fn is_quoted(line: &str) -> bool {
+    let line = line.trim_start().trim_start_matches(|sign: char| sign.is_ascii_digit()).trim_start();
+    ["|", "-->", "..."].iter().any(|sign| line.starts_with(sign))
+}
+
+/// Column of the text in a line.
+fn hanging(line: &str) -> usize {
+    const MOST: usize = 30;
+    let named = ["error: ", "warning: ", "note: ", "= help: "];
+    if let Some(end) = named.iter().find_map(|name| Some(line.find(name)? + name.len()).filter(|end| *end <= MOST)) {
+        return end;
+    }
+    let margin = line.len() - line.trim_start().len();
+    let gap = line[margin..].find("  ").map(|at| margin + at);
+    let behind = gap.map(|at| at + line[at..].len() - line[at..].trim_start().len());
+    behind.filter(|behind| *behind <= MOST).unwrap_or(margin + 2)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_lines_have_a_hanging_indent() {
+        for (line, fitted) in [
+            ("error: no such file or directory", "error: no such file\n       or directory"),
+            ("  = help: name another file here", "  = help: name another\n          file here"),
+            ("source   a book of mechanisms", "source   a book of\n         mechanisms"),
+            ("12 | mass_kg = 1 # a long comment", "12 | mass_kg = 1 # a long comment"),
+            ("short", "short"),
+        ] {
+            assert_eq!(super::fitted(line, Some(22)), fitted);
+        }
+        assert_eq!(super::fitted("a long line of words", None), "a long line of words");
+    }
 
     #[test]
     fn words_stay_whole_and_following_lines_are_indented() {

@@ -1,4 +1,4 @@
-//! What has become of accepted figures, as text and as JSON.
+//! Changes of accepted figures, as text and as JSON.
 
 use crate::sentences;
 use std::path::Path;
@@ -14,23 +14,24 @@ use crate::plain::judged::{Grade, grade};
 use linkage::error::Error;
 use linkage::trajectory::Channel;
 use prover::accept::{ChannelFigure, FigureComparison, Moved, Wider};
+use prover::numbers;
 use prover::run::Proof;
 use scenario::accepted::Accepted;
 
-/// Channels of which figures are shown; the others are counted.
+/// Number of channels whose figures are shown; further channels are only counted.
 const SHOWN: usize = 20;
 
 linkage::words! {
-    /// What was done with the file of accepted figures.
+    /// Action on the file of accepted figures.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Deed: word {
-        /// The file was judged by, and left as it is.
+        /// The run was judged against the file, which stays unchanged.
         Checked = "checked",
-        /// There was none; it was written.
+        /// The file did not exist, and was written.
         Written = "written",
         /// It was written anew.
         Renewed = "renewed",
-        /// Nothing has moved, and it was left as it is.
+        /// No figure has changed, so the file stays unchanged.
         Kept = "kept",
         /// The proof does not agree: nothing was written.
         Refused = "refused",
@@ -39,11 +40,11 @@ linkage::words! {
 
 /// A scenario with its accepted figures.
 pub(crate) struct Item<'a> {
-    /// The proof that they were found by.
+    /// The proof that gave the figures.
     pub(crate) proof: &'a Proof,
     /// What was found.
     pub(crate) found: &'a Accepted,
-    /// What has moved; `None` if nothing was accepted before.
+    /// The changes; `None` if nothing was accepted before.
     pub(crate) comparison: Option<&'a FigureComparison>,
     /// What was done.
     pub(crate) deed: Deed,
@@ -58,7 +59,7 @@ impl Item<'_> {
     }
 }
 
-/// The report on one scenario: what it comes to first, then what has moved.
+/// The report on one scenario: first the result, then the changes.
 pub(crate) fn text(item: &Item) -> String {
     let mut text = format!("{}\n", headline(item));
     if let Some(comparison) = item.comparison {
@@ -90,7 +91,7 @@ fn channels(count: usize) -> String {
     counted(count, "channel")
 }
 
-/// What has changed, in numbers.
+/// Counts of the changes.
 fn counts(comparison: &FigureComparison) -> String {
     let FigureComparison { wider, looser, new, gone, is_other_grid, proof, .. } = comparison;
     let moved = comparison.moved_channels().len();
@@ -121,7 +122,8 @@ fn counts(comparison: &FigureComparison) -> String {
     parts.join(", ")
 }
 
-/// The worst figure of every channel that has moved, and the channels that are new, gone or known worse.
+/// For every channel that has changed: the figure with the largest change.
+/// Also the channels that are new, that are missing now, or that have a wider bound.
 fn changes(comparison: &FigureComparison, text: &mut String) {
     let worst_of = |channel: &&str| {
         let own = comparison.moved.iter().filter(|moved| moved.channel == *channel);
@@ -131,10 +133,10 @@ fn changes(comparison: &FigureComparison, text: &mut String) {
     let mut worst: Vec<&Moved> = moved.iter().filter_map(worst_of).collect();
     worst.sort_by(|a, b| b.bounds().total_cmp(&a.bounds()));
     let row = |moved: &&Moved| {
-        // Both figures with so many digits that they differ.
+        // Both figures are shown with enough digits to differ.
         let [accepted, found] = [(moved.accepted, moved.found), (moved.found, moved.accepted)]
             .map(|(value, other)| told_apart(value, other));
-        let by = format!("{:+.1e} {}", moved.found - moved.accepted, unit(&moved.channel));
+        let by = format!("{:+.1e} {}", moved.found - moved.accepted, numbers::shown(unit(&moved.channel)));
         let [bound, bounds] = [moved.bound, moved.bounds()].map(|number| format!("{number:.1e}"));
         let (word, at) = figure(moved.figure);
         let figure = at.map_or(word.to_string(), |t| format!("{word} {} s", number(t)));
@@ -153,7 +155,7 @@ fn changes(comparison: &FigureComparison, text: &mut String) {
         }
     }
     for other in comparison.wider.iter().take(SHOWN).chain(comparison.looser.iter().take(SHOWN)) {
-        let (channel, unit) = (&other.channel, unit(&other.channel));
+        let (channel, unit) = (&other.channel, numbers::shown(unit(&other.channel)));
         say!(
             text,
             sentences::its_bound_was_now(
@@ -176,7 +178,7 @@ fn unit(channel: &str) -> &'static str {
     Channel::named(channel).map_or("", |channel| channel.kind.unit.symbol())
 }
 
-/// The word of a figure, and its instant (s) if it has one.
+/// The name of a figure, and its instant (s) if it has one.
 fn figure(figure: ChannelFigure) -> (&'static str, Option<f64>) {
     match figure {
         ChannelFigure::At(t) => ("at", Some(t)),
@@ -194,7 +196,7 @@ pub(crate) struct Document {
 }
 
 impl Document {
-    /// An empty one; `tell` words advice.
+    /// An empty document; `tell` words the advice.
     pub(crate) fn told_by(tell: Tell) -> Self {
         Document { files: Vec::new(), errors: Vec::new(), tell }
     }

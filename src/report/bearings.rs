@@ -4,7 +4,7 @@ use crate::sentences;
 use serde_json::json;
 
 use super::pretty::{list, pretty};
-use crate::plain::cells::{table, trimmed};
+use crate::plain::cells::{fitted, trimmed};
 use design::bearings::{Peak, Peaks, journal_diameter};
 use prover::numbers;
 use scenario::Scenario;
@@ -23,7 +23,7 @@ fn diameter(journals: Journals, peak: Peak) -> f64 {
 }
 
 /// The largest reactions as text.
-pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> String {
+pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks, width: Option<usize>) -> String {
     let degrees = |peak: Peak| numbers::fixed(peak.crank.to_degrees(), 4);
     let joints = scenario.case.mechanism.joints().iter().enumerate();
     let rows = joints.map(|(index, joint)| {
@@ -31,18 +31,18 @@ pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
         let journal = || numbers::fixed_in(1e3 * diameter(journals, reaction), 3, "mm");
         let [journal, moment, at] = peaks.moments[index].map_or_else(
             || [journal(), String::new(), String::new()],
-            |moment| ["slider".into(), numbers::fixed_in(moment.value, 6, "N m"), degrees(moment)],
+            |moment| ["slider".into(), numbers::quantity(moment.value, "N m"), degrees(moment)],
         );
-        let largest = numbers::fixed_in(reaction.value, 6, "N");
+        let largest = numbers::quantity(reaction.value, "N");
         [joint.name.clone(), largest, degrees(reaction), journal, moment, at]
     });
-    let header = "joint | largest reaction> | at crank deg> | smallest journal> | largest moment> | at crank deg>";
-    let table = trimmed(table(header).add_rows(rows));
+    let header = "joint | largest\nreaction> | at crank\ndeg> | smallest\njournal> | largest\nmoment> | at crank\ndeg>";
+    let table = trimmed(fitted(header, width).add_rows(rows));
     let mut text = format!("{}: {}\n\n{table}\n\n", scenario.name, scenario.title);
     for (name, peak, unit) in
         [("shaking force", peaks.shaking_force, "N"), ("balancing moment", peaks.balancing_moment, "N m")]
     {
-        say!(text, sentences::largest_at_deg(&name, &peak.value, &unit, &degrees(peak)));
+        say!(text, sentences::largest_at_deg(&name, &numbers::quantity(peak.value, unit), &degrees(peak)));
     }
     say!(text, sentences::journals_lever_mm_bending_stress(&journals.lever_mm, &journals.stress_mpa));
     text

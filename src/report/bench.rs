@@ -13,15 +13,15 @@ use linkage::trajectory::Stage;
 /// Names and values that describe machine and build.
 pub(crate) type Machine = [(&'static str, String)];
 
-/// Errors for which it is told who reaches them first.
+/// For each of these errors, the report names the fastest party.
 const DECADES: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
-/// Time of a point over that of side 1.
+/// Time of a point divided by the time of side 1.
 pub(crate) fn ratio(bench: &Bench, point: &BenchPoint) -> Option<f64> {
     Some(point.seconds()? / bench.unit)
 }
 
-/// An error in words; one that the reference does not resolve says so.
+/// An error in words, marked if the reference does not resolve it.
 pub(crate) fn error(errors: Errors, floor: f64) -> String {
     match (errors.is_limited, errors.max > floor) {
         (false, _) => format!("{:.1e}", errors.max),
@@ -39,7 +39,7 @@ pub(crate) fn short(ratio: f64) -> String {
     }
 }
 
-/// The fastest point whose error in a stage is at most `within`, of the points that `of` takes.
+/// The fastest of the points that `of` accepts and whose error in a stage is at most `within`.
 pub(crate) fn fastest<'a>(
     bench: &'a Bench,
     stage: Stage,
@@ -51,7 +51,7 @@ pub(crate) fn fastest<'a>(
     timed.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point)
 }
 
-/// The fronts as text: who is best at which error.
+/// The fronts as text: the fastest party for each error.
 pub(crate) fn text(bench: &Bench) -> String {
     let mut text = format!("{}: {}\n\n", bench.scenario[0], bench.scenario[1]);
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
@@ -160,7 +160,7 @@ fn counts(bench: &Bench) -> Vec<String> {
     )
 }
 
-/// The front over time of every stage.
+/// The front of every stage, with time as the cost.
 fn fronts(bench: &Bench) -> Vec<Vec<usize>> {
     let of =
         |&stage: &Stage| front(&bench.points, stage, CostAxis::Time, bench.floor.errors[stage as usize], &|_| true);

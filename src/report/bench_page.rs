@@ -1,4 +1,4 @@
-//! The page of documentation that holds work-precision results: Markdown, made anew by one command.
+//! The documentation page of work-precision results, in Markdown.
 
 use super::bench::{Machine, error, fastest, ratio, short};
 use super::bench_plot::{gaps, programs, reasons};
@@ -11,10 +11,11 @@ use linkage::trajectory::Stage;
 
 /// Errors in the cells of the tables.
 const WITHIN: [f64; 3] = [1e-3, 1e-6, 1e-9];
-/// Most reasons of failures that are listed for a scenario.
+/// Largest number of failure reasons listed for a scenario.
 const REASONS: usize = 6;
 
-/// The page. `command` made it; `pictures` is the directory of the diagrams as seen from the page.
+/// The page.
+/// `command` is the command that made it; `pictures` is the directory of the diagrams, relative to the page.
 pub(crate) fn page(benches: &[Bench], machine: &Machine, command: &str, pictures: &str) -> String {
     let mut text = filled(include_str!("bench_page.md"), &[("command", command), ("clear", &CLEAR.to_string())]);
     let machine: Vec<String> = machine.iter().map(|(name, value)| format!("{name}: {value}")).collect();
@@ -25,7 +26,7 @@ pub(crate) fn page(benches: &[Bench], machine: &Machine, command: &str, pictures
     for bench in benches {
         scenario(&mut text, bench, pictures);
     }
-    // One newline at the end.
+    // The page ends with exactly one newline.
     format!("{}\n", text.trim_end())
 }
 
@@ -64,7 +65,7 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     text.push('\n');
 }
 
-/// A front over time, by name.
+/// The front of a stage, with time as the cost and with names of programs.
 fn told(bench: &Bench, stage: Stage, of: &dyn Fn(&BenchPoint) -> bool) -> String {
     let floor = bench.floor.errors[stage as usize];
     let told = front(&bench.points, stage, CostAxis::Time, floor, of).into_iter().filter_map(|index| {
@@ -80,7 +81,7 @@ fn named(point: &BenchPoint) -> String {
     if told.is_empty() { point.program.clone() } else { format!("{} {told}", point.program) }
 }
 
-/// Times at which a program reaches the errors of the table.
+/// Times that a program needs for the errors in the table.
 fn cell(bench: &Bench, program: &str, stage: Stage) -> String {
     let own = |point: &BenchPoint| point.program == program;
     if !bench.points.iter().any(|point| own(point) && point.error(stage).is_some()) {

@@ -12,22 +12,22 @@ use lab::bench::{Bench, BenchPoint, CLEAR, CostAxis, MethodOwner, front};
 use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::Stage;
 
-/// Size of a panel, and height of the line of the title (mm).
+/// Size of a panel, and height of the title line (mm).
 const PANEL: [f64; 2] = [138.0, 112.0];
 const TITLE: f64 = 12.0;
-/// Below the reference's own error, and where failures stand.
+/// Colour of the area below the reference error, and of the band of failures.
 const PALE: &str = "#ececec";
 const ROSE: &str = "#fcf0f0";
-/// Size of a mark and of a ring about it (mm).
+/// Size of a mark, and of the ring around a mark (mm).
 const MARK: f64 = 1.0;
 const RING: f64 = 1.7;
-/// Costs that are drawn: an axis of logarithms counts its decades, and begins with none at zero.
+/// Range of costs that are drawn; a logarithmic axis is divided into decades, and cannot begin at zero.
 const DRAWN: RangeInclusive<f64> = 1e-20..=1e20;
-/// Characters in a line of the legend, and the height of a small one (mm).
+/// Number of characters in a line of the legend, and height of a small line (mm).
 const WIDTH: usize = 72;
 const LINE: f64 = 3.8;
 
-/// The diagram of one axis of cost; `None` if no point has that cost.
+/// The diagram with this cost on the horizontal axis; `None` if no point has this cost.
 pub(crate) fn drawing(bench: &Bench, axis: CostAxis) -> Option<String> {
     let costs = costs(bench, axis)?;
     let panels = bench.stages.iter().map(|&stage| panel(bench, stage, axis, costs));
@@ -63,13 +63,14 @@ fn cost(bench: &Bench, axis: CostAxis, point: &BenchPoint) -> Option<f64> {
     Some(own / unit).filter(|cost| DRAWN.contains(cost))
 }
 
-/// Least and greatest cost of all points, with room beside them; `None` without any.
+/// Smallest and largest cost of all points, with a margin; `None` without points.
 fn costs(bench: &Bench, axis: CostAxis) -> Option<[f64; 2]> {
     let all = || bench.points.iter().filter_map(|point| cost(bench, axis, point));
     Some([all().reduce(f64::smaller)? / 2.0, all().reduce(f64::larger)? * 2.0])
 }
 
-/// Programs in the order in which they first stand in the table. Their number there is that of their colour and mark.
+/// Programs in the order of their first occurrence in the table.
+/// Their number in this order selects their colour and mark.
 pub(super) fn programs(bench: &Bench) -> Vec<&str> {
     distinct(bench.points.iter().map(|point| point.program.as_str()))
 }
@@ -79,7 +80,7 @@ fn panel(bench: &Bench, stage: Stage, axis: CostAxis, [left, right]: [f64; 2]) -
     let shown = |error: f64| error.larger(floor).smaller(1e3);
     let errors = bench.points.iter().filter_map(|point| point.error(stage)).map(|errors| shown(errors.max));
     let worst = errors.fold(floor * CLEAR, f64::larger);
-    // Failures stand in a band above everything that was measured.
+    // Failures are drawn in a band above all measured points.
     let (low, high) = (floor / 6.0, worst * 3.0);
     let band = high * (high / low).powf(0.09);
     let mut chart = Chart::new(PANEL, [[left, right], [low, band]]);
@@ -115,7 +116,7 @@ fn panel(bench: &Bench, stage: Stage, axis: CostAxis, [left, right]: [f64; 2]) -
             is_empty = false;
         }
     }
-    // The sides are so far ahead that nothing else would have a ring.
+    // A second front is drawn without the sides, because they are so fast that only they would be on the first.
     let best = front(&bench.points, stage, axis, floor, &|_| true);
     let others = front(&bench.points, stage, axis, floor, &|point| point.party != MethodOwner::Side);
     for at in best.iter().chain(&others).filter_map(place).map(|at| chart.at(at)).collect::<Vec<_>>() {
@@ -144,7 +145,7 @@ fn cut(text: &str, most: usize) -> String {
     }
 }
 
-/// The words of a text in lines of at most `most` characters, where no word is longer.
+/// The words of a text in lines of at most `most` characters; a longer word is alone in its line.
 fn wrapped(text: &str, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -159,7 +160,7 @@ fn wrapped(text: &str, most: usize) -> Vec<String> {
     lines
 }
 
-/// Programs with their colours, what marks mean, and the reasons of failures.
+/// Programs with their colours, the meaning of the marks, and the reasons of failures.
 fn legend(bench: &Bench, axis: CostAxis) -> DrawnFigure {
     let mut figure = DrawnFigure::default();
     let mut y = -6.0;
@@ -215,7 +216,7 @@ fn legend(bench: &Bench, axis: CostAxis) -> DrawnFigure {
     figure
 }
 
-/// Reasons of failures with the number of settings that they stopped, the most frequent first.
+/// Reasons of failures, each with the number of settings that failed for this reason, the most frequent first.
 pub(crate) fn reasons(bench: &Bench) -> Vec<(String, usize)> {
     let failed = bench.points.iter().flat_map(|point| {
         let of = |stage: &Stage| point.failure(*stage).map(|reason| format!("{}: {reason}", point.program));
@@ -226,7 +227,7 @@ pub(crate) fn reasons(bench: &Bench) -> Vec<(String, usize)> {
     counted(failed.chain(bench.absent.iter().map(|(name, reason)| format!("{name}: {reason}"))))
 }
 
-/// Channels that peers do not give, stage by stage, with the number of settings that are judged without them.
+/// Channels that peers do not provide, stage by stage, each with the number of settings that are judged without it.
 pub(crate) fn gaps(bench: &Bench) -> Vec<(String, usize)> {
     let of = |point: &BenchPoint, stage: Stage| {
         let what = point.without(stage)?;
@@ -235,11 +236,11 @@ pub(crate) fn gaps(bench: &Bench) -> Vec<(String, usize)> {
     counted(bench.points.iter().flat_map(|point| bench.stages.iter().filter_map(move |&stage| of(point, stage))))
 }
 
-/// Texts with the number of times that they occur, the most frequent first.
+/// Texts with their number of occurrences, the most frequent first.
 fn counted(all: impl Iterator<Item = String>) -> Vec<(String, usize)> {
     let mut found: Vec<(String, usize)> = Vec::new();
     for reason in all {
-        // The same failure at another instant is the same reason.
+        // Digits are ignored: the same failure at a different instant is the same reason.
         let same = |text: &str| text.chars().filter(|c| !c.is_ascii_digit()).collect::<String>();
         match found.iter_mut().find(|(own, _)| same(own) == same(&reason)) {
             Some((_, times)) => *times += 1,

@@ -1,4 +1,5 @@
-//! A case as JSON, for other programs: everything that it takes to solve it, in SI units. docs/peers.md lists the keys.
+//! A case as JSON for other programs: all data needed to solve it, in SI units.
+//! docs/peers.md lists the keys.
 
 use serde_json::{Map, Value, json};
 
@@ -13,7 +14,8 @@ use linkage::solver::State;
 /// Version of the form.
 const FORMAT: u32 = 1;
 
-/// The case called `name`, whose state at t = 0 is `start`: poses, velocities and accelerations count.
+/// The case called `name`, as JSON.
+/// It includes the poses, velocities and accelerations of `start`, the state at t = 0.
 pub(crate) fn text(name: &str, case: &Case, start: &State) -> String {
     let links = case.mechanism.links().iter().zip(&start.motions).zip(&start.angles);
     let links = links.map(|((link, motion), angle)| {
@@ -81,7 +83,7 @@ fn law_of(law: &MotionLaw) -> Value {
         MotionLaw::ConstantSpeed(omega) => json!({ "law": law.name(), "speed_rad_s": omega }),
         MotionLaw::Ramp { speed, time } => json!({ "law": law.name(), "speed_rad_s": speed, "time_s": time }),
         MotionLaw::Cycloidal { rise, time } => json!({ "law": law.name(), "rise_rad": rise, "time_s": time }),
-        // Its spline has no short form.
+        // The spline of a table has no short form.
         MotionLaw::Table(_) => json!({ "law": law.name() }),
     }
 }
@@ -106,7 +108,7 @@ fn motor_of(motor: &Motor) -> Value {
     })
 }
 
-/// A constant as a number, a table as what it is.
+/// A constant course as a number, any other course as a table.
 fn course(course: &Course) -> Value {
     match course {
         Course::Constant(value) => json!(value),

@@ -1,4 +1,4 @@
-//! A diagram with two logarithmic axes on paper, and the marks of the parties in it.
+//! A diagram with two logarithmic axes, and the marks of the parties.
 
 use crate::sentences;
 use drawing::paper::figure::{DrawnFigure, Style, Tint, Type, rectangle, solid, words};
@@ -6,7 +6,7 @@ use drawing::paper::style::{self, GREY};
 use linkage::math::Vec2;
 use linkage::mechanism::LinkId;
 
-/// Room between a cell and the frame of its diagram (mm): on the left, on the right, above, below.
+/// Margins between a cell and the frame of its diagram (mm): left, right, top, bottom.
 const ROOM: [f64; 4] = [17.0, 5.0, 9.0, 12.0];
 const GRID: Style = solid("#d4d4d4", 0.15);
 /// Thin strokes.
@@ -23,11 +23,11 @@ pub(super) enum Filling {
     Hollow,
     /// With a cross.
     Crossed,
-    /// A cross stands for the mark.
+    /// A cross is drawn instead of the mark.
     Cross,
 }
 
-/// A diagram. The upper left corner of its cell is the origin.
+/// A diagram; its origin is the upper left corner of its cell.
 pub(super) struct Chart {
     pub(super) figure: DrawnFigure,
     /// Lower left corner of the frame, and its size (mm).
@@ -38,14 +38,14 @@ pub(super) struct Chart {
 }
 
 impl Chart {
-    /// An empty one in a cell of this size (mm), with first and last value of both axes.
+    /// An empty diagram in a cell of this size (mm), with first and last value of both axes.
     pub(super) fn new([width, height]: [f64; 2], ends: [[f64; 2]; 2]) -> Self {
         let [left, right, above, below] = ROOM;
         let size = Vec2::new(width - left - right, height - above - below);
         Chart { figure: DrawnFigure::default(), low: Vec2::new(left, below - height), size, ends }
     }
 
-    /// Where a pair of values lies on the paper.
+    /// Position of a pair of values on the paper.
     pub(super) fn at(&self, place: [f64; 2]) -> Vec2 {
         let share = |axis: usize| {
             let [low, high] = self.ends[axis].map(f64::log10);
@@ -54,20 +54,21 @@ impl Chart {
         self.low + Vec2::new(share(0), share(1)).component_mul(&self.size)
     }
 
-    /// A band between two values of the upright axis.
+    /// A band between two values of the vertical axis.
     pub(super) fn band(&mut self, [from, to]: [f64; 2], fill: &'static str) {
         let [left, right] = self.ends[0];
         let corners = rectangle([self.at([left, from]), self.at([right, to])]);
         self.figure.area(corners, Some(Tint::opaque(fill)), solid(fill, 0.0));
     }
 
-    /// A line across at a value of the upright axis.
+    /// A horizontal line at a value of the vertical axis.
     pub(super) fn level(&mut self, value: f64, style: Style) {
         let ends = self.ends[0].map(|end| self.at([end, value]));
         self.figure.line(ends, style);
     }
 
-    /// Grid lines with their numbers, what is shown, above, and the name of the axis below; the frame.
+    /// Frame, and grid lines with their numbers.
+    /// The title is above, and the name of the horizontal axis below.
     pub(super) fn axes(&mut self, [along, up]: [&[f64]; 2], title: &str, below: &str) {
         let [low, high] = [0, 1].map(|end| self.at([self.ends[0][end], self.ends[1][end]]));
         for &value in along {
@@ -86,18 +87,18 @@ impl Chart {
         self.figure.text(middle, below, Type { anchor: "middle", ..words(3.2) });
     }
 
-    /// Says in the middle of the frame why there is nothing in it.
+    /// Writes the reason why the diagram is empty into the middle of the frame.
     pub(super) fn empty(&mut self, why: &str) {
         let middle = self.low + self.size / 2.0;
         self.figure.text(middle, sentences::nothing_to_draw(&why), Type { anchor: "middle", ..words(3.6) });
     }
 }
 
-/// Powers of ten between two values, every second, third ... of them if there are more than `most`.
+/// Powers of ten between two values; if there are more than `most`, only every second, third, ... power.
 pub(super) fn decades([low, high]: [f64; 2], most: i32) -> Vec<f64> {
     let (first, last) = (low.log10().ceil() as i32, high.log10().floor() as i32);
     let every = (last - first) / most + 1;
-    // Read from text, so that 1e-5 is the double nearest to it.
+    // Parsed from text, so that 1e-5 is the nearest double.
     let power = |power: i32| format!("1e{power}").parse().ok();
     (first..=last).filter(|power| power % every == 0).filter_map(power).collect()
 }
@@ -107,12 +108,13 @@ pub(super) fn label(value: f64) -> String {
     if (0.01..1e5).contains(&value) { format!("{value}") } else { format!("{value:e}") }
 }
 
-/// Colour of the party with this number: parties have those of links.
+/// Colour of the party with this number, from the colours of links.
 pub(super) fn colour(party: usize) -> &'static str {
     style::colour(LinkId(party))
 }
 
-/// The mark of a party, `size` (mm) from its middle to its edge: its colour and its shape by number, its filling.
+/// The mark of a party, `size` (mm) from its middle to its edge.
+/// The number of the party selects colour and shape; `filling` selects the filling.
 pub(super) fn mark(figure: &mut DrawnFigure, at: Vec2, size: f64, party: usize, filling: Filling) {
     let paint = colour(party);
     let corners: &[[f64; 2]] = match party % 5 {
@@ -123,7 +125,7 @@ pub(super) fn mark(figure: &mut DrawnFigure, at: Vec2, size: f64, party: usize, 
         _ => &[],
     };
     let around = |[x, y]: [f64; 2]| at + Vec2::new(x, y) * size;
-    // Marks that overlap are told apart by a white edge.
+    // A white edge separates overlapping marks.
     let (fill, edge) = if filling == Filling::Full { (paint, "#ffffff") } else { ("#ffffff", paint) };
     if filling != Filling::Cross && corners.is_empty() {
         figure.disc(at, size, fill, solid(edge, 0.2));
@@ -144,7 +146,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn an_axis_has_round_numbers_and_no_more_than_there_is_room_for() {
+    fn axis_labels_are_powers_of_ten_and_limited_in_number() {
         assert_eq!(
             decades([3e-3, 2e3], 8).into_iter().map(label).collect::<Vec<_>>(),
             ["0.01", "0.1", "1", "10", "100", "1000"]
@@ -156,7 +158,7 @@ mod tests {
         }
     }
 
-    /// Symptom: two oranges and two blues.
+    /// Symptom: two parties were orange, and two blue.
     #[test]
     fn regress_no_two_parties_look_alike() {
         let looks = |party: usize, filling: Filling| {
@@ -168,7 +170,7 @@ mod tests {
         let all: BTreeSet<String> =
             fillings.iter().flat_map(|&own| (0..20).map(move |party| looks(party, own))).collect();
         assert_eq!(all.len(), 60);
-        // The crosses of failures differ by colour alone.
+        // The crosses of failures differ only in colour.
         let crosses: BTreeSet<String> = (0..8).map(|party| looks(party, Filling::Cross)).collect();
         assert_eq!(crosses.len(), 8);
     }

@@ -23,7 +23,7 @@ const WORST: usize = 3;
 /// Column at which the text below a formula begins.
 const INDENT: usize = 9;
 
-/// What a claim comes to.
+/// Grade of a claim.
 fn grade(judged: &JudgedFormula) -> Grade {
     match judged.outcome() {
         FormulaOutcome::Right => Grade::Agree,
@@ -32,7 +32,7 @@ fn grade(judged: &JudgedFormula) -> Grade {
     }
 }
 
-/// One claim, by value or by a derivative: the side that it fits worse.
+/// One claim, by value or by a derivative, with the side that it fits worse.
 struct Line<'a> {
     side: &'static str,
     formula: &'a Formula,
@@ -75,7 +75,7 @@ pub fn verdict_line(scenario: &Scenario, claimed: &Claimed) -> String {
 }
 
 /// The short report, in lines of at most `width` columns: the verdict, the formulas that use most of their bounds, and
-/// what is wrong.
+/// the faults.
 #[must_use]
 pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
     let lines = lines(scenario, claimed);
@@ -98,7 +98,7 @@ pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -
     text
 }
 
-/// The whole report: the verdict, a line for each claim and derivative, and what is wrong.
+/// The whole report: the verdict, a line for each claim and derivative, and the faults.
 #[must_use]
 pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
     let lines = lines(scenario, claimed);
@@ -113,7 +113,7 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) ->
         let claim = if line.judged.order == 0 { line.judged.claim.clone() } else { String::new() };
         let word = match line.grade {
             Grade::Agree => "right",
-            Grade::Open => "open",
+            Grade::Open => "undecided",
             Grade::Disagree => "WRONG",
         };
         [line.name(), claim, at, off, bound, word.into()]
@@ -123,7 +123,7 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) ->
     text
 }
 
-/// What the formula and the mechanism say, with the digits in which they differ.
+/// Values of the formula and of the mechanism, with enough digits to differ.
 fn values(at: FormulaAtInstant) -> [String; 2] {
     let [found, right] = beside([at.formula, at.mechanism], at.bound);
     [if at.formula.is_nan() { "no value".into() } else { found }, right]
@@ -135,12 +135,12 @@ fn wrong_values<'a>(lines: &[Line<'a>]) -> BTreeSet<&'a str> {
     lines.iter().filter(is_wrong_value).map(|line| line.judged.name.as_str()).collect()
 }
 
-/// Whether it is the derivative of a wrong value, which says nothing more.
+/// Whether a derivative is wrong only because the value of its formula is wrong; it is then not reported.
 fn is_consequence(wrong: &BTreeSet<&str>, of: &Line) -> bool {
     of.judged.order > 0 && wrong.contains(of.judged.name.as_str())
 }
 
-/// What is wrong or open, and why.
+/// Faults and open points, with their reasons.
 fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &mut String) {
     let wrong = wrong_values(lines);
     let told = |line: &&Line| line.grade != Grade::Agree && !is_consequence(&wrong, line);
@@ -180,7 +180,7 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
     }
 }
 
-/// The causes of wrong formulas by name, if there are simple ones.
+/// The simple causes of wrong formulas, by name; `None` if no simple cause was found.
 fn causes(claimed: &Claimed) -> BTreeMap<&str, Option<&FormulaCause>> {
     claimed.judgement.causes.iter().map(|(name, cause)| (name.as_str(), cause.as_ref())).collect()
 }
@@ -232,7 +232,7 @@ fn reason(line: &Line, tell: Tell) -> String {
     }
 }
 
-/// Words before the name of what is judged by a derivative.
+/// The words before a name that say which derivative is judged.
 fn of(order: usize) -> String {
     match order {
         0 => String::new(),
@@ -271,7 +271,7 @@ fn cause_json(cause: &FormulaCause) -> Value {
     value
 }
 
-/// The judgement as JSON, schema 1. Numbers that are not finite are `null`.
+/// The judgement as JSON, schema 1. NaN and infinite numbers are `null`.
 #[must_use]
 pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
     let at = |at: &FormulaAtInstant| {

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
 use super::table_csv::csv;
-use crate::plain::cells::{table, trimmed};
+use crate::plain::cells::{fitted, trimmed};
 use design::clearance::{ClearanceResult, ClearanceWork, DistanceCurve, Meeting, PairClearance};
 use linkage::error::{Error, Result};
 use linkage::math::Vec2;
@@ -14,21 +14,21 @@ use scenario::Scenario;
 use scenario::clearance::ClearanceQuestion;
 
 linkage::words! {
-    /// How a question is answered.
+    /// Answer to a clearance question.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub(crate) enum Standing: word {
-        /// All pairs are clear, by as much as wanted, all the way.
+        /// All pairs keep the requested clearance over the whole range.
         Clear = "clear",
         /// A pair collides.
         Collides = "collides",
-        /// No pair collides, but one is nearer than wanted.
+        /// No pair collides, but the distance of a pair is less than requested.
         TooNear = "too near",
-        /// Nothing was found, but parts of the range are not proven.
+        /// No collision was found, but the clearance is not proven over the whole range.
         Open = "not proven",
     }
 }
 
-/// How a question is answered.
+/// Answer to a clearance question.
 pub(crate) fn standing(found: &ClearanceResult) -> Standing {
     if found.first_collision().is_some() {
         Standing::Collides
@@ -50,7 +50,7 @@ fn degrees(value: f64) -> String {
 }
 
 fn place(point: Vec2) -> String {
-    format!("({}, {})", numbers::fixed(1e3 * point.x, 3), numbers::fixed(1e3 * point.y, 3))
+    format!("({}, {})", numbers::fixed(1e3 * point.x, 2), numbers::fixed(1e3 * point.y, 2))
 }
 
 fn names<'a>(asked: &'a ClearanceQuestion, pair: &PairClearance) -> [&'a str; 2] {
@@ -58,7 +58,12 @@ fn names<'a>(asked: &'a ClearanceQuestion, pair: &PairClearance) -> [&'a str; 2]
 }
 
 /// The answer as text.
-pub(crate) fn text(scenario: &Scenario, asked: &ClearanceQuestion, found: &ClearanceResult) -> String {
+pub(crate) fn text(
+    scenario: &Scenario,
+    asked: &ClearanceQuestion,
+    found: &ClearanceResult,
+    width: Option<usize>,
+) -> String {
     let mut text = String::new();
     let [from, to] = found.range.map(degrees);
     say!(text, sentences::clearance_over_crank_angles_to_deg(&scenario.name, &scenario.title, &from, &to));
@@ -69,10 +74,11 @@ pub(crate) fn text(scenario: &Scenario, asked: &ClearanceQuestion, found: &Clear
             let ([first, second], smallest) = (names(asked, pair).map(String::from), &pair.smallest);
             let [one, two] = smallest.points.map(place);
             let contact = pair.collision.map_or(String::new(), |meeting| degrees(meeting.cranks[1]));
-            [first, second, millimetres(smallest.distance), degrees(smallest.crank), one, two, contact]
+            [format!("{first}, {second}"), millimetres(smallest.distance), degrees(smallest.crank), one, two, contact]
         });
-        let header = "bodies | | smallest mm> | at crank deg> | nearest points mm | | first contact at deg>";
-        say!(text, "{}\n", trimmed(table(header).add_rows(rows)));
+        let header =
+            "bodies | smallest\ndistance, mm> | at crank\nangle, deg> | nearest\npoints, mm> | > | contact\nat, deg>";
+        say!(text, "{}\n", trimmed(fitted(header, width).add_rows(rows)));
         say!(text, sentences::no_distance_is_smaller_by_more(&numbers::significant(1e3 * found.tolerance, 2)));
     }
     if !found.swept.is_empty() {
@@ -80,8 +86,8 @@ pub(crate) fn text(scenario: &Scenario, asked: &ClearanceQuestion, found: &Clear
             let numbers = [area.value, area.error(), area.least, area.most].map(|own| numbers::fixed(1e6 * own, 2));
             [asked.bodies[*body].name.clone()].into_iter().chain(numbers)
         });
-        let header = "\nswept area | \nmm2> | \nerror at most> | \nproven covered> | \nat most>";
-        say!(text, "{}\n", trimmed(table(header).add_rows(rows)));
+        let header = "\nswept area | \nmm2> | \nerror at most> | \nproven covered> | \nupper limit>";
+        say!(text, "{}\n", trimmed(fitted(header, width).add_rows(rows)));
         if let Some((body, area)) = found.swept.iter().find(|(_, area)| area.error() > asked.area * area.value) {
             let (name, share) = (&asked.bodies[*body].name, area.error() / area.value);
             say!(text, sentences::the_area_of_is_known_to_only_the_work(&name, &numbers::percent(share)));

@@ -1,4 +1,4 @@
-//! Mechanisms found in closed form.
+//! Mechanisms from closed forms.
 
 use crate::sentences;
 use serde_json::json;
@@ -23,7 +23,7 @@ pub(crate) fn crank_rocker(found: &CrankRocker, rocker: f64) -> Told {
     let &CrankRocker { crank, coupler, transmission, time_ratio, .. } = found;
     say!(text, sentences::crank_oa_coupler_ab_rocker(&crank, &coupler, &rocker));
     for (name, extreme) in [("stretched", found.stretched), ("folded", found.folded)] {
-        let [crank, rocker] = [extreme.crank, extreme.rocker].map(|angle| fixed_in(angle.to_degrees(), 9, "deg"));
+        let [crank, rocker] = [extreme.crank, extreme.rocker].map(|angle| fixed_in(angle.to_degrees(), 6, "deg"));
         say!(text, sentences::crank_rocker(&name, &crank, &rocker));
     }
     let at = fixed_in(found.transmission_at.to_degrees(), 4, "deg");
@@ -43,7 +43,7 @@ pub(crate) fn slider_crank(found: &SliderCrank) -> Told {
     let mut text = String::from(sentences::SLIDER_CRANK_FROM_STROKE_AND_OFFSET_2);
     say!(text, sentences::crank_rod(&found.crank, &found.rod));
     for (name, [crank, place]) in [("farthest", found.far), ("nearest", found.near)] {
-        say!(text, sentences::crank_slider(&name, &fixed_in(crank.to_degrees(), 9, "deg"), &fixed_in(place, 12, "m")));
+        say!(text, sentences::crank_slider(&name, &fixed_in(crank.to_degrees(), 6, "deg"), &fixed_in(place, 6, "m")));
     }
     say!(text, sentences::pressure_deg_at_most_between_rod(&found.pressure.to_degrees()));
     say!(text, sentences::time_ratio(&found.time_ratio));

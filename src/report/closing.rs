@@ -1,4 +1,4 @@
-//! The table that closes a command over several files, and the count of their verdicts.
+//! The table of all files at the end of a command, and the number of files for each verdict.
 
 use crate::plain::brief::resolution;
 use crate::plain::cells::{flush, trimmed};
@@ -8,12 +8,13 @@ use prover::bounds::Check;
 use prover::numbers::percent;
 use prover::run::Proof;
 
-/// What came of the files so far, in their order: scenario, verdict, what is worst, its share of its bound, engine.
+/// Outcomes of the files so far, in the order of the files.
+/// A row has scenario, verdict, worst item, the fraction of its bound that the item uses, and engine.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Closing(Vec<[String; 5]>);
 
 impl Closing {
-    /// Adds a proof: its verdict, and what uses most of its bound.
+    /// Adds a proof: its verdict, and the item that uses most of its bound.
     pub(crate) fn add(&mut self, proof: &Proof) {
         let [worst, share] = worst(proof);
         self.0.push([proof.scenario.clone(), proof.verdict.word().into(), worst, share, resolution(proof)]);
@@ -24,20 +25,21 @@ impl Closing {
         self.0.push([file, "error", "-", "-", "-"].map(String::from));
     }
 
-    /// The table in at most `width` columns, and the count; `None` for a single file, whose verdict stands above.
+    /// The table in at most `width` columns, and the count.
+    /// `None` for a single file, whose verdict is already shown above.
     pub(crate) fn text(&self, width: usize) -> Option<String> {
         if self.0.len() < 2 {
             return None;
         }
         let mut table = flush("scenario | verdict | worst | of bound> | engine", Some(width));
-        // The name of a check may be long; it is broken instead of the others.
+        // Names of checks may be long, so this column is wrapped.
         if let Some(worst) = table.column_mut(2) {
             worst.remove_constraint();
         }
         Some(format!("{}\n\n{}\n", trimmed(table.add_rows(&self.0)), self.count()))
     }
 
-    /// `3 scenarios: 1 disagree, 2 agree`, the gravest first.
+    /// `3 scenarios: 1 disagree, 2 agree`, the most serious first.
     fn count(&self) -> String {
         let of = |word: &'static str| (self.0.iter().filter(|row| row[1] == word).count(), word);
         let counts = ["error", "disagree", "inconclusive", "agree"].map(of).into_iter().filter(|(count, _)| *count > 0);
@@ -46,8 +48,10 @@ impl Closing {
     }
 }
 
-/// Name and share of its bound of what uses most of it: a check only where it disagrees or is open and no channel does.
-/// A published number uses nearly all of its last digit's half as a rule, and says nothing by that.
+/// Name of the item that uses most of its bound, and the fraction used.
+/// A check counts only if it disagrees or is open, and only if no channel does so.
+/// Published numbers are ignored otherwise: their bound is half a unit of the last digit, and they usually use most of
+/// it.
 fn worst(proof: &Proof) -> [String; 2] {
     let channel = ranked(proof).into_iter().next().map(|(_, channel)| channel);
     let check = proof.all_checks().filter(|check| grade(&check.verdict) != Grade::Agree);

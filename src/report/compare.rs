@@ -17,15 +17,15 @@ use prover::check::FormulaCause;
 use prover::compare::{Compared, Contradiction, Explained, PartyComparison, RowPair, SidePair};
 use prover::numbers;
 
-/// Channels of agreeing pairs that a short report shows.
+/// Number of channels shown for an agreeing pair in a short report.
 const SHOWN: usize = 3;
-/// Share of the other number below which one is nothing.
+/// A number counts as zero if it is known only to rounding and is smaller than this fraction of the other number.
 const NOTHING: f64 = 1e-4;
-/// Names that are listed; the others are counted.
+/// Number of names that are listed; further names are only counted.
 const NAMED: usize = 3;
 
-/// The report in lines of at most `width` columns: the verdict, the channels that use most of their bounds, and why
-/// others are off.
+/// The report in lines of at most `width` columns.
+/// It has the verdict, the channels that use most of their bounds, and the reasons of disagreements.
 #[must_use]
 pub fn text(paths: [&Path; 2], comparison: &PartyComparison, detail: Detail, tell: Tell, width: usize) -> String {
     let mut text = String::new();
@@ -80,8 +80,9 @@ fn of_pair(pair: &SidePair, all: bool, tell: Tell, width: usize) -> String {
 fn row(own: &Compared, by_crank: bool) -> [String; 7] {
     let [at, first, second, difference, bound] = own.worst.map_or_else(Default::default, |at| {
         let when = if by_crank { numbers::fixed(at.crank.to_degrees(), 2) } else { numbers::fixed(at.time, 6) };
-        // An angle may differ by whole turns, which nobody counts as a difference. What is allowed hides no digits: only
-        // what is known to be rounding, and is nothing beside the other, is zero.
+        // An angle may differ by whole revolutions, which do not count as a difference.
+        // A value is shown as zero only if it is known rounding and negligible beside the other value.
+        // Allowed differences do not hide digits.
         let values = [at.values[0], if at.difference.is_nan() { at.values[1] } else { at.values[0] + at.difference }];
         let largest = values[0].abs().larger_number(values[1].abs());
         let [first, second] = numbers::beside(values, at.known.smaller_number(NOTHING * largest));
@@ -89,7 +90,7 @@ fn row(own: &Compared, by_crank: bool) -> [String; 7] {
     });
     let word = match grade(&own.verdict) {
         Grade::Agree => "",
-        Grade::Open => "open",
+        Grade::Open => "undecided",
         Grade::Disagree => "OFF",
     };
     [own.claim.text.clone(), at, first, second, difference, bound, word.into()]
@@ -97,7 +98,7 @@ fn row(own: &Compared, by_crank: bool) -> [String; 7] {
 
 const SIMULATION: &str = sentences::THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH;
 
-/// Whether a channel is off by as little as a simulation is wrong, and no cause was found.
+/// Whether the error of a channel could be that of a simulation: it is small, and no cause was found.
 fn looks_like_a_simulation(pair: &SidePair, own: &Compared) -> bool {
     let is_explained = pair.causes.iter().any(|cause| cause.of.contains(&own.claim.text));
     own.is_derived && own.since.is_some() && !own.is_gross() && !is_explained
@@ -135,7 +136,7 @@ fn rank(own: &Compared) -> f64 {
     match grade(&own.verdict) {
         Grade::Agree => used.smaller(1.0),
         Grade::Open => 2.0,
-        // The gravest first: beyond its bound by most, measured by its own scale.
+        // The most serious channels come first: those whose difference, divided by the scale, is largest.
         Grade::Disagree => 3.0 + own.largest.map_or(0.0, |at| at.difference.abs() / own.scale),
     }
 }
@@ -192,7 +193,7 @@ fn cause(pair: &SidePair, explained: &Explained, width: usize) -> String {
         line("since", &sentences::crank_angle_deg(&time, &crank));
     }
     let Some(cause) = cause_of(explained) else {
-        line("cause", "nothing simple");
+        line("cause", "not found: no simple slip explains it");
         if let Some(own) = found.nature {
             line("error", &diagnosis::nature(own));
         }
@@ -207,7 +208,7 @@ fn cause(pair: &SidePair, explained: &Explained, width: usize) -> String {
         .but
         .map_or(String::new(), |time| sentences::but_for_the_row_at_which_is_off(&numbers::fixed(time, 6)));
     line(
-        "left",
+        "remains",
         &match *left {
             0.0 => sentences::nothing_beyond_the_bounds(&but),
             left => sentences::at_most_of_the_difference(&numbers::percent(left), &but),
@@ -216,13 +217,13 @@ fn cause(pair: &SidePair, explained: &Explained, width: usize) -> String {
     text
 }
 
-/// The cause in words, if one was found.
+/// The cause in words, if there is one.
 fn cause_of(explained: &Explained) -> Option<String> {
     let terms = (!explained.terms.is_empty()).then(|| FormulaCause::Terms(explained.terms.clone()).to_string());
     terms.or_else(|| explained.diagnosis.cause.as_ref().map(diagnosis::cause))
 }
 
-/// The cause in words, or what the error looks like, where that can be told.
+/// The cause in words, or else a description of the error, if one is possible.
 #[must_use]
 pub fn why(explained: &Explained) -> Option<String> {
     cause_of(explained).or_else(|| explained.diagnosis.nature.map(diagnosis::nature))
@@ -231,7 +232,7 @@ pub fn why(explained: &Explained) -> Option<String> {
 /// The comparison as JSON, schema 1.
 #[must_use]
 pub fn json(paths: [&Path; 2], comparison: &PartyComparison, tell: Tell) -> String {
-    // What is no number is `null`.
+    // NaN is written as `null`.
     let instant = |at: &RowPair| {
         json!({
             "t_s": at.time, "crank_deg": at.crank.to_degrees(), "first": at.values[0], "second": at.values[1],

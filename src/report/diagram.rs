@@ -23,7 +23,7 @@ pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
         let unit = diagram.course.0[found.method.gives()].kind.unit.symbol();
         let [first, second] =
             found.orders.map(|order| order.map_or_else(|| "-".into(), |order| numbers::fixed(order, 2)));
-        let with = |value: f64| format!("{} {unit}", significant(value));
+        let with = |value: f64| numbers::with_unit(&significant(value), unit);
         let ([largest, rms], share) = ([found.largest, found.rms].map(with), 100.0 * found.share);
         say!(text, "  {:34} {largest:>20} {rms:>20} {share:>12.3} % {first:>6} {second:>6}", found.method.words());
     }
@@ -32,8 +32,8 @@ pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     text
 }
 
-/// The points as CSV, one row per point: the method, the place, the value it found and the true value; 17 significant
-/// digits.
+/// The points as CSV, one row per point, with 17 significant digits.
+/// The columns are the method, the position, the value by the method, and the true value.
 pub(crate) fn points(diagram: &MotionDiagram) -> String {
     let mut text = String::from("method,channel,crank_rad,t_s,value,exact\n");
     for found in &diagram.found {

@@ -11,25 +11,25 @@ use analytic::steady::course::{Extremes, ReducedRow};
 use analytic::steady::regime::SpeedAtCrank;
 use analytic::steady::{Averaged, Regime};
 use design::drive::flywheel::Flywheel;
-use prover::numbers::{error, fixed, fixed_in};
+use prover::numbers::{error, fixed, fixed_in, quantity};
 use scenario::Scenario;
 
-/// What is known about a drive.
+/// Data of a drive.
 #[derive(Debug)]
 pub(crate) struct Found {
     /// Means over a turn of the crank.
     pub(crate) means: Means,
     /// Extremes of the reduced moments: of inertia, of resistance.
     pub(crate) extremes: [Extremes; 2],
-    /// Moment of inertia that motor and reducer add to the crank (kg m^2).
+    /// Moment of inertia of motor and reducer, reduced to the crank (kg m^2).
     pub(crate) added: f64,
     /// The reduced quantities at the crank angles of the table.
     pub(crate) rows: Vec<ReducedRow>,
-    /// Speeds of crank and motor by the averaged model, and the steady motion; `None` without a motor.
+    /// Speeds of crank and motor by the averaged model, and the steady motion; `None` if there is no motor.
     pub(crate) steady: Option<([f64; 2], Regime)>,
     /// The averaged model, if it has a closed form.
     pub(crate) averaged: Option<Averaged>,
-    /// The coefficient of non-uniformity that was wanted, and its flywheel.
+    /// The required coefficient of non-uniformity, and the flywheel for it.
     pub(crate) flywheel: Option<(f64, Flywheel)>,
 }
 
@@ -40,26 +40,26 @@ pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String
     let means = [found.means.inertia, found.means.resistance * scenario.case.crank().sense()];
     for (((name, unit), mean), extremes) in names.into_iter().zip(means).zip(&found.extremes) {
         let end = |(crank, value): (f64, f64)| {
-            format!("{} at {}", fixed_in(value, 9, unit), fixed_in(crank.to_degrees(), 4, "deg"))
+            format!("{} at {}", quantity(value, unit), fixed_in(crank.to_degrees(), 4, "deg"))
         };
-        say!(text, "{name}\n  mean      {}", fixed_in(mean, 9, unit));
+        say!(text, "{name}\n  mean      {}", quantity(mean, unit));
         say!(text, sentences::least_greatest(&end(extremes.least), &end(extremes.greatest)));
     }
     if found.added > 0.0 {
-        say!(text, sentences::motor_and_reducer_on_the_crank(&found.added));
+        say!(text, sentences::motor_and_reducer_on_the_crank(&quantity(found.added, "kg m^2")));
     }
     match &found.steady {
         None => text.push_str(sentences::NO_MOTOR_ADD_A_MOTOR_SECTION),
         Some(([crank, motor], regime)) => {
             say!(text, sentences::averaged_model_crank_rad_motor(&crank, &motor));
-            let constant = found.averaged.as_ref().map(|averaged| format!(" {:.9} s", averaged.time_constant));
+            let constant = found.averaged.as_ref().map(|averaged| format!(" {:.6} s", averaged.time_constant));
             let none = sentences::NONE_THE_MOTOR_LAW_IS_NOT_ONE_STRAIGHT;
             say!(text, sentences::time_constant(&constant.as_deref().unwrap_or(none)));
             say!(text, sentences::steady_motion(&of_regime(regime)));
         }
     }
     if let Some((wanted, flywheel)) = &found.flywheel {
-        say!(text, sentences::flywheel_for_a_non_uniformity(&wanted, &flywheel.inertia));
+        say!(text, sentences::flywheel_for_a_non_uniformity(&wanted, &quantity(flywheel.inertia, "kg m^2")));
         say!(text, "{}", of_regime(&flywheel.regime));
     }
     if by_angle {
@@ -70,7 +70,7 @@ pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String
 
 fn of_regime(regime: &Regime) -> String {
     let at = |at: &SpeedAtCrank| {
-        format!("{} at {}", fixed_in(at.omega, 9, "rad/s"), fixed_in(at.crank.to_degrees(), 4, "deg"))
+        format!("{} at {}", fixed_in(at.omega, 6, "rad/s"), fixed_in(at.crank.to_degrees(), 4, "deg"))
     };
     let mut text = sentences::mean_rad_period(&regime.mean_speed, &regime.period);
     say!(text, sentences::at_start_rad(&regime.start_speed));
@@ -84,10 +84,10 @@ fn angles(found: &Found) -> String {
         let at = found.steady.as_ref().map(|(_, regime)| regime.samples[index]);
         let [omega, alpha] =
             at.map_or_else(|| ["-", "-"].map(String::from), |at| [at.omega, at.alpha].map(|own| fixed(own, 6)));
-        let [inertia, slope] = [row.inertia, row.slope].map(|own| fixed(own, 9));
+        let [inertia, slope] = [row.inertia, row.slope].map(|own| fixed(own, 6));
         [fixed(row.crank.to_degrees(), 3), inertia, slope, fixed(row.resistance, 6), omega, alpha]
     });
-    let header = "crank deg> | I* kg m^2> | dI*/dphi kg m^2> | resistance N m> | omega rad/s> | alpha rad/s^2>";
+    let header = "crank\ndeg> | I*\nkg·m²> | dI*/dphi\nkg·m²> | resistance\nN·m> | omega\nrad/s> | alpha\nrad/s²>";
     trimmed(table(header).add_rows(rows))
 }
 

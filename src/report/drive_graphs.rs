@@ -14,7 +14,7 @@ use scenario::Scenario;
 pub(crate) struct Curves {
     /// The crank angle after which the reduced quantities repeat (rad).
     pub(crate) period: f64,
-    /// The reduced quantities over one period, in the sense of the motion.
+    /// The reduced quantities over one period, in the direction of the motion.
     pub(crate) rows: Vec<ReducedRow>,
     /// Extremes of dI*/dphi.
     pub(crate) slope: Extremes,
@@ -57,7 +57,7 @@ pub(crate) fn graphs(scenario: &Scenario, found: &Found, curves: &Curves) -> Gra
     if let Some(regime) = steady {
         let mut marks = [("slowest", regime.slowest), ("fastest", regime.fastest)]
             .map(|(word, at)| GraphPoint { at: [at.crank, at.omega], word });
-        // The lower mark in the drawing comes first.
+        // The mark that is lower in the drawing comes first.
         marks.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
         graphs.push(CrankGraph {
             name: sentences::ANGULAR_VELOCITY_OF_THE_CRANK,

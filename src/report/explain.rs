@@ -1,4 +1,4 @@
-//! What a proof has done, how often and why, and what it did not need.
+//! The work of a proof, how often and why it was done, and the parts that it did not need.
 
 use crate::plain::cells::some;
 use crate::sentences;
@@ -7,12 +7,12 @@ use linkage::trajectory::Stage;
 use linkage::work::Work;
 use prover::run::{LedgerEntry, Proof};
 
-/// The page of one proof. `further` are parts that the command adds: recording, other files.
+/// The page of one proof. `further` names parts of the work that the command adds: recording, other files.
 #[must_use]
 pub fn text(proof: &Proof, further: &[LedgerEntry]) -> String {
     let case = &proof.scene.case;
     let mut text = sentences::what_ran_how_often_and_why(&proof.scenario);
-    say!(text, "asked      {}", asked(case));
+    say!(text, "requested  {}", asked(case));
     say!(text, sentences::left_out(&left_out(&proof.scene.left_out)));
     let entries = || proof.work.iter().chain(further);
     say!(text, "Ran:");
@@ -28,7 +28,7 @@ pub fn text(proof: &Proof, further: &[LedgerEntry]) -> String {
     text
 }
 
-/// The wanted channels, in short.
+/// The requested channels, in short.
 fn asked(case: &Case) -> String {
     let (own, all) = (case.channels(), case.all_channels().len());
     let stages: Vec<&str> = Stage::ALL.into_iter().filter(|&stage| case.wanted.has(stage)).map(Stage::name).collect();
@@ -39,7 +39,7 @@ fn asked(case: &Case) -> String {
     }
 }
 
-/// Names that are listed; the others are counted.
+/// Number of names that are listed; further names are only counted.
 const SHOWN: usize = 8;
 
 fn left_out(left: &LeftOut) -> String {
@@ -56,7 +56,7 @@ fn left_out(left: &LeftOut) -> String {
     sentences::nothing_asked_depends_on_them(&(all.into_iter().flatten().collect::<Vec<_>>().join("; ")))
 }
 
-/// `361 poses, 722 groups`, or that nothing is counted there.
+/// `361 poses, 722 groups`, or a note that nothing is counted.
 fn counts(work: &Work) -> String {
     let all: Vec<String> = work.iter().map(|(what, times)| format!("{times} {}", what.name())).collect();
     if all.is_empty() { sentences::NOTHING_THAT_IS_COUNTED.into() } else { all.join(", ") }

@@ -1,5 +1,6 @@
-//! A proof as one page of HTML that needs nothing else: the mechanism in motion, all channels with errors and bounds,
-//! verdict and findings. Drawn by a script of its own; what is in words is there without it.
+//! A proof as one self-contained HTML page: the mechanism in motion, all channels with errors and bounds, verdict and
+//! findings.
+//! A script on the page draws it; all text is visible without the script.
 
 mod data;
 mod findings;
@@ -27,7 +28,7 @@ use thinned::Thinned;
 
 const TEMPLATE: &str = include_str!("html/page.html");
 const STYLE: &str = include_str!("html/page.css");
-/// The script, in the order in which its parts need each other.
+/// The parts of the script; each part comes after the parts on which it depends.
 const SCRIPT: [&str; 9] = [
     include_str!("html/script/read.js"),
     include_str!("html/script/svg.js"),
@@ -40,17 +41,17 @@ const SCRIPT: [&str; 9] = [
     include_str!("html/script/main.js"),
 ];
 
-/// What a page tells besides the proof itself.
+/// Contents of a page besides the proof.
 pub(crate) struct Beside<'a> {
     /// The scenario's text.
     pub(crate) given: &'a str,
-    /// Versions, settings, and what was asked for beyond the scenario, by name.
+    /// Versions, settings, and the requests that the command adds to the scenario, by name.
     pub(crate) settings: &'a BTreeMap<String, String>,
-    /// Graphs over the crank angle, or why there are none.
+    /// Graphs over the crank angle, or the reason why they are missing.
     pub(crate) reduced: Result<Graphs, String>,
 }
 
-/// The page of a proof; advice is worded by `tell`.
+/// The page of a proof; `tell` words the advice.
 pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
     let Beside { given, settings, reduced } = beside;
     let case = &proof.scene.case;
@@ -75,7 +76,7 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
             data.insert("plans".into(), plans::of(case, &placed, &thinned.rows));
             picture::drawn(&sketch, &placed, view, thinned.rows[0])
         }
-        None => "<p>The places of all links are not among the channels asked for: nothing can be drawn.</p>".into(),
+        None => "<p>The positions of all links are not among the requested channels: nothing can be drawn.</p>".into(),
     };
     let no_graphs = match reduced {
         Ok(graphs) => {
@@ -112,7 +113,7 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
     )
 }
 
-/// How many instants the page has, where it has not all of them.
+/// Number of instants on the page, if some are left out.
 fn told(thinned: &Thinned) -> String {
     let (shown, all) = (thinned.rows.len(), thinned.all);
     match shown == all {

@@ -12,7 +12,8 @@ use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Mechanism};
 use prover::numbers::{fixed_in, significant};
 use scenario::{Scenario, Undecided};
 
-/// Digits of a mass or a moment of inertia: all that a scenario states, and none that a conversion has left.
+/// Number of digits of a mass or a moment of inertia: all digits of a scenario, but not the rounding of a unit
+/// conversion.
 const SHOWN: usize = 12;
 
 /// The structure as text.
@@ -54,7 +55,7 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     text
 }
 
-/// How far the configuration is from the rough places given in the file, and how far the next one is.
+/// Distance of the configuration from the approximate positions in the file, and that of the next configuration.
 fn from_rough_place(choice: &ConfigurationChoice) -> String {
     let mm = |distance: f64| format!("{:.*} mm", if distance < 0.01 { 1 } else { 0 }, distance * 1e3);
     match (choice.nearest_m, choice.next_m) {
@@ -64,8 +65,10 @@ fn from_rough_place(choice: &ConfigurationChoice) -> String {
     }
 }
 
-/// The structure as JSON, schema 1. `modes`: crank angle (rad) and the configurations there; `range`: the range of
-/// motion. Both are shown only if they are given. A group that is `undecided` has no mode.
+/// The structure as JSON, schema 1.
+/// `modes`: a crank angle (rad) and the configurations at this angle; `range`: the range of motion.
+/// Each is written only if it is given.
+/// A group in `undecided` has no mode.
 pub(crate) fn json(
     scenario: &Scenario,
     modes: Option<(f64, &[Modes])>,

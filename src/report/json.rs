@@ -51,12 +51,12 @@ rows! {
         engines: Vec<Engine> = proof.engines.iter().map(|own| Engine::of(own, tell)).collect(),
         disputes["Vec::is_empty"]: Vec<DisputeRow> = proof.disputes.iter().map(DisputeRow::of).collect(),
         diagnosis["Option::is_none"]: Option<DiagnosisRow> = found.map(DiagnosisRow::of),
-        /// Whether the search for it ended at its limit of work.
+        /// Whether the search for the diagnosis stopped at its limit of work.
         diagnosis_cut["std::ops::Not::not"]: bool = proof.diagnosis_is_cut,
         recording["Option::is_none"]: Option<String> = recording,
-        /// The parts on which no wanted channel depends.
+        /// The parts of the mechanism on which no requested channel depends.
         left_out: Left = Left::of(left),
-        /// What was done, part by part.
+        /// The work, part by part.
         work: Vec<Part> = proof.work.iter().map(Part::of).collect(),
     }
 
@@ -72,7 +72,7 @@ rows! {
     } {
         part: String = entry.part.clone(),
         why: &'static str = entry.why,
-        /// Exact counts by name; `null` for what was not needed.
+        /// Exact counts by name; `null` for parts that were not needed.
         counts: Option<BTreeMap<&'static str, u64>> = entry.work.as_ref().map(counts),
     }
 
@@ -93,13 +93,14 @@ rows! {
         dt_s["Option::is_none"]: Option<f64> = resolution.filter(|_| !info.controls_error),
         accuracy["Option::is_none"]: Option<f64> = resolution.filter(|_| info.controls_error),
         settings: Words = info.told.iter().cloned().collect(),
-        /// How the settings were found, if they were not all given.
+        /// The search for settings; omitted if all settings were given.
         search["Option::is_none"]: Option<SearchRow> = proof.search.as_ref().map(|own| SearchRow::of(own, info)),
         provides: Words = info.provides.iter().map(|(stage, how)| (*stage, provision(how))).collect(),
         verdict: &'static str = proof.verdict.word(),
         reason: Option<String> = proof.verdict.reason(tell),
         channels: Vec<Channel> = proof.channels.iter().map(|own| Channel::of(info, own, tell)).collect(),
-        /// Forces as the engine itself exerts them, judged besides those among the channels, which follow from its motion.
+        /// Forces that the engine itself exerts.
+        /// They are judged in addition to the forces among the channels, which follow from the engine's motion.
         own_forces["Option::is_none"]: Option<OwnForcesRow> = own.map(|own| OwnForcesRow::of(proof, own, tell)),
         checks: Vec<CheckRow> = proof.checks.iter().map(|own| CheckRow::of(own, tell)).collect(),
         failure["Option::is_none"]: Option<String> = proof.failure.as_ref().map(|error| error.message().to_string()),
@@ -114,7 +115,7 @@ rows! {
         search["Option::is_none"]: Option<SearchRow> = own.search.as_ref().map(|own| SearchRow::of(own, info)),
         verdict: &'static str = own.verdict.word(),
         reason: Option<String> = own.verdict.reason(tell),
-        /// Which of the two judgements is against the forces, if one is.
+        /// The judgement that contradicts the forces: of the forces from the motion, of the exerted forces, or both.
         fault: Option<&'static str> = engine.force_fault().map(|fault| match fault {
             ForceFault::Reading => "reading",
             ForceFault::Exerted => "exerted",
@@ -147,21 +148,21 @@ rows! {
     /// A diagnosis in the JSON report.
     pub struct DiagnosisRow = |diagnosis: &Diagnosis| {} {
         suspect: String = diagnosis.suspect.clone(),
-        /// The party that stands alone, if one does, and how all of them stand to each other.
+        /// The party that disagrees with all other parties, if there is one, and the standing of all parties.
         alone: Option<String> = match &diagnosis.alone {
             PartyStanding::Alone(name) => Some(name.clone()),
             PartyStanding::Together | PartyStanding::Camps(_) | PartyStanding::Open(_) => None,
         },
         standing: String = standing(&diagnosis.alone),
-        /// The channels beyond their bounds, the earliest first.
+        /// The channels that exceed their bounds, the earliest first.
         since: Vec<SinceRow> = diagnosis.since.iter().map(SinceRow::of).collect(),
-        /// The cause in words; `null` where nothing simple explains any of it.
+        /// The cause in words; `null` if no simple cause explains any channel.
         cause: Option<String> = diagnosis.cause.as_ref().map(cause),
-        /// What the error looks like, where no cause explains all of it.
+        /// Description of the error, if no cause explains all of it.
         error: Option<String> = diagnosis.nature.map(nature),
-        /// Whether it explains all channels.
+        /// Whether the cause explains all channels.
         explained: bool = diagnosis.is_explained(),
-        /// Causes that explain as much.
+        /// Other causes that explain the same amount.
         also: Vec<String> = diagnosis.also.iter().map(cause).collect(),
         left_over: Vec<String> = diagnosis.left_over.iter().map(ToString::to_string).collect(),
         cases_tried: usize = diagnosis.solved,
@@ -183,7 +184,7 @@ rows! {
     } {
         channel: String = residual.channel.to_string(),
         unit: &'static str = residual.channel.kind.unit.symbol(),
-        /// Where the engine's values come from.
+        /// Source of the engine's values.
         source: String = source.unwrap_or_default(),
         scale: f64 = residual.scale,
         max: f64 = residual.max,
@@ -196,7 +197,7 @@ rows! {
         rounding: f64 = proof.parts.rounding,
         /// Error of the reference itself.
         reference: f64 = proof.parts.reference,
-        /// How the bound is known, in one word, and its justification.
+        /// Origin of the bound in one word, and its justification.
         origin: &'static str = proof.basis.origin().word(),
         basis: String = proof.basis.to_string(),
         verdict: &'static str = proof.verdict.word(),
@@ -205,7 +206,7 @@ rows! {
         limit: Option<f64> = proof.limit,
         worst_t_s: f64 = residual.worst_time,
         worst_crank_rad: f64 = residual.worst_crank,
-        /// Instants that are not judged, because a drive or a loaded link reverses there.
+        /// Number of instants that are not judged, because a drive or a loaded link reverses at these instants.
         left_out: usize = proof.left_out,
     }
 
@@ -220,13 +221,13 @@ rows! {
         value: f64 = check.value,
         bound: f64 = check.bound,
         unit: &'static str = check.unit,
-        /// How the bound is known, in one word, and its justification.
+        /// Origin of the bound in one word, and its justification.
         origin: &'static str = check.basis.origin().word(),
         basis: String = check.basis.to_string(),
         verdict: &'static str = check.verdict.word(),
         reason: Option<String> = check.verdict.reason(tell),
         finding["Option::is_none"]: Option<String> = finding,
-        /// Residual of the printed number that the finding calls wrong; `value` is the residual of the correct one.
+        /// Residual of the printed number that a finding calls wrong; `value` is the residual of the corrected number.
         printed_off["Option::is_none"]: Option<f64> = printed_off,
     }
 }
@@ -242,7 +243,7 @@ pub(super) struct Failure {
 }
 
 impl Failure {
-    /// One for each of the errors of a file, and one that counts those that are not told.
+    /// An entry for each error of a file, and one with the number of errors that are not shown.
     pub(super) fn each(scenario: &str, error: &Error, tell: Tell) -> Vec<Failure> {
         let told = |error: &Error| Failure {
             scenario: scenario.into(),
@@ -263,7 +264,7 @@ impl Document {
         Document::told_by(Advice::to_string)
     }
 
-    /// An empty document whose advice is worded by `tell`.
+    /// An empty document; `tell` words its advice.
     #[must_use]
     pub fn told_by(tell: Tell) -> Self {
         Document { schema: 2, runs: Vec::new(), errors: Vec::new(), tell }

@@ -1,5 +1,5 @@
-//! Outcomes as JUnit: a suite for each scenario, a case for each channel and check. No times, so that equal runs give
-//! equal bytes.
+//! Outcomes as JUnit: a suite for each scenario, a case for each channel and check.
+//! The file contains no times, so equal runs give equal bytes.
 
 use std::io;
 
@@ -45,8 +45,8 @@ fn suite(writer: &mut Writer<Vec<u8>>, entry: &Entry) -> io::Result<()> {
     inside.map(drop)
 }
 
-/// The element in which a case tells that it does not agree. What is open stands in the way of a verdict, though nothing
-/// is wrong.
+/// The XML element that reports a case without agreement.
+/// An open case is an error instead of a failure: nothing is wrong, but the verdict is missing.
 fn flaw(case: &Case) -> Option<&'static str> {
     match grade(&case.verdict) {
         Grade::Agree => None,
@@ -78,7 +78,7 @@ fn case(
     written.map(drop)
 }
 
-/// How many cases there are, how many fail, and how many are open, as text.
+/// Numbers of cases, of failing cases, and of open cases, as text.
 fn counts(entries: &[Entry]) -> [String; 3] {
     let cases = || entries.iter().flat_map(|entry| &entry.cases);
     let flawed = |element| cases().filter(|case| flaw(case) == Some(element)).count();
@@ -86,7 +86,7 @@ fn counts(entries: &[Entry]) -> [String; 3] {
     [cases().count() + unproven, flawed("failure"), flawed("error") + unproven].map(|count| count.to_string())
 }
 
-/// A text without the letters that XML has no place for.
+/// A text without the characters that XML does not allow.
 fn allowed(text: &str) -> String {
     text.chars().filter(|&letter| !letter.is_control() || letter == '\n' || letter == '\t').collect()
 }

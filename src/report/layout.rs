@@ -1,5 +1,5 @@
-//! A layout for Foxglove and Lichtblick: the mechanism from above, beside plots of both sides and of their errors. And
-//! the same as a film for other viewers.
+//! A layout for Foxglove and Lichtblick: the mechanism from above, beside plots of both sides and of their errors.
+//! The same contents as a film for other viewers.
 
 use serde_json::{Map, Value, json};
 
@@ -7,13 +7,13 @@ use super::pretty::{list, pretty};
 use linkage::math::KeepNan;
 use recording::{DrawnLink, Film, Line, Plot, View};
 
-/// Speeds that the players offer.
+/// Playback speeds that the viewers offer.
 const SPEEDS: [f64; 8] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 1.0];
-/// Least time in which a turn is worth looking at (s).
+/// Shortest duration of a revolution that the eye can follow (s).
 pub(super) const TURN: f64 = 4.0;
-/// Height of the picture over that of the mechanism.
+/// Height of the picture relative to that of the mechanism.
 const ROOM: f64 = 1.25;
-/// Width over height of the panel that the picture is in.
+/// Ratio of width to height of the panel with the picture.
 const WIDE: f64 = 1.1;
 
 /// The layout as JSON.
@@ -34,7 +34,9 @@ pub(crate) fn text(view: &View) -> String {
     }))
 }
 
-/// Playback speed: that of a stated time scale, else the fastest that lets people follow a turn of that log time (s).
+/// Playback speed for a stated time scale.
+/// Without one, it is the fastest speed at which people can follow a revolution; `turn` is the log time of a revolution
+/// (s).
 pub(crate) fn speed(slow: f64, turn: f64) -> f64 {
     if slow != 1.0 {
         return 1.0;
@@ -42,13 +44,14 @@ pub(crate) fn speed(slow: f64, turn: f64) -> f64 {
     SPEEDS.into_iter().rev().find(|speed| turn / speed >= TURN).unwrap_or(SPEEDS[0])
 }
 
-/// Height of what is in view (m).
+/// Height of the view (m).
 pub(crate) fn height(view: &View) -> f64 {
     let size = view.corners[1] - view.corners[0];
     ROOM * size.y.larger(size.x / WIDE)
 }
 
-/// The panel with the mechanism: parallel rays from above, all of it in view, without frames' axes and names.
+/// The panel with the mechanism: parallel projection from above.
+/// The view contains everything except axes and names of frames.
 fn picture(view: &View) -> Value {
     let [low, high] = view.corners;
     let (centre, height) = ((low + high) / 2.0, height(view));
@@ -68,7 +71,7 @@ fn picture(view: &View) -> Value {
         "followMode": "follow-none", "followTf": "world",
         "scene": { "transforms": {
             "showLabel": false, "labelSize": 0.02 * height, "axisScale": 0.05 * height, "lineWidth": 0,
-            // All poses at once: right ones also after a jump backwards.
+            // Loads all poses at once, so that the picture is right after a jump backwards.
             "enablePreloading": true,
         } },
         "transforms": frames, "topics": topics, "layers": {},
@@ -78,17 +81,18 @@ fn picture(view: &View) -> Value {
 fn graph(plot: &Plot) -> Value {
     json!({
         "foxglovePanelTitle": plot.title, "lichtblickPanelTitle": plot.title, "title": plot.title,
-        // The first one is drawn last: engines in front of the reference.
+        // The first line is drawn last, so that the engines are in front of the reference.
         "paths": list(plot.lines.iter().rev(), path), "showXAxisLabels": true, "showYAxisLabels": true,
         "showLegend": plot.lines.len() > 1, "legendDisplay": "floating", "showPlotValuesInLegend": false,
         "isSynced": true, "xAxisVal": "timestamp", "sidebarDimension": 240,
     })
 }
 
-/// A line: the reference broad and pale, each engine thin and in front of it, as in the picture.
+/// A line of a plot, as in the picture: the reference is broad and pale; each engine is thin and in front of the
+/// reference.
 fn path(line: &Line) -> Value {
     let width = if line.side == Some(0) { 5.0 } else { 1.5 };
-    // The title says what it is. A long name would cover the curve.
+    // The title names the quantity; a long name would cover the curve.
     let side = line.side.and_then(|_| line.topic.split('/').nth(1));
     json!({
         "value": format!("{}.{}", quoted(&line.topic), line.field), "label": side.unwrap_or(&line.label),
@@ -97,14 +101,15 @@ fn path(line: &Line) -> Value {
     })
 }
 
-/// Colour of a side, the reference being 0, or of an error.
+/// Colour of a side, where 0 is the reference, or of an error.
 fn colour(side: Option<usize>) -> &'static str {
-    // Samples are dots in a darker shade on a light background, a lighter one on a dark: these leave room for both.
+    // Viewers draw samples as dots, which are darker than the line on a light background and lighter on a dark one.
+    // These colours suit both backgrounds.
     const COLOURS: [&str; 4] = ["#56b4e9", "#ff9f40", "#5fd3ae", "#cc79a7"];
     side.map_or("#9a9a9a", |side| COLOURS[side % COLOURS.len()])
 }
 
-/// A topic as paths of messages take it: in quotes where it has other signs than letters, digits, `_`, `-` and `/`.
+/// A topic in message paths: quoted if it has characters other than letters, digits, `_`, `-` and `/`.
 fn quoted(topic: &str) -> String {
     let plain = |sign: char| sign.is_ascii_alphanumeric() || matches!(sign, '_' | '-' | '/');
     match topic.chars().all(plain) {
@@ -113,7 +118,7 @@ fn quoted(topic: &str) -> String {
     }
 }
 
-/// Panels below each other, all of one height.
+/// Panels of equal height, one below the other.
 fn column(names: &[String]) -> Option<Value> {
     let (first, rest) = names.split_first()?;
     Some(match column(rest) {
@@ -125,8 +130,8 @@ fn column(names: &[String]) -> Option<Value> {
     })
 }
 
-/// A moving picture as JSON, for programs that write it for a viewer: places in m, angles in rad, times in simulated
-/// seconds.
+/// A film as JSON, for programs that convert it for a viewer.
+/// Positions are in m, angles in rad, times in simulated seconds.
 pub(crate) fn film(film: &Film) -> String {
     let view = &film.view;
     let centre = (view.corners[0] + view.corners[1]) / 2.0;

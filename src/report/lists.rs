@@ -27,18 +27,18 @@ pub(crate) fn scenarios(directory: &Path, all: &[(Result<Scenario>, PathBuf)], t
     text
 }
 
-/// Every channel with its unit, its quantity and the stage that it is computed with.
+/// Every channel with its unit, its quantity and its stage of computation.
 pub(crate) fn channels() -> String {
     let mut text = String::new();
     for kind in &CHANNELS {
         let of = if kind.subject.is_whole() { "" } else { "NAME" };
         let name = Channel { of: of.into(), kind }.to_string();
-        say!(text, "{name:40} {:8} {:26} with \"{}\"", kind.unit, kind.quantity, kind.stage.name());
+        say!(text, "{name:40} {:8} {:26} stage \"{}\"", kind.unit, kind.quantity, kind.stage.name());
     }
     text
 }
 
-/// Every channel of a case with its unit, its meaning and the stage that it is computed with.
+/// Every channel of a case with its unit, its meaning and its stage of computation.
 pub(crate) fn channels_of(case: &Case) -> String {
     let (all, seats) = (case.all_channels(), case.seats());
     let row = |own: &Channel| {
@@ -50,12 +50,12 @@ pub(crate) fn channels_of(case: &Case) -> String {
     let (name, meaning) = (width(0), width(2));
     let mut text = String::new();
     for [own, unit, what, stage] in &rows {
-        say!(text, "{own:name$}  {unit:8} {what:meaning$}  with \"{stage}\"");
+        say!(text, "{own:name$}  {unit:8} {what:meaning$}  stage \"{stage}\"");
     }
     text
 }
 
-/// What a channel of a case means, in words.
+/// Meaning of a channel of a case, in words.
 fn meaning(channel: &Channel, seat: Seat, case: &Case) -> String {
     let (mechanism, of, quantity) = (&case.mechanism, channel.of.as_str(), channel.kind.quantity);
     let name = |link: LinkId| mechanism.links()[link].name.as_str();

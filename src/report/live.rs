@@ -1,7 +1,8 @@
-//! What the live server and a viewer say to each other: Foxglove's WebSocket protocol, as JSON and as bytes.
+//! Messages between the live server and a viewer: Foxglove's WebSocket protocol, as JSON and as bytes.
 //!
-//! Its name has changed, the messages used here have not. Playback control came with the new name.
-//! Numbers are little-endian; a message of bytes begins with the number of its kind.
+//! The protocol has a new name, but the messages used here are unchanged.
+//! Only viewers with the new name support playback control.
+//! Numbers are little-endian; a binary message begins with the number of its kind.
 
 use crate::sentences;
 use base64::Engine;
@@ -19,31 +20,31 @@ linkage::words! {
     pub(crate) enum Dialect: name {
         /// Current Foxglove.
         Sdk = "foxglove.sdk.v1",
-        /// Lichtblick, and the open-source Foxglove Studio.
+        /// The former name, for Lichtblick and the open-source Foxglove Studio.
         WebSocket = "foxglove.websocket.v1",
     }
 }
 
 impl Dialect {
-    /// The best of the names that a viewer offers, separated by commas.
+    /// The best of the protocol names that a viewer offers, separated by commas.
     pub(crate) fn of(offered: &str) -> Option<Dialect> {
         let is_offered = |own: &Dialect| offered.split(',').any(|name| name.trim() == own.name());
         [Dialect::Sdk, Dialect::WebSocket].into_iter().find(is_offered)
     }
 }
 
-/// What a viewer asks for.
+/// A request of a viewer.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Request {
-    /// Channels, each by a number that the viewer chooses.
+    /// Subscribes to channels, each under a number that the viewer chooses.
     Subscribe(Vec<(u32, u64)>),
-    /// No longer the channels asked for by these numbers.
+    /// Ends the subscriptions with these numbers.
     Unsubscribe(Vec<u32>),
     /// Another way of playing.
     Control(Control),
 }
 
-/// How a viewer wants it played.
+/// Playback as requested by a viewer.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Control {
     /// Whether it moves.
@@ -65,17 +66,18 @@ pub(crate) struct State {
     pub time: u64,
     /// Log time per second of the clock.
     pub speed: f32,
-    /// Whether it has jumped there.
+    /// Whether playback jumped to this time.
     pub jumped: bool,
 }
 
-/// Log time per second of the clock: as the layout plays a recording, but no turn takes less than it should.
+/// Log time per second of the clock.
+/// It is the playback speed of the layout, reduced if a revolution would be too fast to follow.
 pub(crate) fn pace(reel: &Reel) -> f64 {
     let usual = speed(reel.slow, reel.turn);
     if reel.slow == 1.0 && reel.turn > 0.0 { usual.smaller(reel.turn / TURN) } else { usual }
 }
 
-/// The same in words, for people.
+/// The speed of playback in words, for people.
 pub(crate) fn pace_told(reel: &Reel) -> String {
     let [slow, lasts] = [reel.slow, reel.lasts() as f64 * 1e-9].map(|own| significant(own / pace(reel), 3));
     match reel.lasts() {
@@ -85,7 +87,8 @@ pub(crate) fn pace_told(reel: &Reel) -> String {
     }
 }
 
-/// Who serves, and what the viewer may do. A new `session` makes viewers forget what they have shown.
+/// Name of the server, and what the viewer may do.
+/// A new `session` makes viewers discard what they have shown.
 pub(crate) fn server_info(name: &str, session: &str, dialect: Dialect, reel: Option<&Reel>) -> String {
     let mut info = json!({ "op": "serverInfo", "name": name, "capabilities": ["time"], "sessionId": session });
     if let (Dialect::Sdk, Some(reel)) = (dialect, reel) {
@@ -100,10 +103,10 @@ fn stamp(nanoseconds: u64) -> Value {
     json!({ "sec": nanoseconds / 1_000_000_000, "nsec": nanoseconds % 1_000_000_000 })
 }
 
-/// The channels of topics; the first one has the number `first`.
+/// Announces the channels of topics; the first channel has the number `first`.
 pub(crate) fn advertised(topics: &[(String, MessageKind)], first: u64) -> String {
     let channels = topics.iter().zip(first..).map(|((topic, kind), id)| {
-        // Schemas of bytes are written as base64, those of text as they are.
+        // Binary schemas are written as base64, text schemas unchanged.
         let schema = match kind.encoding.as_str() {
             "protobuf" => STANDARD.encode(&kind.data),
             _ => String::from_utf8_lossy(&kind.data).into_owned(),
@@ -120,13 +123,13 @@ pub(crate) fn advertised(topics: &[(String, MessageKind)], first: u64) -> String
     json!({ "op": "advertise", "channels": channels.collect::<Vec<Value>>() }).to_string()
 }
 
-/// So many channels from the number `first` on are gone.
+/// Announces that `count` channels, from the number `first`, no longer exist.
 pub(crate) fn unadvertised(first: u64, count: usize) -> String {
     let ids: Vec<u64> = (first..).take(count).collect();
     json!({ "op": "unadvertise", "channelIds": ids }).to_string()
 }
 
-/// A message of a channel, to whoever asked for it by that number.
+/// A message of a channel for the subscription with this number.
 pub(crate) fn message(subscription: u32, told: &ReelMessage) -> Vec<u8> {
     [&[1][..], &subscription.to_le_bytes(), &told.time.to_le_bytes(), told.data].concat()
 }
@@ -136,14 +139,14 @@ pub(crate) fn time(time: u64) -> Vec<u8> {
     [&[2][..], &time.to_le_bytes()].concat()
 }
 
-/// How it is played; `id` is the request's that this answers, or empty.
+/// The playback state; `id` is that of the request that it answers, or empty.
 pub(crate) fn state(state: &State, id: &str) -> Vec<u8> {
     let (head, jumped, length) = ([5, u8::from(!state.plays)], [u8::from(state.jumped)], id.len() as u32);
     let (time, speed) = (state.time.to_le_bytes(), state.speed.to_le_bytes());
     [&head[..], &time, &speed, &jumped, &length.to_le_bytes(), id.as_bytes()].concat()
 }
 
-/// What a viewer asks for in a text; `None` if that is nothing that is served.
+/// A viewer's request as text; `None` if it is not supported.
 pub(crate) fn asked(text: &str) -> Option<Request> {
     let value: Value = serde_json::from_str(text).ok()?;
     let list = |key: &str| value.get(key)?.as_array();
@@ -158,7 +161,7 @@ pub(crate) fn asked(text: &str) -> Option<Request> {
     }
 }
 
-/// What a viewer asks for in bytes; `None` if that is nothing that is served.
+/// A viewer's request as bytes; `None` if it is not supported.
 pub(crate) fn asked_in_bytes(bytes: &[u8]) -> Option<Request> {
     let (&[kind, command], rest) = bytes.split_first_chunk()?;
     let (&speed, rest) = rest.split_first_chunk()?;
@@ -183,7 +186,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_new_name_is_taken_where_both_are_offered_and_no_other() {
+    fn the_newer_protocol_is_preferred_and_unknown_ones_refused() {
         for (offered, dialect) in [
             ("foxglove.websocket.v1", Some(Dialect::WebSocket)),
             ("foxglove.websocket.v1, foxglove.sdk.v1", Some(Dialect::Sdk)),
@@ -205,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn requests_are_read_and_whatever_is_none_is_passed_over() {
+    fn valid_requests_are_parsed_and_others_ignored() {
         let subscribe = r#"{"op":"subscribe","subscriptions":[{"id":0,"channelId":9},{"id":-1,"channelId":1},{}]}"#;
         assert_eq!(asked(subscribe), Some(Request::Subscribe(vec![(0, 9)])));
         let unsubscribe = r#"{"op":"unsubscribe","subscriptionIds":[0,"a",4294967296,2]}"#;

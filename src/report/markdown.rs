@@ -1,4 +1,5 @@
-//! Outcomes as Markdown: the comment to a pull request. The verdict first, then what stands in its way.
+//! Outcomes as Markdown, for a comment to a pull request.
+//! The verdict comes first, then the reasons against agreement.
 
 use crate::sentences;
 use std::cmp::Reverse;
@@ -7,7 +8,7 @@ use super::outcomes::{Case, Entry, Outcomes};
 use crate::plain::cells::{counted, marked};
 use crate::plain::judged::{Grade, counts, grade};
 
-/// Reasons that are written out for one scenario; the others are counted.
+/// Number of reasons written in full for one scenario; further reasons are only counted.
 const REASONS: usize = 10;
 
 /// The outcomes as a document.
@@ -15,14 +16,14 @@ const REASONS: usize = 10;
 pub fn text(outcomes: &Outcomes) -> String {
     let (entries, noun) = (&outcomes.entries, outcomes.noun);
     let words = ["disagree", "error", "inconclusive", "agree"];
-    let told = ["disagree", sentences::CANNOT_BE_PROVEN, "prove nothing", "agree"];
+    let told = ["disagree", sentences::CANNOT_BE_PROVEN, "could not be decided", "agree"];
     let parts = words.into_iter().zip(told).filter_map(|(word, told)| {
         let count = entries.iter().filter(|entry| entry.verdict == word).count();
         (count > 0).then(|| format!("{count} {told}"))
     });
     let parts: Vec<String> = parts.collect();
     let mut text = format!("**linkproof**: {}, {}\n\n| {noun} ", counted(entries.len(), noun), parts.join(", "));
-    text += "| verdict | agree | expected | disagree | open |\n|---|---|---|---|---|---|\n";
+    text += "| verdict | agree | expected | disagree | undecided |\n|---|---|---|---|---|---|\n";
     for entry in entries {
         let verdict = if entry.verdict == "agree" { "agree".into() } else { format!("**{}**", entry.verdict) };
         let counts = counts(entry.cases.iter().map(|case| &case.verdict)).map(|count| count.to_string());
@@ -34,7 +35,7 @@ pub fn text(outcomes: &Outcomes) -> String {
     text
 }
 
-/// What is wrong or open in a scenario, what disagrees first.
+/// Faults and open points of a scenario, disagreements first.
 fn reasons(entry: &Entry, text: &mut String) {
     let mut all: Vec<&Case> = entry.cases.iter().filter(|case| grade(&case.verdict) != Grade::Agree).collect();
     all.sort_by_key(|case| Reverse(grade(&case.verdict)));
@@ -54,13 +55,13 @@ fn reasons(entry: &Entry, text: &mut String) {
     }
 }
 
-/// Text in one line, without signs that would be taken for markup.
+/// Text in one line, without characters that could be taken for markup.
 fn line(text: &str) -> String {
     let one: Vec<&str> = text.split_whitespace().collect();
     one.join(" ").replace('<', "&lt;").replace('*', "\\*")
 }
 
-/// Text of strangers in one line: it names no link, is no code and no markup.
+/// Untrusted text in one line, without links, code or markup.
 pub(super) fn foreign(text: &str) -> String {
     let mut shown = String::new();
     for letter in text.split_whitespace().collect::<Vec<_>>().join(" ").chars() {

@@ -12,15 +12,15 @@ use scenario::{Scenario, Undecided};
 /// Why a configuration has no angular velocities.
 const SINGULAR: &str = sentences::THE_CONFIGURATION_IS_SINGULAR_ANGULAR;
 
-/// What stands beside the list of a group that the scenario does not decide, or that comes after such a group.
+/// Note beside the list of a group, if the scenario leaves this group or an earlier group undecided.
 enum Open<'a> {
-    /// Why the group is not decided.
+    /// The reason why the group is undecided.
     Undecided(&'a str),
-    /// The list holds for one configuration of an undecided group before: that group and the configuration's number.
+    /// The list depends on an earlier, undecided group: that group, and the number of its assumed configuration.
     After(String, usize),
 }
 
-/// Whether and why the list of the group `index` is not that of the scenario.
+/// Why the list of the group `index` depends on an undecided group; `None` if it does not.
 fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], index: GroupId) -> Option<Open<'a>> {
     if let Some(own) = undecided.iter().find(|other| other.group == index) {
         return Some(Open::Undecided(own.why.message()));
@@ -31,7 +31,8 @@ fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], inde
     Some(Open::After(names, number))
 }
 
-/// The configurations as text. `undecided`: groups for which the scenario does not decide.
+/// The configurations as text.
+/// `undecided`: groups that the scenario leaves undecided.
 pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[Undecided]) -> String {
     let mechanism = &scenario.case.mechanism;
     let mut text = sentences::at_crank_angle(&scenario.name, &fixed_in(crank.to_degrees(), 4, "deg"));

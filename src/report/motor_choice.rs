@@ -8,7 +8,7 @@ use serde_json::json;
 use super::pretty::pretty;
 use design::drive::motor::MotorChoice;
 use linkage::drive::MotorLaw;
-use prover::numbers::fixed_in;
+use prover::numbers::{fixed_in, quantity};
 use scenario::Scenario;
 
 fn rpm(omega: f64) -> f64 {
@@ -29,20 +29,26 @@ pub(crate) fn text(scenario: &Scenario, choice: &MotorChoice) -> String {
     let [at_rest, slope] = line(choice);
     let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
     let (at, peak) = (fixed_in(choice.peak.0.to_degrees(), 4, "deg"), choice.peak.1);
-    let ([power, asked], wanted) = ([choice.power, choice.asked].map(|own| own / 1e3), choice.wanted);
-    say!(text, sentences::power_peak_at_times_rad_kw(&peak, &at, &wanted, &power));
-    say!(text, sentences::asked_kw_with_an_efficiency(&asked, &geared.efficiency));
+    let wanted = choice.wanted;
+    say!(
+        text,
+        sentences::power_peak_at_times_rad_kw(&quantity(peak, "N m"), &at, &wanted, &quantity(choice.power, "W"))
+    );
+    say!(text, sentences::asked_kw_with_an_efficiency(&quantity(choice.asked, "W"), &geared.efficiency));
     let [rated, synchronous, turning] = [motor.rated_speed, motor.synchronous_speed, wanted].map(rpm);
     let (name, kilowatts, torque) = (&motor.name, motor.power / 1e3, motor.rated_torque());
-    say!(text, sentences::motor_kw_rpm_synchronous_rpm(&name, &kilowatts, &rated, &synchronous, &torque));
+    say!(
+        text,
+        sentences::motor_kw_rpm_synchronous_rpm(&name, &kilowatts, &rated, &synchronous, &quantity(torque, "N m"))
+    );
     say!(text, sentences::ratio_rpm_to_rpm(&geared.ratio, &rated, &turning));
     let share = |torque: f64| torque / motor.rated_torque();
     let [mean, peak] = [choice.mean_torque(), choice.peak_torque()];
-    say!(text, sentences::on_the_motor_shaft_mean_of_the_rated(&mean, &share(mean)));
-    say!(text, sentences::peak_of_it_without_what_inertia(&peak, &share(peak)));
+    say!(text, sentences::on_the_motor_shaft_mean_of_the_rated(&quantity(mean, "N m"), &share(mean)));
+    say!(text, sentences::peak_of_it_without_what_inertia(&quantity(peak, "N m"), &share(peak)));
     if let Some(breakdown) = motor.breakdown {
         let holds = if share(choice.peak_torque()) < breakdown { sentences::ABOVE_THE_PEAK } else { "BELOW THE PEAK" };
-        say!(text, sentences::breakdown_of_it(&(breakdown * motor.rated_torque()), &breakdown, &holds));
+        say!(text, sentences::breakdown_of_it(&quantity(breakdown * motor.rated_torque(), "N m"), &breakdown, &holds));
     }
     let off = |omega: f64| 100.0 * (omega / choice.wanted - 1.0);
     let mean = choice.regime.mean_speed.abs();

@@ -1,10 +1,10 @@
-//! Planted faults: which were found, by what, and which escape.
+//! Planted faults: which were found, by which checks, and which were missed.
 
 use crate::sentences;
 use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
-use crate::plain::cells::{marked, table, trimmed};
+use crate::plain::cells::{marked, table, trimmed, worded};
 
 use lab::mutate::{
     FaultCounts, FaultKind, FaultTally, FaultyParty, FaultyProof, Mutant, Mutated, Plant, Share, Sight, Spoiled, all,
@@ -42,7 +42,7 @@ fn headline(tally: &FaultCounts) -> String {
         FaultTally::AllFound => "ALL FOUND",
         FaultTally::NoneEscapes => "NONE ESCAPES",
         FaultTally::SomeEscape => "SOME ESCAPE",
-        FaultTally::TrunkOpen => "OPEN IN THE TRUNK",
+        FaultTally::TrunkOpen => "SHARED FAULTS NOT FOUND",
         FaultTally::Nothing => "NOTHING PLANTED",
     };
     let mut line = format!("{word}  {} kinds", kinds.len());
@@ -59,7 +59,7 @@ fn headline(tally: &FaultCounts) -> String {
     line
 }
 
-/// What came of faults, or of mistakes.
+/// How many faults, or mistakes in formulas, were found.
 fn of_share(share: &Share, what: &str) -> String {
     let Share { inconclusive, escaped, equivalent, .. } = share;
     let ([found, real], part) = ([share.found(), share.real()], percent(share.found(), share.real()));
@@ -78,12 +78,12 @@ fn scenarios(found: &[Mutated]) -> String {
         let counts = [planted.real(), planted.found(), inconclusive, escaped, equivalent].into_iter().chain(of_trunk);
         [one.scenario.clone(), one.verdict.to_string()].into_iter().chain(counts.map(|count| count.to_string()))
     });
-    let header = "scenario | without | faults> | found> | open> | escaped> | no change> | trunk> | found outside> | \
-                  in formulas> | found by judging>";
+    let header = "scenario | no fault | faults> | found> | undecided> | escaped> | no effect> | shared> | \
+                  found outside> | in formulas> | of these found>";
     trimmed(table(header).add_rows(rows))
 }
 
-/// What came of one kind in all scenarios.
+/// Outcome of one kind in all scenarios.
 #[derive(Default)]
 struct OfKind {
     sides: Share,
@@ -91,7 +91,7 @@ struct OfKind {
     trunk: Share,
     formulas: Share,
     margin: f64,
-    /// Sizes found in every scenario: sides or formulas, and engine.
+    /// Smallest sizes found in every scenario: one for sides or formulas, one for the engine.
     size: [Option<f64>; 2],
 }
 
@@ -141,14 +141,14 @@ fn cells(kind: &FaultKind, own: &OfKind) -> [String; 9] {
 }
 
 const KINDS: &str = "kind | family | in a side> | in the engine> | least margin> | side, found down to> | \
-                     engine, found down to> | in the trunk> | in formulas>";
+                     engine, found down to> | in all parties> | in formulas>";
 
-/// The kinds that were planted, with what came of them.
+/// The planted kinds, with their outcomes.
 fn kinds(found: &[Mutated]) -> impl Iterator<Item = [String; 9]> {
     all().filter_map(|kind| Some(cells(kind, &of_kind(found, kind)?)))
 }
 
-/// Faults in one party that are not found, with the reason.
+/// Missed faults planted in one party, with the reason.
 fn not_found(found: &[Mutated]) -> Vec<String> {
     let mut lines = Vec::new();
     for one in found {
@@ -172,20 +172,23 @@ fn not_found(found: &[Mutated]) -> Vec<String> {
     lines
 }
 
-/// What is not found, below a title: faults in one party, kinds in the trunk.
+/// Missed faults, with a title for each list: faults in one party, and kinds in code shared by all parties.
 fn lists(found: &[Mutated], tally: &FaultCounts) -> [(&'static str, Vec<String>); 2] {
     [(sentences::NOT_FOUND_IN_ONE_PARTY, not_found(found)), (sentences::OPEN_IN_THE_TRUNK, open(tally))]
 }
 
-/// Kinds in the trunk that nothing from outside finds in any scenario.
+/// Kinds of faults in the shared code that no independent number finds in any scenario.
 fn open(tally: &FaultCounts) -> Vec<String> {
     let open = all().filter(|kind| tally.trunk_kinds.contains(&kind.name) && !tally.trunk_found.contains(&kind.name));
     open.map(|kind| format!("{}: {}", kind.name, kind.says)).collect()
 }
 
 /// All kinds as text.
-pub(crate) fn all_kinds() -> String {
-    format!("{}\n", trimmed(table("kind | family | where | size> | what is wrong").add_rows(all().map(described))))
+pub(crate) fn all_kinds(width: Option<usize>) -> String {
+    format!(
+        "{}\n",
+        trimmed(worded("kind | family | where | size> | what is wrong", width).add_rows(all().map(described)))
+    )
 }
 
 fn described(kind: &FaultKind) -> [String; 5] {
@@ -216,7 +219,7 @@ pub fn kinds_markdown() -> String {
     text
 }
 
-/// What came of all kinds as a table in Markdown, with the figures above it and what was not found below.
+/// Outcomes of all kinds as a table in Markdown, with the figures above it and the missed faults below.
 pub(crate) fn markdown(found: &[Mutated]) -> String {
     let tally = tally(found);
     let mut text = format!("{}.\n\n| {} |\n|{}\n", headline(&tally), KINDS.replace('>', ""), "---|".repeat(9));

@@ -1,4 +1,4 @@
-//! What came of scenarios or comparisons, in one list for test reports and comments.
+//! Outcomes of scenarios or comparisons, in one list for test reports and comments.
 
 use std::path::Path;
 
@@ -13,18 +13,18 @@ use prover::run::Proof;
 /// One channel or check.
 #[derive(Clone, Debug)]
 pub(super) struct Case {
-    /// What judged it: an engine, or the analytic sides.
+    /// The party that was judged: an engine, or the analytic sides.
     pub(super) by: &'static str,
     pub(super) name: String,
     pub(super) verdict: Verdict,
-    /// Why it is no plain agreement.
+    /// The reason, if the outcome is not a plain agreement.
     pub(super) reason: Option<String>,
 }
 
-/// Who judges checks of the analytic sides on each other.
+/// Name of the party for checks of the analytic sides.
 const SIDES: &str = "analytic sides";
 
-/// A scenario with its cases, or with the error that kept it from being proven.
+/// A scenario with its cases, or with the error that prevented its proof.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     pub(super) name: String,
@@ -37,20 +37,20 @@ pub(super) struct Entry {
 /// The outcomes of a command, scenario by scenario, or comparison by comparison.
 #[derive(Clone, Debug)]
 pub struct Outcomes {
-    /// What an entry is: a scenario, or a comparison.
+    /// Noun for an entry: scenario, or comparison.
     pub(super) noun: &'static str,
     pub(super) entries: Vec<Entry>,
     tell: Tell,
 }
 
 impl Outcomes {
-    /// None yet; `tell` words advice.
+    /// An empty list; `tell` words advice.
     #[must_use]
     pub fn told_by(tell: Tell) -> Self {
         Outcomes { noun: "scenario", entries: Vec::new(), tell }
     }
 
-    /// Those of a comparison: every channel and every check of every pair.
+    /// The outcomes of a comparison: every channel and every check of every pair.
     #[must_use]
     pub fn of_comparison(paths: [&Path; 2], comparison: &PartyComparison, tell: Tell) -> Self {
         let mut all = Outcomes { noun: "comparison", entries: Vec::new(), tell };
@@ -70,7 +70,7 @@ impl Outcomes {
 
     /// Adds a proof: every channel of every engine, and every check.
     pub fn add(&mut self, proof: &Proof) {
-        // Forces of an engine's own that prove nothing take nothing from the verdict.
+        // If the forces exerted by an engine prove nothing, they do not affect the verdict.
         let counts = |own: &JudgedNumber| own.sort != Sort::OwnForce || grade(own.verdict) != Grade::Open;
         let judged = judged::of(proof).into_iter().filter(counts);
         let by = |own: &JudgedNumber| own.engine.map_or(SIDES, |engine| engine.info.name);
@@ -101,14 +101,17 @@ mod tests {
 
     /// The step is so coarse that the engine proves little.
     #[test]
-    fn the_line_of_the_verdict_and_reports_of_tests_count_the_same() {
+    fn verdict_line_and_test_reports_have_equal_counts() {
         let scenario = of_repository("scenarios/crank_rocker.toml");
         let proof = prove(&scenario, &Options::default().step(5e-3).sweeps(2)).unwrap();
         let [agree, expected, wrong, open] = counts(verdicts(&proof).into_iter().map(|(_, verdict)| verdict));
         assert!(expected > 0 && wrong == 0 && open > 0, "{agree} {expected} {wrong} {open}");
         let line = brief::verdict_line(&proof);
-        assert!(line.contains(&format!(" {open} of {} numbers are open;", agree + expected + open)), "{line}");
-        // Forces of an engine's own that are open take nothing from the verdict.
+        assert!(
+            line.contains(&format!(" {open} of {} results could not be decided;", agree + expected + open)),
+            "{line}"
+        );
+        // Undecided forces exerted by an engine do not affect the verdict.
         let forces = judged::of(&proof).into_iter().filter(|own| own.sort == Sort::OwnForce);
         let open = open - forces.filter(|own| grade(own.verdict) == Grade::Open).count();
         let mut outcomes = Outcomes::told_by(Advice::to_string);

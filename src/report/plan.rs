@@ -5,21 +5,34 @@ use serde_json::json;
 
 use super::pretty::{list, pretty};
 use crate::plain::Tell;
+use crate::plain::cells::{trimmed, worded};
 use design::draw::significant;
 use design::plan::{Plans, SingularPoint, VectorPlan};
 use linkage::case::Case;
 use linkage::error::Result;
-use prover::numbers::fixed_in;
+use linkage::math::KeepNan;
+use prover::numbers::{self, fixed_in};
 use scenario::Scenario;
 
-/// The plans as text. `singular`: the singular points of groups of class IV, or the reason why one was not found.
-/// `is_free` says that forces decide the motion, while the scenario's case is the nominal one. Advice is worded by `tell`.
+/// Rounding error of a plan, as a fraction of its largest vector.
+const ROUNDING: f64 = 1e-12;
+
+/// A number with four digits; a number below the rounding error is shown as zero.
+fn known(value: f64, largest: f64) -> String {
+    significant(if value.abs() > ROUNDING * largest { value } else { 0.0 })
+}
+
+/// The plans as text.
+/// `singular`: the singular points of groups of class IV, or the reason why a singular point was not found.
+/// `is_free`: whether forces determine the motion; the scenario then has the nominal case.
+/// `tell` words the advice, `width` is the number of columns.
 pub(crate) fn text(
     scenario: &Scenario,
     is_free: bool,
     plans: &Plans,
     singular: &[Result<SingularPoint>],
     tell: Tell,
+    width: Option<usize>,
 ) -> String {
     let mut text = sentences::at_crank_angle(&scenario.name, &fixed_in(plans.crank.to_degrees(), 4, "deg"));
     if is_free {
@@ -27,21 +40,26 @@ pub(crate) fn text(
         say!(text, sentences::the_motion_is_free_these(&speed));
     }
     say!(text, sentences::kinematic_diagram_mu_mm(&plans.scheme.scale));
-    for link in &plans.scheme.links {
-        let (omega, alpha) = (significant(link.omega), significant(link.alpha));
+    let links = &plans.scheme.links;
+    let [fastest, steepest] = links.iter().fold([0.0; 2], |[omega, alpha]: [f64; 2], link| {
+        [omega.larger(link.omega.abs()), alpha.larger(link.alpha.abs())]
+    });
+    for link in links {
+        let (omega, alpha) = (known(link.omega, fastest), known(link.alpha, steepest));
         say!(text, sentences::omega_rad_alpha_rad(&link.number, &link.name, &omega, &alpha));
     }
     for plan in [&plans.velocity, &plans.acceleration] {
-        let (word, symbol, unit) = (plan.quantity.word(), plan.quantity.symbol(), plan.quantity.unit());
+        let (word, symbol, unit) = (plan.quantity.word(), plan.quantity.symbol(), numbers::shown(plan.quantity.unit()));
         say!(text, sentences::plan_pole_mu_mm(&word, &plan.quantity.pole(), &symbol, &plan.scale, &unit));
-        let [x, y] = ["x", "y"].map(|axis| format!("{axis}, {unit}"));
-        say!(text, sentences::vector_from_to_mm_meaning(&unit, &x, &y));
-        for vector in &plan.vectors {
+        let largest = plan.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger);
+        let header = format!("vector | from, to | {unit}> | x> | y> | mm> | meaning");
+        let rows = plan.vectors.iter().map(|vector| {
             let (ends, value) = (format!("{}, {}", vector.from, vector.to), vector.value);
-            let [size, x, y] = [value.norm(), value.x, value.y].map(significant);
-            let (name, paper, meaning) = (&vector.name, plan.paper(vector), &vector.meaning);
-            say!(text, "  {name:10} {ends:10} {size:>10} {x:>11} {y:>11} {paper:>8.2}  {meaning}");
-        }
+            let [size, x, y] = [value.norm(), value.x, value.y].map(|part| known(part, largest));
+            let paper = numbers::fixed(plan.paper(vector), 2);
+            [vector.name.clone(), ends, size, x, y, paper, vector.meaning.clone()]
+        });
+        say!(text, "{}", trimmed(worded(&header, width).add_rows(rows)));
     }
     for found in singular {
         match found {

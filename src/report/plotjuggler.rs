@@ -12,7 +12,7 @@ pub(crate) fn text(numbers: &Numbers, file: &Path) -> String {
     filled(include_str!("plotjuggler.xml"), &slots)
 }
 
-/// The plots below each other; nothing if there are none, for PlotJuggler ends when it has to divide nothing.
+/// The plots, one below the other; empty without plots, because PlotJuggler exits if it must divide an empty area.
 fn plots(plots: &[Plot]) -> String {
     let count = plots.len();
     if count == 0 {
@@ -24,7 +24,7 @@ fn plots(plots: &[Plot]) -> String {
     filled(include_str!("plotjuggler_plots.xml"), &slots)
 }
 
-/// One plot. Its lines all have one width, and the last is in front.
+/// One plot; its lines have the same width, and the last is in front.
 fn area(plot: &Plot) -> String {
     let curves: String = plot.lines.iter().map(curve).collect();
     let slots = [("title", &*escaped(&plot.title)), ("curves", &*curves)];

@@ -7,13 +7,14 @@ pub(super) fn pretty(value: &Value) -> String {
     format!("{value:#}\n")
 }
 
-/// The list of what each of some things becomes.
+/// A JSON list: `one` converts each item to a value.
 pub(super) fn list<T>(all: impl IntoIterator<Item = T>, one: impl FnMut(T) -> Value) -> Value {
     all.into_iter().map(one).collect()
 }
 
-/// Rows of a JSON report: what they are made of, what is prepared, then every key once, with its type and its value. A key
-/// with a predicate, as in `key["Option::is_none"]: ..`, is left out where that holds.
+/// Defines rows of a JSON report.
+/// A row states its sources, statements that prepare it, and then each key once, with type and value.
+/// A key with a predicate, as in `key["Option::is_none"]: ..`, is omitted if the predicate holds.
 macro_rules! rows {
     ($($(#[$about:meta])* $vis:vis struct $row:ident = |$($given:ident: $of:ty),*| { $($first:tt)* } {
         $($(#[$key_about:meta])* $key:ident $([$absent:literal])?: $type:ty = $value:expr,)*
@@ -23,7 +24,7 @@ macro_rules! rows {
         $vis struct $row { $($(#[$key_about])* $(#[serde(skip_serializing_if = $absent)])? $key: $type,)* }
 
         impl $row {
-            /// The row of what it is made of.
+            /// Makes the row from its sources.
             #[must_use]
             $vis fn of($($given: $of),*) -> $row {
                 $($first)*

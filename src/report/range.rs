@@ -1,4 +1,4 @@
-//! How far a mechanism can be followed: limits, singular and extreme positions, transmission angles.
+//! The range in which a mechanism can be followed: limits, singular and extreme positions, transmission angles.
 
 use crate::sentences;
 use std::f64::consts::TAU;
@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use serde_json::{Value, json};
 
 use super::pretty::list;
-use crate::plain::cells::{table, trimmed};
+use crate::plain::cells::{fitted, trimmed, worded};
 use analytic::range::{Extent, ExtremePosition, GroupCondition, LinkRange, Range, Singularity, ValueAtCrank};
 use linkage::mechanism::GroupId;
 use prover::numbers;
@@ -16,7 +16,7 @@ use scenario::Scenario;
 const EXTREMES: usize = 8;
 
 /// The range as text.
-pub(crate) fn text(scenario: &Scenario, range: &Range) -> String {
+pub(crate) fn text(scenario: &Scenario, range: &Range, width: Option<usize>) -> String {
     let mut text = format!("{}: {}\n", scenario.name, scenario.title);
     say!(text, "crank      {}", extent(range));
     if let Some(four_bar) = &range.four_bar {
@@ -24,9 +24,9 @@ pub(crate) fn text(scenario: &Scenario, range: &Range) -> String {
         say!(text, "four-bar   {}", four_bar.of_type.name());
         say!(text, sentences::frame_driving_link_coupler_output(&frame, &driver, &coupler, &output));
     }
-    say!(text, "\n{}", singularities(scenario, range));
-    say!(text, sentences::groups_nearest_to_a_singular(&groups(scenario, range)));
-    say!(text, "\nLinks:\n{}", links(scenario, range));
+    say!(text, "\n{}", singularities(scenario, range, width));
+    say!(text, sentences::groups_nearest_to_a_singular(&groups(scenario, range, width)));
+    say!(text, "\nLinks:\n{}", links(scenario, range, width));
     text
 }
 
@@ -49,7 +49,7 @@ fn degrees(crank: f64, range: &Range) -> String {
 
 fn in_turn(crank: f64, range: &Range) -> f64 {
     match range.extent {
-        // An angle that is below a whole turn by rounding only is shown as zero.
+        // If rounding puts an angle just below a whole revolution, it is shown as zero.
         Extent::FullTurn(1) => (crank + 1e-12).rem_euclid(TAU) - 1e-12,
         Extent::FullTurn(_) | Extent::Limited(_) => crank,
     }
@@ -59,49 +59,49 @@ fn names(scenario: &Scenario, group: GroupId) -> String {
     scenario.case.structure.groups[group].names(&scenario.case.mechanism)
 }
 
-/// Transmission angle (rad) at a determinant; `None` for a group that is no dyad.
+/// Transmission angle (rad) for a determinant; `None` if the group is not a dyad.
 fn transmission(scenario: &Scenario, group: GroupId, determinant: f64) -> Option<f64> {
     (scenario.case.structure.groups[group].links.len() == 2).then(|| determinant.abs().asin())
 }
 
-fn singularities(scenario: &Scenario, range: &Range) -> String {
+fn singularities(scenario: &Scenario, range: &Range, width: Option<usize>) -> String {
     if range.singularities.is_empty() {
         return sentences::NO_SINGULAR_POSE_ON_THE_WAY.into();
     }
     let rows = range.singularities.iter().map(|Singularity { kind, crank, group, determinant }| {
         let (crank, determinant) = (degrees(*crank, range), numbers::significant(*determinant, 2));
-        [kind.name().to_string(), crank, names(scenario, *group), determinant]
+        [kind.name().to_string(), crank, determinant, names(scenario, *group)]
     });
-    format!("{}\n", trimmed(table("singular pose | crank deg> | group | determinant>").add_rows(rows)))
+    format!("{}\n", trimmed(worded("singular pose | crank, deg> | determinant> | group", width).add_rows(rows)))
 }
 
-fn groups(scenario: &Scenario, range: &Range) -> String {
+fn groups(scenario: &Scenario, range: &Range, width: Option<usize>) -> String {
     let rows = range.groups.entries().map(|(index, group)| {
         let ValueAtCrank { crank, value } = group.determinant;
         let transmission = transmission(scenario, index, value);
         let transmission = transmission.map_or("-".into(), |angle| numbers::fixed(angle.to_degrees(), 4));
         let (condition, at) = match group.condition {
             Some(worst) => (numbers::fixed(worst.value, 4), degrees(worst.crank, range)),
-            None => ("without bound".into(), degrees(crank, range)),
+            None => ("unbounded".into(), degrees(crank, range)),
         };
         let (least, crank) = (numbers::fixed(value, 6), degrees(crank, range));
         [names(scenario, index), least, transmission, crank, condition, at]
     });
-    let header = "group | least determinant> | transmission deg> | at crank deg> | largest condition> | at crank deg>";
-    trimmed(table(header).add_rows(rows))
+    let header = "group | smallest\ndeterminant> | transmission\nangle, deg> | at crank\nangle, deg> | largest\ncondition> | at crank\nangle, deg>";
+    trimmed(fitted(header, width).add_rows(rows))
 }
 
-fn links(scenario: &Scenario, range: &Range) -> String {
+fn links(scenario: &Scenario, range: &Range, width: Option<usize>) -> String {
     let rows = range.links.iter().map(|link| {
-        // For a link that rotates fully, the interval of its angle has no meaning.
+        // If a link rotates fully, the interval of its angle has no meaning.
         let end =
             |at: ValueAtCrank| if link.turns == 0 { numbers::fixed(at.value.to_degrees(), 6) } else { "-".into() };
         let [least, most] = link.angles.map(end);
         let name = scenario.case.mechanism.links()[link.link].name.clone();
         [name, motion(link), least, most, positions(&link.extremes, range)]
     });
-    let header = "link | motion | from deg> | to deg> | extreme positions, at crank deg";
-    trimmed(table(header).add_rows(rows))
+    let header = "link | motion | from, deg> | to, deg> | extreme positions, at crank angle, deg";
+    trimmed(worded(header, width).add_rows(rows))
 }
 
 fn motion(link: &LinkRange) -> String {
@@ -180,12 +180,12 @@ mod tests {
     use super::*;
     use scenario::of_repository;
 
-    /// A closed curve of poses may take several turns of the crank.
+    /// The mechanism may return to its first pose only after several turns of the crank.
     #[test]
-    fn turns_to_the_same_pose_are_told() {
+    fn turns_to_the_same_pose_are_reported() {
         let scenario = of_repository("scenarios/crank_rocker.toml");
         let range = Range { extent: Extent::FullTurn(2), ..Range::of(&scenario.case).unwrap() };
         assert_eq!(json(&scenario, &range)["extent"], json!({"full_turn": true, "turns_to_same_pose": 2}));
-        assert!(text(&scenario, &range).contains("at its first pose after 2 turns"));
+        assert!(text(&scenario, &range, None).contains("at its first pose after 2 turns"));
     }
 }

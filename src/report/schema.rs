@@ -16,7 +16,7 @@ pub fn scenario() -> String {
     pretty(&schema)
 }
 
-/// The section with a path, which the table of sections has.
+/// The JSON object for a section; `path` names the section in the table of sections.
 fn object(path: &str) -> Value {
     let keys = section(path).map_or(&[][..], |section| section.keys);
     let mut properties = Map::new();
@@ -46,7 +46,7 @@ fn object(path: &str) -> Value {
 
 fn of_key(key: &FileKey, path: &str) -> Value {
     let child = if path.is_empty() { key.name.to_string() } else { format!("{path}.{}", key.name) };
-    // Any number may be an arithmetic of parameters.
+    // Any number may be an arithmetic expression of parameters.
     let number = || json!({ "type": ["number", "string"] });
     let list = |items: Value| json!({ "type": "array", "items": items });
     let mut value = match key.kind {
@@ -65,7 +65,7 @@ fn of_key(key: &FileKey, path: &str) -> Value {
     value
 }
 
-/// A section with keys of its own, with names for keys, or with names for numbers.
+/// A section: with fixed keys, with names as keys, or with names that stand for numbers.
 fn table(path: &str) -> Value {
     let named = format!("{path}.*");
     match (section(path), section(&named)) {

@@ -1,4 +1,4 @@
-//! Numerical stability: what is kept of every family, tables, a text with the verdict first, a map.
+//! Numerical stability: stored results of every family, tables, a text with the verdict first, a map.
 
 mod kept;
 mod map;

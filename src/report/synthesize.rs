@@ -11,14 +11,14 @@ use design::synthesize::task::{OutputQuantity, Phase, Sense, Task};
 use design::synthesize::{Achieved, SearchResult};
 use prover::numbers;
 
-/// A task, what was achieved, and how it was found.
+/// A task, its result, and the search that found it.
 #[derive(Debug)]
 pub(crate) struct Story<'a> {
     /// The task.
     pub(crate) task: &'a Task,
-    /// How well the motion keeps it.
+    /// How well the motion meets the task.
     pub(crate) achieved: &'a Achieved,
-    /// What the search found, and the values as written.
+    /// The result of the search, and the dimensions as written to the scenario.
     pub(crate) search: Option<(&'a SearchResult, &'a [f64])>,
 }
 
@@ -66,7 +66,7 @@ pub(crate) fn text(story: &Story) -> String {
         let end = done.end.map_or("-".into(), |end| numbers::fixed(end.to_degrees(), 2));
         [from, to, phase.sense.name().to_string(), displacement, motion, wrong, level, end]
     });
-    let header = "from deg> | to deg> | sense | displacement %> | motion %> | wrong way %> | level %> | ends at deg>";
+    let header = "from deg> | to deg> | sense | displacement %> | motion %> | reversed %> | level %> | ends at deg>";
     let mut phases = table(header);
     phases.add_rows(rows);
     say!(text, "{phases}\n\n{}", summary(task, achieved));
@@ -101,7 +101,7 @@ pub(crate) fn json(story: &Story) -> String {
     }))
 }
 
-/// Data of the picture: a point every degree, and the wanted curve where it is known.
+/// Data of the picture: a point for every degree, and the required curve at the angles where the task states it.
 pub(crate) fn diagram(story: &Story) -> TimingDiagram {
     let (task, achieved) = (story.task, story.achieved);
     let rows = (0..achieved.turns.len()).step_by((achieved.turns.len() / 720).max(1));

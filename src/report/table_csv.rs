@@ -31,7 +31,7 @@ pub(crate) fn solution(trajectory: &Trajectory, to: &mut dyn Write) -> Result<()
     table(&["t_s", trajectory.input().key()], trajectory, rows, to)
 }
 
-/// Writes the crank and the motor's moment in a run-up, then all wanted channels.
+/// Writes the crank and the motor's moment in a run-up, then all requested channels.
 ///
 /// # Errors
 /// Those of `to`.
@@ -51,7 +51,7 @@ pub(crate) fn run_up(run_up: &RunUp, to: &mut dyn Write) -> Result<()> {
     table(&own, &run_up.trajectory, rows, to)
 }
 
-/// The error below one of the CSV writer, with its kind.
+/// The I/O error that caused an error of the CSV writer, with its kind.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the CSV writer")]
 fn io_error(error: csv::Error) -> Error {
     if !error.is_io_error() {
@@ -63,8 +63,8 @@ fn io_error(error: csv::Error) -> Error {
     }
 }
 
-/// A table with columns of its `own` and those of a trajectory. It is written row by row: as text it needs three times
-/// the memory of its numbers.
+/// Writes a table: the columns `own`, then the channels of a trajectory.
+/// It is written row by row, because the text of all rows would need three times the memory of the numbers.
 fn table(
     own: &[&str],
     trajectory: &Trajectory,

@@ -10,11 +10,12 @@ use prover::bounds::{Check, Verdict, overall};
 use prover::numbers;
 use prover::run::{ChannelProof, EngineInfo, EngineProof, Proof, SearchEnd, SettingsSearch};
 
-/// Number of reasons that are shown in full; the others are only counted.
+/// Number of reasons that are shown in full; further reasons are only counted.
 const REASONS: usize = 5;
 
-/// The whole report of one proof, with its advice worded by `tell`: verdict and worst channels, then everything else. Its
-/// lines have at most `width` columns, if there is a width.
+/// The whole report of one proof: verdict and worst channels, then everything else.
+/// `tell` words the advice.
+/// Lines have at most `width` columns, if a width is given.
 #[must_use]
 pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     let mut text = format!("{}\n{}\n", brief::verdict_line(proof), sentence(proof));
@@ -56,7 +57,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     text
 }
 
-/// An engine, its resolution and the sources of its own error.
+/// An engine, its resolution and the sources of its numerical error.
 fn described(info: &EngineInfo) -> String {
     let resolution = info.settings.resolution;
     let [at, coarse, fine] = [resolution, 2.0 * resolution, resolution / 2.0].map(seconds);
@@ -67,7 +68,8 @@ fn described(info: &EngineInfo) -> String {
     }
 }
 
-/// The section on an engine's own forces, after the table of its channels: a table, or a line beside `several` engines.
+/// The section on the forces that an engine exerts, after the table of its channels.
+/// It is a table, or a single line if there are `several` engines.
 fn own_section(engine: &EngineProof, several: bool, width: Option<usize>, text: &mut String) {
     let Some(own) = &engine.own_forces else { return };
     let (name, route) = (engine.info.name, own.info.settings.route.name());
@@ -102,7 +104,7 @@ fn own_how(own: &EngineProof) -> String {
     sentences::route_step(&told, &settings.route.name(), &step, &search)
 }
 
-/// The settings that a proof has found, and the work it took.
+/// The settings that a proof has found, and the work of the search.
 fn found(info: &EngineInfo, search: &SettingsSearch) -> String {
     let times = match info.settings.extrapolated {
         0 => "not extrapolated".into(),
@@ -125,7 +127,7 @@ fn seconds(step: f64) -> String {
     numbers::significant(step, 5)
 }
 
-/// How much was judged, and what came of it.
+/// How much was judged, and the outcome.
 pub(super) fn sentence(proof: &Proof) -> String {
     let forces = proof.engines.iter().flat_map(|engine| &engine.own_forces).flat_map(|own| &own.channels);
     let [agree, expected, wrong, open] = counts(forces.map(|own| &own.verdict));
@@ -158,13 +160,13 @@ pub(super) fn sentence(proof: &Proof) -> String {
             sentences::of_and_checks(&wrong, &are, &channels, &checks)
         }
         Verdict::Inconclusive { .. } => {
-            let prove = if open == 1 { "number proves" } else { "numbers prove" };
+            let prove = if open == 1 { "number could not be decided" } else { "numbers could not be decided" };
             sentences::nothing_either_way_of_and_checks(&open, &prove, &channels, &checks)
         }
     }
 }
 
-/// The channels as a table: of each quantity the one that uses most of its bound.
+/// The channels as a table with one row per quantity: its channel that uses most of its bound.
 fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
     let header = "quantity | worst channel | crank deg> | error> | of scale> | bound> | order> | verdict";
     let quantities = distinct(channels.iter().map(|own| own.residual.channel.kind.quantity));
@@ -186,8 +188,8 @@ fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
     trimmed(fitted(header, width).add_rows(rows))
 }
 
-/// The checks as a table: of each family the one that uses most of its bound. A family is `expected` if all its wrong
-/// numbers are known to be wrong.
+/// The checks as a table with one row per family: its check that uses most of its bound.
+/// A family is `expected` if all its wrong numbers are known to be wrong.
 fn checks(proof: &Proof, width: Option<usize>) -> String {
     let families = distinct(proof.all_checks().map(|check| check.family.as_str()));
     let rows = families.into_iter().filter_map(|name| {
@@ -208,8 +210,8 @@ fn checks(proof: &Proof, width: Option<usize>) -> String {
     trimmed(fitted("check | numbers> | worst> | bound> | basis | verdict", width).add_rows(rows))
 }
 
-/// Every residual of a proof beside its bound, for readers who examine the bounds: a line for every channel of every
-/// engine, and for every check.
+/// Every residual of a proof beside its bound, for readers who examine the bounds.
+/// It has a line for every channel of every engine, and for every check.
 #[must_use]
 pub fn residuals(proof: &Proof) -> String {
     let mut all = judged::of(proof);
@@ -231,9 +233,9 @@ mod tests {
     use prover::run::{Options, prove};
     use scenario::of_repository;
 
-    /// Residual, bound and what is used of it, line by line, in the order of the proof.
+    /// Residual, bound and the share used, line by line, in the order of the proof.
     #[test]
-    fn every_residual_stands_beside_its_bound() {
+    fn every_residual_is_printed_beside_its_bound() {
         let proof =
             prove(&of_repository("scenarios/crank_rocker.toml"), &Options::default().step(2e-3).sweeps(16)).unwrap();
         let channels = proof

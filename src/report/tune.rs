@@ -1,4 +1,4 @@
-//! The cheapest settings of an engine that keep a wanted error.
+//! The cheapest settings of an engine that reach a required accuracy.
 
 use crate::sentences;
 use std::path::Path;
@@ -19,20 +19,21 @@ pub(crate) struct Section<'a> {
     pub(crate) text: &'a str,
     /// The scenario's file.
     pub(crate) file: &'a Path,
-    /// Whether the section has been written to that file.
+    /// Whether the section has been written to the scenario's file.
     pub(crate) is_written: bool,
 }
 
-/// How a program says what its user can do next.
+/// How the user can continue, in the words of the calling program.
 #[derive(Clone, Copy)]
 pub(crate) struct Hints<'a> {
-    /// How to learn why an engine does not run: a command, for its name.
+    /// Given the engine's name: the command that shows why the engine does not run.
     pub(crate) why: &'a dyn Fn(&str) -> String,
-    /// How to have the section written.
+    /// How to write the section.
     pub(crate) write: &'a str,
 }
 
-/// The settings as text. `within`: the largest error that was wanted, as a share of each channel's scale.
+/// The settings as text.
+/// `within` is the largest allowed error, as a share of each channel's scale.
 pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &Section, hints: Hints) -> String {
     let rows = found.by_engine.iter().map(|candidate| {
         let Settings { resolution, sweeps, substeps, route, extrapolated } = candidate.settings;
@@ -48,7 +49,7 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
             numbers::fixed(candidate.price / found.best.price, 2),
         ]
     });
-    let header = "engine | step> | sweeps> | substeps> | extrapolated | route | error> | worst channel | price>";
+    let header = "engine | step> | sweeps> | substeps> | extrapolated | method | error> | worst channel | cost>";
     let table = trimmed(table(header).add_rows(rows));
     let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
     let within = numbers::error(within);

@@ -1,24 +1,24 @@
-//! Sentences of the command line, which alone names options and commands.
+//! Sentences of the command line, the only part that names options and commands.
 
 linkage::sentences! {
     // cli/accept.rs
     linkproof_accept_writes_it(file) = "`linkproof accept {file}` writes it";
-    nothing_was_accepted_of_there(file, place) = "nothing was accepted of {file}: there is no {place}";
+    nothing_was_accepted_of_there(file, place) = "{file} has no accepted figures: {place} does not exist";
     // cli/advice.rs
     such_as(name, to) = ", such as {name} {to}";
-    ALL_OF_THEM_WITH_JSON = "all of them with --json";
-    ASK_FOR_A_LARGER_ERROR_OTHER = "ask for a larger error, other channels (--channel) or further engines (--engine all)";
-    name_a_column_of_linkproof(groups) = "name a column of `linkproof solve`, such as joint.A.fx_N, or one of: {groups}";
-    READ_THEM_OFF_A_TABLE_OF_LINKPROOF = "read them off a table of `linkproof solve` instead";
+    ALL_OF_THEM_WITH_JSON = "all of them with -o FILE.json";
+    ASK_FOR_A_LARGER_ERROR_OTHER = "ask for a larger error, other channels (--channel) or more engines (--engine all)";
+    name_a_column_of_linkproof(groups) = "name a column of `linkproof solve`, such as joint.A.fx_N, or a group: {groups}";
+    READ_THEM_OFF_A_TABLE_OF_LINKPROOF = "take the values from a table of `linkproof solve` instead";
     linkproof_inspect_file_modes_lists(advice) = "{advice}; `linkproof inspect FILE --modes` lists them";
     LINKPROOF_INSPECT_FILE_RANGE_SHOWS = "`linkproof inspect FILE --range` shows what limits the crank and which links turn fully";
-    solve_the_scenario_with_linkproof(solver) = "solve the scenario with `linkproof solve FILE --with {solver}`";
-    take_side_reference(solver) = "take side \"{solver}\": --reference {solver}";
-    take_another_way_to_the_reactions(options) = "take another way to the reactions: {options}";
-    linkproof_list_solvers_names_them(advice) = "{advice}: `linkproof list --solvers` names them";
+    solve_the_scenario_with_linkproof(solver) = "solve the scenario with one side only: `linkproof solve FILE --with {solver}`";
+    take_side_reference(solver) = "use side \"{solver}\" as the reference: --reference {solver}";
+    take_another_way_to_the_reactions(options) = "choose another method for the reactions: {options}";
+    linkproof_list_solvers_names_them(advice) = "{advice}: `linkproof list --solvers` lists them";
     allow_more_memory_such_as_memory(rounded_up) = "allow more memory, such as --memory {rounded_up:.1}";
     allow_more_work_such_as_budget(to) = "allow more work, such as --budget {to}";
-    LEAVE_OUT_THE_ENGINE_SETTINGS = "leave out the engine's settings, and the run finds its own";
+    LEAVE_OUT_THE_ENGINE_SETTINGS = "leave out the engine settings; the run then chooses them";
     raise_the_number_of_sweeps(to) = "raise the number of sweeps, such as --sweeps {to}";
     RAISE_THE_NUMBER_OF_SWEEPS_SWEEPS = "raise the number of sweeps (--sweeps)";
     choose_a_looser_accuracy(option) = "choose a looser accuracy{option}";
@@ -28,32 +28,32 @@ linkage::sentences! {
     // cli/bearings.rs
     GIVE_A_NUMBER_ABOVE_ZERO = "give a number above zero";
     // cli/bench.rs
-    GIVE_A_DIRECTORY_THAT_MAY = "give a directory that may be made or written to";
-    THEIR_FILES_IN_THE_DIRECTORY = "their files in the directory would have the same names: give each a directory of its own";
-    two_scenarios_are_called(twice) = "two scenarios are called \"{twice}\"";
+    GIVE_A_DIRECTORY_THAT_MAY = "name a directory that exists or can be created, and is writable";
+    THEIR_FILES_IN_THE_DIRECTORY = "their output files would have the same names: write each to a separate directory";
+    two_scenarios_are_called(twice) = "two scenarios have the name \"{twice}\"";
     THE_COMMAND_IS_EMPTY = "the command is empty";
-    is_no_name_letters_digits(name) = "\"{name}\" is no name: letters, digits, -, _ and . are possible";
+    is_no_name_letters_digits(name) = "\"{name}\" is not a valid name: use letters, digits, ., - and _";
     EXPECTED_NAME_COMMAND_FOR_EXAMPLE = "expected NAME=COMMAND, for example mujoco='python3 peer.py'";
     // cli/check.rs
     EXPECTED_NAME_EXPR_SUCH_AS_A_SIN = "expected NAME=EXPR, such as 'u=a*sin(phi)'";
     // cli/clearance.rs
     ADD_A_SECTION_CLEARANCE_FOR_EXAMPLE = "add a section `[clearance]`, for example with `radius_mm = 5` for all links; `linkproof docs scenario` describes it";
-    the_scenario_asks_nothing_about(file) = "the scenario {file} asks nothing about clearance";
-    GIVE_ONE_SCENARIO_OR_WRITE = "give one scenario, or write --json";
-    scenarios_are_given_but_a_drawing(args) = "{args} scenarios are given, but a drawing or table is of one";
+    the_scenario_asks_nothing_about(file) = "the scenario {file} has no section `[clearance]`";
+    GIVE_ONE_SCENARIO_OR_WRITE = "give one scenario, or write JSON: -o FILE.json";
+    scenarios_are_given_but_a_drawing(args) = "{args} scenarios are given, but a drawing or table shows one scenario";
     // cli/compare.rs
     comparing_rows(rows) = "comparing {rows} rows";
     the_table(path) = "the table {path}";
     LEAVE_IT_OUT = "leave it out";
-    NEITHER_OF_THE_TWO_IS_A_RECORDING = "neither of the two is a recording";
-    BOTH_ARE_SCENARIOS_WHICH_ARE_SOLVED = "both are scenarios, which are solved where they are asked";
-    MAP_IS_FOR = "--map is for B";
-    A_IS_NO_TABLE = "A is no table";
-    SCENARIOS_AND_RECORDINGS_HAVE_CHANNELS = "scenarios and recordings have channels by name";
-    NEITHER_OF_THE_TWO_IS_A_TABLE = "neither of the two is a table";
-    EXPECTED_CHANNEL_SIZE_SUCH_AS_POINT = "expected CHANNEL=SIZE, such as point.B.x_mm=0.01: sizes have units";
-    THIS_FILE_IS_NO_MAPPING_AND_WOULD = "this file is no mapping and would be overwritten";
-    A_MAPPING_FILE_ENDS_IN_TOML = "a mapping file ends in .toml, by which --map knows it";
+    NEITHER_OF_THE_TWO_IS_A_RECORDING = "neither A nor B is a recording";
+    BOTH_ARE_SCENARIOS_WHICH_ARE_SOLVED = "both are scenarios, which are solved at the requested instants";
+    MAP_IS_FOR = "use --map for B";
+    A_IS_NO_TABLE = "A is not a table";
+    SCENARIOS_AND_RECORDINGS_HAVE_CHANNELS = "leave it out: scenarios and recordings already name their channels";
+    NEITHER_OF_THE_TWO_IS_A_TABLE = "neither A nor B is a table";
+    EXPECTED_CHANNEL_SIZE_SUCH_AS_POINT = "expected CHANNEL=SIZE, such as point.B.x_mm=0.01; the channel name states the unit";
+    THIS_FILE_IS_NO_MAPPING_AND_WOULD = "this file is not a mapping and would be overwritten";
+    A_MAPPING_FILE_ENDS_IN_TOML = "the name of a mapping file must end in .toml; --map recognises a mapping file by this ending";
     // cli/docs.rs
     the_page_has_no_section(name, anchor) = "the page \"{name}\" has no section \"{anchor}\"";
     there_is_no_page(name) = "there is no page \"{name}\"";
@@ -62,20 +62,20 @@ linkage::sentences! {
     LEAVE_IT_OUT_OR_WRITE_A_PNG = "leave it out, or write a .png, .gif or .webp";
     AN_SVG_HAS_NO_PIXELS = "an SVG has no pixels";
     WRITE_AN_SVG_OR_A_PNG = "write an SVG or a PNG";
-    AN_ANIMATION_SHOWS_ONE_CONFIGURATION = "an animation shows one configuration, but all of them are asked for";
+    AN_ANIMATION_SHOWS_ONE_CONFIGURATION = "an animation shows one configuration, but all of them are requested";
     LEAVE_IT_OUT_OR_WRITE_A_GIF = "leave it out, or write a .gif or a .webp";
-    THE_PICTURE_DOES_NOT_MOVE = "the picture does not move";
+    THE_PICTURE_DOES_NOT_MOVE = "the picture is not animated";
     // cli/drive.rs
     NO_GRAPHS_OF_A_CHOICE = "the choice of a motor has no graphs";
     WRITE_JSON = "write it as .json, or leave out --catalogue";
     GIVE_OR_OR_LEAVE_IT_OUT = "give 3000 or 1500, or leave it out";
-    the_catalogue_has_no_motor(rpm) = "the catalogue has no motor of {rpm} rpm";
+    the_catalogue_has_no_motor(rpm) = "the catalogue has no motor with a synchronous speed of {rpm} rpm";
     GIVE_A_NUMBER_FROM_TO = "give a number from 1 to 1000000";
     points_is(points) = "--points is {points}";
     GIVE_A_NUMBER_OF_DEGREES = "give a number of degrees above zero, such as 10";
     step_deg_is(step_deg) = "--step-deg is {step_deg}";
     // cli/engine_section.rs
-    CHECK_THAT_THE_FILE_MAY_BE_WRITTEN = "check that the file may be written to, or copy the section by hand";
+    CHECK_THAT_THE_FILE_MAY_BE_WRITTEN = "check that the file is writable, or copy the section by hand";
     // cli/grid.rs
     is_not_a_number(part, expected) = "\"{part}\" is not a number; {expected}";
     is_not_finite(part, expected) = "\"{part}\" is not finite; {expected}";
@@ -84,59 +84,60 @@ linkage::sentences! {
     CHECK_THE_UNIT_AND_SIZE_OF_CRANK = "check the unit and size of --crank-deg";
     GIVE_TIMES_BY_TIMES_FROM_TO_STEP = "give times by --times FROM:TO:STEP";
     // cli/html.rs
-    A_PAGE_GOES_TO_A_FILE_EXPECTED = "a page goes to a file; expected one, or a directory for several scenarios";
-    NAME_ANOTHER_DIRECTORY_WITH_HTML = "name another directory with --html";
-    the_directory_cannot_be_made(to, error) = "the directory {to} cannot be made: {error}";
+    A_PAGE_GOES_TO_A_FILE_EXPECTED = "a page cannot go to standard output: expected a file, or a directory for several scenarios";
+    NAME_ANOTHER_DIRECTORY_WITH_HTML = "name another directory with -o DIR/";
+    the_directory_cannot_be_made(to, error) = "the directory {to} cannot be created: {error}";
     NAME_A_FILE_FOR_ONE_SCENARIO = "name a file for one scenario, or a directory for several";
     THE_PAGE_CANNOT_BE_WRITTEN = "the page cannot be written to";
     PAGES_CANNOT_BE_WRITTEN_TO = "pages cannot be written to";
     // cli/jobs.rs
-    REPORT_IT_WITH_THE_SCENARIO = "report it with the scenario; the other files are not concerned";
-    this_is_a_fault_of_the_program(it) = "this is a fault of the program: {it}";
+    REPORT_IT_WITH_THE_SCENARIO = "report it with the scenario file; other files are not affected";
+    this_is_a_fault_of_the_program(it) = "this is a bug in the program: {it}";
     // cli/list.rs
+    NEW_WRITES_ONE = "`linkproof new` writes one, `linkproof new --shipped` the examples";
     NAME_THE_DIRECTORY_THAT_HOLDS = "name the directory that holds your scenario files: linkproof list DIR; `linkproof new --shipped` writes some to scenarios/";
     // cli/live.rs
     LEAVE_OUT_LIVE_AND_OPEN_THE_RECORDING = "leave out --live, and open the recording: linkproof view FILE.mcap";
     BUILD_WITH_THE_CARGO_FEATURE = "build with the cargo feature \"live\": in the repository, `cargo install --path . --features live`";
-    LIVE_IS_ASKED_FOR_BUT_THIS_BUILD = "--live is asked for, but this build does not have it";
+    LIVE_IS_ASKED_FOR_BUT_THIS_BUILD = "--live is requested, but this build does not include it";
     NAME_ONE_FILE = "name one file";
     live_shows_one_scenario_but_are_given(files) = "--live shows one scenario, but {files} are given";
     // cli/live/server.rs
-    ctrl_cannot_be_waited_for(found) = "Ctrl-C cannot be waited for: {found}";
-    live_lichtblick_or_foxglove_open(address, pace, layout) = "\nlive       {address}{pace}\n           Lichtblick or Foxglove: Open connection, Foxglove WebSocket, this address;\n           Foxglove at once: https://app.foxglove.dev/?ds=foxglove-websocket&ds.url={address}\n           {layout}\n           Ctrl-C ends it\n";
-    A_LAYOUT_IS_WRITTEN_BESIDE = "a layout is written beside a recording, so not with --no-record";
+    ctrl_cannot_be_waited_for(found) = "cannot wait for Ctrl-C: {found}";
+    live_lichtblick_or_foxglove_open(address, pace, layout) = "\nlive       {address}{pace}\n           Lichtblick or Foxglove: Open connection, Foxglove WebSocket, this address;\n           Foxglove directly: https://app.foxglove.dev/?ds=foxglove-websocket&ds.url={address}\n           {layout}\n           Ctrl-C ends it\n";
+    A_LAYOUT_IS_WRITTEN_BESIDE = "no layout: a layout is written beside a recording, but --no-record is set";
     then_layouts_import_from_file(layout) = "then Layouts, Import from file: {layout}";
-    NAME_ANOTHER_ADDRESS_AS_LIVE = "name another address as --live=HOST:PORT; port 0 takes a free one";
+    NAME_ANOTHER_ADDRESS_AS_LIVE = "name another address as --live=HOST:PORT; with port 0 the program takes a free port";
     viewers_cannot_be_served_at(address, found) = "viewers cannot be served at {address}: {found}";
     // cli/live/viewer.rs
-    linkproof_speaks(known) = "linkproof speaks {known}\n";
+    linkproof_speaks(known) = "linkproof supports {known}\n";
     // cli/load.rs
     settings_cannot_be_written_to(name) = "settings cannot be written to {name}";
-    SAVE_THE_SCENARIO_TO_A_FILE = "save the scenario to a file and name that, or leave --write out: the report tells the settings";
+    SAVE_THE_SCENARIO_TO_A_FILE = "save the scenario to a file and name that file, or leave out --write: the report lists the settings";
     cannot_be_read(name, error) = "{name} cannot be read: {error}";
     GIVE_A_SCENARIO_AS_IN_LINKPROOF = "give a scenario, as in: linkproof run - < four_bar.toml";
     THE_SCENARIO_IS_READ_FROM_STANDARD = "the scenario is read from standard input, up to its end (Ctrl-D)";
-    A_FINITE_NUMBER_BEHIND_THE_SUCH_AS_A_MM = "a finite number behind the `=`, such as a_mm=30";
+    A_FINITE_NUMBER_BEHIND_THE_SUCH_AS_A_MM = "a finite number after the `=`, such as a_mm=30";
     EXPECTED_KEY_NUMBER_SUCH_AS_A_MM = "expected KEY=NUMBER, such as a_mm=30";
     // cli/mutate.rs
-    THERE_IS_NO_SUCH_KIND_AND_NO_SUCH_FAMILY = "there is no such kind and no such family; `linkproof mutate --list` has them all";
+    THERE_IS_NO_SUCH_KIND_AND_NO_SUCH_FAMILY = "no kind and no family of faults has this name; `linkproof mutate --list` lists them all";
     GIVE_ONE_ENGINE = "give one engine";
-    found_engines_but_faults_are_planted(options) = "found {options} engines, but faults are planted in one";
+    found_engines_but_faults_are_planted(options) = "found {options} engines, but faults are planted in one engine only";
     // cli/new.rs
     files_in(files, directory) = "{files} files in {directory}\n";
-    CHECK_THAT_THIS_DIRECTORY_MAY = "check that this directory may be written to";
-    cannot_make_the_directory_of(path, error) = "cannot make the directory of {path}: {error}";
+    CHECK_THAT_THIS_DIRECTORY_MAY = "check that this directory is writable";
+    cannot_make_the_directory_of(path, error) = "cannot create the directory of {path}: {error}";
     NAME_ANOTHER_DIRECTORY_AS_IN_SHIPPED = "name another directory, as in --shipped DIR";
-    is_written_nevertheless_to_be_corrected(path, template) = "{path} is written nevertheless, to be corrected: `linkproof draw {path} -o picture.svg` shows how far it goes. Lengths that fit together are the template's own: {template}";
+    is_written_nevertheless_to_be_corrected(path, template) = "{path} is written anyway, so that you can correct it: `linkproof draw {path} -o picture.svg` shows where it does not close. The template's own lengths fit together: {template}";
     GIVE_ANOTHER_NAME_WITH_OUTPUT = "give another name with --output";
-    or_replace_what_is_there(other) = "{other}, or replace what is there with --force";
-    is_there_already(path) = "{path} is there already";
-    next_linkproof_draw_svg_linkproof(file, template, stem) = "{file}: {template}\n\nnext  linkproof draw {file} -o {stem}.svg\n      linkproof run {file} --html {stem}.html\n";
-    linkproof_new_template_writes_one_its_dimensions(lines) = "{lines}\nlinkproof new TEMPLATE writes one; its dimensions are set there, or with --set\n";
+    or_replace_what_is_there(other) = "{other}, or overwrite it with --force";
+    is_there_already(path) = "{path} already exists";
+    next_linkproof_draw_svg_linkproof(file, template, stem) = "{file}: {template}\n\nnext  linkproof draw {file} -o {stem}.svg\n      linkproof run {file} -o {stem}.html\n";
+    linkproof_new_template_writes_one_its_dimensions(lines) = "{lines}\nlinkproof new TEMPLATE writes one; set its dimensions in the file, or with --set\n";
     // cli/number.rs
-    expected_decimals_take_a_point(such, replacen) = "expected {such}; decimals take a point: {replacen}";
+    expected_decimals_take_a_point(such, replacen) = "expected {such}; write decimals with a point: {replacen}";
     expected_a_whole_number_from_to(most_times) = "expected a whole number from 0 to {most_times}";
-    EXPECTED_A_WHOLE_NUMBER_FROM_ON = "expected a whole number from 1 on";
+    EXPECTED_A_WHOLE_NUMBER_FROM_ON = "expected a whole number of at least 1";
     A_NUMBER_ABOVE_AND_AT_MOST = "a number above 0 and at most 1, such as 0.92";
     A_NUMBER_BETWEEN_AND_SUCH_AS = "a number between 0 and 1, such as 1e-4";
     A_FINITE_NUMBER_THAT_IS_NOT = "a finite number that is not 0";
@@ -144,67 +145,67 @@ linkage::sentences! {
     A_FINITE_NUMBER_GREATER_THAN = "a finite number greater than 0";
     A_FINITE_NUMBER_SUCH_AS = "a finite number, such as 12.5";
     // cli/output.rs
-    cannot_be_made(path, error) = "{path} cannot be made: {error}";
-    CHECK_WHERE_IT_GOES_TO = "check where it goes to";
-    CHECK_THAT_THE_DIRECTORY_EXISTS = "check that the directory exists, may be written to and has room";
+    cannot_be_made(path, error) = "{path} cannot be created: {error}";
+    CHECK_WHERE_IT_GOES_TO = "check where standard output goes";
+    CHECK_THAT_THE_DIRECTORY_EXISTS = "check that the directory exists, is writable and has free space";
     GIVE_TWO_FILES_OR_LEAVE_ONE_OF_THE_TWO = "give two files, or leave one of the two out";
     two_results_go_to(to) = "two results go to {to}";
     and_both_name(one, other, to) = "{one} and {other} both name {to}";
     THIS_IS_A_SCENARIO_FILE_AND_WOULD = "this is a scenario file and would be overwritten; expected a file for the results, or `-`";
     // cli/outputs.rs
     NO_ENDING = "no ending";
-    expected_a_file_that_ends_in_found(expected, found) = "expected a file that ends in {expected}; found {found}";
+    expected_found(expected, found) = "expected {expected}; found {found}";
     is_standard_output_as(form) = " `-` is standard output, as {form}; `-.ENDING` another form.";
     write_to_a_file_by_its_ending(contents, standard) = "Write results to a file, by its ending: {contents}.{standard} May be given several times";
     // cli/plan.rs
-    LEAVE_OUT_POINTS_THAT_THE_PLAN = "leave out points that the plan does not need; `linkproof solve` has the numbers of all";
-    has_points_and_a_plan_has_a_vector(name, count, points) = "{name} has {count} points, and a plan has a vector for every two of them: at most {points}";
+    LEAVE_OUT_POINTS_THAT_THE_PLAN = "leave out points that the plan does not need; `linkproof solve` gives the numbers of all points";
+    has_points_and_a_plan_has_a_vector(name, count, points) = "{name} has {count} points, but a plan can have at most {points}: it has a vector for every pair of points";
     // cli/record_args.rs
-    it_is_large_record_hz_would(fewer, files) = "\n           it is large; --record-hz {fewer} would make about {files} of it";
-    THE_ENGINE_IS_AT_WORK_ITS_SIDE = "the engine is at work; its side appears as soon as the proof is done";
-    it_is_kept_linkproof_view(why, path) = "\n           {why}: it is kept;\n           linkproof view {path} --with foxglove -o OTHER.json writes a new one";
-    mcap_is_of_another_run_and_is_kept(scenario, found) = "\n           {scenario}.mcap is of another run and is kept: {found}";
+    it_is_large_record_hz_would(fewer, files) = "\n           it is large; --record-hz {fewer} would reduce it to about {files}";
+    THE_ENGINE_IS_AT_WORK_ITS_SIDE = "the engine is running; its results appear when the proof is done";
+    it_is_kept_linkproof_view(why, path) = "\n           {why}: it is not overwritten;\n           linkproof view {path} --with foxglove -o OTHER.json writes a new one";
+    mcap_is_of_another_run_and_is_kept(scenario, found) = "\n           {scenario}.mcap belongs to another run and is kept: {found}";
     NAME_ANOTHER_DIRECTORY_WITH_RECORD = "name another directory with --record, or use --no-record";
     NAME_ANOTHER_DIRECTORY_OR_USE = "name another directory, or use --no-record";
     recordings_cannot_be_written_to(record, found) = "recordings cannot be written to {record}: {found}";
     LEAVE_OUT_ONE_OF_THE_TWO = "leave out one of the two, or add --live";
-    cannot_be_used_with_no_record(option) = "{option} cannot be used with --no-record: it shapes what is recorded or shown live";
+    cannot_be_used_with_no_record(option) = "{option} cannot be used with --no-record: it only affects recordings and live views";
     // cli/run.rs
-    viewers_can_listen_at_from_now(live) = "viewers can listen at {live} from now on";
+    viewers_can_listen_at_from_now(live) = "viewers can now connect to {live}";
     // cli/run/session.rs
-    NOT_ASKED_FOR = "not asked for";
+    NOT_ASKED_FOR = "not requested";
     // cli/man.rs
     NAME_ANOTHER_DIRECTORY_WITH = "name another directory with -o";
     the_manual_cannot_be_written(to, error) = "the manual cannot be written to {to}: {error}";
     // cli/solve.rs
-    leave_out_or_solve_with_one_of(option, name) = "leave {option} out, or solve --with one of: {name}";
-    is_a_setting_of_an_engine(option, solver) = "{option} is a setting of an engine, but {solver} is analytic and has none";
+    leave_out_or_solve_with_one_of(option, name) = "leave out {option}, or solve --with one of: {name}";
+    is_a_setting_of_an_engine(option, solver) = "{option} is an engine setting, but {solver} is an analytic solver";
     // cli/stress.rs
-    linkproof_stress_out_dir_page(quick, to) = "linkproof stress{quick} --out DIR --page {to}";
-    NAME_A_FILE_IN_A_DIRECTORY = "name a file in a directory that may be written to";
-    seed_of_points_were_run_the_others(text, seed, open, total, args) = "{text}Seed {seed}. {open} of {total} points were run, the others were in {args} already.\n";
-    NAME_ANOTHER_DIRECTORY_OR_REMOVE = "name another directory, or remove what is in the way";
-    NAME_A_DIRECTORY_OR_A_PLACE = "name a directory, or a place where one can be made";
+    linkproof_stress_out_dir_page(quick, to) = "linkproof stress{quick} -o DIR -o {to}";
+    NAME_A_FILE_IN_A_DIRECTORY = "name a file in a writable directory";
+    seed_of_points_were_run_the_others(text, seed, open, total, args) = "{text}Seed {seed}. {open} of {total} points were run, the others were already in {args}.\n";
+    NAME_ANOTHER_DIRECTORY_OR_REMOVE = "name another directory, or remove the file or directory that is there";
+    NAME_A_DIRECTORY_OR_A_PLACE = "name a directory that exists or can be created";
     // cli/synthesize/closed_form.rs
     SLIDER_CRANK_FROM_STROKE_AND_OFFSET = "Slider-crank from stroke and offset";
     linkproof_synthesize_slider_crank_stroke(stroke_mm, offset_mm, told) = "linkproof synthesize slider-crank --stroke-mm {stroke_mm} --offset-mm {offset_mm} {told}";
     CRANK_ROCKER_FROM_TWO_EXTREME = "Crank-rocker from two extreme positions of its rocker";
     linkproof_synthesize_crank_rocker_crank(crank_pivot_mm, crank_pivot_mm_2, pivot_mm, pivot_mm_2, rocker_mm, extreme_deg, swing_deg) = "linkproof synthesize crank-rocker --crank-pivot-mm {crank_pivot_mm},{crank_pivot_mm_2} --pivot-mm {pivot_mm},{pivot_mm_2} --rocker-mm {rocker_mm} --extreme-deg {extreme_deg} --swing-deg {swing_deg}";
-    TWO_NUMBERS_WITH_A_COMMA = "two numbers with a comma between them, such as 150,15";
+    TWO_NUMBERS_WITH_A_COMMA = "two numbers separated by a comma, such as 150,15";
     // cli/synthesize/search.rs
     CHECK_A_SCENARIO_WITH_THE_SAME = "check a scenario with the same links in the same order, such as one that `linkproof synthesize search` wrote";
-    has_another_structure_than_the_drawing(scenario, args) = "{scenario} has another structure than the drawing of {args}";
+    has_another_structure_than_the_drawing(scenario, args) = "{scenario} does not have the structure of the scenario that {args} names";
     found_by(command, report) = "Found by: {command}\n{report}";
     linkproof_synthesize_search_seed_candidates(args, seed, candidates, refined, evaluations) = "linkproof synthesize search {args} --seed {seed} --candidates {candidates} --refined {refined} --evaluations {evaluations}";
     // cli/synthesize/target.rs
     NAME_ANOTHER_FILE = "name another file";
-    the_scenario_found_would_overwrite(source) = "the scenario found would overwrite {source}, which it comes from";
+    the_scenario_found_would_overwrite(source) = "the scenario found would overwrite its source, {source}";
     A_SCENARIO_IS_WRITTEN_TO_A_FILE = "a scenario is written to a file that ends in .toml, or to standard output with `-`";
     // cli/view.rs
-    layout_plotjuggler_file_file_being(to) = "layout     {to}\nplotjuggler -l FILE, FILE being the layout above: it reads the recording by itself.\n";
+    layout_plotjuggler_file_file_being(to) = "layout     {to}\nplotjuggler -l FILE, with the layout above as FILE: the layout loads the recording.\n";
     layout_open_in_foxglove_or_lichtblick(to, args) = "layout     {to}\n1. Open {args} in Foxglove or Lichtblick (open local file).\n2. Layouts, import from file: the layout above. The mechanism then moves beside its plots.\n";
-    OPEN_THE_FILE_FROM_RERUN = "open the file from Rerun itself; it holds the whole picture";
-    rerun_viewer_has_not_shown(to, found) = "Rerun's viewer has not shown {to}: {found}";
+    OPEN_THE_FILE_FROM_RERUN = "open the file in Rerun; it contains the whole scene";
+    rerun_viewer_has_not_shown(to, found) = "Rerun's viewer did not show {to}: {found}";
     PYTHON3_PIP_INSTALL_RERUN_SDK = "`python3 -m pip install rerun-sdk`, or name a Python that has it with --python";
     cannot_be_written_by(to, python, found) = "{to} cannot be written by `{python}`: {found}";
 }

@@ -1,4 +1,5 @@
-//! One test for every scenario of a folder, on a test harness that knows filters, `list` and ignored tests.
+//! One test for every scenario of a folder.
+//! The test harness supports filters, `list` and ignored tests.
 
 use crate::sentences;
 use std::path::{Path, PathBuf};
@@ -12,8 +13,8 @@ use linkage::error::Advice;
 use prover::run::Options;
 use scenario::files_in;
 
-/// Proves every scenario of a folder (`*.toml`, without those of folders inside), each as a test with the name of its
-/// file. The path is relative to the package, in whose directory Cargo runs tests.
+/// Proves every scenario of a folder (`*.toml`, without subfolders), each as a test with the name of its file.
+/// The path is relative to the package, in whose directory Cargo runs tests.
 ///
 /// `tests/scenarios.rs`, whole:
 ///
@@ -68,19 +69,21 @@ impl Folder {
         self
     }
 
-    /// Leaves tests out unless ignored ones are asked for, by their names: files without `.toml`.
+    /// Marks tests as ignored: they run only if ignored tests are requested.
+    /// The names are those of the files, without `.toml`.
     pub fn ignored<N: Into<String>>(mut self, names: impl IntoIterator<Item = N>) -> Self {
         self.ignored.extend(names.into_iter().map(Into::into));
         self
     }
 
-    /// Runs the tests as the arguments of the program ask, and gives its exit code.
+    /// Runs the tests selected by the arguments of the program, and returns its exit code.
     #[must_use = "the exit code says whether all agree"]
     pub fn main(self) -> ExitCode {
         run(&Arguments::from_args(), self.trials()).exit_code()
     }
 
-    /// A test for each scenario. What is wrong with the folder is a test that fails: no list of tests hides it.
+    /// A test for each scenario.
+    /// If the folder cannot be used, the error becomes a failing test, which every list of tests shows.
     fn trials(self) -> Vec<Trial> {
         let files = match files_in(&self.path) {
             Ok(files) if files.is_empty() => return vec![self.wrong(sentences::THERE_IS_NO_SCENARIO_TOML)],
@@ -131,14 +134,14 @@ mod tests {
         folder
     }
 
-    /// How many tests passed, failed, were ignored and were filtered out.
+    /// Numbers of tests that passed, failed, were ignored and were filtered out.
     fn outcome(folder: Folder, arguments: &Arguments) -> [u64; 4] {
         let found = run(arguments, folder.trials());
         [found.num_passed, found.num_failed, found.num_ignored, found.num_filtered_out]
     }
 
     #[test]
-    fn every_scenario_is_a_test_of_its_own() {
+    fn every_scenario_is_a_separate_test() {
         let folder = folder();
         let all = Folder::of(folder.path()).trials();
         assert_eq!(all.iter().map(Trial::name).collect::<Vec<_>>(), ["broken", "right"]);
@@ -152,14 +155,14 @@ mod tests {
     }
 
     #[test]
-    fn options_reach_every_proof() {
+    fn options_apply_to_every_proof() {
         let folder = folder();
         let coarse = Folder::of(folder.path()).with(Options::default().step(0.2)).ignored(["broken"]);
         assert_eq!(outcome(coarse, &Arguments::default()), [0, 1, 1, 0]);
     }
 
     #[test]
-    fn a_folder_that_tests_nothing_fails() {
+    fn a_folder_without_tests_fails() {
         let empty = tempfile::tempdir().unwrap();
         for folder in [Folder::of(empty.path()), Folder::of(empty.path().join("missing"))] {
             assert_eq!(outcome(folder, &Arguments::default()), [0, 1, 0, 0]);

@@ -158,7 +158,7 @@ def check_plans(tab, data, linkproof, scenario):
     for at in sorted({count // 7, count // 3, 5 * count // 6}):
         tab.evaluate(GO_TO, at)
         crank = tab.evaluate("() => crank[shown.row]")
-        made = subprocess.run([linkproof, "plan", scenario, f"--crank-deg={math.degrees(crank)!r}", "--json", "-"], capture_output=True, text=True)
+        made = subprocess.run([linkproof, "plan", scenario, f"--crank-deg={math.degrees(crank)!r}", "-o", "-"], capture_output=True, text=True)
         need(made.returncode == 0, made.stderr)
         right = json.loads(made.stdout)
         for number, plan in enumerate(plans):

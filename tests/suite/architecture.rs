@@ -1,5 +1,6 @@
-//! The architecture as a test. It checks which crate and which room may use which, that no two files use each other in
-//! a circle, that the two analytic sides share only their common base, and a few rules for every file.
+//! The architecture as a test.
+//! It checks which crate and which module may use which, and that no files depend on each other in a circle.
+//! It also checks that the two analytic sides share only their common base, and a few rules for every file.
 
 mod graph;
 
@@ -9,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use graph::Graph;
 
-/// Every crate: name in code, directory, the other crates of the workspace that it may use, and the foreign crates. The
-/// table is as tight as the manifests: an unused entry fails too.
+/// Every crate: name in code, directory, the workspace crates that it may use, and the foreign crates that it may use.
+/// The table must match the manifests: an unused entry fails too.
 const CRATES: &[(&str, &str, &str, &str)] = &[
     ("linkage", "crates/linkage", "", "nalgebra petgraph"),
     ("analytic", "crates/analytic", "linkage", "differential-equations num-integer pulp wide"),
@@ -50,7 +51,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     ),
 ];
 
-/// Rooms of the crates that have inner walls, and what they may use of their own crate.
+/// Top-level modules of the crates with internal rules, and the modules of the same crate that each may use.
 const ROOMS: &[(&str, &str)] = &[
     ("linkage::case", "drive error input math mechanism trajectory"),
     ("linkage::drive", "input math mechanism"),
@@ -107,47 +108,51 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::testing", "plain"),
 ];
 
-/// Parts of other crates that a room must not name, although its crate may.
+/// Parts of other crates that a module must not name, although its crate may.
 const NEVER: &[(&str, &str)] = &[
     // Only trajectories are compared.
     ("prover::bounds", "analytic rapier_twin simbody_twin linkage::case linkage::mechanism linkage::solver"),
-    // It solves changed cases with the solver that it is given.
+    // Diagnosis solves changed cases with the solver that it receives as an argument.
     ("prover::diagnosis", "analytic rapier_twin simbody_twin linkage::engine"),
     ("prover::tolerance", "analytic rapier_twin simbody_twin linkage"),
-    // Engines come from one list only.
+    // A run takes its engines only from the list in `prover::engines`.
     ("prover::run", "rapier_twin simbody_twin"),
-    // Results of the analytic crate and of design work are shown here, but no motion is computed.
+    // Reports show results of the analytic crate and of design work, but compute no motion.
     ("linkproof::report", "analytic::assur analytic::assur_solver analytic::motion analytic::newton rapier_twin"),
     ("linkproof::cli", "rapier_twin"),
-    // Drawings of mechanisms are the same whatever solves them.
+    // Drawings of mechanisms do not depend on the solver.
     ("lab::specimens", "analytic prover linkage::solver"),
-    // It knows other programs, and none of ours.
+    // The module knows other programs, but not the solvers of this project.
     ("lab::outside", "analytic prover linkage"),
-    // States of any solver can be drawn and exported.
+    // Diagrams, drawings and exports accept the states of any solver.
     ("design::diagram", "analytic"),
     ("design::export", "analytic"),
     ("design::synthesize::task", "analytic linkage::solver"),
 ];
 
-/// Names that only some rooms may use. Foreign crates stay behind the room that wraps them, the clock and the terminal
-/// behind the command line, and files behind the rooms that read or write them. No result depends on the order of a
-/// hash.
+/// Names that only some modules may use.
+/// Foreign crates are used only in the module that wraps them.
+/// Only the command line uses the clock and the terminal.
+/// Only the modules that read or write files use the file system.
+/// Unordered hash tables are banned, so that no result depends on their order.
 const HOMES: &[(&str, &str)] = &[
     ("mcap", "recording"),
     ("foxglove", ""),
     ("prost", "recording"),
     ("prost_types", "recording"),
     ("toml", "scenario"),
-    ("toml_edit", "design::synthesize::redraw scenario"),
+    ("toml_edit", "design::synthesize scenario"),
     ("comfy_table", "linkproof::plain linkproof::report"),
-    // Other programs are run in one room. `testing` gives an exit code.
+    // Only one module runs other programs.
+    // `testing` uses only an exit code.
     ("Command", "linkproof::cli lab::outside"),
     ("process", "linkproof::cli lab::outside linkproof::testing"),
     ("serde", "lab::stress linkproof::report"),
     ("base64", "linkproof::report"),
     ("strsim", "scenario"),
     ("serde_json", "lab::outside linkproof::report"),
-    // `scenario` reads tables of published numbers, `outside` those of peers, `tables` any; `report` writes tables.
+    // `scenario` reads tables of published numbers, `outside` reads tables of peers, and `tables` reads any table.
+    // `report` writes tables.
     ("csv", "lab::outside linkproof::report scenario prover::tables"),
     ("parquet", "prover::tables"),
     ("flate2", "prover::tables"),
@@ -159,7 +164,7 @@ const HOMES: &[(&str, &str)] = &[
     ("terminal_size", "linkproof::cli"),
     ("textwrap", "linkproof::plain"),
     ("indicatif", "linkproof::cli"),
-    // The network is the command line's, as the clock is.
+    // Only the command line uses the network and the clock.
     ("ctrlc", "linkproof::cli"),
     ("tungstenite", "linkproof::cli"),
     ("TcpListener", "linkproof::cli"),
@@ -198,11 +203,11 @@ const HOMES: &[(&str, &str)] = &[
     ("HashSet", ""),
 ];
 
-/// Files and directories of side 1 and side 2. Both may use the mechanism, and the integrator with the interface that
-/// it needs from a side.
+/// Files and directories of side 1 and side 2.
+/// Both may use the mechanism and the integrator, including the interface through which the integrator calls a side.
 const SIDES: [&[&str]; 2] = [&["assur", "assur_solver.rs"], &["newton"]];
 
-/// A longer file has more than one purpose.
+/// Upper limit of the lines of a file; a longer file has more than one purpose.
 const MOST_LINES: usize = 600;
 
 /// Words that no code may contain.
@@ -217,7 +222,7 @@ fn roots() -> Vec<(&'static str, PathBuf)> {
     CRATES.iter().map(|&(name, directory, ..)| (name, top().join(directory).join("src/lib.rs"))).collect()
 }
 
-/// The room of a file, `analytic::assur`: its crate and the first module below the crate's root.
+/// The module of a file, such as `analytic::assur`: its crate and the first module below the crate's root.
 fn room(file: &Path) -> String {
     let inside = file.strip_prefix(top()).unwrap_or(file);
     let of = |&&(_, directory, ..): &&(&str, &str, &str, &str)| inside.starts_with(Path::new(directory).join("src"));
@@ -242,7 +247,7 @@ fn rust_files(directory: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Edges between rooms of different names: from, to, and a sentence that states the file and the path of the edge.
+/// Dependencies between modules: the using module, the used module, and a sentence that states the file and the path.
 fn room_edges() -> BTreeMap<(String, String), String> {
     let mut edges = BTreeMap::new();
     for ((from, to), path) in Graph::of(&roots()).edges() {
@@ -261,12 +266,13 @@ fn pairs(table: &'static [(&str, &str)]) -> impl Iterator<Item = (&'static str, 
     table.iter().flat_map(|(from, all)| all.split_whitespace().map(|to| (*from, to)))
 }
 
-/// Reports all errors in one message.
+/// Fails with all errors in one message; passes if `wrong` is empty.
 fn nothing(wrong: Vec<String>) {
     assert!(wrong.is_empty(), "\n{}\n", wrong.join("\n"));
 }
 
-/// The dependencies that a manifest has for users: names of packages, whatever the code calls them.
+/// The dependencies of a manifest, without development dependencies.
+/// They are package names, even if the code renames them.
 fn dependencies(manifest: &Path) -> BTreeSet<String> {
     let read = |manifest: &Path| fs::read_to_string(manifest).unwrap().parse::<toml::Table>().unwrap();
     let shared = read(&top().join("Cargo.toml"));
@@ -279,7 +285,7 @@ fn dependencies(manifest: &Path) -> BTreeSet<String> {
 }
 
 #[test]
-fn manifests_have_the_dependencies_of_the_table_and_no_other() {
+fn manifests_have_exactly_the_dependencies_of_the_table() {
     for (name, directory, own, foreign) in CRATES {
         let own = own.split_whitespace().map(|own| format!("linkproof-{own}"));
         let allowed: BTreeSet<String> = own.chain(foreign.split_whitespace().map(String::from)).collect();
@@ -303,7 +309,7 @@ fn the_map_has_the_edges_of_the_table() {
     }
 }
 
-/// The file or directory that the map calls so: from the root, or by its crate.
+/// The file or directory that a name in ARCHITECTURE.md means: a path from the root, or a crate with a path in it.
 fn of_the_map(name: &str) -> PathBuf {
     match name.split_once('/') {
         Some((own, rest)) if top().join("crates").join(own).is_dir() => {
@@ -321,7 +327,7 @@ fn map_pages() -> Vec<(String, String)> {
 }
 
 #[test]
-fn every_file_that_the_map_names_is_there() {
+fn every_file_named_by_the_map_exists() {
     let mut missing = Vec::new();
     for (page, text) in map_pages() {
         let named = text.split('`').skip(1).step_by(2);
@@ -336,7 +342,7 @@ fn the_map_is_short() {
     assert!(fs::metadata(top().join("ARCHITECTURE.md")).unwrap().len() <= 15_000);
 }
 
-/// A page of numerics is linked from the files that implement it.
+/// Every page of docs/numerics is named by a source file.
 #[test]
 fn every_page_of_numerics_is_named_by_a_file() {
     let files = ["src", "crates"].map(|directory| rust_files(&top().join(directory))).concat();
@@ -348,7 +354,7 @@ fn every_page_of_numerics_is_named_by_a_file() {
 }
 
 #[test]
-fn rooms_know_only_what_the_table_allows() {
+fn rooms_import_only_what_the_table_allows() {
     let allowed: BTreeSet<(String, String)> =
         pairs(ROOMS).map(|(from, to)| (from.into(), format!("{}::{to}", from.split("::").next().unwrap()))).collect();
     let edges = room_edges();
@@ -378,7 +384,7 @@ fn every_room_of_a_ruled_crate_has_a_row() {
 }
 
 #[test]
-fn what_must_never_be_seen_is_not() {
+fn forbidden_imports_are_absent() {
     let edges = room_edges();
     let mut wrong = Vec::new();
     for (from, to) in pairs(NEVER) {
@@ -389,8 +395,8 @@ fn what_must_never_be_seen_is_not() {
     nothing(wrong);
 }
 
-/// Files of the analytic crate that both sides reach, directly or through others. A side that reaches the other side
-/// shares its files.
+/// Files of the analytic crate that both sides use, directly or through other files.
+/// If one side uses the other, the files of the other side count as shared.
 fn shared_by_the_sides(root: &Path) -> Vec<String> {
     let mut next: BTreeMap<PathBuf, BTreeSet<PathBuf>> = BTreeMap::new();
     for (from, to) in Graph::of(&[("analytic", root.join("lib.rs"))]).edges().into_keys() {
@@ -419,7 +425,7 @@ fn the_two_sides_share_the_integrator_and_nothing_else() {
 }
 
 #[test]
-fn one_import_more_between_the_sides_is_found() {
+fn an_additional_import_between_the_sides_is_found() {
     let planted = [
         ("assur/turns.rs", "use crate::newton::NewtonSolver;"),
         ("newton/constraint.rs", "fn borrowed(case: &Case) { let _ = crate::PoseSolver::new(case); }"),
@@ -436,7 +442,7 @@ fn one_import_more_between_the_sides_is_found() {
     }
 }
 
-/// The sources of the analytic crate in a directory of their own.
+/// A copy of the sources of the analytic crate in a temporary directory.
 fn copy_of_analytic() -> tempfile::TempDir {
     let copy = tempfile::tempdir().unwrap();
     for file in rust_files(&top().join("crates/analytic/src")) {
@@ -448,9 +454,9 @@ fn copy_of_analytic() -> tempfile::TempDir {
 }
 
 #[test]
-fn no_files_know_each_other_in_a_circle() {
+fn no_files_import_each_other_in_a_cycle() {
     let edges = Graph::of(&roots()).edges();
-    // Files that use no remaining file are removed again and again.
+    // Repeatedly removes the files that use no remaining file.
     let mut left: BTreeMap<&PathBuf, BTreeSet<&PathBuf>> = BTreeMap::new();
     for (from, to) in edges.keys() {
         left.entry(from).or_default().insert(to);
@@ -470,9 +476,9 @@ fn no_files_know_each_other_in_a_circle() {
     nothing(circle.map(told).collect());
 }
 
-/// A type's name says what it is without its path.
+/// A type's name is clear without its path.
 #[test]
-fn no_public_type_name_stands_twice() {
+fn public_type_names_are_unique() {
     let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (_, root) in roots() {
         for file in rust_files(root.parent().unwrap()) {
@@ -497,13 +503,13 @@ fn no_public_type_name_stands_twice() {
 }
 
 #[test]
-fn a_module_with_files_below_it_stands_beside_them() {
+fn no_module_is_a_mod_rs_file() {
     let old = roots().into_iter().flat_map(|(_, root)| rust_files(root.parent().unwrap()));
     nothing(old.filter(|file| file.ends_with("mod.rs")).map(|file| file.display().to_string()).collect());
 }
 
 #[test]
-fn what_has_a_home_stays_there() {
+fn restricted_dependencies_are_used_only_in_their_rooms() {
     let mut wrong = Vec::new();
     for (file, names) in Graph::of(&roots()).names() {
         let room = room(&file);
@@ -518,9 +524,9 @@ fn what_has_a_home_stays_there() {
     nothing(wrong);
 }
 
-/// This word may stand in one file of the repository only, and there with a reason at every place.
+/// Only one file of the repository may contain `unsafe`, and every use in this file needs a reason.
 #[test]
-fn unsafe_code_is_at_the_boundary_to_simbody_alone() {
+fn unsafe_code_is_only_at_the_boundary_to_simbody() {
     let word = BANNED[0];
     let file = top().join("crates/simbody/src/ffi.rs");
     let text = fs::read_to_string(file).unwrap();

@@ -13,7 +13,7 @@ const TABLE: &str = "crank_deg,Bx_mm\n0,301.12\n90,298.5\n";
 
 /// One bad scenario.
 struct Bad<'a> {
-    /// Replacements in the good scenario; each must apply.
+    /// Replacements in the good scenario; the replaced text of each must occur.
     edits: &'a [(&'static str, &'static str)],
     kind: ErrorKind,
     /// Text of the edited scenario; the error must point at the line of its first occurrence.
@@ -60,7 +60,7 @@ fn assert_all_refused(cases: &[Bad]) {
 
 const INPUT: ErrorKind = ErrorKind::Input;
 
-/// A case of one edit.
+/// A bad scenario that differs from the good one by one edit.
 macro_rules! bad {
     ($from:expr => $to:expr, $kind:expr, at $at:expr, key $key:expr, [$($word:expr),+ $(,)?]) => {
         Bad { edits: &[($from, $to)], kind: $kind, at: $at, key: $key, words: &[$($word),+] }
@@ -78,38 +78,39 @@ mod sliders;
 mod timed;
 
 #[test]
-fn the_good_scenario_is_good() {
+fn the_unedited_scenario_is_valid() {
     let scenario = parse(GOOD, TABLE).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(scenario.case.grid.len(), 37);
     assert_eq!(scenario.oracles[0].series[0].points[1].digits, 2);
 }
 
-/// Symptom: masses of 1e300 ended in DISAGREE by NaN, and a start at 1e18 deg in no end at all.
+/// Symptoms: masses of 1e300 ended in DISAGREE by NaN; a start at 1e18 deg never ended.
 #[test]
-fn regress_numbers_that_leave_no_digits_are_refused() {
-    let mass = ["found 1e", "a mass is zero or of a size from 1e-100 to 1e30 kg", "check the unit"];
+fn regress_numbers_of_extreme_size_are_refused() {
+    let mass = ["found 1e", "a mass must be zero or of a magnitude from 1e-100 to 1e30 kg", "check the unit"];
     assert_all_refused(&[
         bad!("mass_kg = 2.6" => "mass_kg = 1e300", INPUT, at "mass_kg = 1e300", key "links.crank.mass_kg", [mass[0], mass[1], mass[2]]),
         bad!("mass_kg = 2.6" => "mass_kg = 1e-300", INPUT, at "mass_kg = 1e-300", key "links.crank.mass_kg", [mass[0], mass[1]]),
         bad!("inertia_kg_m2 = 0.0002" => "inertia_kg_m2 = 1e31", INPUT, at "inertia_kg_m2 = 1e31",
             key "links.crank.inertia_kg_m2", ["to 1e30 kg_m2"]),
         bad!("crank_deg = 0\n[[start" => "crank_deg = 1e10\n[[start", INPUT, at "[start]", key "start.crank",
-            ["starts 2.8e7 turns away", "the limit is 1e5", "within a turn"]),
+            ["starts 2.8e7 turns from zero", "the limit is 1e5", "within a turn"]),
     ]);
 }
 
-/// Symptom: 1e18 rpm ended in DISAGREE, and lengths of 1e12 m in a pose that was called singular. Cause: one limit of
-/// 1e30 for every quantity, far beyond what both sides and an engine can tell apart.
+/// Symptoms: 1e18 rpm ended in DISAGREE; with lengths of 1e12 m, a pose was called singular.
+/// Cause: one limit of 1e30 for every quantity, far beyond what the sides and an engine can resolve.
 #[test]
-fn regress_what_no_machine_has_is_refused() {
+fn regress_values_beyond_any_machine_are_refused() {
     assert_all_refused(&[
         bad!("speed_rpm = 130" => "speed_rpm = 1e18", INPUT, at "speed_rpm", key "drive.speed_rpm",
-            ["found 1e18", "an angular velocity is zero or of a size from 1e-100 to 1e9 rad_s", "check the unit"]),
+            ["found 1e18", "an angular velocity must be zero or of a magnitude from 1e-100 to 1e9 rad_s",
+                "check the unit"]),
         bad!("speed_rpm = 130" => "speed_rpm = 1e30", INPUT, at "speed_rpm", key "drive.speed_rpm", ["to 1e9 rad_s"]),
         bad!("y_m_s2 = -9.81" => "y_m_s2 = -1e30", INPUT, at "y_m_s2 = -1e30", key "gravity.y_m_s2", ["to 1e12 m_s2"]),
         bad!("mass_kg = 2.6" => "mass_g = 1e34", INPUT, at "mass_g = 1e34", key "links.crank.mass_g", ["to 1e30 kg"]),
     ]);
-    // What is allowed one by one may be too much together.
+    // Values may be allowed one by one, but be too large together.
     let fast = GOOD.replacen("speed_rpm = 130", "speed_rpm = 9e9", 1).replace("_mm = ", "_m = ");
     let error = parse(&fast, TABLE).unwrap_err();
     assert!(error.message().contains("faster than light"), "{error}");
@@ -131,7 +132,8 @@ fn regress_more_parts_than_can_be_drawn_are_refused() {
     assert!(error.scenario_key().is_some_and(|key| key.starts_with("links.rocker.points.P29")), "{error}");
 }
 
-/// Symptom: an array of 31 million numbers took 5.95 GB before anything was estimated. Cause: the file was parsed first.
+/// Symptom: an array of 31 million numbers took 5.95 GB before anything was estimated.
+/// Cause: the file was parsed first.
 #[test]
 fn regress_more_values_than_memory_can_hold_are_counted_before_they_are_read() {
     let text = format!("{GOOD}\n[x]\na = [{}1]\n", "1,".repeat(2_000_000));
@@ -141,8 +143,9 @@ fn regress_more_values_than_memory_can_hold_are_counted_before_they_are_read() {
     assert!(error.way_out().is_some());
 }
 
-/// Symptom: 20 000 parameters took 19 s. Cause: the graph of every text had all names of the file, and every key and
-/// every name was sought from the front.
+/// Symptom: 20 000 parameters took 19 s.
+/// Cause: for every text, the graph held all names of the file.
+/// Every search for a key or a name also began at the start of the file.
 #[test]
 fn regress_twenty_thousand_parameters_and_points_are_read() {
     let parameters: String = (0..20_000)
@@ -157,10 +160,10 @@ fn regress_twenty_thousand_parameters_and_points_are_read() {
     let ground = &scenario.case.mechanism.links()[LinkId(0)];
     let last = ground.points.iter().find(|point| point.name == "Q19999").unwrap();
     assert!((last.local.x - 20.0).abs() < 1e-12, "{last:?}");
-    // Each of as many mistakes is compared with no more names than a reader could look at.
+    // If a file has this many mistakes, each is compared with only a limited number of names.
     let wrong = text.replacen("\"p19998 + 1\"", "\"pp\"", 1);
     let error = parse(&wrong, TABLE).unwrap_err();
-    assert!(error.to_string().contains("it is none of more than 1000 names"), "{error}");
+    assert!(error.to_string().contains("it is not among the more than 1000 names"), "{error}");
 }
 
 #[test]
@@ -185,7 +188,7 @@ fn keys_and_sections() {
         bad!("[drive]" => "[[drive]]\njoint = \"O\"\nspeed_rpm = 10\n[[drive]]", INPUT, at "[[drive]]\njoint = \"O\"\nspeed_rpm = 130",
             key "drive[2]", ["`start_rad` or `start_deg`"]),
         bad!("[drive]" => "[[drive]]\njoint = \"O\"\nspeed_rpm = 10\n[[drive]]\nstart_deg = 0", INPUT,
-            at "joint = \"O\"\nspeed_rpm = 130", key "drive[2].joint", ["driven already"]),
+            at "joint = \"O\"\nspeed_rpm = 130", key "drive[2].joint", ["already driven"]),
         bad!("[drive]" => "[[drive]]\njoint = \"C\"\nspeed_rpm = 10\n[[drive]]\nstart_deg = 0", INPUT,
             at "[[joints]]", key "joints", ["number of drives is 2"]),
         bad!("[[loads]]" => "[loads]", INPUT, at "[loads]", key "loads", ["a table", "write [[loads]]"]),
@@ -200,15 +203,15 @@ fn keys_and_sections() {
 fn numbers_and_units() {
     assert_all_refused(&[
         bad!("mass_kg = 2.6" => "mass = 2.6", INPUT, at "mass = 2.6", key "links.crank.mass",
-            ["carries no unit", "`mass_kg` or `mass_g`"]),
+            ["has no unit", "`mass_kg` or `mass_g`"]),
         bad!("length_mm = 26" => "length = 26", INPUT, at "length = 26", key "links.crank.points.A.length",
-            ["carries no unit", "`length_m` or `length_mm`"]),
+            ["has no unit", "`length_m` or `length_mm`"]),
         bad!("length_mm = 26" => "length_cm = 2.6", INPUT, at "length_cm", key "links.crank.points.A.length_cm",
-            ["does not end in a unit that a length has", "`length_m` or `length_mm`"]),
+            ["`length_cm` is in centimetres, which are not supported", "`length_m` or `length_mm`", "1 cm = 10 mm"]),
         bad!("length_mm = 26" => "length_mm = 26, length_m = 0.026", INPUT, at "length_mm = 26",
             key "links.crank.points.A.length_m", ["both given", "keep one"]),
         bad!("speed_rpm = 130" => "speed_rps = 2", INPUT, at "speed_rps", key "drive.speed_rps",
-            ["an angular velocity", "`speed_rad_s` or `speed_rpm`"]),
+            ["in turns per second, which are not supported", "`speed_rad_s` or `speed_rpm`", "1 turn/s = 60 rpm"]),
         bad!("mass_kg = 2.6" => "mass_kg = nan", INPUT, at "mass_kg = nan", key "links.crank.mass_kg",
             ["found nan", "finite number"]),
         bad!("x_mm = 347" => "x_mm = -inf", INPUT, at "x_mm = -inf", key "links.coupler.points.B.x_mm",
@@ -217,7 +220,7 @@ fn numbers_and_units() {
         bad!("mass_kg = 2.6" => "mass_kg = -2.6", INPUT, at "mass_kg = -2.6", key "links.crank.mass_kg",
             ["found -2.6", "a mass must not be negative"]),
         bad!("mass_kg = 2.6" => "mass_kg = \"2,6\"", INPUT, at "\"2,6\"", key "links.crank.mass_kg",
-            ["a comma stands between arguments", "decimal point"]),
+            ["a comma is allowed only between the arguments", "decimal point"]),
         bad!("mass_kg = 2.6\n" => "", INPUT, at "inertia_kg_m2", key "links.crank.inertia_kg_m2", ["no mass", "mass_kg"]),
         bad!("mass_centre = { x_mm = 13, y_mm = 0 }\n" => "", INPUT, at "mass_kg", key "links.crank.mass_kg",
             ["no mass centre", "mass_centre ="]),
@@ -237,7 +240,7 @@ fn toml_itself() {
         (GOOD.replace("[drive]", "[drive"), line_of(GOOD, "[drive]"), "not valid TOML"),
         (GOOD.replace("mass_kg = 2.6", "mass_kg = 2,6"), line_of(GOOD, "mass_kg"), "not valid TOML"),
         (GOOD.replace("name = \"good\"", "name = \"good\"\nname = \"twice\""), 3, "duplicate key"),
-        (String::new(), 1, "holds no scenario"),
+        (String::new(), 1, "contains no scenario"),
     ] {
         let error = parse(&text, TABLE).unwrap_err();
         assert_eq!((error.kind(), error.place().unwrap().line()), (INPUT, line), "{error}");
@@ -253,9 +256,9 @@ fn links_and_joints() {
         bad!("name = \"B\"\n" => "name = \"B\"\npoint = \"F\"\n", INPUT, at "point = \"F\"", key "joints.B.point",
             ["link \"coupler\" has no point \"F\""]),
         bad!("A = { from = \"O\"" => "A = { from = \"Q\"", INPUT, at "from = \"Q\"", key "links.crank.points.A.from",
-            ["no point \"Q\" stands before", "\"O\""]),
+            ["no point \"Q\" is defined before", "\"O\""]),
         bad!("O = { x_mm = 0, y_mm = 0 }\nA =" => "O = { from = \"A\", length_mm = 26, angle_deg = 0 }\nA =", INPUT,
-            at "from = \"A\"", key "links.crank.points.O.from", ["no point \"A\" stands before"]),
+            at "from = \"A\"", key "links.crank.points.O.from", ["no point \"A\" is defined before"]),
         bad!("B = { x_mm = 347, y_mm = 0 }" => "B = { x_mm = 347 }", INPUT, at "x_mm = 347",
             key "links.coupler.points.B", ["`y_m` or `y_mm` is missing"]),
         bad!("[links.rocker.points]" => "[links.ground.points]\nE = { x_mm = 1, y_mm = 0 }\n[links.rocker.points]", INPUT,
@@ -267,7 +270,7 @@ fn links_and_joints() {
         bad!("links = [\"crank\", \"coupler\"]" => "links = [\"crank\", \"cuopler\"]", INPUT, at "cuopler",
             key "joints.A.links", ["no link \"cuopler\"", "did you mean \"coupler\""]),
         bad!("[links.rocker.points]" => "[links.rocker.points]\nA = { x_mm = 1, y_mm = 0 }", INPUT,
-            at "A = { x_mm = 1,", key "links.rocker.points.A", ["no joint holds the two together", "rename"]),
+            at "A = { x_mm = 1,", key "links.rocker.points.A", ["no joint connects them", "rename"]),
         bad!("[links.coupler.points]" => "[links.coupler.points]\n\"A B\" = { x_mm = 1, y_mm = 0 }", INPUT,
             at "\"A B\"", key "links.coupler.points.A B", ["cannot be the name of a point", "letters"]),
         bad!("links = [\"crank\", \"coupler\"]" => "links = [\"crank\", \"crank\"]", INPUT, at "\"crank\", \"crank\"",
@@ -283,11 +286,12 @@ fn links_and_joints() {
         bad!("type = \"revolute\"" => "type = \"prismatic\"\naxis_deg = 0\npoints = [\"O\", \"Z\"]", INPUT, at "[\"O\", \"Z\"]",
             key "joints.O.points", ["no point \"Z\""]),
         bad!("type = \"revolute\"" => "type = \"prismatic\"\naxis_deg = 0\npoints = [\"O\", \"O\"]", INPUT,
-            at "O = { x_mm = 0, y_mm = 0 }\nA", key "links.crank.points.O", ["no joint holds the two together"]),
+            at "O = { x_mm = 0, y_mm = 0 }\nA", key "links.crank.points.O", ["no joint connects them"]),
         bad!("type = \"revolute\"" => "type = \"hinge\"", INPUT, at "hinge", key "joints.O.type",
-            ["no type of joint", "\"revolute\""]),
+            ["not a type of joint", "\"revolute\""]),
         bad!("[drive]" => "[[joints]]\nname = \"B2\"\npoint = \"B\"\ntype = \"revolute\"\nlinks = [\"coupler\", \"rocker\"]\n[drive]",
-            INPUT, at "links = [\"coupler\", \"rocker\"]\n[drive]", key "joints.B2.links", ["\"B\" joins", "lock"]),
+            INPUT, at "links = [\"coupler\", \"rocker\"]\n[drive]", key "joints.B2.links",
+            ["\"B\" already joins \"coupler\" and \"rocker\"", "lock"]),
     ]);
 }
 
@@ -334,7 +338,7 @@ fn structure_and_drive() {
         bad!("link = \"rocker\"" => "link = \"ground\"", INPUT, at "link = \"ground\"", key "loads[1].link",
             ["does not turn"]),
         bad!("type = \"resistance\"" => "type = \"sprong\"", INPUT, at "sprong", key "loads[1].type",
-            ["no type of load", "did you mean \"spring\""]),
+            ["not a type of load", "did you mean \"spring\""]),
     ]);
 }
 
@@ -345,7 +349,7 @@ fn first_pose() {
         bad!("x_mm = 347" => "x_mm = 47", ErrorKind::Geometry, at "[[start.groups]]", key GROUP,
             ["cannot be assembled", "check the lengths"]),
         bad!("mode = \"left\"" => "near = { point = \"B\", x_mm = 90, y_mm = 10 }", ErrorKind::Geometry,
-            at "[[start.groups]]", key GROUP, ["does not tell them apart"]),
+            at "[[start.groups]]", key GROUP, ["does not distinguish them"]),
         bad!("mode = \"left\"" => "mode = \"right\"\nnear = { point = \"B\", x_mm = 200, y_mm = 260 }", ErrorKind::Geometry,
             at "[[start.groups]]", key GROUP, ["nearer to another configuration"]),
         bad!("mode = \"left\"\n" => "", INPUT, at "[[start.groups]]", key GROUP, ["neither an assembly mode"]),
@@ -384,7 +388,7 @@ fn grid_channels_and_engine() {
         bad!("from_deg = 0\nto_deg = 360\nstep_deg = 10" => "times_s = 0.1", INPUT, at "times_s", key "grid.times_s",
             ["an array of numbers"]),
         bad!("from_deg = 0\nto_deg = 360\nstep_deg = 10" => "times = [0, 1]", INPUT, at "times", key "grid.times",
-            ["`times` carries no unit", "`times_s` or `times_ms`"]),
+            ["`times` has no unit", "`times_s` or `times_ms`"]),
         bad!("from_deg = 0\nto_deg = 360\nstep_deg = 10" => "times_s = [0]\ntimes_ms = [1]", INPUT, at "times_ms",
             key "grid.times_ms", ["both given"]),
         bad!("from_deg = 0\nto_deg = 360\nstep_deg = 10" => "times_s = [0]\nangles_rad = [1]", INPUT, at "times_s",
@@ -394,11 +398,11 @@ fn grid_channels_and_engine() {
         bad!("from_deg = 0\nto_deg = 360\nstep_deg = 10" => "times_s = [0]\nstep_s = 1", INPUT, at "step_s",
             key "grid.step_s", ["not known here"]),
         bad!("from_deg = 0\nto_deg = 360\nstep_deg = 10" => "times_s = [0, 1e12]", INPUT, at "[grid]", key "grid",
-            ["turns away, the limit is"]),
+            ["turns from zero; the limit is"]),
         bad!("from_deg = 0" => "from_deg = 0\nfrom_s = 0", INPUT, at "from_s = 0", key "grid.from_s", ["both given"]),
         bad!("\"velocities\"" => "\"velocity\"", INPUT, at "want", key "channels.want",
-            ["no channels \"velocity\"", "did you mean \"velocities\""]),
-        bad!("\"positions\", \"velocities\"" => "", INPUT, at "want", key "channels.want", ["nothing is wanted"]),
+            ["no channel \"velocity\"", "did you mean \"velocities\""]),
+        bad!("\"positions\", \"velocities\"" => "", INPUT, at "want", key "channels.want", ["no channel is requested"]),
         bad!("dt_s = 1e-3" => "dt_s = 0", INPUT, at "dt_s = 0", key "engine.dt_s", ["a time must be positive"]),
         bad!("dt_s = 1e-3" => "dt_s = 1e-3\nstep_deg = 1", INPUT, at "step_deg = 1\n\n[tol", key "engine.step_deg",
             ["given twice"]),
@@ -416,7 +420,7 @@ fn motors() {
     let slope = motor("[motor]\nlaw = \"linear\"\ntorque_at_rest_N_m = 1\nslope_N_m_s = 1\nratio = 1\n[start]");
     let ratio = motor("[motor]\nlaw = \"linear\"\ntorque_at_rest_N_m = 1\nslope_N_m_s = -1\nratio = 0\n[start]");
     for (edits, at, key, words) in [
-        (law, "law =", "motor.law", ["no law of a motor", "\"linear\""]),
+        (law, "law =", "motor.law", ["not a law of a motor", "\"linear\""]),
         (slope, "slope_N", "motor.slope_N_m_s", ["must be negative", "less than zero"]),
         (ratio, "ratio =", "motor.ratio", ["found 0", "without a reducer"]),
     ] {
@@ -431,7 +435,7 @@ fn oracles() {
         bad!("file = \"table.csv\"" => "file = \"tables.csv\"", ErrorKind::Io, at "tables.csv", key "oracle[1].file",
             ["cannot be read", "relative to the scenario's directory"]),
         bad!("crank = \"crank_deg\"" => "crank = \"crank\"", INPUT, at "crank = \"crank\"", key "oracle[1].crank",
-            ["does not say its unit"]),
+            ["does not state its unit"]),
         bad!("channel = \"point.B.x_mm\"" => "channel = \"point.E.x_mm\"", INPUT, at "point.E", key
             "oracle[1].columns.Bx_mm.channel", ["no channel \"point.E.x_mm\"", "\"A\" or \"B\""]),
         bad!("channel = \"point.B.x_mm\"" => "channel = \"point.C.x_cm\"", INPUT, at "point.C", key
@@ -454,20 +458,21 @@ fn oracles() {
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"steady_motor_speed_rad_s\"", INPUT, at "figures =", key
             "oracle[3].figures[1].figure", ["needs a motor", "[motor]"]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"A\"]", INPUT, at "figures =", key
-            "oracle[3].figures[1].points", ["between two points, found 1"]),
+            "oracle[3].figures[1].points", ["needs two points, found 1"]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"A\", \"X\"]", INPUT, at "figures =", key
             "oracle[3].figures[1].points", ["no point \"X\""]),
-        // Statements of the file about itself prove nothing: masses and lengths of one link are not allowed.
+        // The file cannot confirm its own statements, so the masses and lengths of one link are not allowed as figures.
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"mass_kg\", link = \"crank\"", INPUT, at "figures =", key
             "oracle[3].figures[1].figure", ["no figure \"mass_kg\""]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"C\", \"C\"]", INPUT, at "figures =", key
-            "oracle[3].figures[1].points", ["stands in the file"]),
+            "oracle[3].figures[1].points", ["is given in the file"]),
         bad!("digits = 1 }" => "digits = 1, finding = \"misprint\" }", INPUT, at "values =", key "oracle[2].values[1]",
             ["`right` is missing", "right = {"]),
         bad!("digits = 1 }" => "digits = 1, right = { value = 71, digits = 1 } }", INPUT, at "values =", key
             "oracle[2].values[1]", ["`finding` is missing"]),
         bad!("digits = 1 }" => "digits = 1, finding = \"misprint\", right = { value = 70.05, digits = 2 } }", INPUT, at
-            "values =", key "oracle[2].values[1].right", ["not apart from the printed 70"]),
+            "values =", key "oracle[2].values[1].right",
+            ["70.05 with 2 decimals cannot be distinguished from the printed 70"]),
         bad!("digits = 1 }" => "digits = 1, finding = \"misprint\", right = { value = 71 } }", INPUT, at "values =", key
             "oracle[2].values[1].right", ["`digits` is missing"]),
         bad!("digits = 2 }" => "digits = 2, finding = \"misprint\" }", INPUT, at "figures =", key "oracle[3].figures[1]",
@@ -479,7 +484,7 @@ fn oracles() {
         bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", expect = [{ crank_deg = 90, finding = \"x\" }]",
             INPUT, at "expect", key "oracle[1].columns.Bx_mm.expect[1]", ["`right` is missing"]),
         bad!("source = \"a number\"" => "source = \"a number\"\nbasis = \"guessed\"", INPUT, at "basis", key "oracle[2].basis",
-            ["\"guessed\" is no way to know numbers", "\"published\""]),
+            ["\"guessed\" is not a basis of published numbers", "\"published\""]),
         bad!("figures = [" => "file = \"table.csv\"\nfigures = [", INPUT, at "[[oracle]]\nsource = \"a figure\"",
             key "oracle[3]", ["exactly one of"]),
     ]);
@@ -491,7 +496,7 @@ fn tables_name_their_own_file_and_line() {
         ("crank_deg,Cx_mm\n0,1\n", 1, "oracle[1].columns.Bx_mm", ["no column \"Bx_mm\"", "did you mean \"Cx_mm\""]),
         ("angle_deg,Bx_mm\n0,1\n", 1, "oracle[1].crank", ["no column \"crank_deg\"", "\"angle_deg\""]),
         ("crank_deg,Bx_mm\n0,301.12\n90,many\n", 3, "oracle[1].columns.Bx_mm", ["found \"many\"", "decimal number"]),
-        ("crank_deg,Bx_mm\n0,301.12\n\n90,\n", 4, "oracle[1].columns.Bx_mm", ["found \"\"", "expect"]),
+        ("crank_deg,Bx_mm\n0,301.12\n\n90,\n", 4, "oracle[1].columns.Bx_mm", ["found \"\"", "`expect`"]),
         ("crank_deg,Bx_mm\n0,301.12\nx,1\n", 3, "oracle[1].crank", ["found \"x\"", "decimal number"]),
         ("crank_deg,Bx_mm\n0,301,12\n", 2, "oracle[1].file", ["3 cells", "as many cells"]),
         ("crank_deg,Bx_mm\n", 1, "oracle[1].file", ["no rows", "at least one row"]),
@@ -506,7 +511,7 @@ fn tables_name_their_own_file_and_line() {
 }
 
 #[test]
-fn a_missing_scenario_says_so() {
+fn a_missing_scenario_is_reported() {
     let error = Scenario::load(Path::new("no/such/scenario.toml")).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Io);
     assert!(error.message().contains("no/such/scenario.toml") && error.way_out().is_some(), "{error}");

@@ -1,5 +1,6 @@
-//! Many poses in one call: the same numbers and the same errors as pose by pose, and the same bits at every place of a
-//! row.
+//! Many poses in one call.
+//! Numbers and errors equal those of a pose-by-pose solution.
+//! The bits of a pose do not depend on its position in the row.
 
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::{GroupKind, LinkPose, Pose};
@@ -18,10 +19,10 @@ use linkage::case::Case;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Share of the largest value of the same kind: a few hundred roundings of 1.1e-16 from the crank to the last dyad and
-/// back.
+/// Bound as a fraction of the largest value of the same kind.
+/// It allows a few hundred rounding errors of 1.1e-16, from the crank to the last dyad and back.
 const ROUNDING: f64 = 1e-13;
-/// Acceleration of the crank (rad/s^2), so that terms with it are tested.
+/// Acceleration of the crank (rad/s^2); it is not zero, so that terms with it are tested.
 const ALPHA: f64 = 3.7;
 
 /// All numbers of a state by kind: positions, directions, velocities, angular velocities, accelerations, angular
@@ -41,7 +42,7 @@ fn sorts(state: &State) -> [Vec<f64>; 9] {
     ]
 }
 
-/// Solves one pose after the other, up to the first that fails.
+/// Solves one pose after the other, up to the first pose that fails.
 fn one_by_one(case: &Case, cranks: &[f64], deepest: Stage) -> (Vec<State>, Result<()>) {
     let (mut solver, omega) = (PoseSolver::new(case).unwrap(), case.crank().at(0.0).rate);
     let mut states = Vec::new();
@@ -70,7 +71,7 @@ fn rows(case: &Case, poses: &Poses) -> Vec<State> {
     (0..poses.len()).map(copied).collect()
 }
 
-/// Largest difference of each kind, as a share of the largest value of the kind.
+/// Largest difference of each kind, as a fraction of the largest value of the kind.
 fn differences(ours: &[State], theirs: &[State]) -> [f64; 9] {
     let (mut difference, mut scale) = ([0.0f64; 9], [f64::MIN_POSITIVE; 9]);
     for (ours, theirs) in ours.iter().zip(theirs) {
@@ -102,7 +103,7 @@ fn condition(case: &Case, states: &[State]) -> f64 {
 }
 
 #[test]
-fn poses_are_those_of_the_pose_solver() {
+fn batch_poses_match_the_pose_solver() {
     let kinds = [
         ("crank_rocker", true),
         ("ov7_base", true),
@@ -121,7 +122,8 @@ fn poses_are_those_of_the_pose_solver() {
         outcome.unwrap();
         assert_eq!(poses.len(), 500);
         let found = differences(&rows(case, &poses), &states);
-        // What is behind a higher group grows with its condition number, which is not near 1 as that of a dyad.
+        // Differences behind a higher group grow with its condition number, which, unlike that of a dyad, is not near
+        // 1.
         let is_higher = case.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
         let bound = ROUNDING * if is_higher { condition(case, &states) } else { 1.0 };
         found.iter().for_each(|&found| assert_within!(found, bound, "{name}: {found:?}"));
@@ -129,7 +131,7 @@ fn poses_are_those_of_the_pose_solver() {
 }
 
 #[test]
-fn a_stage_needs_nothing_beyond_it() {
+fn a_stage_is_solved_without_later_stages() {
     let case = &shipped("ov7_base.toml").case;
     let cranks = turn(case, 11);
     let whole = rows(case, &at_once(case, &cranks, Stage::BalancingMoment).0);
@@ -146,7 +148,7 @@ fn random_chains_agree_and_fail_alike() {
     let failed = Cell::new(0);
     for_each(60, |sample| {
         let case = &sample.scenario.case;
-        // On the grid, away from dead points; errors of one dyad grow in the next one.
+        // The grid keeps away from dead points; errors of one dyad grow in the next dyad.
         let (states, _) = one_by_one(case, &case.grid.inputs, Stage::BalancingMoment);
         let (poses, outcome) = at_once(case, &case.grid.inputs, Stage::BalancingMoment);
         within("poses lost", f64::from(outcome.is_err()), 0.0)?;
@@ -170,7 +172,7 @@ fn random_chains_agree_and_fail_alike() {
 }
 
 #[test]
-fn a_batch_goes_on_after_an_error() {
+fn a_batch_is_usable_after_an_error() {
     let case = &shipped("crank_rocker.toml").case;
     let (start, omega) = (case.crank().start, case.crank().at(0.0).rate);
     let (mut batch, mut poses) = (Batch::of(case).unwrap(), Poses::new());
@@ -183,7 +185,7 @@ fn a_batch_goes_on_after_an_error() {
 }
 
 #[test]
-fn a_row_has_the_same_bits_wherever_it_stands() {
+fn a_row_has_the_same_bits_at_any_position() {
     for name in ["crank_rocker", "ov7_base", "five_bar", "ov7_new", "fourth_class"] {
         let case = &shipped(&format!("{name}.toml")).case;
         let omega = case.crank().at(0.0).rate;
@@ -202,7 +204,7 @@ fn a_row_has_the_same_bits_wherever_it_stands() {
 }
 
 #[test]
-fn pieces_of_a_turn_on_threads_have_the_bits_of_the_whole() {
+fn a_turn_split_over_threads_keeps_every_bit() {
     for name in ["ov7_base", "ov7_new", "fourth_class"] {
         let case = &shipped(&format!("{name}.toml")).case;
         let cranks = turn(case, 720);
@@ -222,7 +224,8 @@ fn pieces_of_a_turn_on_threads_have_the_bits_of_the_whole() {
     }
 }
 
-/// RandomSource groups of four and six links, alone and with dyads. Most of them end at a dead point on their way round.
+/// Random groups of four and six links, alone and with dyads.
+/// Most of them reach a dead point before a full revolution.
 #[test]
 fn random_higher_groups_agree_and_fail_alike() {
     let (mut random, mut solved, mut ended) = (RandomSource::from_seed(23), 0, 0);
@@ -253,7 +256,7 @@ fn random_higher_groups_agree_and_fail_alike() {
 }
 
 #[test]
-fn no_rows_are_no_poses() {
+fn an_empty_batch_gives_no_poses() {
     let case = &shipped("crank_rocker.toml").case;
     let (poses, outcome) = at_once(case, &[], Stage::BalancingMoment);
     outcome.unwrap();

@@ -1,4 +1,4 @@
-//! Work and precision: floor, fronts, failures that stay, answers of peers that are none.
+//! Work-precision measurement: the floor of the errors, the fronts, reasons of failures, and invalid answers of peers.
 
 use std::cell::Cell;
 
@@ -14,7 +14,7 @@ use scenario::Scenario;
 
 use crate::common::{assert_within, shipped};
 
-/// A clock that goes on by a second whenever it is read.
+/// Measures with a clock that advances by one second at each reading.
 fn measured(scenario: &Scenario, peers: &[&dyn Peer]) -> Bench {
     let now = Cell::new(0.0);
     let clock = || {
@@ -25,7 +25,7 @@ fn measured(scenario: &Scenario, peers: &[&dyn Peer]) -> Bench {
     bench(scenario, &options, peers, &clock, &mut |_| {}).unwrap()
 }
 
-/// A scenario on few instants.
+/// A scenario with only a few instants.
 fn few(name: &str) -> Scenario {
     let mut scenario = shipped(name);
     let last = scenario.case.grid.times.iter().fold(0.0f64, |most, &t| if t > most { t } else { most });
@@ -36,7 +36,7 @@ fn few(name: &str) -> Scenario {
 }
 
 #[test]
-fn engines_are_measured_clear_of_the_floor() {
+fn engine_errors_are_well_above_the_floor() {
     for name in ["crank_rocker.toml", "crank_rocker_runup.toml", "ov7_new.toml"] {
         let found = measured(&few(name), &[]);
         assert_eq!(found.stages, Stage::ALL);
@@ -49,7 +49,7 @@ fn engines_are_measured_clear_of_the_floor() {
                 assert!(errors.max >= CLEAR * floor && !errors.is_limited, "{name} {stage:?}: {errors:?} {floor:e}");
                 assert!(errors.rms <= errors.max, "{name} {stage:?}: {errors:?}");
             }
-            // The sides are on the floor and say so.
+            // The errors of the sides are at the floor, and are marked as limited by it.
             let sides = found.points.iter().filter(|point| point.party == MethodOwner::Side && point.is_usual);
             assert!(sides.filter_map(|point| point.error(stage)).all(|errors| errors.is_limited), "{name} {stage:?}");
             let best =
@@ -60,7 +60,7 @@ fn engines_are_measured_clear_of_the_floor() {
 }
 
 #[test]
-fn a_finer_step_does_more_and_errs_less() {
+fn a_finer_step_takes_more_work_and_has_a_smaller_error() {
     let found = measured(&few("crank_rocker.toml"), &[]);
     let plain = found.points.iter().filter(|point| {
         point.settings.is_some_and(|own| own.extrapolated == 0 && own.route == linkage::engine::Route::Differences)
@@ -73,15 +73,15 @@ fn a_finer_step_does_more_and_errs_less() {
 }
 
 #[test]
-fn what_fails_stays_with_its_reason() {
+fn failed_points_keep_their_reason() {
     let found = measured(&few("crank_rocker_runup.toml"), &[]);
     let failed: Vec<_> = found.points.iter().filter_map(|point| point.failure(Stage::Positions)).collect();
     assert!(!failed.is_empty() && failed.iter().all(|reason| reason.contains("probe")), "{failed:?}");
 }
 
-/// Same input, same numbers but times: also the counts.
+/// The same input gives the same numbers and counts; only times differ.
 #[test]
-fn errors_and_counts_are_the_same_again() {
+fn errors_and_counts_are_reproducible() {
     let of = |bench: Bench| {
         let told = |point: &lab::bench::BenchPoint| {
             format!("{:?} {:?}", point.settings, point.run().map(|run| (run.errors, run.effort.clone())))
@@ -92,7 +92,8 @@ fn errors_and_counts_are_the_same_again() {
     assert_eq!(of(measured(&scenario, &[])), of(measured(&scenario, &[])));
 }
 
-/// What `cargo bench --bench run_up` times: no accuracy leaves more than it allows in every step.
+/// The accuracies that `cargo bench --bench run_up` measures.
+/// At each accuracy, the position error stays within its bound.
 #[test]
 fn sides_keep_their_accuracy() {
     let found = measured(&few("crank_rocker_runup.toml"), &[]);
@@ -107,7 +108,7 @@ fn sides_keep_their_accuracy() {
 /// Changes an answer.
 type Change = Box<dyn Fn(&mut Answer)>;
 
-/// A peer of this name whose answer is that of side 2, changed by a function.
+/// A peer of this name: it answers with the solution of side 2, changed by a function.
 struct Planted(String, Trajectory, Change);
 
 impl Peer for Planted {
@@ -130,10 +131,10 @@ impl Peer for Planted {
 }
 
 #[test]
-fn answers_that_are_none_are_failures_with_a_reason() {
+fn invalid_answers_are_failures_with_a_reason() {
     let scenario = few("crank_rocker.toml");
     let exact = NewtonSolver.solve(&scenario.case).unwrap();
-    // One measurement for all of them.
+    // Measures all planted peers in one call.
     let with = |changes: Vec<Change>| -> Vec<BenchPoint> {
         let planted = |(index, change)| Planted(format!("planted {index}"), exact.clone(), change);
         let peers: Vec<Planted> = changes.into_iter().enumerate().map(planted).collect();
@@ -145,7 +146,7 @@ fn answers_that_are_none_are_failures_with_a_reason() {
     };
     let whole: [(Change, &str); 6] = [
         (Box::new(|answer| answer.columns.clear()), "no column t_s"),
-        (Box::new(|answer| answer.columns.truncate(1)), "none of the wanted channels"),
+        (Box::new(|answer| answer.columns.truncate(1)), "none of the requested channels"),
         (of("t_s", |times| times[3] += 1e-3), "row 4 of the answer"),
         (of("t_s", |times| times[0] = f64::NAN), "row 1 of the answer"),
         (of("t_s", |times| times.truncate(2)), "2 instants"),
@@ -168,17 +169,18 @@ fn answers_that_are_none_are_failures_with_a_reason() {
         assert!(told.contains(reason), "{reason}: {told}");
     }
     assert_eq!(points.len(), 4 + reasons.len());
-    // What concerns one stage leaves the others.
+    // A failure of one stage leaves the other stages valid.
     assert!(nan.failure(Stage::Reactions).unwrap().contains("joint.B.fx_N is NaN"));
     assert!(nan.error(Stage::Positions).is_some() && nan.error(Stage::Reactions).is_none());
     assert!(short.failure(Stage::Reactions).is_some() && short.error(Stage::Positions).is_some());
-    // A stage that a peer does not have at all is none of its failures.
+    // A stage that a peer does not offer at all does not count as a failure.
     assert!(silent.error(Stage::Reactions).is_none() && silent.failure(Stage::Reactions).is_none());
 }
 
-/// A peer of an older version does not know the newest channels: what it gives is judged, and what it lacks is told.
+/// An older peer does not know the newest channels.
+/// The channels that it provides are judged, and the missing channels are reported.
 #[test]
-fn a_peer_without_some_channels_is_judged_in_the_others_and_told() {
+fn a_peer_with_missing_channels_is_judged_in_the_others() {
     let scenario = few("crank_rocker.toml");
     let exact = NewtonSolver.solve(&scenario.case).unwrap();
     let with = |more: f64| -> Planted {
@@ -197,6 +199,6 @@ fn a_peer_without_some_channels_is_judged_in_the_others_and_told() {
         (Some("joint.B.fx_N and 1 more"), None)
     );
     assert!(right.error(Stage::Reactions).unwrap().max < 1e-9 && right.without(Stage::Positions).is_none());
-    // What it gives is still judged.
+    // The channels that the peer provides are still judged.
     assert!(wrong.error(Stage::Reactions).unwrap().max > 1e-4);
 }

@@ -1,9 +1,10 @@
-//! The parts of every bound of a few scenarios, as a reviewed table: a bound that is a thousand times too wide passes
-//! every test that plants multiples of it, and fails here.
+//! The parts of every bound of a few scenarios, as a reviewed table.
+//! A bound that is a thousand times too wide passes every test that plants multiples of it, but fails here.
 //!
-//! Numbers have two digits, and half of them is left to the noise of machines. Settings of engines are given, so that
-//! how they are found changes nothing here.
-//! `INSTA_UPDATE=always cargo test --release --test suite bounds` writes the table anew; whoever does says why.
+//! Numbers have two digits.
+//! Two numbers may differ by half their value, which allows for the noise between machines.
+//! The settings of engines are given, so that the search for settings changes nothing here.
+//! `INSTA_UPDATE=always cargo test --release --test suite bounds` writes the table anew; such a change needs a reason.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -14,18 +15,19 @@ use linkproof::{Options, Proof, Scenario, prove};
 use prover::run::solved::judge;
 
 const TABLE: &str = include_str!("bounds/parts.txt");
-/// Largest ratio of two numbers that are the same but for noise.
+/// Largest ratio of two numbers that differ only by noise.
 const NOISE: f64 = 1.5;
 
-/// The parts of an engine's bounds, in the order of their numbers.
+/// The parts of an engine's bounds, in the order of the table.
 const ENGINE: &str = "discretisation, iteration, rounding, reference";
 
-/// What is proven: name in the table, file, edits, step (s; zero for claims alone), sweeps.
+/// A sample: name in the table, file, edits, time step (s; zero for claims alone), sweeps.
 type Sample = (&'static str, &'static str, &'static [(&'static str, &'static str)], f64, usize);
 
 const SAMPLES: [Sample; 9] = [
     ("four-bar", "scenarios/crank_rocker.toml", &[], 2e-3, 16),
-    // A millionth of a degree from a dead point the condition is in every number that a claim is held against.
+    // This sample is a millionth of a degree from a dead point.
+    // The condition number therefore enters every number with which a claim is compared.
     (
         "dead point",
         "scenarios/crank_rocker.toml",
@@ -70,7 +72,8 @@ fn proven(sample: &Sample) -> Proof {
     prove(&scenario(sample), &options).unwrap_or_else(|error| panic!("{}: {error}", sample.0))
 }
 
-/// What sides and formulas know where no engine comes: the bound of every claim where it uses most of it.
+/// Bounds of claims that are judged without an engine.
+/// Each is the bound at the instant where the claim uses most of it.
 fn claimed(sample: &Sample, all: &mut Numbers) {
     let found = judge(&scenario(sample)).unwrap_or_else(|error| panic!("{}: {error}", sample.0));
     for (side, judged) in found.judgement.sides.iter() {
@@ -84,9 +87,11 @@ fn claimed(sample: &Sample, all: &mut Numbers) {
 /// Numbers of the table.
 type Numbers = BTreeMap<(String, String), Vec<f64>>;
 
-/// The parts of all bounds of a proof, by what they are of. Of the channels of a quantity they are the widest, as shares
-/// of the channel's scale, and the number of instants that are left out; of the checks of a family the narrowest and the
-/// widest of both sides; of formulas each.
+/// The parts of all bounds of a proof, grouped by their subject.
+/// For the channels of a quantity: the widest parts, as fractions of the channel's scale, and the number of omitted
+/// instants.
+/// For the checks of a family: the narrowest and the widest bound of both sides.
+/// For formulas: the bound of each formula.
 fn parts(sample: &Sample, proof: &Proof, all: &mut Numbers) {
     let mut widen = |what: String, values: &[f64]| {
         let own = all.entry((sample.0.into(), what)).or_insert_with(|| vec![0.0; values.len()]);
@@ -115,7 +120,7 @@ fn parts(sample: &Sample, proof: &Proof, all: &mut Numbers) {
     ends.into_iter().for_each(|(family, ends)| widen(format!("check, {family}"), &ends));
 }
 
-/// One line for what is one.
+/// The table as text: one line per entry.
 fn table(all: &Numbers) -> String {
     all.iter().fold(String::new(), |mut text, ((sample, what), values)| {
         let values: Vec<String> = values.iter().map(|value| format!("{value:.1e}")).collect();
@@ -134,13 +139,13 @@ fn read(text: &str) -> Numbers {
     text.lines().map(line).collect()
 }
 
-/// Whether two numbers are the same but for noise and for the digits that are written.
+/// Whether two numbers differ only by noise and by the rounding to the written digits.
 fn is_same(one: f64, other: f64) -> bool {
     one == other || (one > 0.0 && other > 0.0 && one / other <= NOISE && other / one <= NOISE)
 }
 
 #[test]
-fn the_parts_of_all_bounds_are_those_that_were_reviewed() {
+fn the_parts_of_all_bounds_match_the_reviewed_values() {
     let mut found = Numbers::new();
     for sample in &SAMPLES {
         match sample.3 == 0.0 {
@@ -165,9 +170,9 @@ fn the_parts_of_all_bounds_are_those_that_were_reviewed() {
     assert!(others.is_empty(), "{others:#?}");
 }
 
-/// The comparison itself: a thousand times, a doubling, and a part that is not there any more.
+/// Tests the comparison itself: a factor of a thousand, a doubling, and a part that has vanished.
 #[test]
-fn a_part_that_is_twice_as_wide_is_seen() {
+fn a_doubled_part_of_a_bound_is_detected() {
     assert!(is_same(1.0e-9, 1.1e-9) && is_same(0.0, 0.0));
     for (one, other) in [(1e-9, 1e-6), (1e-9, 1.6e-9), (1e-9, 0.0), (0.0, 1e-9), (1e-9, f64::NAN)] {
         assert!(!is_same(one, other) && !is_same(other, one), "{one:e} {other:e}");

@@ -1,5 +1,5 @@
-//! Change points against step counts: whatever the steps, none is passed over without a word, and none is reported that
-//! is not there.
+//! Follows mechanisms through change points, with many different numbers of steps.
+//! Whatever the steps, no change point is passed silently, and no false change point is reported.
 
 use analytic::PoseSolver;
 use linkage::case::Case;
@@ -12,7 +12,7 @@ use scenario::Scenario;
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::sketch::RandomSource;
 
-/// Numbers of steps on the way: few, many, and some that share no factor with the others.
+/// Numbers of steps over the angle: few, many, and numbers without a common factor with the others.
 const STEPS: [usize; 12] = [1, 2, 3, 5, 7, 12, 24, 37, 90, 101, 360, 1009];
 
 /// Follows the branch from the start of a case over an angle of the crank (rad), in equal steps. Returns the directions
@@ -26,8 +26,8 @@ fn end(case: &Case, way: f64, steps: usize, deepest: Stage) -> Result<Vec<Vec2>>
     Ok(state.motions.iter().map(|motion| motion.direction).collect())
 }
 
-/// A four-bar with crank, coupler, rocker and frame of these lengths, and a dyad between the point `at` of its rocker
-/// and the ground at `pivot`.
+/// A four-bar with crank, coupler, rocker and frame of these lengths.
+/// A dyad joins the point `at` of the rocker to the ground at `pivot`.
 fn six_bar(
     [crank, coupler, rocker, frame]: [f64; 4],
     dyad: Option<(Vec2, Vec2, [f64; 2])>,
@@ -59,8 +59,8 @@ fn six_bar(
     }
 }
 
-/// The outer joints of a four-bar are farthest apart where crank and frame are in line, and that is a change point if
-/// coupler and rocker are just as long.
+/// The outer joints of the dyad of a four-bar are farthest apart where crank and frame are in line.
+/// This pose is a change point if coupler and rocker together are exactly as long as this distance.
 #[test]
 fn no_step_passes_over_the_change_point_of_a_four_bar() {
     let mut random = RandomSource::from_seed(41);
@@ -92,8 +92,9 @@ fn no_step_passes_over_the_change_point_of_a_four_bar() {
     }
 }
 
-/// A dyad on the rocker of a crank-rocker: its outer joints are nearest or farthest apart somewhere on the way round.
-/// There it has a change point if its links are just that long.
+/// A dyad on the rocker of a crank-rocker.
+/// At some crank angle, the distance of the dyad's outer joints has an extreme.
+/// That pose is a change point if the lengths of the dyad's links just allow that distance.
 #[test]
 fn no_step_passes_over_the_change_point_of_a_dyad_on_a_dyad() {
     let mut random = RandomSource::from_seed(43);
@@ -101,7 +102,8 @@ fn no_step_passes_over_the_change_point_of_a_dyad_on_a_dyad() {
     for _ in 0..24 {
         let (at, pivot) = (random.vector(0.3, 1.2), Vec2::new(1.0, 0.0) + random.vector(1.0, 3.0));
         let (start, way) = (random.number(-3.0, 3.0), if random.yes() { 6.0 } else { -6.0 });
-        // The distance has its extremes where the rocker turns back, and where it is in line with the pivot.
+        // The distance has its extremes at the ends of the rocker's swing, and where the rocker is in line with
+        // `pivot`.
         let plain = six_bar(lengths, None, start).unwrap();
         let mut poses = PoseSolver::new(&plain).unwrap();
         let mut distance = |gone: f64| {
@@ -127,7 +129,7 @@ fn no_step_passes_over_the_change_point_of_a_dyad_on_a_dyad() {
             let [least, most] = [f64::smaller, f64::larger].map(|of| distances.iter().copied().fold(extreme, of));
             for defect in [0.0, 1e-9, 1e-7, 1e-4, -1e-7, -1e-4] {
                 let reach = extreme * (1.0 + sign * defect);
-                // Clear of the other extreme.
+                // These lengths allow the other extreme with a margin.
                 let [rod, bar] = if sign > 0.0 {
                     let off = random.number(-0.4, 0.4) * least;
                     [0.5 * reach - off, 0.5 * reach + off]
@@ -154,10 +156,10 @@ fn moved(spec: &lab::specimens::spec::Spec, by: f64) -> Option<Scenario> {
     spec.scenario().ok()
 }
 
-/// RandomSource higher groups whose ground is moved until they just pass, or just no longer pass, a dead point. In whatever
-/// steps they come there, they end where the finest steps end, or say that they do not.
+/// Random higher groups: a ground point is moved until the group just passes a dead point, or just fails to pass it.
+/// For any number of steps, a run ends in the same pose as the finest run, or reports an error.
 #[test]
-fn higher_groups_do_not_change_their_branch_in_silence() {
+fn higher_groups_do_not_change_branch_silently() {
     const WAY: f64 = 1.5;
     let (mut random, mut tried, mut ended, mut refused) = (RandomSource::from_seed(47), 0, 0, 0);
     for family in &FAMILIES {

@@ -1,5 +1,5 @@
-//! Clearance against brute force: distances by formulas of its own, at poses of the other side, many times as fine as
-//! the grid.
+//! Clearance against brute force.
+//! The distances come from independent formulas, at poses of the other side, on a grid many times finer.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -18,10 +18,10 @@ use crate::common::sketch::RandomSource;
 use crate::common::specimens::specimen;
 use crate::common::{assert_within, draws, shipped, states};
 
-/// Instants of the brute force.
+/// Number of instants of the brute-force check.
 const FINE: usize = 800;
 
-/// An outline in the world: corners, and whether the interior belongs to it.
+/// An outline in the world: its corners, and whether its interior belongs to the shape.
 type Shape = (Vec<Vec2>, bool);
 
 fn side_count((corners, solid): &Shape) -> usize {
@@ -47,7 +47,7 @@ fn between(one: [Vec2; 2], two: [Vec2; 2]) -> f64 {
     ends.into_iter().fold(f64::INFINITY, f64::smaller)
 }
 
-/// Whether a place is inside, by the sum of the angles at which the sides are seen.
+/// Whether a point is inside, by the sum of the angles that the sides subtend at it.
 fn holds(shape: &Shape, p: Vec2) -> bool {
     let seen = |k: usize| {
         let [a, b] = side(shape, k).map(|corner| corner - p);
@@ -75,14 +75,16 @@ fn distance(asked: &ClearanceQuestion, state: &State, pair: [usize; 2]) -> f64 {
     (apart(&one, &two) - radii).larger(0.0)
 }
 
-/// States of side 2 at crank angles, which a drive of constant speed comes to, whatever the law.
+/// States of side 2 at crank angles.
+/// A drive of constant speed reaches these angles, whatever the law of the case.
 fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
     let case = &case.at_top_speed();
     let times: Vec<f64> = Grid::of_inputs(case.crank(), cranks.to_vec()).times;
     states(&NewtonSolver, case, &times).unwrap()
 }
 
-/// All links with outlines of random width, every third a random polygon, and a housing of pins and plates.
+/// A question about all links and a housing of pins and plates.
+/// The outlines of the links have random widths; about every third is a random polygon.
 fn asked(random: &mut RandomSource, case: &Case) -> ClearanceQuestion {
     let mechanism = &case.mechanism;
     let size = mechanism.size();
@@ -121,25 +123,27 @@ fn asked(random: &mut RandomSource, case: &Case) -> ClearanceQuestion {
     ClearanceQuestion { bodies, pairs, wanted: Some(0.02 * size), tolerance: None, area: 0.05 }
 }
 
-/// What brute force has seen.
+/// Results of the brute-force check.
 #[derive(Default, Debug)]
 struct Seen {
     pairs: usize,
     collisions: usize,
-    /// Collisions that no instant of the grid shows.
+    /// Number of collisions that lie between two instants of the grid.
     between_instants: usize,
     poses: usize,
     distances: usize,
 }
 
-/// No sample is below what is proven, what is found is there, and nothing meets before the first meeting.
+/// Checks that every sample is at least as far apart as the proven distance, and that the reported distances and
+/// meetings exist.
+/// Also checks that nothing meets before the reported first meeting.
 fn check(case: &Case, asked: &ClearanceQuestion, found: &ClearanceResult, seen: &mut Seen, name: &str) {
     assert!(found.open.is_empty(), "{name}: {:?}", found.open);
     let ([from, to], size) = (found.range, case.mechanism.size());
     let cranks: Vec<f64> = (0..=FINE).map(|k| from + (to - from) * (k as f64 / FINE as f64)).collect();
     let fine = at(case, &cranks);
     let grid = course(case, asked).unwrap();
-    // What the sides know of poses, with condition numbers of up to some thousands.
+    // Error of the sides' poses, with condition numbers of up to some thousands.
     let rounding = 1e-10 * size;
     for (index, pair) in found.pairs.iter().enumerate() {
         let what = || format!("{name}: {:?}", pair.bodies.map(|body| &asked.bodies[body].name));
@@ -210,8 +214,8 @@ fn random_mechanisms_against_brute_force() {
     assert!(seen.pairs > 100 && seen.collisions > 10, "{seen:?}");
 }
 
-/// A nail just inside of the path of a coupler's corner, between two instants of the grid: samples at the grid, and at
-/// twenty times as many, all miss it.
+/// A nail just inside the path of a coupler's corner, between two instants of the grid.
+/// Samples miss the nail both on the grid and on a grid twenty times as fine.
 #[test]
 fn planted_thin_crossings_are_found() {
     let (mut planted, mut missed) = (0, 0);
@@ -226,7 +230,8 @@ fn planted_thin_crossings_are_found() {
             let link = LinkId(1 + random.index(case.mechanism.links().len() - 1));
             let local = case.mechanism.links()[link].points[0].local + random.vector(0.1 * size, 0.2 * size);
             let motion = at(&case, &[crank])[0].motions[link];
-            // As near to the path as is left when it is crossed for a hundred-thousandth of a degree only.
+            // The nail overlaps the path so little that the corner crosses it for only a hundred-thousandth of a
+            // degree.
             let (place, way) = (motion.point(local), motion.point_velocity(local).normalize());
             let radius = 1e-6 * size;
             let depth = 1e-12 * size;
@@ -243,7 +248,7 @@ fn planted_thin_crossings_are_found() {
             let fine: Vec<f64> = (0..=7_200).map(|k| from + (to - from) * (f64::from(k) / 7_200.0)).collect();
             let fine = case.on(Grid::of_inputs(case.crank(), fine)).unwrap();
             missed += usize::from(course(&fine, &asked).unwrap().rows.iter().all(|row| row[0] > 0.0));
-            // The path may cross the nail once more, but not later than here.
+            // The path may cross the nail a second time, but the first crossing is not later than this one.
             assert!((meeting.cranks[1] - from).abs() <= (crank - from).abs() + 1e-3, "{name}: {meeting:?} {crank}");
         }
     }
@@ -251,9 +256,10 @@ fn planted_thin_crossings_are_found() {
     assert!(missed * 10 >= planted * 8, "{missed} of {planted}");
 }
 
-/// Three turns go through the poses of one: distances and areas are the same, to what was asked for.
+/// Three revolutions have the same poses as one revolution.
+/// Distances and areas are therefore the same, to the requested accuracy.
 #[test]
-fn a_grid_longer_than_a_turn_has_the_distances_and_areas_of_one_turn() {
+fn a_grid_of_several_turns_gives_the_results_of_one() {
     let scenario = shipped("crankcase.toml");
     let asked = scenario.clearance.as_ref().unwrap();
     let over = |turns: f64| {
@@ -272,13 +278,14 @@ fn a_grid_longer_than_a_turn_has_the_distances_and_areas_of_one_turn() {
     }
 }
 
-/// What is left out at the border would show. The bound is as narrow as the work that is allowed makes it.
+/// If area is missing at the border, the value shows it.
+/// The proven bound is as narrow as the limit on the work allows.
 #[test]
-fn a_swept_area_is_its_closed_form_to_a_ten_thousandth() {
+fn a_swept_area_matches_its_closed_form_to_1e_4() {
     let scenario = shipped("crankcase.toml");
     let asked = ClearanceQuestion { area: 1e-4, pairs: Vec::new(), ..scenario.clearance.clone().unwrap() };
     let found = find(&scenario.case, &asked, &mut |_| ()).unwrap();
-    // The piston's outline over its stroke: see below.
+    // The area that the piston's outline sweeps over its stroke; the derivation stands in the next test.
     let expected = (70.0 * 130.0 - 44.0 * 32.0) * 1e-6;
     let area = found.swept[2].1;
     assert!((area.least..=area.most).contains(&expected), "{area:?} {expected}");
@@ -286,7 +293,7 @@ fn a_swept_area_is_its_closed_form_to_a_ten_thousandth() {
     assert_within!((area.value - expected).abs(), 1e-4 * expected, "{area:?}");
 }
 
-/// The shipped housing: brute force, and the areas of a raster.
+/// The shipped housing, checked by brute force and by areas on a raster.
 #[test]
 fn the_crankcase_is_clear() {
     let scenario = shipped("crankcase.toml");
@@ -299,13 +306,14 @@ fn the_crankcase_is_clear() {
         found.pairs.iter().find(|pair| asked.bodies[pair.bodies[1]].name == "head" && pair.bodies[0] == 2).unwrap();
     // At the upper dead centre: 204 - 3 - (40 + 130 + 30) mm.
     assert_within!((piston.smallest.distance - 1e-3).abs(), 1e-12);
-    // A piston 70 mm wide with a hollow of 44 x 32 mm below its crown, over a stroke of 80 mm; what its hollow leaves.
+    // A piston 70 mm wide with a hollow of 44 x 32 mm below its crown, over a stroke of 80 mm.
+    // The part of the hollow that is never covered is subtracted.
     let expected = (70.0 * 130.0 - 44.0 * 32.0) * 1e-6;
     let area = found.swept[2].1;
     assert!((area.least..=area.most).contains(&expected), "{area:?} {expected}");
     assert_within!((area.value - expected).abs(), 5e-4 * expected, "{area:?}");
     assert_within!(area.error(), asked.area * expected, "{area:?}");
-    // The rod by a raster of 2 mm at positions 1 deg apart.
+    // The area of the rod on a raster of 2 mm, at crank positions 1 deg apart.
     let rod = found.swept[1].1;
     let positions: Vec<Vec<Vec2>> = at(case, &(0..360).map(|k| f64::from(k).to_radians()).collect::<Vec<_>>())
         .iter()
@@ -325,9 +333,10 @@ fn the_crankcase_is_clear() {
     assert_within!((raster - rod.value).abs(), 1e-2 * rod.value, "{raster} {rod:?}");
 }
 
-/// One freedom under forces: the crank angles that the motion comes to. Of several freedoms no one angle tells the pose.
+/// With one degree of freedom under forces, the crank angles are the angles that the motion reaches.
+/// With several degrees of freedom, no single angle determines the pose.
 #[test]
-fn motions_under_forces() {
+fn motions_under_forces_cover_the_reached_crank_angles() {
     let case = shipped("crank_rocker_runup.toml").case;
     let asked = asked(&mut RandomSource::of_sample(3, 1), &case);
     let found = find(&case, &asked, &mut |_| ()).unwrap();
@@ -342,9 +351,10 @@ fn motions_under_forces() {
     assert_eq!(error.kind(), linkage::ErrorKind::Unsupported);
 }
 
-/// Without the section nothing of it is asked, and with it a proof has the same bits.
+/// Without the section `[clearance]`, no clearance is computed.
+/// With the section, the results of a proof keep their bits.
 #[test]
-fn a_run_does_not_depend_on_it() {
+fn a_run_does_not_depend_on_the_clearance_section() {
     let with = shipped("crankcase.toml");
     let text = with.text.split("# Crank and counterweight").next().unwrap();
     let without = Scenario::parse(text, Path::new("crankcase.toml")).unwrap();
@@ -352,7 +362,7 @@ fn a_run_does_not_depend_on_it() {
     assert_eq!(with.case, without.case);
 }
 
-/// Three links on one pin: two of them have no joint with each other, and touch there all the same.
+/// Three links on one pin: two of these links have no common joint, but they touch at the pin.
 #[test]
 fn links_on_one_pin_are_joined_without_a_common_joint() {
     let case = shipped("ov7_base.toml").case;
@@ -363,6 +373,6 @@ fn links_on_one_pin_are_joined_without_a_common_joint() {
     let by_pin: Vec<(LinkId, LinkId)> =
         pairs.filter(|&(a, b)| !has_joint(a, b) && are_joined(mechanism, [a, b])).collect();
     assert!(!by_pin.is_empty());
-    // None of them is joined to all others.
+    // No link is joined to all others.
     assert!(by_pin.len() < links * (links - 1) / 2 - mechanism.joints().len());
 }

@@ -29,3 +29,4 @@ mod stress;
 mod synthesize;
 mod terminal;
 pub mod tools;
+mod widths;

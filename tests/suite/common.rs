@@ -24,13 +24,13 @@ use linkage::mechanism::LinkId;
 use linkage::solver::{Solver, State};
 use scenario::Scenario;
 
-/// How many random mechanisms, faults or inputs a test draws: as many as it names, times `LINKPROOF_DRAWS`. Kinds do not
-/// depend on that: a test has each of them in its ordinary draws.
+/// Number of random mechanisms, faults or inputs that a test draws: `ordinary` times `LINKPROOF_DRAWS`.
+/// An ordinary run already has every kind; the factor adds no kinds.
 pub fn draws(ordinary: usize) -> usize {
     ordinary * std::env::var("LINKPROOF_DRAWS").map_or(1, |times| times.parse().expect("LINKPROOF_DRAWS: a number"))
 }
 
-/// Whether more is drawn than in an ordinary run.
+/// Whether tests draw more than in an ordinary run.
 pub fn by_night() -> bool {
     draws(1) > 1
 }
@@ -41,8 +41,8 @@ pub fn shipped(name: &str) -> Scenario {
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The end of a shipped scenario's text: numbers from a program of its own. They hold for the case as it is, so that
-/// another case made of the text has to leave them out.
+/// The end of a shipped scenario's text: numbers from another program.
+/// These numbers hold only for the unchanged case, so a test that changes the text must omit them.
 pub fn from_outside(text: &str) -> &str {
     &text[text.find("# Not published").expect("numbers from outside stand last")..]
 }

@@ -1,4 +1,4 @@
-//! Tables, recordings and scenarios held against each other: what is right agrees, what is wrong is found and named.
+//! Tables, recordings and scenarios compared with each other: correct ones agree, and faults are found and named.
 
 mod constants;
 pub(crate) mod digits;
@@ -22,13 +22,13 @@ fn scenario(name: &str) -> Scenario {
     Scenario::load(Path::new("scenarios").join(format!("{name}.toml"))).unwrap()
 }
 
-/// What an analytic side finds for a scenario, all channels.
+/// The solution of an analytic side for a scenario, with all channels.
 fn solved(scenario: &Scenario) -> Trajectory {
     let all = scenario.case.all_channels();
     analytic::AssurSolver.solve(&scenario.case.wanting_only(&all)).unwrap()
 }
 
-/// A table of some columns by names, each number a whole double.
+/// A table of named columns, each number with all digits of a double.
 pub(crate) fn table(columns: &[(&str, Vec<f64>)]) -> Raw {
     let doubles = |values: &[f64]| values.iter().map(|&value| Rounded::nearly(value)).collect();
     Raw {

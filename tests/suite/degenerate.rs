@@ -1,5 +1,5 @@
-//! Mechanisms in which whole quantities vanish. A proof must neither divide by their rounding nor be inconclusive
-//! because of them.
+//! Mechanisms in which all values of a quantity vanish.
+//! A proof must neither divide by their rounding errors nor be inconclusive because of them.
 
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{from_outside, shipped};
@@ -21,8 +21,9 @@ fn agrees(what: &str, spec: &Spec) {
     agrees_by(what, &spec.scenario().unwrap(), &Options::default());
 }
 
-/// A parallelogram between its change points. All angular speeds are equal, and all angular accelerations vanish;
-/// without gravity the balancing moment vanishes too.
+/// A parallelogram between its change points.
+/// All angular speeds are equal, and all angular accelerations vanish.
+/// Without gravity, the balancing moment vanishes too.
 fn parallelogram() -> Spec {
     let mut spec = four_bar([0.4, 0.1, 0.4, 0.1], true);
     spec.start = 0.5;
@@ -39,10 +40,10 @@ fn crank_alone() -> Spec {
     spec
 }
 
-/// Symptom: a parallelogram disagreed by 150 % between the analytic sides, a crank alone by 110 % in its moment. Cause:
-/// rounding was measured by the range of channels that do not vary.
+/// Symptom: the analytic sides disagreed by 150 % on a parallelogram, and by 110 % in the moment of a crank alone.
+/// Cause: rounding was measured by the range of channels that do not vary.
 #[test]
-fn regress_what_vanishes_by_symmetry_agrees() {
+fn regress_channels_that_vanish_by_symmetry_agree() {
     for (name, spec) in [("parallelogram", parallelogram()), ("crank", crank_alone())] {
         agrees(name, &spec);
         let floating = Spec { gravity: Vec2::zeros(), ..spec.clone() };
@@ -62,10 +63,11 @@ fn bare(path: &str, is_left_out: impl Fn(&str) -> bool) -> Scenario {
     Scenario::parse(&kept.join("\n"), &path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Symptom: the driving moment of an unloaded Oldham coupling, which is zero, disagreed by 83 % with that of the powers.
-/// Cause: the driving hub has no extent, so that there was no moment to measure rounding by.
+/// Symptom: in an unloaded Oldham coupling, the driving moment is zero but disagreed by 83 % with the moment from the
+/// powers.
+/// Cause: the driving hub has no extent, so there was no moment with which to compare the rounding error.
 #[test]
-fn regress_a_driving_link_that_is_one_point_has_the_moments_of_its_slider() {
+fn regress_a_single_point_driving_link_uses_slider_moments() {
     let mut scenario = bare("scenarios/formulas/oldham_coupling.toml", |_| false);
     scenario.case = scenario.case.with(|parts| parts.loads.clear()).unwrap();
     agrees_by("an Oldham coupling without load", &scenario, &Options::default());
@@ -74,7 +76,7 @@ fn regress_a_driving_link_that_is_one_point_has_the_moments_of_its_slider() {
 /// Symptom: without masses, the shaking force of a loaded four-bar vanishes, and the proof was inconclusive: its bound
 /// was infinitely many times its scale.
 #[test]
-fn regress_a_shaking_force_that_vanishes_is_measured_by_the_forces_in_the_joints() {
+fn regress_a_zero_shaking_force_takes_its_scale_from_joints() {
     let masses = ["mass_kg", "mass_centre", "inertia_kg_m2"];
     let scenario = bare("scenarios/crank_rocker.toml", |line| masses.iter().any(|mass| line.starts_with(mass)));
     agrees_by("a four-bar without masses", &scenario, &Options::default());
@@ -90,8 +92,9 @@ fn regress_a_mechanism_far_from_the_origin_agrees() {
     }
 }
 
-/// Symptom: a pendulum hinged at its only point ended in "closure NaN", in "step size became too small", or in "jumped
-/// to another branch" at t = 0. Cause: the mechanism's size was the distance of points alone, here 0.
+/// Symptom: a pendulum whose only point is its hinge ended in one of three errors at t = 0.
+/// They were "closure NaN", "step size became too small" and "jumped to another branch".
+/// Cause: the mechanism's size was the distance of points alone, here 0.
 #[test]
 fn regress_a_link_of_a_single_point_has_a_size() {
     let text = shipped("pendulum.toml").text;
@@ -99,7 +102,8 @@ fn regress_a_link_of_a_single_point_has_a_size() {
     for reference in Reference::ALL {
         agrees_by(reference.name(), &parsed(&free), &Options::default().reference(reference));
     }
-    // Turned at a constant speed, and from rest by a motor with the mass centre in the pivot, as a flywheel is.
+    // Two more cases: the link turned at constant speed, and driven from rest by a motor.
+    // The second has its mass centre in the pivot, like a flywheel.
     let driven = without(&without(&free, "motion ="), "zero_deg");
     agrees_by("driven", &parsed(&driven), &Options::default());
     let motor = "motion = \"free\"\ninitial_speed_rad_s = 0\n";

@@ -1,4 +1,4 @@
-//! Diagnoses of planted faults: every one is named, or nothing is.
+//! Diagnoses of planted faults: each is either named or left unexplained.
 
 mod cases;
 mod engines;
@@ -26,7 +26,7 @@ fn parsed(name: &str, text: &str) -> Scenario {
     Scenario::parse(text, &path).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// The text with one place replaced.
+/// The text with one passage replaced.
 fn edited(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "`{from}` must stand in the scenario");
     text.replacen(from, to, 1)
@@ -37,7 +37,7 @@ fn edited(text: &str, from: &str, to: &str) -> String {
 enum Outcome {
     /// The fault is named.
     Named,
-    /// Another cause is named, and the fault is mentioned as explaining as much.
+    /// Another cause is named, and the fault is mentioned as an equally good explanation.
     Mentioned,
     /// Another cause is named as explaining everything.
     Wrong,
@@ -45,10 +45,16 @@ enum Outcome {
     Nothing,
 }
 
-/// How a diagnosis fares that should name the cause whose words begin with one of `expected`, separated by `|`.
+/// Outcome of a diagnosis.
+/// The words of the named cause should begin with one of the alternatives in `expected`, separated by `|`; `*` stands
+/// for any channels.
 fn outcome(diagnosis: Option<&Diagnosis>, expected: &str) -> Outcome {
     let Some(found) = diagnosis.filter(|found| found.is_explained()) else { return Outcome::Nothing };
-    let is_meant = |words: &str| expected.split('|').any(|expected| words.starts_with(expected));
+    let is_told = |words: &str, expected: &str| match expected.split_once('*') {
+        Some((start, rest)) => words.starts_with(start) && words.contains(rest),
+        None => words.starts_with(expected),
+    };
+    let is_meant = |words: &str| expected.split('|').any(|expected| is_told(words, expected));
     match &found.cause {
         Some(named) if is_meant(&cause(named)) => Outcome::Named,
         _ if found.also.iter().any(|also| is_meant(&cause(also))) => Outcome::Mentioned,
@@ -65,7 +71,7 @@ fn told(diagnosis: Option<&Diagnosis>) -> String {
     format!("{named}; left over {left} of {all}; also {also:?}; {} solved", found.solved)
 }
 
-/// Bounds as an engine has them, over the scale of a channel.
+/// Typical bounds of an engine, as fractions of a channel's scale.
 fn share(stage: Stage) -> f64 {
     match stage {
         Stage::Positions => 1e-6,
@@ -75,7 +81,8 @@ fn share(stage: Stage) -> f64 {
     }
 }
 
-/// The diagnosis of a suspect whose bounds are those of an engine, and whose own error uses up to 0.7 of them.
+/// The diagnosis of a suspect with the bounds of an engine.
+/// The suspect's numerical error uses up to 0.7 of these bounds.
 fn examined(case: &Case, suspect: &Trajectory, step: Option<f64>) -> Option<Diagnosis> {
     let reference = analytic::AssurSolver.solve(case).unwrap();
     let mut seed = 1u64;
@@ -113,7 +120,7 @@ fn examined(case: &Case, suspect: &Trajectory, step: Option<f64>) -> Option<Diag
     diagnose(&question, &[])
 }
 
-/// Counts outcomes, prints each, and says what must not be.
+/// Counts outcomes, prints each, and collects those that are not allowed.
 #[derive(Default)]
 struct Tally {
     counts: [usize; 4],

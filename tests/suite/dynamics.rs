@@ -1,4 +1,4 @@
-//! Motion under forces, from outside: closed forms, conservation laws, published figures.
+//! Motion under forces against independent sources: closed forms, conservation laws, published figures.
 
 mod crank;
 mod energy;

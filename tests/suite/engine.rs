@@ -1,5 +1,5 @@
-//! Requirements on every engine, and errors that were once measured. Each of them is a story with a number, its symptom
-//! and its cause.
+//! Requirements on every engine, and errors that once occurred.
+//! Each error is a story with a number, a symptom and a cause.
 
 mod accuracy;
 mod chains;
@@ -40,23 +40,24 @@ fn single(engine: &dyn Engine) -> bool {
     engine.name().ends_with("-f32")
 }
 
-/// Distance from one of an engine's numbers to the next.
+/// Machine epsilon of an engine's numbers.
 fn epsilon(engine: &dyn Engine) -> f64 {
     if single(engine) { f64::from(f32::EPSILON) } else { f64::EPSILON }
 }
 
-/// The engines whose step the user chooses. An engine that controls its error has neither instants on its steps nor a
-/// visible order, and its steps are not the user's.
+/// The engines whose step the user chooses.
+/// An engine that controls its error is not among them: it chooses its steps, has no instants of the grid on them, and
+/// shows no order.
 fn stepping(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
     prover::engines::all(dt).into_iter().filter(|engine| !engine.controls_error())
 }
 
-/// Those of them that compute in double precision: in single precision, rounding hides orders (story 60).
+/// The engines of `stepping` in double precision; in single precision, rounding hides orders (story 60).
 fn double(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
     stepping(dt).filter(|engine| !single(engine.as_ref()))
 }
 
-/// Order 2 in every channel whose error is not rounding, over the steps h, h/2 and h/4.
+/// Checks order 2 in every channel whose error is not rounding, over the steps h, h/2 and h/4.
 fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>, solver: &dyn Solver) {
     let reference = solve(solver, case);
     for engine in engines {
@@ -77,8 +78,8 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
                 assert_within!((order - formal).abs(), 0.1, "{} {}: order {order}", engine.name(), residual.channel);
             }
         }
-        // Cranks are exact, and in a Scotch yoke all angles and speeds. In single precision almost everything is
-        // rounding.
+        // Crank angles are exact; in a Scotch yoke all angles and speeds are exact.
+        // In single precision almost every error is rounding.
         assert!(
             single(engine.as_ref()) || seen > reference.channels().len() / 3,
             "only {seen} channels have more than rounding errors"
@@ -86,9 +87,9 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
     }
 }
 
-/// Runs that are kept, and made side by side, are equal to the last bit to single runs, plain and extrapolated.
+/// Cached runs that are computed in parallel equal single runs to the last bit, both plain and extrapolated.
 #[test]
-fn kept_runs_are_those_made_alone() {
+fn cached_runs_equal_single_runs() {
     let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
     for engine in prover::engines::all(2e-3) {
         for extrapolated in [0, if engine.controls_error() { 0 } else { 2 }] {
@@ -119,8 +120,10 @@ fn ov7_base_converges_with_the_formal_order() {
     has_formal_order(&scenario.case, double(0.78f64.to_radians() / 97.2), &AssurSolver);
 }
 
-/// Story 1. Symptom: the crank lags a little more every step, so that all other errors look like phase errors. Cause: a
-/// motor with finite damping, or an all-impulse build. Every engine must hold the prescribed angle to rounding.
+/// Story 1.
+/// Symptom: the crank lags a little more with every step, so that all other errors look like phase errors.
+/// Cause: a motor with finite damping, or a build that uses only impulses.
+/// Every engine must keep the prescribed angle to rounding.
 #[test]
 fn regress_01_the_motor_holds_its_speed_over_many_turns() {
     for speed in [25.0, -25.0] {
@@ -153,8 +156,8 @@ fn regress_02_the_driven_joint_may_name_the_crank_first() {
     other.pins.iter_mut().for_each(|pin| pin.links.reverse());
     let [one, two] = [&spec, &other].map(|spec| spec.scenario().unwrap().case);
     for engine in prover::engines::all(1e-3) {
-        // The impulse build corrects loops along the first body's axes, so another order of the links gives another
-        // error of second order.
+        // The impulse build corrects loops along the axes of the joint's first body.
+        // A different order of the links therefore gives a different error of second order.
         let share = if engine.name() == "rapier" { 1e-7 } else { 1e-3 };
         let case = &one;
         let (one, two) = (solve(engine.as_ref(), &one), solve(engine.as_ref(), &two));
@@ -169,10 +172,12 @@ fn regress_02_the_driven_joint_may_name_the_crank_first() {
     }
 }
 
-/// Story 3. Symptom: an engine refuses a link without mass, or never moves it. Cause: it needs inertia to integrate.
+/// Story 3.
+/// Symptom: an engine refuses a link without mass, or never moves it.
+/// Cause: the engine needs inertia to integrate.
 /// The motion under a prescribed speed must not depend on the masses, and a massless link must carry no inertial force.
 #[test]
-fn regress_03_massless_links_move_alike_and_carry_no_force() {
+fn regress_03_massless_links_keep_the_motion_and_carry_no_force() {
     let with = four_bar([0.4, 0.1, 0.35, 0.3], true);
     let mut without = with.clone();
     without.links.iter_mut().for_each(|link| link.mass = None);
@@ -181,15 +186,16 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
         let case = &with;
         let (with, without) = (solve(engine.as_ref(), &with), solve(engine.as_ref(), &without));
         for (channel, values) in without.iter() {
-            // The mass centre of a massless link is its frame's origin, which is another point.
+            // The mass centre of a massless link is the origin of its frame, which is a different point.
             let centre = channel.kind.subject == ChannelSubject::Link && channel.kind.unit.symbol().starts_with('m');
             if channel.kind.stage >= Stage::Reactions {
-                // Where applied forces carry the stand-ins, only rounding is left.
+                // If applied forces cancel the stand-in masses, only rounding remains.
                 let left = if engine.controls_error() { engine.noise(case, channel.kind) } else { 0.0 };
                 values.iter().for_each(|value| assert_within!(value.abs(), left, "{} {channel}", engine.name()));
             } else if !centre {
-                // Places follow from the tree, and the loop's small gap is distributed by mass: accelerations show it
-                // first. In the impulse build the differences are of second order, as all its errors.
+                // Positions follow from the tree.
+                // The small gap of the loop is distributed by mass; accelerations show this first.
+                // In the impulse build the differences are of second order, like all errors of this build.
                 let bound = match (engine.name(), channel.kind.stage) {
                     ("rapier", Stage::Accelerations) => 1e-4,
                     ("rapier", _) => 1e-11,

@@ -1,6 +1,6 @@
-//! Channels that are zero throughout: by a constant speed, by guides that forbid a turn, by equal lengths. Their own range
-//! is rounding and says nothing; they are measured by a tenth of the size of their quantity, and where that vanishes
-//! too, of what the mechanism is built for.
+//! Channels that are zero throughout: by a constant speed, by guides that prevent rotation, or by equal lengths.
+//! The range of such a channel is only rounding, so its scale is a tenth of the natural size of the quantity.
+//! If that size vanishes too, it comes from the nominal speed, the masses and the gravity of the file.
 
 use std::path::Path;
 
@@ -38,14 +38,15 @@ fn regress_equal_cranks_agree_though_the_rocker_has_no_acceleration() {
     let proof = proven(&scenario("parallel_cranks.toml"));
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
     let alpha = of(&proof, "link.rocker.alpha_rad_s2");
-    // Zero by its lengths, not by what the mechanism is made of: the sides find rounding.
+    // The acceleration is zero because of the lengths, not because of the structure, so the sides find rounding errors.
     assert!(alpha.bound < 1e-3 * alpha.residual.scale, "{alpha:?}");
 }
 
-/// A crank at constant speed, and a grid that ends beside a dead point: there is room for small steps only, with much
-/// rounding in second differences. The largest of them has least.
+/// A crank at constant speed, on a grid that ends beside a dead point.
+/// Only small steps are possible there, so the second differences contain much rounding; at the largest step they
+/// contain least.
 #[test]
-fn regress_a_crank_at_constant_speed_keeps_no_verdict_open() {
+fn regress_a_constant_speed_crank_leaves_no_verdict_open() {
     let mut slow = scenario("zero_alpha.toml");
     slow.case = slow.case.wanting(Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]));
     let proof = proven(&slow);
@@ -53,18 +54,19 @@ fn regress_a_crank_at_constant_speed_keeps_no_verdict_open() {
 }
 
 #[test]
-fn what_only_translates_is_measured_by_what_turns() {
+fn translating_links_take_the_scale_of_rotating_ones() {
     let proof = proven(&scenario("crane.toml"));
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
     for suffix in [".omega_rad_s", ".alpha_rad_s2"] {
         let tenth = 0.1 * natural(&proof, suffix);
         for link in ["trolley", "hook"] {
             let own = of(&proof, &format!("link.{link}{suffix}"));
-            // What follows from the crank's own motion may be larger than any value.
+            // A scale that follows from the crank's motion may be larger than all values of the quantity.
             assert!(own.residual.scale >= tenth * (1.0 - 1e-9), "{link}{suffix}: {own:?}");
         }
     }
-    // What is small, but not zero, is still measured by a thousandth: an offset of the guide turns nothing to zero.
+    // The scale of a small but non-zero channel is at least a thousandth of the natural size; the guide's offset makes
+    // no channel zero.
     let crank = proven(&shipped("crank_rocker.toml"));
     let small = crank.engine().channels.iter().filter(|own| own.residual.scale < 0.05 * natural(&crank, ".ax_m_s2"));
     assert!(small.count() > 0);
@@ -82,15 +84,16 @@ fn alone(centre: Vec2) -> Spec {
     spec
 }
 
-/// Symptom: ten of the numbers of a balanced rotor without gravity were open, "of scale: inf". Cause: all its forces
-/// and moments are zero, and nothing in its motion said how large they could be. Its mass and its speed do.
+/// Symptom: for a balanced rotor without gravity, ten numbers were open, "of scale: inf".
+/// Cause: all its forces and moments are zero, and the motion gave no scale for them.
+/// Now its mass and its speed give the scale.
 #[test]
-fn regress_a_balanced_rotor_agrees_though_it_has_no_force_at_all() {
+fn regress_a_balanced_rotor_agrees_without_any_force() {
     let mut spec = alone(Vec2::zeros());
     spec.gravity = Vec2::zeros();
     let proof = proven(&spec.scenario().unwrap());
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
-    // The nominal 10 rad/s, the arm of 0.3 m, 3 kg.
+    // 3 kg at the nominal 10 rad/s on the arm of 0.3 m.
     let force = 3.0 * 100.0 * 0.3;
     for (channel, natural) in [("joint.O.fx_N", force), ("frame.fy_N", force), ("drive.torque_N_m", 0.3 * force)] {
         let own = of(&proof, channel);
@@ -98,8 +101,9 @@ fn regress_a_balanced_rotor_agrees_though_it_has_no_force_at_all() {
     }
 }
 
-/// Symptom: 31 of the 54 numbers of pendulums that hang still were open. Cause: what does not move at all gave its
-/// motion no scale but rounding. The nominal speed, which the file states, does.
+/// Symptom: 31 of the 54 numbers of pendulums hanging at rest were open.
+/// Cause: without any motion, the scale was only rounding.
+/// Now the nominal speed in the file gives the scale.
 #[test]
 fn regress_a_mechanism_in_equilibrium_agrees_though_nothing_moves() {
     let mut spec = alone(Vec2::new(0.15, 0.0));
@@ -121,9 +125,11 @@ fn regress_a_mechanism_in_equilibrium_agrees_though_nothing_moves() {
     }
 }
 
-/// Symptom: 94 of 122 numbers of a crane disagreed: a jib that is free on a spring, a trolley that a winch pulls along
-/// it, and a load that is let go from rest at its tip. Cause: the load started with the speed of the jib. What the
-/// trolley's guide has as moment is small beside all others, and keeps nothing open.
+/// Symptom: 94 of 122 numbers of a crane disagreed.
+/// The crane has a jib that is free on a spring, a trolley that a winch pulls along the jib, and a load released at the
+/// jib's tip.
+/// Cause: the load, released from rest, started with the speed of the jib.
+/// The moment in the trolley's guide is small beside all other moments, but all its numbers are decided.
 #[test]
 fn regress_a_crane_with_a_trolley_on_its_jib_agrees() {
     let proof = proven(&scenario("jib_crane.toml"));

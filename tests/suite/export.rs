@@ -15,7 +15,7 @@ use linkage::solver::State;
 use model::{Document, Kind};
 use scenario::Scenario;
 
-/// Step (s) of the files here.
+/// Time step (s) of the exported files.
 const STEP: f64 = 1e-3;
 
 fn start(case: &Case) -> State {
@@ -26,7 +26,7 @@ fn exported(case: &Case, name: &str) -> String {
     mjcf(case, &AssurSolver, name, STEP).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// Every scenario of the repository.
+/// Every shipped scenario that can be exported.
 fn all() -> Vec<Scenario> {
     let top = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
     let files = |directory: &std::path::Path| {
@@ -38,7 +38,7 @@ fn all() -> Vec<Scenario> {
     let paths = [files(&top), files(&top.join("variants60"))].concat();
     let mut scenarios: Vec<Scenario> =
         paths.iter().map(|path| Scenario::load(path).unwrap_or_else(|error| panic!("{error}"))).collect();
-    // Loads and laws that are not exported are refused: tests/suite/loads.rs and tests/suite/laws.rs.
+    // The tests in tests/suite/loads.rs and tests/suite/laws.rs check that other loads and laws are refused.
     let known = |load: &Load| matches!(load, Load::Resistance { .. });
     scenarios.retain(|scenario| scenario.case.is_steady() && scenario.case.loads.iter().all(known));
     assert!(scenarios.len() >= 72, "{}", scenarios.len());
@@ -61,7 +61,7 @@ fn bodies_are_the_links_on_the_spanning_tree() {
             assert_eq!((body.parent.as_ref(), &body.joint), (parent.as_ref(), &joint.name), "{}", scenario.name);
             assert_eq!(body.kind == Kind::Slide, joint.slides());
             assert_eq!((body.mass, body.centre), (link.mass, link.mass_centre), "{}: {}", scenario.name, link.name);
-            // MuJoCo's condition on moments of inertia, and the moment that matters in a plane.
+            // MuJoCo's condition on moments of inertia, and the moment that matters in planar motion.
             let [x, y, z] = body.inertia;
             assert!(x + y >= z && y + z >= x && z + x >= y && x > 0.0);
             assert!(z == link.inertia || link.inertia == 0.0 && z > 0.0, "{}: {}", scenario.name, link.name);
@@ -79,8 +79,8 @@ fn bodies_are_the_links_on_the_spanning_tree() {
     }
 }
 
-/// Positions and speeds are computed here from the file alone, along the bodies. All joints must close, including
-/// loops, and the pose must be that of the case.
+/// Computes positions and speeds from the file alone, along the bodies.
+/// All joints must close, including those of loops, and the pose must be that of the case.
 #[test]
 fn the_file_holds_the_start_pose_and_its_speeds() {
     for scenario in all() {
@@ -108,7 +108,7 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
             let gap = second.0.speed(second.1) - first.0.speed(first.1);
             let (off, turning) = match joint.axis_on(joint.first.link) {
                 None => (gap.norm(), 0.0),
-                // The guide turns under the block.
+                // The guide that carries the block rotates.
                 Some(axis) => {
                     let axis = rotated(unit(first.0.angle), axis);
                     let way = second.0.place(second.1) - first.0.place(first.1);
@@ -129,7 +129,7 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
 }
 
 #[test]
-fn a_slide_counts_as_its_channel_whichever_link_hangs_on_the_other() {
+fn a_slide_has_the_sign_of_its_channel_for_either_parent() {
     let case = crate::common::shipped("compressor.toml").case;
     let slider = case.mechanism.joint_named("cylinder_1").unwrap();
     let piston = case.mechanism.links()[case.mechanism.joints()[slider].second.link].name.clone();
@@ -175,7 +175,7 @@ fn resistance_is_dry_friction_on_the_angle_of_the_link() {
 }
 
 #[test]
-fn links_without_mass_are_lent_a_small_one() {
+fn massless_links_get_a_small_mass() {
     let case = crate::common::shipped("crank_rocker.toml").case;
     let mut links = case.mechanism.links().to_vec();
     (links[2].mass, links[2].inertia) = (0.0, 0.0);
@@ -189,7 +189,7 @@ fn links_without_mass_are_lent_a_small_one() {
     let coupler = document.body("coupler");
     assert!(coupler.mass > 0.0 && coupler.mass <= 1e-5 * total && coupler.inertia[2] > 0.0, "{}", coupler.mass);
     assert_eq!(document.body("rocker").mass, links[3].mass);
-    // Even without any mass there is a motion to show.
+    // A mechanism without any mass can still be exported, to show its motion.
     links.iter_mut().for_each(|link| (link.mass, link.inertia) = (0.0, 0.0));
     let none = of(&links);
     assert!(
@@ -198,7 +198,7 @@ fn links_without_mass_are_lent_a_small_one() {
 }
 
 #[test]
-fn the_rotor_outweighs_the_mechanism() {
+fn the_rotor_inertia_dominates_the_mechanism() {
     for scenario in all() {
         let case = &scenario.case;
         let state = start(case);
@@ -214,7 +214,7 @@ fn the_rotor_outweighs_the_mechanism() {
     }
 }
 
-/// The crank-rocker with other names; its points get their names only from their joints.
+/// The crank-rocker with other names; its points have only the names of their joints.
 fn renamed(names: [&str; 4], joint: &str) -> Case {
     let case = crate::common::shipped("crank_rocker.toml").case;
     let mut links = case.mechanism.links().to_vec();
@@ -227,7 +227,7 @@ fn renamed(names: [&str; 4], joint: &str) -> Case {
 }
 
 #[test]
-fn names_are_the_scenarios_own_whatever_letters_they_have() {
+fn scenario_names_are_kept_with_any_characters() {
     let names = ["ground", "кривошип", "coupler'_2", "rocker's--end"];
     let document = Document::read(&exported(&renamed(names, "'B'"), "a & b"));
     assert_eq!(document.name, "a & b");
@@ -248,9 +248,9 @@ fn names_that_mujoco_does_not_take_are_refused() {
     refused(&renamed(["ground", "crank", "world", "rocker"], "A"), &["world", "links.world"]);
 }
 
-/// What could end an attribute or a file name never becomes a name.
+/// Characters that could end an attribute or a file name are removed from exported names.
 #[test]
-fn names_that_mean_something_elsewhere_are_no_names() {
+fn names_with_special_meaning_are_refused() {
     let links = crate::common::shipped("crank_rocker.toml").case.mechanism.links().to_vec();
     let joints = crate::common::shipped("crank_rocker.toml").case.mechanism.joints().to_vec();
     for name in ["", "a\nb", "<a href=\"x\">&amp;", "]]>", "../up", "a b"] {

@@ -1,5 +1,6 @@
-//! Planted faults: the reference solves the true case, the engine a slightly wrong one. Every fault must be found in
-//! the channels where it shows and in no others. Without a fault the two sides must agree.
+//! Planted faults: the reference solves the true case, the engine a slightly wrong case.
+//! Every fault must be found in the channels that it affects, and only in these channels.
+//! Without a fault, reference and engine must agree.
 
 use std::path::Path;
 
@@ -69,9 +70,10 @@ fn a_mass_wrong_by_one_percent() {
     );
 }
 
-/// The crank is light and turns uniformly. So its mass shows only in its bearing, on the frame and, by its weight, in
-/// the drive. One percent of it is 0.26 N, while the engine's own error in the bearing is 1 N. The shaking force is so
-/// much smoother than the bearing's reaction that it shows the fault.
+/// The crank is light and rotates uniformly.
+/// Its mass therefore affects only its bearing, the frame and, by its weight, the drive.
+/// One percent of the mass changes the bearing's reaction by 0.26 N, while the engine's error there is 1 N.
+/// The shaking force is much smoother than the bearing reaction, so it shows the fault.
 #[test]
 fn a_crank_mass_wrong_by_one_percent() {
     let own =
@@ -127,16 +129,16 @@ fn the_other_assembly_mode() {
 }
 
 #[test]
-fn a_joint_read_the_other_way_round() {
+fn a_joint_with_its_links_swapped() {
     let wrong =
         edited("links = [\"coupler\", \"rocker\"]\n\n[[joints]]", "links = [\"rocker\", \"coupler\"]\n\n[[joints]]");
     is_found(&wrong, |name, _| name.starts_with("joint.B."), &["joint.B.fx_N", "joint.B.fy_N"]);
 }
 
-/// Small faults are found at the settings that a run finds, as a measure of a proof. By night each is halved until it is
-/// missed.
+/// The size of the faults that a proof finds at the settings of an ordinary run.
+/// With more draws, each fault is halved until it is missed.
 #[test]
-fn how_small_a_fault_is_found() {
+fn small_faults_are_found() {
     type Fault = (&'static str, f64, fn(f64) -> String, f64);
     let faults: [Fault; 8] = [
         ("coupler mass, share", 1e-2, |x| edited("mass_kg = 34.7", &format!("mass_kg = {}", 34.7 * (1.0 + x))), 1e-3),
@@ -187,8 +189,8 @@ fn how_small_a_fault_is_found() {
     }
 }
 
-/// Two builds of the engine get the same fault, so that they agree with each other. Then the reference is the one that
-/// disagrees with all others.
+/// Two builds of the engine get the same fault, so they agree with each other.
+/// The reference then disagrees with both builds.
 #[test]
 fn engines_that_agree_against_the_reference_make_it_the_odd_one_out() {
     let options = Options::default().engine(EngineName::Rapier).engine(EngineName::Impulse);

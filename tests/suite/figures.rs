@@ -31,7 +31,7 @@ fn proof(name: &str, step: Option<f64>) -> Proof {
     prove(&scenario(name), &options).unwrap()
 }
 
-/// A turn in steps of a tenth of a degree, in the sense of the drive.
+/// A revolution in steps of a tenth of a degree, in the direction of the drive.
 fn fine(case: &Case) -> Case {
     let sense = case.crank().sense();
     let cranks = (0..=3600).map(|k| (sense * f64::from(k) / 10.0).to_radians() + case.crank().start).collect();
@@ -43,8 +43,9 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
     let scenario = scenario("ov7_base");
     let cells: Vec<usize> =
         scenario.oracles.iter().map(|oracle| oracle.series.iter().map(|series| series.points.len()).sum()).collect();
-    // Positions, velocities, accelerations of five points in two directions, and three tables of seven angles, at 13
-    // angles. The last two are no published numbers: a distance at the start, and one pose with its forces.
+    // At 13 crank angles: positions, velocities and accelerations of five points in two directions.
+    // Then seven angles at each crank angle, with their first and second derivatives.
+    // The last two entries are not published numbers: a distance at the start, and one pose with its forces.
     assert_eq!(cells, [130, 130, 130, 91, 91, 91, 0, 84]);
     assert!(
         scenario.oracles.iter().all(|oracle| oracle.series.iter().all(|s| s.expected.is_empty() && s.wrong.is_none()))
@@ -59,13 +60,13 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
     assert_eq!(published.len(), 2 * 51);
     for check in published {
         assert!(matches!(check.verdict, Verdict::Agree { .. }), "{}: {:?}", check.name(), check.verdict);
-        // Half a unit of the second printed decimal (positions in mm, angles in degrees), nothing larger.
+        // At most half a unit of the second printed decimal (positions in mm, angles in degrees).
         let half_unit: f64 = match check.unit {
             "m" => 0.005e-3,
             "rad" => 0.005f64.to_radians(),
             _ => 0.005,
         };
-        // But for what rounding leaves of the sides' own numbers.
+        // The margin covers the rounding errors of the sides.
         assert!(check.bound <= half_unit * (1.0 + 1e-6), "{}", check.name());
     }
 }
@@ -103,7 +104,7 @@ fn balancing_moment_from_equilibrium_and_from_powers() {
     }
 }
 
-/// Synthesis from the two extreme positions: l_OB1 = l_OA + l_AB, l_OB2 = l_AB - l_OA.
+/// Synthesis from the two extreme positions: l_OB1 = l_OA + l_AB and l_OB2 = l_AB - l_OA.
 #[test]
 fn val_crank_rocker_lengths_follow_from_the_extreme_positions() {
     let scenario = scenario("crank_rocker");
@@ -120,7 +121,8 @@ fn val_crank_rocker_lengths_follow_from_the_extreme_positions() {
     let turn = solve(&AssurSolver, &fine(&scenario.case));
     let angles = turn.column(&rocker).unwrap();
     let (low, high) = angles.iter().fold((f64::MAX, f64::MIN), |(l, h), &a| (l.smaller(a), h.larger(a)));
-    // Between two samples a tenth of a degree apart the rocker turns by less than 1e-6 rad near its extremes.
+    // Two samples are a tenth of a degree apart; near its extremes, the rocker rotates by less than 1e-6 rad between
+    // them.
     assert_abs_diff_eq!(low.to_degrees(), 50.0, epsilon = 1e-4);
     assert_abs_diff_eq!(high.to_degrees(), 82.0, epsilon = 1e-4);
 }
@@ -131,13 +133,14 @@ fn val_crank_rocker_mean_reduced_inertia_and_resistance() {
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         let means = analytic::reduced::means::means_over_turn(&case, solver).unwrap();
         assert_abs_diff_eq!(means.inertia, 0.164846013, epsilon = 0.5e-9);
-        // Exactly 100 N m times twice the swing over a turn; the difference is the mean's error at the two kinks.
+        // The exact value is 100 N m times twice the swing, over one revolution.
+        // The difference is the error of the mean at the two kinks.
         assert_abs_diff_eq!(means.resistance, 100.0 * 2.0 * 32.0 / 360.0, epsilon = 5e-5);
     }
 }
 
-/// Effect of the crank's printed mass and inertia on the mean (docs/findings.md): no solver computes a mass, but this
-/// mean depends on it.
+/// Effect of the crank's printed mass and inertia on the mean reduced inertia (docs/findings.md).
+/// The solvers do not compute masses, but this mean depends on the mass.
 #[test]
 fn val_crank_rocker_printed_mass_and_inertia_show_in_the_mean_reduced_inertia() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
@@ -162,7 +165,8 @@ fn val_crank_rocker_printed_mass_and_inertia_show_in_the_mean_reduced_inertia() 
     }
 }
 
-/// Largest error over half the range, of all channels of the given stages that are not constant.
+/// Largest error in the given stages, divided by the channel's scale.
+/// Among positions, only angles count.
 fn worst_share(reference: &Trajectory, run: &Trajectory, wanted: &[Stage]) -> f64 {
     let errors = difference(reference, run).unwrap();
     let shares = errors.iter().zip(scales(reference)).filter(|((channel, _), _)| {
@@ -173,7 +177,7 @@ fn worst_share(reference: &Trajectory, run: &Trajectory, wanted: &[Stage]) -> f6
 }
 
 #[test]
-fn rapier_on_the_crank_rocker_is_within_a_thousandth_and_a_hundred_times_less() {
+fn rapier_is_within_a_thousandth_and_converges_a_hundredfold() {
     let case = scenario("crank_rocker").case;
     let reference = solve(&AssurSolver, &case);
     let stages = [Stage::Positions, Stage::Reactions, Stage::BalancingMoment];
@@ -204,7 +208,7 @@ fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
             .filter(|c| !c.convergence.observed.is_nan())
             .map(|c| (c.residual.channel.to_string(), c.convergence.observed))
             .collect();
-        // Only the crank's own motion, and that of points on it, is exact at every step.
+        // Only the motion of the crank and of points on it is exact at every step.
         assert!(
             orders.len() * 10 > proof.engine().channels.len() * 7,
             "{name}: {} of {}",
@@ -217,8 +221,8 @@ fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
     }
 }
 
-/// Motor law, gear ratio and resistance of the published course; the printed speeds divide the resistance by the ratio
-/// twice.
+/// Motor law, gear ratio and resistance of the published course.
+/// The printed speeds follow if the resistance is divided by the ratio twice.
 #[test]
 fn val_crank_rocker_steady_speed() {
     let scenario = scenario("crank_rocker");
@@ -230,7 +234,7 @@ fn val_crank_rocker_steady_speed() {
         assert_within!((speed(mean) - 14.33204).abs(), 0.5e-5, "{mean}");
         assert_within!((ratio * speed(mean) - 302.6266).abs(), 0.5e-4, "{mean}");
     }
-    // As printed: by the law before its coefficients were rounded.
+    // The printed speeds follow from the law before its coefficients were rounded.
     let (a, b) = (22.50986, 0.071_651_1);
     let twice = (a - 17.76 / (ratio * ratio)) / b;
     assert_within!((twice - 313.6).abs(), 0.05, "{twice}");
@@ -274,7 +278,8 @@ fn every_expected_disagreement_has_its_finding() {
     }
 }
 
-/// The scenario with an entry in place of the rocker's angle of 50 deg; the entry calls the printed number wrong.
+/// The proof of the scenario with one corrected number.
+/// The finding calls the printed rocker angle of 50 deg wrong: `printed` is the wrong number, `right` the correct one.
 fn with_correction(printed: f64, right: f64) -> Proof {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
     let text = std::fs::read_to_string(&path).unwrap();
@@ -289,10 +294,10 @@ fn with_correction(printed: f64, right: f64) -> Proof {
 }
 
 #[test]
-fn a_number_known_to_be_wrong_must_be_off_and_the_right_one_must_be_met() {
+fn known_wrong_numbers_disagree_and_their_corrections_agree() {
     assert_eq!(with_correction(51.0, 50.0).verdict.word(), "agree");
-    // In one case the printed number agrees after all; in the other neither number agrees, by two units of the last
-    // digit.
+    // First case: the printed number agrees after all.
+    // Second case: neither number agrees, the right one by two units of the last digit.
     for (printed, right, words) in
         [(50.0, 51.0, "but it agrees"), (51.0, 50.000_000_002, "neither the printed number nor the one")]
     {
@@ -303,10 +308,10 @@ fn a_number_known_to_be_wrong_must_be_off_and_the_right_one_must_be_met() {
     }
 }
 
-/// A length as solved, beside one that the file states. If the coupler is longer by a unit of the twelfth digit, the
-/// oracle of the length disagrees.
+/// A solved length is compared with the length in the file.
+/// If the coupler is longer by a unit of the twelfth digit, the oracle of the length disagrees.
 #[test]
-fn a_length_as_solved_is_held_to_its_last_digit() {
+fn a_solved_length_is_checked_to_its_last_digit() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
     let text = std::fs::read_to_string(&path).unwrap();
     let longer = text.replace("B = { x_m = 0.34707193189181,", "B = { x_m = 0.34707193189281,");
@@ -324,7 +329,8 @@ fn a_length_as_solved_is_held_to_its_last_digit() {
     }
 }
 
-/// The authors' formula: only the component of the reaction at joint 2 perpendicular to link 2-3 acts on the crank.
+/// The authors' formula for the moment on the crank uses only one component of the reaction at joint 2.
+/// This component is perpendicular to link 2-3.
 #[test]
 fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
     let case = fine(&scenario("ov7_new_tabulated").case);
@@ -357,7 +363,7 @@ fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
     AssurSolver.each(&case, &mut visit).unwrap();
     // Printed -5.831: the moment of the forces on the crank, not the moment that balances it.
     assert_abs_diff_eq!(-first, -5.831, epsilon = 0.5e-3);
-    // Printed maxima over the turn; they lie between the twelve angles of the table.
+    // Printed maxima over the revolution; they occur between the twelve angles of the table.
     assert_abs_diff_eq!(largest, 6.34, epsilon = 5e-3);
     assert_abs_diff_eq!(largest_force, 232.74, epsilon = 0.02);
 }

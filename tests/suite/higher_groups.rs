@@ -1,5 +1,5 @@
-//! RandomSource higher groups, with and without sliders, alone and together with dyads. Both analytic sides must agree: side
-//! 1 uses contours, angles and slides, side 2 absolute coordinates.
+//! Random higher groups, with and without sliders, alone and together with dyads.
+//! Both analytic sides must agree: side 1 uses contours, angles and slides, side 2 absolute coordinates.
 
 use crate::common::assert_within;
 use crate::common::higher::{Among, FAMILIES, Family, mechanism};
@@ -14,9 +14,11 @@ use prover::bounds::{magnitudes, residuals};
 /// Number of mechanisms of each family.
 const TRIES: usize = 60;
 
-/// The largest of speed and square root of acceleration, over the crank's speed: a measure of how near the pose is to a
-/// singular one. Rounding grows with its square. Accelerations are of the order of that square, and also show it where
-/// a speed passes through zero. Lengths are about a metre.
+/// A measure of how near the pose is to a singular pose.
+/// It is the largest of speed and square root of acceleration, divided by the crank's speed.
+/// Rounding grows with the square of this measure.
+/// Accelerations are of the order of the square, and show a singular pose even if a speed passes through zero there.
+/// Lengths are about a metre.
 fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
     let of = |(channel, values): (&linkage::trajectory::Channel, &[f64])| {
         let most = values.iter().fold(0.0f64, |max, v| max.larger(v.abs()));
@@ -29,8 +31,8 @@ fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
     trajectory.iter().map(of).fold(1.0, f64::larger)
 }
 
-/// Largest difference of the two sides for each stage, as a share of the mechanism's size; then the numbers of
-/// mechanisms that were solved and that began as drawn.
+/// Largest difference of the two sides for each stage, as a fraction of the mechanism's size.
+/// Then the number of solved mechanisms, and the number of mechanisms whose start pose is the drawn one.
 fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize) {
     let mut random = RandomSource::from_seed(7);
     let (mut worst, mut solved, mut as_drawn) = ([0.0f64; 5], 0, 0);
@@ -38,10 +40,11 @@ fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize
         let (spec, drawn) = mechanism(&mut random, family, among);
         let scenario = match spec.scenario() {
             Ok(scenario) => scenario,
-            // Rough places that fit two configurations, or lead to none, are refused. No other error is allowed.
+            // Approximate positions are refused if they fit two configurations or lead to no configuration.
+            // Other errors are not allowed.
             Err(error) => {
                 assert_eq!(error.kind(), ErrorKind::Geometry, "{error}\n{}", spec.toml());
-                assert!(error.message().contains("rough place"), "{error}\n{}", spec.toml());
+                assert!(error.message().contains("approximate position"), "{error}\n{}", spec.toml());
                 continue;
             }
         };
@@ -54,7 +57,7 @@ fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize
         };
         as_drawn += usize::from(case.start.0.iter().zip(&drawn).all(off));
         let (assur, newton) = (AssurSolver.solve(case), NewtonSolver.solve(case));
-        // Beyond a dead point there is nothing to compare, but both sides must report it.
+        // Beyond a dead point a comparison is impossible, but both sides must report the dead point.
         let (Ok(assur), Ok(newton)) = (&assur, &newton) else {
             assert!(assur.is_err() && newton.is_err(), "{:?} {:?}\n{}", assur.err(), newton.err(), spec.toml());
             continue;
@@ -75,10 +78,10 @@ fn agree(among: Among, tries: usize) {
         let (worst, solved, as_drawn) = worst(family, among, tries);
         let what = format!("{}, sliding {:?}, {among:?}", family.topology.name, family.slides);
         println!("{what}: {solved} solved, {as_drawn} as drawn, {}", worst.map(|w| format!("{w:.1e}")).join(" "));
-        // Where many end at dead points, a tenth must remain for the comparison.
+        // Many mechanisms may end at dead points, but a tenth must remain for the comparison.
         assert!(solved * 10 > tries && as_drawn * 2 > tries, "{what}: only {solved}, {as_drawn} of {tries}");
         for stage in Stage::ALL {
-            // The bounds of the published mechanisms, times the square of the measure of nearness.
+            // The bounds of the published mechanisms, multiplied by the square of `nearness`.
             let bound = match stage {
                 Stage::Positions => 1e-12,
                 Stage::Velocities | Stage::Accelerations => 1e-11,

@@ -1,6 +1,6 @@
-//! Properties of every mechanism, whatever its numbers, on random mechanisms of one to three dyads of all kinds. These
-//! tests use no formula of the solvers: derivatives come from differences, and forces are checked by the laws of
-//! momentum and energy.
+//! Properties of every mechanism, on random mechanisms of one to three dyads of all kinds.
+//! These tests use no formula of the solvers.
+//! Derivatives come from differences, and forces are checked by the laws of momentum and energy.
 
 mod balance;
 mod symmetry;
@@ -17,10 +17,12 @@ use prover::bounds::residuals;
 /// Number of mechanisms on which every invariant is tested.
 const COUNT: u32 = 128;
 
-/// Crank angle (rad) of a difference quotient: a little above eps^(1/5), where truncation and rounding are equal.
+/// Crank angle between the points of a difference quotient (rad).
+/// It is a little above eps^(1/5), where truncation error and rounding error are equal.
 const TURN: f64 = 1e-3;
-/// Rounding of a value over the crank angle of the quotient, relative to the value's size and times the condition. Ten
-/// units in the last place; a quarter of the bounds is used on these mechanisms.
+/// Rounding error of a difference quotient, relative to the value's size and times the condition number.
+/// It is the rounding of a value divided by the crank angle of the quotient.
+/// It is ten units in the last place; these mechanisms use a quarter of the bound.
 const NOISE: f64 = 10.0 * f64::EPSILON / TURN;
 
 /// States around an instant: at -4, -2, -1, 0, 1, 2, 4 times the spacing.
@@ -43,9 +45,9 @@ impl Around {
         &self.states[3]
     }
 
-    /// Checks that `rate` is the derivative of `of`, whose values are of size `scale`. The five-point rules at one and
-    /// at two spacings differ by 15 times the error of the finer one, so the difference bounds that error without any
-    /// estimate.
+    /// Checks that `rate` is the derivative of `of`, whose values are of size `scale`.
+    /// The test compares a five-point rule at one spacing with the same rule at two spacings.
+    /// Their difference is 15 times the error of the finer rule, and therefore bounds this error.
     fn is_slope(&self, what: &str, scale: f64, of: impl Fn(&State) -> f64, rate: f64) -> Result<(), TestCaseError> {
         let y = self.states.each_ref().map(of);
         let fine = (8.0 * (y[4] - y[2]) - (y[5] - y[1])) / (12.0 * self.spacing);
@@ -107,8 +109,9 @@ fn both_solvers_agree_to_rounding() {
                     largest(Stage::Reactions).larger(largest(Stage::BalancingMoment))
                 }
             };
-            // Units in the last place, times the condition: each derivative and each linear solve for forces adds its
-            // own sums. Measured on these mechanisms: 13, 55, 230 and 200.
+            // Bounds in units in the last place, times the condition number.
+            // Each derivative, and each linear solve for forces, adds further sums.
+            // Measured on these mechanisms: 13, 55, 230 and 200.
             let units = match stage {
                 Stage::Positions => 50.0,
                 Stage::Velocities => 200.0,

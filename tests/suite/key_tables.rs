@@ -1,4 +1,4 @@
-//! The tables of keys in docs/scenario.md are made from the table of keys that the schema is made from.
+//! The tables of keys in docs/scenario.md and the schema are made from one table of keys.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ const DOCUMENT: &str = include_str!("../../docs/scenario.md");
 const BEGIN: &str = "<!-- keys of ";
 const END: &str = "<!-- end of keys -->\n";
 
-/// What stands at a key, for the second column.
+/// The values that a key accepts, for the second column.
 fn kind(key: &FileKey) -> String {
     let word = |word: &&str| format!("`\"{word}\"`");
     match key.kind {
@@ -44,7 +44,7 @@ fn path(marker: &str) -> &str {
     if named == "the file" { "" } else { named.trim_matches('`') }
 }
 
-/// The document with the tables as they should be, and the sections that it has.
+/// The document with renewed tables, and the sections that it documents.
 fn renewed(document: &str) -> (String, Vec<&str>) {
     let mut parts = document.split(BEGIN);
     let (mut text, mut paths) = (parts.next().unwrap().to_string(), Vec::new());
@@ -58,7 +58,7 @@ fn renewed(document: &str) -> (String, Vec<&str>) {
     (text, paths)
 }
 
-/// `INSTA_UPDATE=always` writes them anew, as it does with snapshots.
+/// `INSTA_UPDATE=always` writes the tables anew, as it does with snapshots.
 #[test]
 fn the_tables_of_keys_in_the_document_are_current() {
     let (text, _) = renewed(DOCUMENT);
@@ -70,7 +70,7 @@ fn the_tables_of_keys_in_the_document_are_current() {
     assert!(text == DOCUMENT, "{differing:#?}\nINSTA_UPDATE=always cargo test --release --test suite key_tables");
 }
 
-/// One table may stand for sections with equal keys: places, and numbers that are right.
+/// One table may document several sections with equal keys, such as positions, or corrected numbers.
 #[test]
 fn every_section_has_a_table_in_the_document() {
     let (_, paths) = renewed(DOCUMENT);
@@ -81,7 +81,7 @@ fn every_section_has_a_table_in_the_document() {
     }
 }
 
-/// What a word does is told outside the tables, which only list the words.
+/// The text outside the tables explains every word, because the tables only list the words.
 #[test]
 fn every_word_is_explained() {
     let outside: String = DOCUMENT

@@ -13,7 +13,7 @@ use scenario::Scenario;
 
 use crate::common::{assert_within, shipped, states};
 
-/// The shipped swing with another law and grid.
+/// The shipped oscillating drive with another law and grid.
 fn swing(law: &str, grid: &str) -> Scenario {
     let text = include_str!("../../scenarios/cycloidal_start.toml");
     let text = &text[..text.find("# Half-way the law").unwrap()];
@@ -63,8 +63,8 @@ fn both_sides_agree_and_balance_powers_and_momentum() {
     }
 }
 
-/// Velocities are the derivatives of positions, and accelerations those of velocities, by differences of the solutions
-/// themselves.
+/// Velocities are the derivatives of positions, and accelerations those of velocities.
+/// The derivatives are difference quotients of the solutions.
 #[test]
 fn rates_are_derivatives_under_every_law() {
     for (law, t) in [(RAMP, 0.07), (RAMP, 0.2), (TABLE, 0.05), (TABLE, 0.09), (CYCLOIDAL, 0.04)] {
@@ -86,15 +86,15 @@ fn rates_are_derivatives_under_every_law() {
 fn val_the_engine_agrees_by_every_route() {
     for (law, grid, part) in [
         (CYCLOIDAL, "from_s = 0\nto_s = 0.15\nstep_s = 0.01", 1.0),
-        // From one point of the table to the next.
+        // This grid stays within one segment of the table.
         (TABLE, "from_s = 0\nto_s = 0.05\nstep_s = 0.01", 0.5),
-        // After the jump of the acceleration at 0.12 s, and before it.
+        // The grids lie after and before the jump of the acceleration at 0.12 s.
         (RAMP, "from_s = 0.13\nto_s = 0.2\nstep_s = 0.01", 1.0),
         (RAMP, "from_s = 0\nto_s = 0.1\nstep_s = 0.01", 1.0),
     ] {
         let scenario = swing(law, grid);
         for (route, dt) in [(Route::Differences, 5e-4), (Route::Native, 4e-5), (Route::Probe, 5e-4)] {
-            // First order and slow: one law with a changing acceleration is enough.
+            // This route is of first order and slow, so one law with a changing acceleration is enough.
             if route == Route::Native && law != CYCLOIDAL {
                 continue;
             }
@@ -108,13 +108,13 @@ fn val_the_engine_agrees_by_every_route() {
     }
 }
 
-/// The observed order of values obtained by differences stays that of constant speeds.
+/// The observed order of values obtained by differences is the same as at constant speed.
 #[test]
 fn val_the_order_stays_two() {
     let scenario = shipped("cycloidal_start.toml");
     let proof = prove(&scenario, &Options::default().step(5e-4)).unwrap();
     for channel in &proof.engine().channels {
-        // The crank itself meets the law at every step: its angle has no error, so no order is visible.
+        // The crank follows the law exactly at every step, so its angle has no error and no visible order.
         let order = channel.convergence.observed;
         let name = channel.residual.channel.to_string();
         let exact = channel.residual.channel.kind.stage == Stage::Positions
@@ -125,7 +125,7 @@ fn val_the_order_stays_two() {
 
 /// Instants about a jump of the drive's acceleration are left out, and the others are proven.
 #[test]
-fn a_jump_of_the_acceleration_is_left_out() {
+fn instants_at_a_jump_of_the_acceleration_are_left_out() {
     let scenario = swing(RAMP, "from_s = 0.1\nto_s = 0.14\nstep_s = 0.0005");
     let proof = prove(&scenario, &Options::default()).unwrap();
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
@@ -138,7 +138,7 @@ fn a_jump_of_the_acceleration_is_left_out() {
 }
 
 #[test]
-fn what_knows_constant_speeds_only_refuses_by_name() {
+fn constant_speed_features_refuse_other_laws_by_name() {
     let case = shipped("cycloidal_start.toml").case;
     let unloaded = case.with(|parts| parts.loads.clear()).unwrap();
     let error = design::export::mjcf::mjcf(&unloaded, analytic::all()[0], "swing", 1e-3).unwrap_err();

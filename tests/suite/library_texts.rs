@@ -1,4 +1,4 @@
-//! Rights of the command line alone: to name its options and commands, and to set the process's panic hook.
+//! Only the command line may name its options and commands, and set the panic hook of the process.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ fn rust_files(directory: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// A file's text without the module of tests at its end.
+/// A file's text without the test module at its end.
 fn without_tests(code: &str) -> &str {
     let marks = code.match_indices("#[cfg(test)]\nmod ").map(|(at, _)| at);
     let module = marks.into_iter().find(|&at| code[at..].lines().nth(1).is_some_and(|line| line.ends_with('{')));
@@ -118,7 +118,7 @@ fn only_the_command_line_sets_the_panic_hook() {
 }
 
 #[test]
-fn every_form_of_a_text_is_seen() {
+fn every_form_of_a_string_literal_is_found() {
     let code = r##"
         //! Choose a smaller step: --hidden.
         fn f<'a>(x: &'a str) -> char { g("--seen", '"', r#"use "linkproof solve" "#); '\'' }

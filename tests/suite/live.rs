@@ -1,4 +1,4 @@
-//! `run --live`: what arrives at viewers, what they may ask for, and how it ends.
+//! `run --live`: what viewers receive, what they may request, and how the server ends.
 
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Write};
@@ -16,10 +16,11 @@ use crate::cli::tools::Place;
 
 const OLD: &str = "foxglove.websocket.v1";
 const NEW: &str = "foxglove.sdk.v1";
-/// A turn in half a second; the budget is small, because the proof is not what is looked at.
+/// One pass takes half a second.
+/// The budget is small, because the proof does not matter here.
 const RUN: &str = "run scenarios/pendulum.toml --budget 1e5 --live=0 --slow 0.1";
 
-/// A server in a directory of its own.
+/// A server in a temporary directory.
 struct Served {
     place: Place,
     child: Child,
@@ -38,7 +39,8 @@ impl Served {
         Served { place, child, address }
     }
 
-    /// Ends it as Ctrl-C does, as soon as it says so; returns the exit code.
+    /// Interrupts the server as Ctrl-C does, once its output mentions Ctrl-C.
+    /// Returns the exit code.
     fn end(&mut self) -> i32 {
         let mut lines = BufReader::new(self.child.stdout.as_mut().unwrap()).lines();
         assert!(lines.any(|line| line.unwrap().contains("Ctrl-C")), "it ends by itself");
@@ -50,7 +52,7 @@ impl Served {
 
 impl Drop for Served {
     fn drop(&mut self) {
-        // It has ended already, unless a test fails.
+        // The server has already ended, unless a test fails.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -72,7 +74,7 @@ impl Viewer {
         Viewer::let_in(address, name).unwrap()
     }
 
-    /// The viewer, or why it is not let in.
+    /// The viewer, or the reason why it was refused.
     fn let_in(address: &str, name: &str) -> Result<Viewer, String> {
         let mut request = format!("ws://{address}").into_client_request().unwrap();
         request.headers_mut().insert("sec-websocket-protocol", name.parse().unwrap());
@@ -122,7 +124,7 @@ impl Viewer {
         }
     }
 
-    /// Channels with both sides: topics and their numbers.
+    /// Topics and numbers of the channels, once both the reference and the engine are advertised.
     fn channels(&mut self) -> Vec<(String, u64)> {
         loop {
             if let Said::Text(text) = self.hear()
@@ -153,7 +155,7 @@ fn recorded(place: &Place) -> Vec<(String, u64, Vec<u8>)> {
 }
 
 #[test]
-fn a_turn_is_what_is_recorded_and_the_next_one_is_the_same() {
+fn every_live_turn_repeats_the_recording() {
     let mut served = Served::by(Place::new(), &format!("{RUN} --record-hz 50 --record-forces"));
     for name in [OLD, NEW] {
         let mut viewer = Viewer::at(&served.address, name);
@@ -187,7 +189,7 @@ fn a_turn_is_what_is_recorded_and_the_next_one_is_the_same() {
 }
 
 #[test]
-fn whoever_comes_late_is_told_what_is_said_once_and_whoever_leaves_a_topic_hears_no_more_of_it() {
+fn late_viewers_get_one_time_messages_and_may_unsubscribe() {
     let served = Served::by(Place::new(), RUN);
     let mut viewer = Viewer::at(&served.address, OLD);
     let channels = viewer.channels();
@@ -218,7 +220,7 @@ fn whoever_comes_late_is_told_what_is_said_once_and_whoever_leaves_a_topic_hears
 }
 
 #[test]
-fn the_reference_is_shown_first_and_no_number_of_a_channel_comes_twice() {
+fn the_reference_is_first_and_channel_numbers_are_unique() {
     let served = Served::by(Place::new(), RUN);
     let mut viewer = Viewer::at(&served.address, NEW);
     let (mut here, mut ever, mut sessions) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
@@ -250,7 +252,7 @@ fn the_reference_is_shown_first_and_no_number_of_a_channel_comes_twice() {
 }
 
 #[test]
-fn a_viewer_pauses_and_seeks_and_no_other_feels_it() {
+fn pause_and_seek_affect_only_their_own_viewer() {
     let served = Served::by(Place::new(), RUN);
     let [mut viewer, mut other] = [Viewer::at(&served.address, NEW), Viewer::at(&served.address, NEW)];
     let channels = viewer.channels();
@@ -282,7 +284,7 @@ fn a_viewer_pauses_and_seeks_and_no_other_feels_it() {
     let mut frames = recorded(&served.place).into_iter();
     let (.., frame) = frames.rfind(|(topic, time, _)| topic == "/tf" && *time <= wanted).unwrap();
     assert_eq!(shown.unwrap(), frame, "the pose of that time");
-    // The other one plays on, into the next turn.
+    // The other viewer plays on, into the next pass.
     let mut now = 0;
     loop {
         if let Said::Clock(time) = other.hear() {
@@ -292,13 +294,13 @@ fn a_viewer_pauses_and_seeks_and_no_other_feels_it() {
             now = time;
         }
     }
-    // The first one is told nothing until it plays on.
+    // The first viewer receives no message until it resumes.
     viewer.control(true, 1.0, None, "on");
     assert!(matches!(viewer.hear(), Said::State { plays: true, time, .. } if time == wanted));
 }
 
 #[test]
-fn one_instant_stands_still() {
+fn a_single_instant_is_shown_without_motion() {
     let served = Served::by(Place::new(), "run scenarios/crank_rocker.toml --budget 1e5 --live=0 --times 0");
     let mut viewer = Viewer::at(&served.address, OLD);
     let channels = viewer.channels();
@@ -316,7 +318,7 @@ fn one_instant_stands_still() {
 }
 
 #[test]
-fn nonsense_hurts_nobody_and_names_that_are_not_spoken_are_refused() {
+fn malformed_input_is_harmless_and_unknown_protocols_refused() {
     let mut served = Served::by(Place::new(), RUN);
     for text in ["GET / HTTP/1.0\r\n\r\n", "\0\0\0\0", ""] {
         TcpStream::connect(&served.address).unwrap().write_all(text.as_bytes()).unwrap();
@@ -341,9 +343,9 @@ fn nonsense_hurts_nobody_and_names_that_are_not_spoken_are_refused() {
     assert_eq!(served.end(), 0);
 }
 
-/// Symptom: a viewer could ask for a topic as often as it liked, and was looked up among all it had asked for.
+/// Symptom: a viewer could subscribe to a topic without limit, and every lookup searched all its subscriptions.
 #[test]
-fn a_viewer_hears_a_topic_four_times_at_most() {
+fn a_viewer_may_request_a_topic_four_times_at_most() {
     let mut served = Served::by(Place::new(), RUN);
     let mut viewer = Viewer::at(&served.address, OLD);
     let channels = viewer.channels();
@@ -359,7 +361,7 @@ fn a_viewer_hears_a_topic_four_times_at_most() {
         }
     }
     assert_eq!(numbers.into_iter().collect::<Vec<_>>(), [0, 1, 2, 3]);
-    // One that is given up makes room for another.
+    // Giving up one subscription allows another.
     viewer.say(&json!({ "op": "unsubscribe", "subscriptionIds": [1] }));
     viewer.subscribe(&[(9, grid)]);
     let mut is_ninth = || matches!(viewer.hear(), Said::Message { number: 9, .. });
@@ -368,10 +370,10 @@ fn a_viewer_hears_a_topic_four_times_at_most() {
     assert_eq!(served.end(), 0);
 }
 
-/// What the system says of the socket; the address that is told would be the same for any.
+/// The system's own list of sockets shows the listening address; the printed address would be the same for any.
 #[cfg(target_os = "linux")]
 #[test]
-fn it_listens_on_this_machine_unless_told_otherwise() {
+fn live_listens_locally_unless_an_address_is_given() {
     let listens = |arguments: &str| {
         let served = Served::by(Place::new(), arguments);
         let port: u16 = served.address.rsplit(':').next().unwrap().parse().unwrap();
@@ -388,7 +390,7 @@ fn it_listens_on_this_machine_unless_told_otherwise() {
 }
 
 #[test]
-fn more_viewers_than_may_look_on_wait_until_one_leaves() {
+fn surplus_viewers_wait_until_one_leaves() {
     let served = Served::by(Place::new(), RUN);
     let mut viewers: Vec<Viewer> = (0..32).map(|_| Viewer::at(&served.address, OLD)).collect();
     viewers.iter_mut().for_each(|viewer| drop(viewer.channels()));
@@ -402,7 +404,7 @@ fn more_viewers_than_may_look_on_wait_until_one_leaves() {
 }
 
 #[test]
-fn it_ends_with_the_exit_code_of_the_verdict_and_what_was_asked_for_is_written() {
+fn live_ends_with_the_verdict_code_and_writes_its_outputs() {
     let also = "--no-record --tolerance-scale 1e-9 --json out.json --html out.html";
     let mut served = Served::by(Place::new(), &format!("{RUN} {also}"));
     let mut viewer = Viewer::at(&served.address, OLD);
@@ -414,7 +416,7 @@ fn it_ends_with_the_exit_code_of_the_verdict_and_what_was_asked_for_is_written()
 }
 
 #[test]
-fn what_cannot_be_served_is_told_before_any_work() {
+fn unusable_live_options_are_reported_before_any_work() {
     let place = Place::new();
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let address = taken.local_addr().unwrap();

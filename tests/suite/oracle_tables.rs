@@ -1,5 +1,5 @@
-//! Tables of `[[oracle]]` as programs print them: each column with other digits, times and crank angles rounded.
-//! None that is right is refused, and what is wrong by a few units of its last digit is found.
+//! Tables of `[[oracle]]` as programs print them: each column with different digits, times and crank angles rounded.
+//! Correct tables are accepted, and an error of a few units of the last digit is found.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -42,16 +42,16 @@ fn text(path: &str) -> String {
     text.split("[[oracle]]").next().unwrap().to_string()
 }
 
-/// A table of a right solution.
+/// A table of a correct solution.
 struct Table {
     instants: Instants,
     at: Vec<f64>,
-    /// Channel as printed, its format, numbers in its unit.
+    /// Channel as printed, its format, and its numbers in the printed unit.
     columns: Vec<(String, Format, Vec<f64>)>,
 }
 
 impl Table {
-    /// Some channels at instants of no plain step, in units and formats by chance.
+    /// Some channels at unevenly spaced instants, in random units and formats.
     fn of(case: &Case, instants: Instants, random: &mut RandomSource) -> Table {
         let name = instants.2;
         let (rows, last) = (40, case.grid.times.iter().copied().fold(0.0, KeepNan::larger));
@@ -60,7 +60,7 @@ impl Table {
                 case.crank(),
                 (0..rows).map(|row| 0.0361 + 0.127_314_159_265 * f64::from(row)).collect(),
             ),
-            // The last may be rounded up, beyond the run.
+            // Rounding may move the last instant beyond the run.
             false => {
                 let share = |row: i32| (f64::from(row) / f64::from(rows)).powf(1.1);
                 Grid::of_times(case.crank(), (1..=rows).map(|row| last * share(row)).collect())
@@ -140,7 +140,7 @@ fn checks(scenario: &str, tables: &[Table]) -> Vec<Check> {
     proof.checks.into_iter().filter(is_table).collect()
 }
 
-/// What a check is about: table, column, channel and format.
+/// Description of a check: table, column, channel and format.
 fn told(check: &Check, tables: &[Table]) -> String {
     let number = |text: &str| text.split(' ').nth(2).unwrap().parse::<usize>().unwrap();
     let table = &tables[number(&check.family)];
@@ -149,14 +149,14 @@ fn told(check: &Check, tables: &[Table]) -> String {
 }
 
 #[test]
-fn right_tables_are_never_refused_by_time_or_crank_angle() {
+fn correct_tables_are_never_refused_by_time_or_crank_angle() {
     let (mut all, mut agreed, mut rounded) = (0, 0, 0);
     for (seed, path) in [
         "scenarios/crank_rocker.toml",
         "scenarios/quick_return.toml",
         "scenarios/scotch_yoke.toml",
         "scenarios/crank_rocker_runup.toml",
-        // No other test of tables has these.
+        // No other test of tables uses these scenarios.
         "tests/outside/scenarios/eccentric_guide.toml",
         "tests/outside/scenarios/cycloidal_press.toml",
     ]
@@ -180,8 +180,8 @@ fn right_tables_are_never_refused_by_time_or_crank_angle() {
     assert!(agreed * 10 >= all * 9 && rounded * 3 > all, "{agreed} of {all}, {rounded} rounded");
 }
 
-/// A fixed size: three units of the last digit where the instants are exact. Where they are rounded, twice what the
-/// number changes meanwhile besides, because that may be there.
+/// If the instants are exact, the planted error is three units of the last digit.
+/// If the instants are rounded, the number may change within this rounding, and twice this change is added.
 #[test]
 fn a_wrong_number_is_found_among_rounded_instants() {
     let mut planted = 0;
@@ -218,9 +218,9 @@ fn a_wrong_number_is_found_among_rounded_instants() {
     assert!(planted > 100, "{planted}");
 }
 
-/// Ten milliseconds are eight degrees of the crank: neither a right number nor a wrong one is proven by them.
+/// Ten milliseconds are eight degrees of the crank, so these instants prove neither a right number nor a wrong one.
 #[test]
-fn instants_that_leave_too_much_open_prove_nothing_wrong_right() {
+fn instants_rounded_too_much_are_inconclusive() {
     let scenario = text("scenarios/crank_rocker.toml");
     let case = Scenario::parse(&scenario, Path::new("x.toml")).unwrap().case;
     let mut table = Table::of(&case, (Format::Fixed(2), 1.0, "t_s"), &mut RandomSource(3));
@@ -231,13 +231,14 @@ fn instants_that_leave_too_much_open_prove_nothing_wrong_right() {
     for check in checks(&scenario, &[table]) {
         assert_eq!(check.verdict.word(), "inconclusive", "{:?}", check.verdict);
         let reason = check.verdict.reason(|advice| format!("{advice:?}")).unwrap();
-        assert!(reason.contains("the rounding of the instant") && reason.contains("more digits"), "{reason}");
+        assert!(reason.contains("the rounding of its instant") && reason.contains("more digits"), "{reason}");
     }
 }
 
-/// Zero by structure, or because somebody forgot it: a file of nine digits that leaves out zeros says that it is exact.
+/// A column of zeros may be zero by structure, or a forgotten column.
+/// If a file of nine digits omits trailing zeros, its zeros count as exact.
 #[test]
-fn a_column_of_zeros_is_exact_where_the_other_columns_leave_zeros_out() {
+fn a_zero_column_is_exact_if_others_omit_trailing_zeros() {
     let scenario = text("scenarios/crank_rocker.toml");
     let case = Scenario::parse(&scenario, Path::new("x.toml")).unwrap().case;
     let verdicts = |name: &str, zero: Format| {
@@ -250,12 +251,13 @@ fn a_column_of_zeros_is_exact_where_the_other_columns_leave_zeros_out() {
         checks(&scenario, &[table]).into_iter().map(|check| check.verdict.word()).collect::<Vec<_>>()
     };
     assert_eq!(verdicts("link.crank.alpha_rad_s2", Format::General(9)), ["agree"; 6]);
-    // Places within half a metre: with the digits of `0` alone they would be right.
+    // The positions are below half a metre, so with the digits of `0` alone they would agree.
     let wrong = ["agree", "agree", "disagree", "agree", "agree", "disagree"];
     assert_eq!(verdicts("point.A.x_m", Format::General(9)), wrong);
 }
 
-/// Angles mean the same a whole turn apart: programs print them within one turn, or over many. A place does not.
+/// Angles a whole revolution apart mean the same: programs print them within one revolution, or over many.
+/// This does not hold for positions.
 #[test]
 fn angles_may_be_whole_turns_apart() {
     let scenario = text("scenarios/crank_rocker.toml");
@@ -292,7 +294,7 @@ fn angles_may_be_whole_turns_apart() {
     for check in found {
         assert_eq!(check.verdict.word(), "agree", "{}", told(&check, &tables));
     }
-    // A tenth of a degree off stays so, whatever turns there are besides.
+    // An error of a tenth of a degree stays visible under any number of whole revolutions.
     for table in &mut tables {
         table.columns.retain(|(channel, ..)| channel.ends_with("deg"));
         table.columns.iter_mut().for_each(|(_, _, values)| values[7] += 720.1);

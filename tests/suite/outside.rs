@@ -1,5 +1,6 @@
-//! What all parties share, checked by numbers of a program that shares no code (`tests/outside/`), and by laws that hold
-//! for the sampled channels.
+//! Two independent checks of code that all parties share.
+//! The first uses numbers of a program that shares no code (`tests/outside/`).
+//! The second uses laws that hold for the sampled channels.
 
 mod coverage;
 mod sampled;
@@ -8,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use linkproof::{Options, Scenario, prove};
 
-/// Words with which the sources of such numbers begin.
+/// First words of the source of such numbers.
 const SOURCE: &str = "tests/outside/";
 
 /// Files of a directory of the package that are scenarios, in order.
@@ -24,11 +25,11 @@ fn loaded(path: &Path) -> Scenario {
     Scenario::load(path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Mechanisms that no shipped file has: two resistances on one link, a massless coupler under forces, an eccentric RPR
-/// dyad, a PRP dyad on moving guides, an offset guide at negative speed, a drive's joint named backwards, a motor's
-/// initial speed on a tree.
+/// The files cover cases that are missing in the shipped files:
+/// two resistances on one link, a massless coupler under forces, an eccentric RPR dyad, a PRP dyad on moving guides, an
+/// offset guide at negative speed, a drive's joint named backwards, and a motor's initial speed on a tree.
 #[test]
-fn every_number_from_outside_holds_on_both_sides_and_the_engine_agrees() {
+fn external_numbers_hold_on_both_sides_and_in_the_engine() {
     let files = files("tests/outside/scenarios");
     assert!(files.len() >= 9);
     for path in files {

@@ -1,4 +1,4 @@
-//! Forces as the engine itself exerts them, judged besides those that follow from its motion.
+//! Forces that the engine itself exerts, judged in addition to those that follow from its motion.
 
 use analytic::AssurSolver;
 use linkage::case::Wanted;
@@ -21,7 +21,7 @@ fn own(proof: &Proof) -> &EngineProof {
 }
 
 #[test]
-fn every_force_is_judged_twice_and_says_where_it_comes_from() {
+fn every_force_is_judged_twice_and_names_its_origin() {
     for (name, forces) in [("crank_rocker.toml", 9), ("double_pendulum.toml", 4), ("compressor_runup.toml", 17)] {
         let proof = proven(&shipped(name), &Options::default());
         let (engine, own) = (proof.engine(), own(&proof));
@@ -40,7 +40,7 @@ fn every_force_is_judged_twice_and_says_where_it_comes_from() {
             "{name}"
         );
         assert_ne!(engine.info.provides[3], own.info.provides[3], "{name}");
-        // Another path of numbers, not the same one.
+        // The two routes must give different numbers.
         let (ours, theirs) = (engine.trajectory.as_ref().unwrap(), own.trajectory.as_ref().unwrap());
         assert!(ours.column(judged[0]).unwrap() != theirs.column(judged[0]).unwrap(), "{name}");
         let worst = own.channels.iter().fold(0.0f64, |worst, own| worst.larger(own.bound / own.residual.scale));
@@ -49,7 +49,7 @@ fn every_force_is_judged_twice_and_says_where_it_comes_from() {
 }
 
 #[test]
-fn a_route_that_is_given_is_the_only_one_and_without_forces_there_is_none() {
+fn exerted_forces_need_a_free_route_and_requested_forces() {
     let scenario = shipped("crank_rocker.toml");
     for route in [Route::Differences, Route::Native] {
         let proof = proven(&scenario, &Options::default().route(route).step(1e-3));
@@ -60,7 +60,7 @@ fn a_route_that_is_given_is_the_only_one_and_without_forces_there_is_none() {
     assert!(proven(&still, &Options::default()).engine().own_forces.is_none());
 }
 
-/// The finest run is the one that tells the error of the given step.
+/// The finest run determines the error of the given step.
 #[test]
 fn a_given_step_is_extrapolated_from_coarser_ones_only() {
     let scenario = shipped("crank_rocker.toml");
@@ -72,14 +72,14 @@ fn a_given_step_is_extrapolated_from_coarser_ones_only() {
         assert_eq!((proof.verdict.word(), own(&proof).verdict.word()), ("agree", "agree"), "{step:e}");
         assert_eq!(proof.engine().info.settings.resolution, step);
     }
-    // A number of extrapolations belongs to the step that it is given with.
+    // A given number of extrapolations applies to the step given with it.
     let proof = proven(&scenario, &Options::default().step(1e-3).extrapolated(2));
     let settings = own(&proof).info.settings;
     assert_eq!((settings.resolution, settings.extrapolated), (1e-3, 2));
 }
 
 #[test]
-fn several_engines_have_their_own_forces_each() {
+fn every_engine_has_its_own_exerted_forces() {
     let options = Options::default().engine(EngineName::Rapier).engine(EngineName::Impulse);
     let proof = proven(&shipped("scotch_yoke.toml"), &options);
     for engine in &proof.engines {
@@ -88,9 +88,11 @@ fn several_engines_have_their_own_forces_each() {
     }
 }
 
-/// Impulses of the first five steps at double the step still hold what sweeps have not found; all later ones count.
+/// At double the step, the impulses of the first five steps still contain the error that the sweeps have not yet
+/// corrected.
+/// All later impulses are judged.
 #[test]
-fn only_the_beginning_of_a_free_motion_is_left_out_of_the_forces_exerted() {
+fn exerted_forces_omit_only_the_start_of_a_free_motion() {
     let scenario = shipped("double_pendulum.toml");
     let proof = proven(&scenario, &Options::default());
     let own = own(&proof);
@@ -105,7 +107,7 @@ fn only_the_beginning_of_a_free_motion_is_left_out_of_the_forces_exerted() {
 /// double precision all of them.
 #[cfg(feature = "f32")]
 #[test]
-fn only_the_beginning_of_a_free_motion_is_left_out_of_rounded_accelerations() {
+fn rounded_accelerations_omit_only_the_start_of_free_motion() {
     let scenario = shipped("double_pendulum.toml");
     let left_out = |engine: EngineName| -> Vec<usize> {
         let proof = proven(&scenario, &Options::default().engine(engine).step(2e-3).sweeps(1).extrapolated(0));
@@ -119,8 +121,9 @@ fn only_the_beginning_of_a_free_motion_is_left_out_of_rounded_accelerations() {
     assert_eq!([left_out(EngineName::Rapier), left_out(EngineName::RapierF32)], [vec![0], vec![early]]);
 }
 
-/// Largest error of the native reactions and of the moment on the crank at the given times, over the largest force and
-/// moment.
+/// Largest error of the native reactions, divided by the largest force.
+/// Then the largest error of the moment on the crank, divided by the largest moment.
+/// Both are taken at the given times.
 fn native_errors(name: &str, build: Build, step: f64, times: &[f64]) -> [f64; 2] {
     let scenario = shipped(name);
     let rapier = Rapier::new(build, Precision::Double, step);
@@ -138,8 +141,10 @@ fn native_errors(name: &str, build: Build, step: f64, times: &[f64]) -> [f64; 2]
     [error[0] / size[0], error[1] / size[1]]
 }
 
-/// The velocities that a moving start begins with follow the constraints of the first pose, not of the one before. The
-/// impulses of the first steps lack what that changes: 39 % of the range of a reaction, at any step.
+/// If a mechanism starts in motion, its first velocities satisfy the constraints of the first pose, not of an earlier
+/// pose.
+/// Without a correction, the impulses of the first steps lack this change.
+/// The missing part is 39 % of the range of a reaction, at any step.
 #[test]
 fn impulses_at_the_start_of_a_moving_mechanism_converge() {
     for build in [Build::Multibody, Build::Impulse] {
@@ -150,10 +155,10 @@ fn impulses_at_the_start_of_a_moving_mechanism_converge() {
     }
 }
 
-/// A motor whose moment does not fall with the speed is a load in Rapier. It is not among the impulses, but the drive
-/// exerts it.
+/// If a motor's moment does not fall with the speed, Rapier receives it as a load.
+/// This moment is not among the impulses, but the drive exerts it.
 #[test]
-fn the_moment_of_a_motor_that_is_a_load_is_among_the_forces_exerted() {
+fn a_motor_moment_applied_as_a_load_is_an_exerted_force() {
     let errors = native_errors("compressor_runup.toml", Build::Multibody, 1e-4, &[0.0, 0.02, 0.05, 0.1]);
     assert_within!(errors[1], 1e-3, "moment");
     assert_within!(errors[0], 5e-3, "reactions");

@@ -10,7 +10,7 @@ use scenario::Scenario;
 
 /// A crank alone with its mass centre at radius r: |R| = m |w^2 r e + g|, largest where the centre is lowest.
 #[test]
-fn a_bare_crank_pulls_hardest_where_its_mass_hangs() {
+fn the_reaction_of_a_bare_crank_peaks_with_its_mass_lowest() {
     let text = "format = 1\nname = \"bare\"\ntitle = \"t\"\n[ground.points]\nO = { x_m = 0, y_m = 0 }\n[links.crank]\nmass_kg = 2\n\
         mass_centre = { x_m = 0.3, y_m = 0 }\n[links.crank.points]\nO = { x_m = 0, y_m = 0 }\n[[joints]]\nname = \"O\"\n\
         type = \"revolute\"\nlinks = [\"ground\", \"crank\"]\n[drive]\njoint = \"O\"\nspeed_rad_s = 3\n[gravity]\nx_m_s2 = 0\n\
@@ -18,14 +18,15 @@ fn a_bare_crank_pulls_hardest_where_its_mass_hangs() {
     let peaks = over_range(&Scenario::parse(text, Path::new("bare.toml")).unwrap().case).unwrap();
     let expected = 2.0 * (9.0 * 0.3 + 9.81);
     assert_within!((peaks.reactions[0].value - expected).abs(), 1e-14 * expected, "{peaks:?}");
-    // The value is stationary at its maximum: the angle is accurate to the square root of rounding.
+    // The value is stationary at its maximum, so the angle is accurate only to the square root of the rounding error.
     assert_within!((peaks.reactions[0].crank - 1.5 * std::f64::consts::PI).abs(), 1e-7, "{peaks:?}");
     assert_eq!(peaks.reactions[0].value, peaks.shaking_force.value);
     assert_within!((peaks.balancing_moment.value - 2.0 * 9.81 * 0.3).abs(), 1e-14 * 6.0);
 }
 
-/// Printed maxima of R2 to R7 and the journals designed for them. The authors search each maximum from an angle that
-/// they give; for R2 and R3 the search ends 0.05 and 0.03 N below. The masses were fitted to their table to 0.015 N.
+/// Printed maxima of R2 to R7, and the journals designed for them.
+/// The authors search each maximum from a stated angle; for R2 and R3 their search ends 0.05 and 0.03 N too low.
+/// The masses were fitted to their table, to 0.015 N.
 #[test]
 fn val_ov7_new_largest_reactions_and_journals() {
     let scenario = crate::common::shipped("ov7_new_tabulated.toml");

@@ -1,5 +1,5 @@
-//! Graphical methods: plans close and are images of the links, drawings contain what they claim, the chord method has
-//! its known error, and the published graphical figures are reproduced.
+//! Graphical methods: plans close and are images of the links, and drawings contain what they claim.
+//! The chord method has its known error, and the published graphical figures are reproduced.
 
 mod drawings;
 mod graphs;
@@ -23,13 +23,13 @@ use scenario::Scenario;
 const REVOLUTE: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
 
-/// All scenarios with crank angles that they can reach.
+/// All scenarios, each with crank angles that it can reach.
 fn all() -> impl Iterator<Item = (&'static str, f64)> {
     let names = REVOLUTE.into_iter().chain(SLIDERS);
     names.flat_map(|name| angles().map(move |degrees| (name, degrees_of(name, degrees))))
 }
 
-/// The crank of the tangent mechanism only swings, by 60 deg to either side.
+/// A reachable crank angle (deg): the crank of the tangent mechanism only swings, by 60 deg to either side.
 fn degrees_of(name: &str, degrees: f64) -> f64 {
     if name == "tangent" { (degrees - 180.0) / 3.0 } else { degrees }
 }
@@ -45,7 +45,7 @@ fn plans_of(case: &Case, solver: &dyn Solver, degrees: f64) -> linkage::Result<P
     Ok(Plans::of(case, solver, &state_at(case, solver, crank)?, crank))
 }
 
-/// Access of the tests to a plan by names.
+/// Access to parts of a plan by name.
 trait Named {
     /// The vector called `name`.
     fn vector(&self, name: &str) -> Option<&Vector>;
@@ -81,8 +81,9 @@ fn longest(plan: &VectorPlan) -> f64 {
     plan.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger)
 }
 
-/// Walks from the pole along vectors to every letter. Each vector that is not needed for this closes a contour. Returns
-/// the number of contours and the largest gap.
+/// Walks from the pole along vectors to every letter.
+/// Each vector that this walk does not need closes a contour.
+/// Returns the number of contours and the largest gap.
 fn contours(plan: &VectorPlan) -> (usize, f64) {
     let pole = |letter: &str| {
         let fixed = plan.tips.iter().any(|tip| tip.letter == letter && tip.kind == TipKind::Fixed);
@@ -119,15 +120,16 @@ fn every_contour_of_every_plan_closes() {
                 let (count, gap) = contours(plan);
                 // Each moving loop of links gives at least one contour; crank, coupler and rocker form such a loop.
                 assert!(count >= 1, "{name}: nothing closes");
-                // The solvers promise eleven digits of velocities and accelerations.
+                // The solvers promise velocities and accelerations to eleven digits.
                 assert_within!(gap, 1e-11 * longest(plan), "{name} at {degrees}: {:e}", gap / longest(plan));
             }
         }
     }
 }
 
-/// Burmester and Mehmke: the image of a link is the link, turned and enlarged. Compares sides of the drawn mechanism
-/// and of the plans with the listed omega and alpha, without using the vectors themselves.
+/// Burmester and Mehmke: the image of a link is the link, rotated and enlarged.
+/// The test compares sides of the drawn mechanism with those of the plans, using the listed omega and alpha.
+/// It does not use the vectors themselves.
 #[test]
 fn the_image_of_a_link_is_similar_to_it() {
     for (name, degrees) in all() {
@@ -172,7 +174,7 @@ fn the_image_of_a_link_is_similar_to_it() {
 }
 
 #[test]
-fn parts_stand_as_their_names_say() {
+fn normal_and_tangential_parts_have_their_directions() {
     let plans = plans("fourth_class", 70.0);
     let place = |name: char| plans.scheme.points.iter().find(|(own, _)| own.starts_with(name)).unwrap().1;
     let plan = &plans.acceleration;
@@ -227,7 +229,7 @@ fn both_solvers_draw_the_same_plans() {
     }
 }
 
-/// The method through the singular point has no error of its own: it gives the same values as both solvers.
+/// The method through the singular point is exact: it gives the same values as both solvers.
 #[test]
 fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     let case = scenario("fourth_class").case;
@@ -272,8 +274,8 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     }
 }
 
-/// Magnitudes at 70 deg by the authors' analytic and graphical methods, and their percentages, compared with the exact
-/// ones.
+/// Magnitudes at 70 deg by the authors' analytic and graphical methods, compared with the exact values.
+/// The printed percentages are checked too.
 #[test]
 fn val_fourth_class_published_graphical_figures() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/fourth_class/published.csv");

@@ -29,7 +29,7 @@ fn joint_of(sample: &Sample) -> JointId {
 }
 
 #[test]
-fn motion_is_that_of_the_closed_forms() {
+fn motion_matches_the_closed_forms() {
     each(|sample, solver| {
         let joint = &sample.case.mechanism.joints()[joint_of(sample)];
         let link = sample.case.mechanism.link_named(sample.link).unwrap();
@@ -83,7 +83,8 @@ fn velocities_and_accelerations_are_derivatives() {
     });
 }
 
-/// Every link with the forces of its joints at their places on the second links, and their moments about these places.
+/// Equilibrium of every link.
+/// The force of a joint acts at the joint point of the joint's second link; moments are about this point.
 #[test]
 fn every_link_is_in_equilibrium() {
     each(|sample, solver| {
@@ -118,8 +119,7 @@ fn every_link_is_in_equilibrium() {
     });
 }
 
-/// The force of a prismatic joint is perpendicular to its axis, to the rounding of the forces from which it is
-/// computed.
+/// The force of a prismatic joint is perpendicular to its axis, within the rounding of the forces that enter it.
 #[test]
 fn sliders_are_not_pushed_along_their_guides() {
     each(|sample, solver| {
@@ -167,8 +167,9 @@ fn drive_and_frame_agree_with_power_and_momentum() {
     });
 }
 
-/// If its links are named in the other order, a joint is the same joint. The force changes its sign, and so does the
-/// moment, which is then taken about the place on the other link.
+/// The order in which a joint names its links does not change the joint.
+/// With the other order, the force changes its sign.
+/// The moment also changes its sign, and is taken about the joint point on the other link.
 #[test]
 fn order_of_a_joints_links_does_not_matter() {
     each(|sample, solver| {

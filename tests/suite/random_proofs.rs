@@ -10,16 +10,18 @@ use crate::common::sketch::RandomSource;
 use prover::run::{Options, prove};
 use scenario::{EngineSetting, Scenario};
 
-/// Symptom: correct mechanisms disagree in their velocities, by up to twice the bound. Cause: too few sweeps leave an
-/// error of first order there. In the differences from which the bound is made, it cancels against the error of second
-/// order. The run with fewer sweeps shows it.
+/// Symptom: correct mechanisms disagree in their velocities, by up to twice the bound.
+/// Cause: too few sweeps leave an error of first order in the velocities.
+/// In the differences behind the bound, this error cancels against the error of second order.
+/// A run with fewer sweeps reveals it.
 #[test]
 fn regress_random_chains_of_rrr_dyads_never_disagree() {
     never_disagree(&SORTS[..1], draws(6));
 }
 
-/// The same with all kinds of dyads. Of sixty chains of up to three, one keeps an error of first order in slide speeds,
-/// which vanishes with 8192 sweeps. Fifteen have every kind alone, and chains of every length.
+/// The same with all kinds of dyads.
+/// Of sixty chains of up to three dyads, one has an error of first order in slide speeds; it vanishes with 8192 sweeps.
+/// Fifteen chains contain every kind alone and chains of every length.
 #[test]
 fn regress_random_mechanisms_with_sliders_never_disagree() {
     never_disagree(&SORTS, draws(15));
@@ -48,13 +50,13 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
                 let count = if word == "agree" { &proven } else { &open };
                 count.set(count.get() + 1);
             }
-            // The run-up leads some mechanisms beyond the poses that can be assembled.
+            // The run-up leads some mechanisms out of the range in which they can be assembled.
             Err(error) => {
                 let says = |words| error.message().contains(words);
                 proptest::prop_assert!(
                     says("loop has opened")
                         || says("in one step")
-                        || says("came back to the start")
+                        || says("arrived at its start")
                         || says("another assembly mode"),
                     "{}",
                     error
@@ -69,11 +71,12 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
     assert!(2 * proven >= count, "only {proven} of {count} mechanisms are proven, {open} are left open");
 }
 
-/// Work allowed to a proof, in steps: what is not decided by then is inconclusive, and no less right.
+/// Work allowed to a proof, in steps.
+/// If a proof is undecided after this work, it is inconclusive; this is also correct.
 const WORK: f64 = 2e4;
 
-/// Every family of higher groups, its surroundings in turn; by night each of them. Before the error of the sweeps was
-/// counted, three of these disagreed falsely in velocities.
+/// Every family of higher groups; the surroundings alternate, and with more draws each family has all surroundings.
+/// Before the bound included the error of the sweeps, three of these mechanisms disagreed falsely in velocities.
 #[test]
 fn regress_random_higher_groups_never_disagree() {
     let mut counts = std::collections::BTreeMap::new();
@@ -97,7 +100,7 @@ fn regress_random_higher_groups_never_disagree() {
                     }
                     proof.verdict.word()
                 }
-                // The pose is out of reach, for the references or for the engine.
+                // The references or the engine cannot reach the pose.
                 Err(_) => "refused",
             };
             *counts.entry(word).or_insert(0) += 1;
@@ -111,7 +114,7 @@ fn regress_random_higher_groups_never_disagree() {
 /// the moment of resistance jumps there, and the engine's rocker reverses a moment earlier. The verdict must be
 /// inconclusive.
 #[test]
-fn regress_a_load_that_jumps_within_the_engines_error_is_no_disagreement() {
+fn regress_a_load_jump_within_the_engine_error_never_disagrees() {
     let text = include_str!("../../scenarios/crank_rocker.toml");
     let text = &text[..text.find("# The rocker's extreme").unwrap()];
     for extreme in [33.610_819_789_881_56, 234.862_320_107_189_36] {

@@ -1,5 +1,5 @@
-//! The crank angles over which mechanisms can be followed, and their singular positions: against closed forms, against
-//! solving and against counting.
+//! The crank angles over which mechanisms can be followed, and their singular poses.
+//! They are compared with closed forms, with solving, and with counting configurations.
 
 use linkage::math::KeepNan;
 use std::f64::consts::{PI, TAU};
@@ -33,16 +33,17 @@ fn limits(range: &Range) -> Option<[Singularity; 2]> {
     }
 }
 
-/// Crank angle in the upper half plane at which the distance from A to C is `reach`, by the law of cosines; `None` if
-/// there is none. It is written with half angles, (reach - |d - a|)(reach + |d - a|) / 4 a d = sin^2(phi / 2), so that
-/// no digit is lost near 0.
+/// Crank angle in the upper half plane at which the distance from A to C is `reach`, by the law of cosines.
+/// `None` if no angle has this distance.
+/// The formula uses half angles, (reach - |d - a|)(reach + |d - a|) / 4 a d = sin^2(phi / 2), to keep all digits near
+/// 0.
 fn crank_at(d: f64, a: f64, reach: f64) -> Option<f64> {
     let square = (reach - (d - a).abs()) * (reach + (d - a).abs()) / (4.0 * a * d);
     (0.0..=1.0).contains(&square).then(|| 2.0 * square.sqrt().asin())
 }
 
-/// The interval of crank angles around `start` in which |b - c| <= |AC| <= b + c. `start` is in the upper half plane,
-/// or the interval is symmetrical about 0 or 180 deg.
+/// The interval of crank angles around `start` in which |b - c| <= |AC| <= b + c.
+/// Either `start` is in the upper half plane, or the interval is symmetrical about 0 or 180 deg.
 fn closed_form([d, a, b, c]: [f64; 4], start: f64) -> Option<[f64; 2]> {
     let (stretched, folded) = (crank_at(d, a, b + c), crank_at(d, a, (b - c).abs()));
     match (folded, stretched) {
@@ -54,8 +55,8 @@ fn closed_form([d, a, b, c]: [f64; 4], start: f64) -> Option<[f64; 2]> {
     }
 }
 
-/// A crank angle in [0, 180] deg at which the four-bar can be assembled and is far from any dead point, if there is
-/// one.
+/// A crank angle in [0, 180] deg at which the four-bar can be assembled and is far from any dead point.
+/// `None` if no angle qualifies.
 fn start_of(lengths: [f64; 4]) -> Option<f64> {
     let [d, a, b, c] = lengths;
     let cosine = |phi: f64| (b * b + c * c - a * a - d * d + 2.0 * a * d * phi.cos()) / (2.0 * b * c);
@@ -93,21 +94,21 @@ fn limits_of_random_four_bars_are_those_of_the_law_of_cosines() {
     assert_within!(worst, EXACT, "{worst:e}");
 }
 
-/// Fully rotating joints are found by following the linkage with each pair of neighbouring links as frame and driving
-/// link.
+/// Following the linkage finds the joints that rotate fully.
+/// Each pair of neighbouring links serves in turn as frame and driving link.
 #[test]
-fn grashof_types_agree_with_turns_that_were_followed() {
+fn grashof_types_agree_with_traced_rotations() {
     let mut random = four_link::RandomSource::from_seed(12);
     let mut counts = [0; 5];
     for _ in 0..300 {
         let lengths = [0; 4].map(|_| random.number(0.1, 1.0));
         let turning = (0..4).map(|first| {
-            // Around the linkage: frame, driving link, coupler, output link.
+            // Order around the linkage: frame, driving link, coupler, output link.
             let rolled = [0, 1, 2, 3].map(|k| lengths[(first + k) % 4]);
             started(rolled, true).map(|spec| range(&spec).extent == Extent::FullTurn(1))
         });
         let Some(turning) = turning.collect::<Option<Vec<bool>>>() else { continue };
-        // Joints frame-driver, driver-coupler, coupler-output, output-frame.
+        // Joints in order: frame-driver, driver-coupler, coupler-output, output-frame.
         let expected = match turning[..] {
             [true, false, false, true] => FourBarType::DoubleCrank,
             [true, true, false, false] => FourBarType::CrankRocker,
@@ -129,7 +130,7 @@ fn grashof_types_agree_with_turns_that_were_followed() {
 }
 
 #[test]
-fn links_of_a_double_crank_and_of_a_crank_rocker_turn_as_their_names_say() {
+fn double_crank_and_crank_rocker_turn_as_named() {
     let turns = |lengths: [f64; 4]| {
         let range = range(&started(lengths, true).unwrap());
         range.links.iter().map(|link| link.turns).collect::<Vec<_>>()
@@ -165,10 +166,11 @@ fn val_crank_rocker_extreme_positions() {
     assert_within!((range.groups[GroupId(0)].condition.unwrap().value - 1.0 / (mu / 2.0).tan()).abs(), 1e-9);
 }
 
-/// Every limit and extreme position of random chains of dyads, by the closed forms of the solver. On one side of a
-/// limit it solves, on the other it cannot. On the two sides of an extreme position the link turns in different senses.
+/// Every limit and extreme position of random chains of dyads, checked with the closed forms of the solver.
+/// The solver succeeds on one side of a limit and fails on the other.
+/// On the two sides of an extreme position the link rotates in opposite directions.
 #[test]
-fn limits_and_extremes_of_chains_lie_where_the_solver_finds_them() {
+fn limits_and_extremes_of_chains_match_the_solver() {
     let (limited, extremes) = (std::cell::Cell::new(0), std::cell::Cell::new(0));
     random::for_each_of(&random::SORTS[..1], 3, 40, |sample| {
         let case = &sample.scenario.case;
@@ -213,8 +215,8 @@ fn a_parallelogram_has_change_points_at_0_and_180_degrees() {
         assert_within!((to.crank - PI).abs(), EXACT, "{:e} {:e}", from.crank, to.crank - PI);
         assert_eq!(range.four_bar.unwrap().of_type, FourBarType::ChangePoint);
         let [coupler, rocker] = [1, 2].map(|k| range.links[k].angles[1].value - range.links[k].angles[0].value);
-        // The rocker moves from one line with the frame to the other; the coupler stays parallel to the frame or
-        // swings.
+        // The rocker moves from one pose in line with the frame to the other.
+        // In the parallelogram the coupler stays parallel to the frame; in the antiparallelogram it swings.
         assert_within!((rocker - PI).abs(), EXACT, "{rocker}");
         assert_eq!(coupler <= EXACT, left, "{coupler}");
         assert_eq!(range.links[1].extremes.len(), usize::from(!left));
@@ -234,7 +236,8 @@ fn near_a_parallelogram_branches_touch_or_end() {
             .filter(|s| s.kind == SingularityKind::BranchContact)
             .map(|s| wrapped(s.crank))
             .collect();
-        // Transmission angle there: A is on the line of the pivots, law of cosines for the triangle A B C.
+        // Sine of the transmission angle at a contact: A is on the line of the pivots, law of cosines for the triangle
+        // A B C.
         let sine = |reach: f64| {
             let (b, c) = (0.4, 0.1 + off);
             let sixteen = (b + c + reach) * (b + c - reach) * (reach + b - c) * (reach - b + c);
@@ -267,7 +270,8 @@ fn two_groups_with_one_dead_point() {
         spec.links.push(link);
     }
     spec.pins.push(Pin { name: copy("B"), links: [copy("coupler"), copy("rocker")] });
-    // The new joints at A and C are at points whose names are already used by joints. A spec cannot express this.
+    // The new joints at A and C lie at points whose names other joints already use.
+    // A spec cannot express this.
     let more = "[[joints]]\nname = \"A_2\"\npoint = \"A\"\ntype = \"revolute\"\nlinks = [\"crank\", \"coupler_2\"]\n\
                 [[joints]]\nname = \"C_2\"\npoint = \"C\"\ntype = \"revolute\"\nlinks = [\"ground\", \"rocker_2\"]\n";
     spec.dyads.push(Dyad { links: [copy("coupler"), copy("rocker")], left: false });
@@ -281,8 +285,8 @@ fn two_groups_with_one_dead_point() {
     }
 }
 
-/// At a limit of rotation two real configurations of the group meet. So a polynomial that finds all configurations has
-/// two fewer beyond the limit.
+/// At a limit of rotation, two real configurations of the group meet.
+/// A polynomial that finds all configurations therefore has two fewer beyond the limit.
 #[test]
 fn groups_of_four_links_lose_two_configurations_at_their_limits() {
     let mut random = four_link::RandomSource::from_seed(13);
@@ -305,7 +309,7 @@ fn groups_of_four_links_lose_two_configurations_at_their_limits() {
                     .map_or(0, |all| all.len() as i32)
             };
             for (limit, outwards) in [(from, -1.0), (to, 1.0)] {
-                // Near a double zero the polynomial's own zeros have an error of the square root of rounding.
+                // Near a double zero, the zeros of the polynomial have an error of the square root of rounding.
                 let [inside, outside] = [-1e-6, 1e-6].map(|d| count(limit.crank + outwards * d));
                 assert_eq!(
                     (limit.kind, inside - outside),
@@ -333,24 +337,24 @@ fn asked(case: &Case, degrees: f64) -> Case {
     case.on(Grid::of_inputs(case.crank(), vec![degrees.to_radians()])).unwrap()
 }
 
-/// Both solvers and the list of configurations state the crank angles that can be reached, to 1e-6 deg.
+/// Both solvers and the list of configurations report the reachable crank angles, to 1e-6 deg.
 #[test]
-fn an_angle_out_of_reach_is_answered_with_the_interval() {
+fn an_unreachable_angle_is_refused_with_the_reachable_range() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
     let spec = started(lengths, true).unwrap();
     let case = spec.scenario().unwrap().case;
     let [from, to] = closed_form(lengths, spec.start).unwrap().map(f64::to_degrees);
     let check = |error: linkage::Error, who: &str| {
-        // The solver reports only its own result; the range is added where both are joined.
-        assert!(error.is_out_of_reach() && !error.to_string().contains("can be reached from"), "{who}: {error}");
+        // The solver reports only its result; `explained` adds the range.
+        assert!(error.is_out_of_reach() && !error.to_string().contains("reachable crank angles"), "{who}: {error}");
         assert_eq!(error.advice()[0], Advice::ShortenGrid, "{who}");
         let crank = error.input().unwrap().value.to_degrees();
         assert!(crank < from + 1e-3 || crank > to - 1e-3, "{who}: {crank}");
         let error = explained(&case, error);
         assert!(!error.is_out_of_reach() && explained(&case, error.clone()).message() == error.message());
         let text = error.to_string();
-        let found =
-            text.split_once("can be reached from ").expect(&text).1.split_once(" deg on this branch").expect(&text).0;
+        let (_, found) = text.split_once("reachable crank angles: from ").expect(&text);
+        let (found, _) = found.split_once(" deg on this branch").expect(&text);
         let (low, high) = found.split_once(" to ").unwrap();
         let [low, high]: [f64; 2] = [low, high].map(|number| number.parse().unwrap());
         // Rounded inwards at the sixth decimal.
@@ -368,7 +372,7 @@ fn an_angle_out_of_reach_is_answered_with_the_interval() {
 }
 
 #[test]
-fn configurations_that_meet_have_no_velocities() {
+fn coinciding_configurations_have_no_velocities() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
     let case = started(lengths, true).unwrap().scenario().unwrap().case;
     let [_, to] = closed_form(lengths, case.crank().start).unwrap();
@@ -384,14 +388,16 @@ fn configurations_that_meet_have_no_velocities() {
     assert!(near[0].modes.len() == 2 && near[0].modes.iter().all(|mode| mode.omegas.is_none()), "{near:?}");
 }
 
-/// Differences of the two analytic sides near a dead point, for the condition number k of the dyad. Rounding of
-/// positions enters angles with the factor k. Velocities are divided by a determinant of the order of 1 / k, whose own
-/// relative error is k times that of the angles, and accelerations are divided by it once more. But relative to their
-/// own size both lose the square of k. The factors measured are 2.5, 2.1 and 6.4, and are nearly the same at 30 and at
-/// 0.3 degrees, so the condition number is the whole cause. The bound allows twice as much for other mathematical
-/// libraries.
+/// Differences of the two analytic sides near a dead point, for the condition number k of the dyad.
+/// Rounding of positions enters angles with the factor k.
+/// Velocities are divided by a determinant of the order of 1 / k, whose relative error is k times that of the angles.
+/// Accelerations are divided by it once more.
+/// Relative to their size, however, both lose the square of k.
+/// The factors measured are 2.5, 2.1 and 6.4, and nearly the same at 30 and at 0.3 degrees.
+/// The condition number is therefore the whole cause.
+/// The bound allows twice as much for other mathematical libraries.
 #[test]
-fn loss_of_digits_near_a_dead_point_is_that_of_the_condition_number() {
+fn loss_of_digits_at_a_dead_point_follows_the_condition_number() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
     let [d, a, b, c] = lengths;
     let spec = started(lengths, true).unwrap();
@@ -400,7 +406,7 @@ fn loss_of_digits_near_a_dead_point_is_that_of_the_condition_number() {
     for mu in [30.0, 10.0, 3.0, 1.0, 0.3] {
         let mut of_angle = [0.0f64; 3];
         for k in 0..40 {
-            // Coupler and rocker are nearly stretched; the angle between them is a little larger each time.
+            // Coupler and rocker are nearly stretched; the angle between them grows a little with k.
             let angle = f64::to_radians(mu * (1.0 + 0.01 * f64::from(k)));
             let reach = (b * b + c * c + 2.0 * b * c * angle.cos()).sqrt();
             let crank = crank_at(d, a, reach).unwrap();
@@ -423,9 +429,10 @@ fn loss_of_digits_near_a_dead_point_is_that_of_the_condition_number() {
     worst.iter().for_each(|&factor| assert_within!(factor, 13.0, "{worst:?}"));
 }
 
-/// Sums that differ by a millionth are no change point: the shortest link, the frame, is turned round by all others.
+/// Sums that differ by a millionth are not a change point: the shortest link is the frame, and all others rotate fully
+/// about it.
 #[test]
-fn nearly_equal_sums_of_lengths_are_told_from_equal_ones() {
+fn nearly_equal_sums_of_lengths_are_no_change_point() {
     let of = |more: f64| FourBar::of_lengths([1.0, 2.0, 3.0, 2.0 + more]).of_type;
     let wanted = [FourBarType::ChangePoint, FourBarType::DoubleCrank, FourBarType::TripleRocker];
     assert_eq!([of(0.0), of(1e-6), of(-1e-6)], wanted);

@@ -1,4 +1,5 @@
-//! Recordings are read back bit for bit, are equal for equal runs, and never destroy an older recording.
+//! Recordings are read back bit for bit.
+//! Equal runs give equal recordings, and a recording never destroys an older recording.
 
 mod picture;
 mod sliders;
@@ -238,7 +239,7 @@ fn floats(data: &[u8]) -> Vec<f32> {
 
 /// Engine minus reference, with its sign, in micrometres, microradians and millinewtons.
 #[test]
-fn errors_are_the_engine_less_the_reference_in_small_units() {
+fn errors_are_engine_minus_reference_in_small_units() {
     let (_directory, path) = place("errors.mcap");
     let run = Run::over(turn(50));
     run.write(&path).unwrap();
@@ -264,7 +265,7 @@ fn errors_are_the_engine_less_the_reference_in_small_units() {
     }
 }
 
-/// Place of a recording that is deleted after the test, or kept to be opened in viewers.
+/// Path of a recording that is deleted after the test, or kept so that viewers can open it.
 fn place(name: &str) -> (tempfile::TempDir, PathBuf) {
     let directory = tempfile::tempdir().unwrap();
     let kept = std::env::var_os("LINKPROOF_RECORD_SAMPLE").map(PathBuf::from);
@@ -292,7 +293,7 @@ fn both_sides_are_read_back_bit_for_bit() {
     assert_eq!(sides.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["reference", "engine"]);
     assert_same(&sides[0].1, &run.reference);
     assert_same(&sides[1].1, &run.engine);
-    // Two thirds of this are numbers that do not compress, and the index of 13 thousand messages.
+    // Two thirds of the size are incompressible numbers and the index of 13 thousand messages.
     let size = fs::metadata(&path).unwrap().len();
     assert!(size < 1_000_000, "361 samples of a four-bar take {size} bytes");
 }
@@ -308,7 +309,7 @@ fn rows_in_any_order_with_negative_times_keep_their_order() {
 }
 
 #[test]
-fn zeros_of_both_signs_and_extremes_survive_and_absent_channels_stay_absent() {
+fn extreme_values_survive_and_absent_channels_stay_absent() {
     let (_directory, path) = place("few.mcap");
     let mut run = Run::over(turn(5));
     let few = channels(&run.mechanism, |channel| {
@@ -347,7 +348,7 @@ fn equal_runs_give_equal_bytes() {
 }
 
 #[test]
-fn a_file_cut_off_opens_up_to_the_cut_but_is_not_taken_for_whole() {
+fn a_truncated_file_opens_up_to_the_cut_but_is_not_complete() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("cut.mcap");
     Run::over(turn(361)).write(&path).unwrap();
@@ -367,7 +368,7 @@ fn a_file_cut_off_opens_up_to_the_cut_but_is_not_taken_for_whole() {
 fn a_file_that_is_no_recording_is_not_called_damaged() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("mine.toml");
-    for (bytes, words) in [("", "mine.toml is empty"), ("name = \"mine\"\n", "mine.toml is no recording")] {
+    for (bytes, words) in [("", "mine.toml is empty"), ("name = \"mine\"\n", "mine.toml is not a recording")] {
         fs::write(&path, bytes).unwrap();
         let error = load(&path).unwrap_err();
         assert!(error.to_string().contains(words) && error.way_out().is_some(), "{error}");
@@ -378,7 +379,7 @@ fn a_file_that_is_no_recording_is_not_called_damaged() {
 fn a_recording_that_cannot_be_written_is_an_error_with_its_path() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("old.mcap");
-    // A directory in the place of the file stops even a superuser; permissions do not.
+    // A directory at the path of the file stops even a superuser; permissions do not.
     fs::create_dir(&path).unwrap();
     let run = Run::over(turn(5));
     let error = run.write(&path).unwrap_err();

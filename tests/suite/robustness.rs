@@ -1,4 +1,5 @@
-//! Whatever comes in: no panic, no hang, no message without its place, no name that leaves its folder.
+//! Whatever the input, the program neither panics nor hangs.
+//! Every message states the location of the fault, and names in the input cannot lead out of their folder.
 
 mod bad;
 mod doors;

@@ -1,4 +1,4 @@
-//! Nothing is computed that nobody asked for, and what is asked for keeps its values.
+//! Only requested quantities are computed, and they keep their values.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -13,10 +13,12 @@ use scenario::{Scenario, files_in};
 use crate::common::specimens::specimen;
 use crate::common::{assert_within, draws, shipped};
 
-/// Rounding of a side beside its largest number, in poses as well conditioned as those of the shipped scenarios.
+/// Rounding error of a side relative to its largest number.
+/// It holds in poses as well conditioned as those of the shipped scenarios.
 const ROUNDING: f64 = 1e-9;
 
-/// Every subject of a case asked for by itself: its values are those of the whole, by both sides.
+/// Requests every subject of a case alone.
+/// Solved by either side, its values must be those of the whole solution.
 fn subjects_keep_their_values(case: &Case, about: &str) {
     let times = case.grid.times.iter().step_by(case.grid.len().div_ceil(12)).copied().collect();
     let case = &case.on(Grid::of_times(case.crank(), times)).unwrap();
@@ -24,7 +26,7 @@ fn subjects_keep_their_values(case: &Case, about: &str) {
         let Ok(whole) = solver.solve(case) else { continue };
         let mut words = case.channel_words();
         words.retain(|word| word.split('.').count() < 3 || word.ends_with(".positions"));
-        // Where forces decide the motion, a word only chooses columns.
+        // If forces determine the motion, a word only selects columns, so a few words are enough.
         words.truncate(if case.is_free() { 8 } else { words.len() });
         for word in words {
             let own = case.wanting_only(&case.channels_called(&word));
@@ -34,7 +36,8 @@ fn subjects_keep_their_values(case: &Case, about: &str) {
             for (channel, values) in part.iter() {
                 let expected = whole.column(channel).expect("a channel of the whole");
                 let off = values.iter().zip(expected).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
-                // A channel that is nothing but rounding is measured by its stage.
+                // If a channel is only rounding, its scale is not usable; the measure is the largest value of channels
+                // with the same unit.
                 let of_stage = whole.iter().filter(|(other, _)| other.kind.unit == channel.kind.unit);
                 let size = of_stage.map(|(_, values)| largest_size(values)).fold(0.0, f64::larger);
                 assert_within!(off, ROUNDING * size, "{about}, {word}, {channel} by {}", solver.name());
@@ -44,7 +47,7 @@ fn subjects_keep_their_values(case: &Case, about: &str) {
 }
 
 #[test]
-fn subjects_of_shipped_scenarios_keep_their_values() {
+fn scenes_of_shipped_scenarios_keep_all_values() {
     let files = files_in(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios")).unwrap();
     for file in files {
         let scenario = Scenario::load(&file).unwrap();
@@ -52,9 +55,9 @@ fn subjects_of_shipped_scenarios_keep_their_values() {
     }
 }
 
-/// Loads between links, several drives, sliders: what no shipped scenario has.
+/// The random mechanisms have loads between links, several drives and sliders, which no shipped scenario has.
 #[test]
-fn subjects_of_random_mechanisms_keep_their_values() {
+fn scenes_of_random_mechanisms_keep_all_values() {
     for index in 0..draws(10) as u64 {
         let text = specimen(14, index, &mut BTreeMap::new()).toml(true);
         let scenario = Scenario::parse(&text, Path::new("specimen.toml")).unwrap();
@@ -67,7 +70,7 @@ fn asked(case: &Case, words: &[&str]) -> Case {
     case.wanting_only(&channels)
 }
 
-/// Groups that a pose costs.
+/// Number of groups that are solved per pose.
 fn groups(case: &Case) -> f64 {
     let work = counted(|| AssurSolver.solve(&case.scene().unwrap().case).unwrap()).1;
     work.of(Count::Groups) as f64 / work.of(Count::Poses) as f64
@@ -83,9 +86,9 @@ fn several_points_of_one_group_cost_one_group() {
     assert_eq!(groups(&asked(&case, &["point.2.positions"])), 0.0);
 }
 
-/// A reaction depends on everything that hangs on its joint, and on nothing beside.
+/// A reaction depends on all parts that its joint carries, and on no others.
 #[test]
-fn reactions_need_what_hangs_on_their_joint() {
+fn reactions_need_everything_attached_to_their_joint() {
     let case = shipped("ov7_base.toml").case;
     let scene = |words: &[&str]| asked(&case, words).scene().unwrap();
     assert!(scene(&["joint.3a"]).left_out.is_empty());
@@ -94,14 +97,14 @@ fn reactions_need_what_hangs_on_their_joint() {
     let last = six_bar.structure.groups.last().unwrap();
     let joint = &six_bar.mechanism.joints()[last.inner[0]].name;
     assert_eq!(asked(&six_bar, &[&format!("joint.{joint}")]).scene().unwrap().left_out.loads, 0);
-    // The slides of a joint are no forces.
+    // Motions of a link need only the groups between the crank and this link.
     let links = |words: &[&str]| scene(words).case.mechanism.links().len();
     assert_eq!((links(&["link.crank"]), links(&["point.3.velocities"]), links(&["link.rod_35.positions"])), (2, 4, 6));
 }
 
-/// Where forces decide the motion, every mass counts.
+/// Where forces determine the motion, every mass matters.
 #[test]
-fn a_free_motion_leaves_nothing_out() {
+fn the_scene_of_a_free_motion_omits_nothing() {
     let case = shipped("ov7_new_runup.toml").case;
     let own = asked(&case, &["link.crank"]);
     let scene = own.scene().unwrap();
@@ -109,9 +112,9 @@ fn a_free_motion_leaves_nothing_out() {
     assert_eq!(AssurSolver.solve(&scene.case).unwrap().channels().len(), own.channels().len());
 }
 
-/// Two links may share a point that only a link left out has held together.
+/// Two links may share a point that only an omitted link joined.
 #[test]
-fn a_point_that_nothing_holds_together_any_more_gets_two_names() {
+fn a_point_split_by_an_omitted_link_gets_two_names() {
     let case = shipped("ov7_base.toml").case;
     for word in ["link.rocker_43.positions", "link.rod_35", "point.5.velocities", "link.rocker_65.angle_rad"] {
         let scene = asked(&case, &[word]).scene().unwrap();
@@ -119,9 +122,10 @@ fn a_point_that_nothing_holds_together_any_more_gets_two_names() {
     }
 }
 
-/// Exact work of some questions to shipped scenarios, part by part. A change of these numbers is a change of cost.
+/// Exact work of some questions to shipped scenarios, part by part.
+/// If these numbers change, the cost has changed.
 #[test]
-fn work_is_what_it_was() {
+fn work_of_scenes_is_unchanged() {
     let questions = [
         ("crank_rocker.toml", ""),
         ("crank_rocker.toml", "positions"),
@@ -141,10 +145,10 @@ fn work_is_what_it_was() {
         }
         let proof = linkproof::prove(&scenario, &linkproof::Options::default()).unwrap();
         assert_eq!(proof.verdict.word(), "agree", "{file} {word}");
-        // Which channels there are is no matter of cost.
+        // The list of channels is not part of the cost.
         for line in linkproof::report::explain::text(&proof, &[]).lines() {
-            let asked = format!("asked      {word}").trim_end().to_string();
-            pages += if line.starts_with("asked ") { &asked } else { line };
+            let requested = format!("requested  {word}").trim_end().to_string();
+            pages += if line.starts_with("requested ") { &requested } else { line };
             pages += "\n";
         }
         pages += "\n";

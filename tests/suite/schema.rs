@@ -71,6 +71,6 @@ fn misspelt_keys_and_words_do_not_fit() {
         assert!(validator.is_valid(&read(text)), "{old}");
         assert!(!validator.is_valid(&read(&text.replacen(old, new, 1))), "{new}");
     }
-    // Any number may be an arithmetic.
+    // Any number may be an arithmetic expression.
     assert!(validator.is_valid(&read(&FORMULAS.replacen("x_mm = 80", "x_mm = \"2*r\"", 1))));
 }

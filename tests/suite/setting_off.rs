@@ -1,4 +1,5 @@
-//! Motions that begin at rest: what depends on a sense of motion takes that of the motion that begins, not that of
+//! Motions that begin at rest.
+//! A quantity that depends on the direction of motion takes the direction in which the motion begins, not that of
 //! rounding.
 
 use std::path::Path;
@@ -15,7 +16,7 @@ fn case_of(text: &str) -> Case {
     Scenario::parse(text, Path::new("setting_off.toml")).unwrap_or_else(|error| panic!("{error}")).case
 }
 
-/// Both analytic sides and all engines with the step `step` (s) in double precision.
+/// Both analytic sides and all engines in double precision with the time step `step` (s), each with its bound.
 fn solvers(step: f64) -> Vec<(Box<dyn Solver>, f64)> {
     let mut all: Vec<(Box<dyn Solver>, f64)> = vec![(Box::new(AssurSolver), 1e-11), (Box::new(NewtonSolver), 1e-11)];
     for name in ["rapier", "impulse"] {
@@ -33,7 +34,7 @@ fn accelerations(solver: &dyn Solver, case: &Case) -> Vec<f64> {
 /// Symptom: with an efficiency below 1 the multibody's accelerations at t = 0 were off by 1 / efficiency squared.
 /// Cause: the crank's speed there is rounding, and a negative one means that power flows back to the motor.
 #[test]
-fn regress_a_motor_behind_a_lossy_reducer_sets_off_forwards() {
+fn regress_a_motor_with_a_lossy_reducer_starts_forwards() {
     let text = shipped("crank_rocker_runup.toml").text;
     let lossy = text.replace("slope_N_m_s = -0.0716", "slope_N_m_s = -0.0716\nefficiency = 0.9");
     for text in [lossy.replace("speed_rpm = 130", "speed_rpm = -130"), lossy] {
@@ -48,12 +49,12 @@ fn regress_a_motor_behind_a_lossy_reducer_sets_off_forwards() {
     }
 }
 
-/// A weight on the crank's own shaft, in closed form: alpha = (M - m g s) / (J + m s^2).
-/// M is the motor's moment times the efficiency where it lifts the weight, and divided by it where the weight turns it
-/// back.
-/// Symptom: side 2 took the motor's losses in the forward sense at t = 0 although the crank sets off backwards.
+/// A weight on the crankshaft, in closed form: alpha = (M - m g s) / (J + m s^2).
+/// M is the motor's moment times the efficiency if the motor lifts the weight.
+/// M is that moment divided by the efficiency if the weight drives the motor back.
+/// Symptom: side 2 took the motor's losses in the forward direction at t = 0, although the crank starts backwards.
 #[test]
-fn regress_a_weight_that_turns_the_motor_back_meets_its_losses() {
+fn regress_a_weight_that_drives_the_motor_meets_its_losses() {
     let [mass, inertia, arm, gravity] = [2.0, 0.05, 0.3, 9.81];
     for (torque, efficiency, factor) in [(2.0, 0.8, 0.8), (0.5, 0.8, 1.0 / 0.8), (0.5, 1.0, 1.0)] {
         for sense in [1.0, -1.0] {
@@ -81,11 +82,12 @@ fn regress_a_weight_that_turns_the_motor_back_meets_its_losses() {
     }
 }
 
-/// Symptom: the sides differed by the whole motion, which none of them explained.
-/// Cause: from rest, either sense of rotation is a motion if a load drives the crank in one sense and the motor in the
-/// other. Side 1 took one, side 2 the other.
+/// Symptom: the sides differed by the whole motion, and neither side explained why.
+/// Cause: from rest, the crank may start in both directions, because a load drives it in one direction and the motor in
+/// the other.
+/// Side 1 took one direction, side 2 the other.
 #[test]
-fn regress_a_start_that_is_no_single_motion_is_refused() {
+fn regress_an_ambiguous_start_is_refused() {
     let text = shipped("crank_rocker_runup.toml").text.replace("speed_rpm = 130", "speed_rpm = -130");
     let load = "[[loads]]\ntype = \"moment\"\nlink = \"crank\"\nacts = \"counter-clockwise\"\nmoment_N_m = 500\n\n";
     let case = case_of(&text.replacen("[[loads]]", &format!("{load}[[loads]]"), 1));
@@ -93,10 +95,10 @@ fn regress_a_start_that_is_no_single_motion_is_refused() {
     assert!(error.message().contains("from rest in either sense") && error.way_out().is_some(), "{error}");
 }
 
-/// A pendulum on a driven crank is at rest as the motion begins, and a load on it acts against the motion that begins.
-/// Symptom: the momentum of the whole mechanism had no such load at that instant, and a right motion disagreed.
+/// A pendulum on a driven crank is at rest as the motion begins; its load acts against the motion that begins.
+/// Symptom: at that instant the momentum of the whole mechanism lacked this load, and a right motion disagreed.
 #[test]
-fn regress_a_load_on_a_link_that_is_at_rest_while_others_move_agrees() {
+fn regress_a_load_on_a_link_that_starts_at_rest_agrees() {
     let text = |load: &str| {
         format!(
             "format = 1\nname = \"pendulum\"\ntitle = \"pendulum\"\n[ground.points]\nO = {{ x_m = 0, y_m = 0 }}\n\

@@ -1,4 +1,4 @@
-//! A proof without any setting: it finds its own, keeps to what is given, and says what it did.
+//! A proof without any setting finds its settings, keeps to those that are given, and reports what it did.
 
 use std::path::Path;
 
@@ -20,16 +20,16 @@ fn proven(scenario: &Scenario) -> Proof {
     prove(scenario, &Options::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// What a proof says, and what it does not depend on the machine: every number of every channel.
+/// Residual, bound and verdict of every channel.
 fn numbers(proof: &Proof) -> Vec<(f64, f64, String)> {
     let of =
         |channel: &prover::run::ChannelProof| (channel.residual.max, channel.bound, channel.verdict.word().to_string());
     proof.engine().channels.iter().map(of).collect()
 }
 
-/// RandomSource correct mechanisms of all ten kinds of shape, with masses over four decades, without any setting.
+/// Random correct mechanisms of all ten kinds of shape, with masses over four decades, without any setting.
 #[test]
-fn random_mechanisms_end_in_agreement_by_themselves() {
+fn random_mechanisms_agree_without_any_setting() {
     let mut open = Vec::new();
     let count = draws(10) as u64;
     for index in 0..count {
@@ -41,7 +41,7 @@ fn random_mechanisms_end_in_agreement_by_themselves() {
             open.push((index, format!("{:?}", proof.verdict)));
         }
     }
-    // What the engine cannot decide within the work allowed: one in ten at most.
+    // At most one mechanism in ten is left undecided within the allowed work.
     assert!(10 * open.len() as u64 <= count, "{open:?}");
 }
 
@@ -54,10 +54,11 @@ fn the_same_input_finds_the_same_settings_and_the_same_bits() {
     assert_eq!(numbers(&one), numbers(&other));
 }
 
-/// The masses of this mechanism differ by a thousand, and an initial speed must go through all of them: below a
-/// thousand sweeps every run is wrong by the same share, and differs little from the others.
+/// The masses of this mechanism differ by a factor of a thousand, and an initial speed must propagate through all of
+/// them.
+/// Below a thousand sweeps, all runs have nearly the same relative error, so their differences do not show it.
 #[test]
-fn regress_sweeps_that_have_hardly_begun_to_converge_prove_nothing() {
+fn regress_unconverged_sweeps_are_inconclusive() {
     let own = specimen(1, 397, &mut Default::default());
     let scenario = parsed(&own.toml(false));
     let proof = prove(&scenario, &Options::default().step(1.39e-2).sweeps(64)).unwrap();
@@ -68,32 +69,33 @@ fn regress_sweeps_that_have_hardly_begun_to_converge_prove_nothing() {
     assert!(!(speed.residual.max > speed.bound), "{} {}", speed.residual.max, speed.bound);
 }
 
-/// A spline's third derivative jumps at its knots, and second differences across them are of order 1: that is no fault
-/// of an engine.
+/// The third derivative of a spline jumps at its knots, so second differences across the knots have an error of order
+/// 1.
+/// This is not a fault of an engine.
 #[test]
-fn regress_knots_of_a_law_of_motion_do_not_make_an_order_wrong() {
+fn regress_knots_of_a_motion_law_do_not_falsify_the_order() {
     let own = specimen(1, 374, &mut Default::default());
     let proof = proven(&parsed(&own.toml(false)));
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
 }
 
-/// A step that is given is kept to, and nothing finer is run for the result. Where it proves nothing, the free choice
-/// is tried, and its outcome told.
+/// A proof keeps to a given step and runs nothing finer for its result.
+/// If it proves nothing, it also tries a free choice and reports the outcome.
 #[test]
-fn a_given_step_is_kept_to_and_the_way_out_has_been_tried() {
+fn a_given_step_is_kept_and_the_suggested_remedy_tried() {
     let scenario = shipped("crank_rocker.toml");
     let proof = prove(&scenario, &Options::default().step(2e-2)).unwrap();
     let settings = proof.engine().info.settings;
     assert_eq!((settings.resolution, settings.extrapolated), (2e-2, 0));
     assert_eq!(proof.verdict.word(), "inconclusive");
     let told = proof.verdict.reason(linkproof::parts::Advice::to_string).unwrap();
-    assert!(told.contains("leave the step to the proof") && told.ends_with("the verdict there is agree"), "{told}");
+    assert!(told.contains("let the proof choose the step") && told.ends_with("the verdict there is agree"), "{told}");
     let fixed = prove(&scenario, &Options::default().step(1e-3).sweeps(64).extrapolated(1)).unwrap();
     assert!(fixed.engine().search.is_none());
     assert_eq!(fixed.verdict.word(), "agree");
 }
 
-/// A fault in the engine's case is found at a given step too, where no finer run can bear it out.
+/// A fault in the engine's case is also found at a given step, although a finer run cannot confirm it.
 #[test]
 fn a_disagreement_at_a_given_step_counts() {
     let scenario = shipped("crank_rocker.toml");
@@ -105,19 +107,19 @@ fn a_disagreement_at_a_given_step_counts() {
 }
 
 #[test]
-fn work_is_limited_and_told() {
+fn work_is_limited_and_reported() {
     let scenario = shipped("crank_rocker_runup.toml");
     let proof = prove(&scenario, &Options::default().budget(500.0)).unwrap();
     let search = proof.engine().search.clone().unwrap();
     assert_eq!((search.end, proof.verdict.word()), (SearchEnd::Budget, "inconclusive"));
     assert!(search.effort <= 4000.0, "{search:?}");
     let told = proof.verdict.reason(linkproof::parts::Advice::to_string).unwrap();
-    assert!(told.contains("the work that was allowed is done; allow more work, such as 5e3 steps"), "{told}");
+    assert!(told.contains("the work limit was reached; allow more work, such as 5e3 steps"), "{told}");
 }
 
-/// Without a loop there is nothing to iterate, and a proof of a pendulum takes a single sweep a step.
+/// Without a loop nothing is iterated, so a proof of a pendulum takes one sweep per step.
 #[test]
-fn no_sweeps_where_there_is_no_loop() {
+fn one_sweep_suffices_without_a_loop() {
     let proof = proven(&shipped("pendulum.toml"));
     assert_eq!((proof.verdict.word(), proof.engine().info.settings.sweeps), ("agree", 1));
 }
@@ -133,9 +135,9 @@ fn regress_a_light_rocker_behind_a_heavy_coupler_needs_few_sweeps() {
     assert!(proof.engine().info.settings.sweeps <= 64, "{:?}", proof.engine().info.settings);
 }
 
-/// Symptom: a mechanism that is let go, with masses over three decades, disagrees at t = 0 alone.
-/// Cause: sweeps begin without a step before, and what they have not found yet is the same for 16 and 32 of them.
-/// The second mechanism stands for others of the kind.
+/// Symptom: a mechanism released from rest, with masses over three decades, disagrees at t = 0 only.
+/// Cause: the first sweeps have no previous step to start from, and 16 and 32 of them leave the same error.
+/// The second mechanism is another example of the kind.
 #[test]
 fn regress_the_first_step_of_a_start_from_rest_is_left_out() {
     for (seed, index) in [(16, 394), (1, 42)] {
@@ -145,21 +147,22 @@ fn regress_the_first_step_of_a_start_from_rest_is_left_out() {
     }
 }
 
-/// A free motion over ten thousand steps of the grid: the sides differ by more than the rounding of a pose, and by less
-/// than the error of their integration, which a tighter run shows.
+/// A free motion over ten thousand steps of the grid.
+/// The sides differ by more than the rounding of a pose, but by less than their integration error.
+/// A run with a tighter accuracy shows this error.
 #[test]
-fn regress_a_long_run_up_is_known_to_the_error_of_its_integration() {
+fn regress_a_long_run_up_is_bounded_by_its_integration_error() {
     let text = shipped("compressor_runup.toml").text;
     let [to, step] = ["to_s = ", "step_s = "].map(|key| {
         let from = text.find(&format!("\n{key}")).unwrap() + 1;
         text[from..].lines().next().unwrap().to_string()
     });
     let long = parsed(&text.replace(&to, "to_s = 5").replace(&step, "step_s = 0.01"));
-    // The engine is not asked: what it would have to step through is long.
+    // The budget is too small for the engine, because its run would be long.
     let proof = prove(&long, &Options::default().engine(EngineName::Rapier).budget(1e4)).unwrap();
     assert_ne!(proof.verdict.word(), "disagree", "{:?}", proof.verdict);
     let positions = proof.checks.iter().find(|check| check.name() == "assur against newton, positions").unwrap();
-    // A pose is good to 1e-15 of the size here.
+    // Poses here are accurate to 1e-15 of the size.
     assert_eq!(positions.verdict.word(), "agree", "{positions:?}");
     assert!(positions.value > 1e-13 && positions.bound > 1e-12 && positions.bound < 1e-9, "{positions:?}");
 }
@@ -170,10 +173,10 @@ fn parallelogram(gap: f64, more: &str) -> Scenario {
     parsed(&format!("{PARALLELOGRAM}from_deg = {gap}\nto_deg = {to}\nstep_deg = {step}\n{more}"))
 }
 
-/// Rounding grows with the condition of the pose: 115 at one degree, 458 at a quarter of one. The engine's error grows
-/// too, and may leave a verdict open at the latter.
+/// Rounding grows with the condition number of the pose: 115 at one degree, 458 at a quarter of one.
+/// The engine's error grows too, and may leave the verdict open at a quarter of a degree.
 #[test]
-fn regress_near_a_change_point_the_bounds_know_the_condition() {
+fn regress_bounds_near_a_change_point_include_the_condition() {
     for gap in [1.0, 0.25] {
         let proof = proven(&parallelogram(gap, ""));
         assert_ne!(proof.verdict.word(), "disagree", "{gap}: {:?}", proof.verdict);
@@ -183,9 +186,9 @@ fn regress_near_a_change_point_the_bounds_know_the_condition() {
     }
 }
 
-/// A number with all digits of a double is met; one that is off by 1e-14 is not.
+/// The sides meet a number with all digits of a double, but not one that is off by 1e-14.
 #[test]
-fn regress_an_oracle_is_not_asked_for_more_than_the_sides_know() {
+fn regress_oracle_bounds_include_the_error_of_the_sides() {
     for (value, word) in [("1.5707963267948966", "agree"), ("1.5707963267949366", "disagree")] {
         let oracle = format!(
             "[[oracle]]\nname = \"square\"\nbasis = \"derived\"\nsource = \"the rocker is parallel to the crank\"\n\
@@ -250,11 +253,12 @@ mode = "left"
 [grid]
 "#;
 
-/// Symptom: swung over its whole range, an engine went through the dead points on either side of its grid before it
-/// began and after it had ended, at every step that was tried; the search blamed the sweeps. Here both ends are 0.15
-/// deg from one.
+/// Symptom: at every step tried, an engine passed the dead points outside its grid, before the first instant and after
+/// the last.
+/// This happened when the engine covered its whole range, and the search attributed the error to the sweeps.
+/// Here both ends of the grid are 0.15 deg from a dead point.
 #[test]
-fn regress_there_is_room_for_steps_beside_dead_points() {
+fn regress_steps_do_not_cross_dead_points_beyond_the_grid() {
     let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
     let limit = ((0.4f64.powi(2) + 0.3f64.powi(2) - 0.45f64.powi(2)) / (2.0 * 0.4 * 0.3)).acos();
     let end = limit - 0.15f64.to_radians();
@@ -264,7 +268,7 @@ fn regress_there_is_room_for_steps_beside_dead_points() {
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
 }
 
-/// Symptom: on a grid of one instant nothing has a range, and errors "may reach inf".
+/// Symptom: on a grid of one instant no channel has a range, and errors "may reach inf".
 #[test]
 fn regress_one_instant_can_be_judged() {
     let mut scenario = shipped("crank_rocker.toml");
@@ -274,9 +278,9 @@ fn regress_one_instant_can_be_judged() {
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
 }
 
-/// Symptom: a free crank that reverses under a motor of efficiency below 1 disagreed in all channels. The motor's
-/// moment jumps where power turns round, and came up to a step late: by how much is no power series of the step, and
-/// runs at h and h / 2 had the same error.
+/// Symptom: a free crank that reverses under a motor of efficiency below 1 disagreed in all channels.
+/// Cause: the motor's moment jumps where the power changes direction, and in the engine it jumped up to a step late.
+/// The delay is not a power series of the step, and runs at h and h / 2 had the same error.
 #[test]
 fn regress_a_motor_s_jump_within_a_step_counts_by_its_share() {
     let own = specimen(2, 92, &mut Default::default());

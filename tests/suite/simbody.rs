@@ -1,5 +1,5 @@
-//! Simbody against the analytic reference: all mechanisms of the repository, random ones, other instants, and cases
-//! that must be an error.
+//! Simbody against the analytic reference: all mechanisms of the repository, random ones and other instants.
+//! Also cases that must be errors.
 
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::for_each;
@@ -21,12 +21,12 @@ use prover::engines::Simbody;
 use prover::run::{Options, prove};
 use std::collections::BTreeMap;
 
-/// Every scenario of the repository's top level.
+/// Every scenario at the top level of the repository's scenarios whose drives have constant speed.
 fn scenarios() -> Vec<String> {
     let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios");
     let names = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
-    // Drives whose speed changes are refused.
+    // The engine refuses drives whose speed changes.
     names.retain(|name| shipped(name).case.is_steady());
     names.sort();
     assert!(names.len() >= 12, "{names:?}");
@@ -41,8 +41,8 @@ fn default() -> Simbody {
     Simbody::new(Simbody::ACCURACY)
 }
 
-/// Checks that Simbody and the reference agree within the engine's own bound on its error, times `condition`, in every
-/// channel. Returns the largest errors of angles and of reactions with moments, relative to their scales.
+/// Checks that Simbody and the reference agree in every channel within the engine's error bound, times `condition`.
+/// Returns the largest errors of angles, and of reactions with moments, relative to their scales.
 fn agree(case: &Case, engine: &Simbody, reference: &dyn Solver, condition: f64) -> [f64; 2] {
     let (truth, run) = (solve(reference, case), solve(engine, case));
     let mut worst = [0.0_f64; 2];
@@ -62,9 +62,9 @@ fn agree(case: &Case, engine: &Simbody, reference: &dyn Solver, condition: f64) 
     worst
 }
 
-/// The wanted figures, 1e-8 and 1e-7 of the half range, at three accuracies: the loosest that makes sense, the default,
-/// and the tightest that does not take minutes. Under prescribed motion the results do not differ: see the engine's
-/// `noise`.
+/// The required figures are 1e-8 and 1e-7 of half the range.
+/// Three accuracies are tested: the loosest useful one, the default, and the tightest that does not take minutes.
+/// Under prescribed motion the results do not differ: see the engine's `noise`.
 #[test]
 fn all_scenarios_agree_with_the_reference() {
     for name in scenarios() {
@@ -85,9 +85,9 @@ fn the_other_analytic_side_agrees_too() {
     }
 }
 
-/// Between distant instants the integrator chooses its steps alone, and the projection has more to correct.
+/// Between distant instants the integrator alone chooses its steps, and the projection must correct more.
 #[test]
-fn instants_far_apart_are_as_good() {
+fn distant_instants_are_as_accurate() {
     for name in ["crank_rocker.toml", "ov7_base.toml", "fourth_class.toml", "compressor.toml", "five_bar.toml"] {
         let case = shipped(name).case;
         let sense = case.crank().sense();
@@ -99,9 +99,9 @@ fn instants_far_apart_are_as_good() {
     }
 }
 
-/// Before the start, after it, in any order, twice, and without the start itself.
+/// Instants before the start, after it, in any order, repeated, and without the start itself.
 #[test]
-fn instants_may_come_in_any_order_on_both_sides_of_the_start() {
+fn instants_may_be_unordered_and_before_the_start() {
     for name in ["crank_rocker.toml", "quick_return.toml", "five_bar.toml"] {
         let case = shipped(name).case;
         let times: Vec<f64> = [3.0, -1.0, 0.5, -2.5, 3.0, 0.0, -0.001].iter().map(|turns| turns * 0.1).collect();
@@ -113,7 +113,8 @@ fn instants_may_come_in_any_order_on_both_sides_of_the_start() {
     assert_eq!(solve(&default(), &shipped("crank_rocker.toml").case.on(Grid::default()).unwrap()).times().len(), 0);
 }
 
-/// Links named in the other order, another place, the other sense, heavier and without masses; all of them loaded.
+/// A four-bar with its links named in the other order, moved, mirrored, heavier, and without masses.
+/// All variants carry loads.
 #[test]
 fn variants_of_a_four_bar_agree() {
     let mut base = four_bar([0.4, 0.1, 0.35, 0.3], true);
@@ -143,7 +144,7 @@ fn variants_of_a_four_bar_agree() {
     }
 }
 
-/// Largest change of every sort of channel when one joint of a four-bar is displaced by `open` (m), by the reference.
+/// Largest change of each kind of channel when one joint of a four-bar is displaced by `open` (m), by the reference.
 fn felt(spec: &Spec, open: f64) -> BTreeMap<(Stage, &'static str), f64> {
     let case = |spec: &Spec| spec.scenario().unwrap().case;
     let truth = solve(&AssurSolver, &case(spec));
@@ -162,13 +163,14 @@ fn felt(spec: &Spec, open: f64) -> BTreeMap<(Stage, &'static str), f64> {
     felt
 }
 
-/// The engine's bound is what a joint open by the constraint tolerance does to a channel: no less, and not much more.
-/// It supposes a transmission angle of 6 deg, so it is near the effect at 7 deg, and above it elsewhere.
+/// The engine's bound covers the effect on a channel of a joint that is open by the constraint tolerance.
+/// The bound is never below this effect, and not much above it.
+/// The bound assumes a transmission angle of 6 deg: at 7 deg it is close to the effect, elsewhere it is larger.
 #[test]
-fn noise_is_what_a_joint_open_by_the_tolerance_does() {
-    // Far above rounding, far below where the effect stops being proportional.
+fn the_noise_bound_covers_the_effect_of_an_open_joint() {
+    // This is far above rounding, and small enough that the effect is proportional to it.
     const OPEN: f64 = 1e-8;
-    // Measured at 7 deg: 2 to 40.
+    // Upper limit of bound / effect at 7 deg; measured: 2 to 40.
     const ABOVE: f64 = 100.0;
     for (lengths, is_narrow) in
         [([0.4, 0.1, 0.35, 0.3], false), ([0.4, 0.17, 0.35, 0.3], false), ([0.3, 0.1, 0.35, 0.152], true)]
@@ -197,7 +199,7 @@ fn laws_other_than_constant_speeds_are_refused_by_name() {
     assert!(error.message().contains("law \"cycloidal\"") && error.way_out().is_some(), "{error}");
 }
 
-/// Before and after the start, with all loads of the press, and with a force against the motion of its ram.
+/// The loads of the press, and a force against the motion of its ram, before and after the start.
 #[test]
 fn loads_of_all_sorts_agree() {
     let case = shipped("loaded_slider.toml").case;
@@ -216,7 +218,8 @@ fn loads_of_all_sorts_agree() {
     println!("{:?}", agree(&case, &default(), &AssurSolver, 1.0));
 }
 
-/// All kinds of sliders, written in either order. In the Oldham coupling the crank could be reached by sliding alone.
+/// All kinds of sliders, with their links in either order.
+/// In the Oldham coupling, sliding joints alone also lead to the crank.
 #[test]
 fn sliders_agree_however_their_joints_are_written() {
     for sample in sliders::all() {
@@ -234,7 +237,7 @@ fn crank_last(case: &Case) -> Case {
     let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
     let structure = Structure::of(&mechanism, &[driven]).unwrap();
     let drives = linkage::drive::Drive { joint: driven, ..case.crank().clone() }.into();
-    // One group per sample: its links may have changed their order.
+    // Each sample has one group; the order of its links may have changed.
     let turned = structure.groups[GroupId(0)].links != case.structure.groups[GroupId(0)].links;
     let mode = |&mode: &AssemblyMode| match mode {
         AssemblyMode::Ahead if turned => AssemblyMode::Behind,
@@ -248,7 +251,7 @@ fn crank_last(case: &Case) -> Case {
     .unwrap()
 }
 
-/// Chains of dyads magnify errors from dyad to dyad, and in forces on the way back too.
+/// Chains of dyads magnify errors from dyad to dyad, and those of forces again on the way back.
 #[test]
 fn random_mechanisms_agree() {
     for_each(40, |sample| {
@@ -257,8 +260,10 @@ fn random_mechanisms_agree() {
     });
 }
 
-/// A measure of how near a run comes to a singular pose: its largest speed or square root of an acceleration, over the
-/// crank's (lengths are about a metre). The effect of a small error grows with its square.
+/// A measure of how near a run comes to a singular pose.
+/// It is the largest speed, or the square root of the largest acceleration, divided by the crank's speed.
+/// Lengths are about a metre.
+/// The effect of a small error grows with the square of this measure.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
     let crank = case.crank().at(0.0).rate.abs();
     let of = |(channel, values): (&Channel, &[f64])| {
@@ -302,9 +307,9 @@ fn the_same_run_gives_the_same_bits() {
     }
 }
 
-/// Channels that are not wanted have no effect on the wanted ones.
+/// Channels that are not requested have no effect on the requested ones.
 #[test]
-fn positions_alone_are_the_same_positions() {
+fn requesting_positions_alone_gives_the_same_positions() {
     let case = shipped("six_bar_slider.toml").case;
     let times = [0.0, 0.01, 0.02];
     let whole = states(&default(), &case, &times).unwrap();
@@ -325,7 +330,7 @@ fn a_proof_with_simbody_agrees() {
 }
 
 #[test]
-fn it_is_listed_with_an_accuracy_instead_of_a_step() {
+fn simbody_is_listed_with_an_accuracy_instead_of_a_step() {
     let engine = prover::engines::named("simbody", 1e-3).unwrap();
     assert!(engine.controls_error());
     assert_eq!(engine.settings().resolution, Simbody::ACCURACY);
@@ -333,7 +338,8 @@ fn it_is_listed_with_an_accuracy_instead_of_a_step() {
     assert!(engine.told().iter().any(|(name, value)| *name == "accuracy" && value == "1e-8"));
 }
 
-/// The links reach 0.45 m; the outer joints of the dyad exceed that at acos(0.0475 / 0.24) = 78.5843 deg.
+/// The stretched links reach 0.45 m.
+/// The outer joints of the dyad are farther apart beyond acos(0.0475 / 0.24) = 78.5843 deg.
 #[test]
 fn a_dead_point_is_an_error_with_time_crank_angle_and_joint() {
     let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
@@ -356,7 +362,7 @@ fn a_dead_point_is_an_error_with_time_crank_angle_and_joint() {
     }
 }
 
-/// A slider that its rod does not reach beyond 261.347 deg.
+/// A slider whose rod is too short beyond 261.347 deg.
 #[test]
 fn a_slider_out_of_reach_is_an_error() {
     let error = default().solve(&sliders::short_rod()).unwrap_err();
@@ -365,7 +371,7 @@ fn a_slider_out_of_reach_is_an_error() {
 
 /// Without this check Simbody would assemble another pose nearby without a message.
 #[test]
-fn a_start_pose_that_is_open_is_refused() {
+fn an_open_start_pose_is_refused() {
     let mut parts = shipped("crank_rocker.toml").case.into_parts();
     parts.start.0.last_mut().unwrap().angle += 1e-3;
     assert_eq!(Case::new(parts.clone()).unwrap_err().kind(), ErrorKind::Geometry);
@@ -375,7 +381,7 @@ fn a_start_pose_that_is_open_is_refused() {
 }
 
 #[test]
-fn an_accuracy_that_is_none_is_refused() {
+fn an_invalid_accuracy_is_refused() {
     let case = shipped("crank_rocker.toml").case;
     for accuracy in [0.0, -1e-3, 1.0, f64::NAN, f64::INFINITY] {
         let error = Simbody::new(accuracy).solve(&case).unwrap_err();
@@ -383,10 +389,10 @@ fn an_accuracy_that_is_none_is_refused() {
     }
 }
 
-/// Free motion by a third solver that shares nothing with the two sides. Motor and loads are forces that Simbody asks
-/// for, and it does its own integration.
+/// Free motion by a third solver that shares no code with the two sides.
+/// Motor and loads are forces that Simbody requests, and Simbody integrates by itself.
 #[test]
-fn run_ups_and_pendulums_are_those_of_the_reference() {
+fn run_ups_and_pendulums_agree_with_the_reference() {
     let mut agreed = 0;
     for name in ["crank_rocker_runup", "ov7_new_runup", "compressor_runup", "pendulum", "double_pendulum"] {
         let case = shipped(&format!("{name}.toml")).case;
@@ -397,8 +403,8 @@ fn run_ups_and_pendulums_are_those_of_the_reference() {
         println!("{name}: {worst:.1e} of the scale");
         assert_within!(worst, 1e-6, "{name}: {worst:e}");
         let proof = prove(&shipped(&format!("{name}.toml")), &Options::default().engine(EngineName::Simbody)).unwrap();
-        // The compressor's pistons have channels of a thousandth of their natural size; Simbody's accuracy proves
-        // nothing about them.
+        // Some channels of the compressor's pistons are a thousandth of their natural size, and Simbody is not accurate
+        // enough for them.
         assert!(!matches!(proof.verdict, Verdict::Disagree { .. }), "{name}: {:?}", proof.verdict);
         agreed += usize::from(matches!(proof.verdict, Verdict::Agree { .. }));
     }

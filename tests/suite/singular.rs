@@ -1,4 +1,4 @@
-//! Singular poses and what lies beside them: an error with the crank angle, on both sides, never a silent answer.
+//! Singular poses and their neighbourhood: both sides report an error with the crank angle, and never answer silently.
 
 use std::path::Path;
 
@@ -37,9 +37,10 @@ fn is_refused(what: &str, case: &Case, crank: f64) {
     }
 }
 
-/// Symptom: at a change point of a parallelogram, and over it, side 1 answered with the rocker jumping from 20 to
-/// -8.6 rad/s, and side 2 at it with forces of 3e25 N. Cause: a closed form keeps the sign of a dyad's sine, and a
-/// determinant that is zero to rounding has some sign too.
+/// Symptom: at and beyond a change point of a parallelogram, side 1 let the rocker jump from 20 to -8.6 rad/s.
+/// At the change point, side 2 gave forces of 3e25 N.
+/// Cause: a closed form keeps the sign of a dyad's sine, and a determinant that is zero except for rounding still has a
+/// sign.
 #[test]
 fn regress_change_points_are_refused() {
     let parallelogram = [0.4, 0.1, 0.4, 0.1];
@@ -49,15 +50,16 @@ fn regress_change_points_are_refused() {
         is_refused("over", &at(parallelogram, left, 60.0, &[95.0, 175.0, 185.0, 275.0]), 180.0);
         is_refused("over, in one step of one degree", &at(parallelogram, left, 179.5, &[179.5, 180.5]), 180.0);
         is_refused("back over", &at(parallelogram, left, 60.0, &[60.0, -10.0]), 0.0);
-        // Not named by the report: a kite, and lengths of which the longest two are as long as the others together.
+        // Two cases that the report does not name: a kite, and lengths whose longest two sum to as much as the other
+        // two.
         is_refused("kite", &at([0.3, 0.2, 0.2, 0.3], left, 90.0, &[90.0, 200.0]), 180.0);
         is_refused("sum", &at([0.5, 0.1, 0.25, 0.35], left, 90.0, &[90.0, 170.0, 190.0]), 180.0);
     }
 }
 
-/// A little off the change point both sides go on, and agree.
+/// Slightly off the change point, both sides continue and agree.
 #[test]
-fn near_change_points_are_passed() {
+fn poses_near_a_change_point_are_passed() {
     for (ground, bound) in [(0.401, 1e-9), (0.40001, 1e-6)] {
         for left in [true, false] {
             let case = at([ground, 0.1, 0.4, 0.1015], left, 60.0, &[95.0, 175.0, 179.9, 180.1, 185.0, 275.0]);
@@ -72,7 +74,7 @@ fn near_change_points_are_passed() {
     }
 }
 
-/// At a limit of rotation both sides refuse, next to it both answer.
+/// Both sides refuse a limit of rotation and solve the poses next to it.
 #[test]
 fn dead_points_are_refused() {
     let lengths = [0.4, 0.3, 0.25, 0.2];
@@ -85,12 +87,12 @@ fn dead_points_are_refused() {
     }
 }
 
-/// Symptom: 1e-9 deg from a dead point side 2 gave the crank pin's own acceleration wrong by 176 %. Cause: rounding of
-/// the huge accelerations of the group beside it entered through one elimination over all rows. The crank's own motion
-/// depends on its drive alone, and here it is exact. The mechanism is ten times as large as the report's: lever arms
-/// above 1 m are pivots.
+/// Symptom: 1e-9 deg from a dead point, side 2 gave the acceleration of the crank pin wrong by 176 %.
+/// Cause: rounding of the huge accelerations of the neighbouring group entered through one elimination over all rows.
+/// The motion of the crank depends on its drive alone, and is exact here.
+/// The mechanism is ten times as large as the report's, because lever arms above 1 m become pivots of the elimination.
 #[test]
-fn regress_a_prescribed_link_does_not_suffer_from_a_dead_point() {
+fn regress_a_dead_point_does_not_affect_the_driving_link() {
     let lengths = [4.0, 3.0, 2.5, 2.0];
     let limit = ((16.0f64 + 9.0 - 4.5 * 4.5) / (2.0 * 4.0 * 3.0)).acos();
     for off in [1e-3f64, 1e-9, 1e-11] {
@@ -112,11 +114,12 @@ fn regress_a_prescribed_link_does_not_suffer_from_a_dead_point() {
     }
 }
 
-/// Symptom: at a change point in free motion side 2 took ever smaller steps and had no answer after ten minutes; with
-/// an even number of loops it passed with errors up to 8e-7 rad, because the determinant of the whole kept its sign.
-/// Free motions pass change points since: see `dynamics/through.rs`. Those of several driving links do not.
+/// Symptom: at a change point in free motion side 2 took ever smaller steps, and had no answer after ten minutes.
+/// With an even number of loops it passed the change point with errors up to 8e-7 rad.
+/// Cause: the determinant of the whole system then kept its sign.
+/// Free motions now pass change points, see `dynamics/through.rs`; with several driving links they do not.
 #[test]
-fn regress_a_free_motion_goes_on_at_a_change_point() {
+fn regress_a_free_motion_continues_at_a_change_point() {
     for pairs in [1, 2] {
         let case = four_bars(pairs, 2.0, 0.1);
         for side in SIDES {
@@ -125,8 +128,8 @@ fn regress_a_free_motion_goes_on_at_a_change_point() {
     }
 }
 
-/// The rotation of a link that only translates is rounding, and no load takes a sense from it.
-/// Symptom: with a resistance of 100 N m on the coupler of a parallelogram the sides gave -452 N and 413 N for one
+/// The rotation of a link that only translates is rounding, so no load may take a direction from it.
+/// Symptom: with a resistance of 100 N m on the coupler of a parallelogram, the sides gave -452 N and 413 N for one
 /// reaction.
 #[test]
 fn regress_a_link_that_only_translates_has_no_sense_of_rotation() {
@@ -155,25 +158,25 @@ fn regress_a_link_that_only_translates_has_no_sense_of_rotation() {
     }
 }
 
-/// The side of a parallelogram that is not quite one does turn.
+/// The coupler of an almost exact parallelogram does rotate.
 #[test]
-fn what_turns_a_little_keeps_its_sense() {
+fn a_link_that_turns_slightly_keeps_its_sense() {
     let case = at([0.4, 0.1, 0.4, 0.1 + 1e-9], true, 30.0, &[30.0]);
     assert!(case.can_turn(LinkId(2)));
     assert!(shipped("crank_rocker.toml").case.can_turn(LinkId(2)));
 }
 
-/// A crank whose pins lie on its own axis moves nothing.
+/// A crank whose pins lie on its axis moves nothing.
 #[test]
 fn regress_a_crank_without_length_is_refused() {
     let error = four_bar([0.4, 0.0, 0.4, 0.4], true).scenario().unwrap_err();
-    assert!(error.message().contains("moves nothing"), "{error}");
+    assert!(error.message().contains("moves no point"), "{error}");
     assert!(error.scenario_key().is_some(), "{error}");
 }
 
-/// Beyond a dead point of the followed branch, configurations are found by the other way round.
+/// Beyond a dead point of the followed branch, configurations are found in the opposite direction.
 #[test]
-fn regress_configurations_are_found_the_other_way_round() {
+fn regress_configurations_beyond_a_dead_point_are_found() {
     // The crank swings between 41 and 319 deg: its links reach each other from d = 0.3 to 0.9 only.
     let lengths = [0.4f64, 0.4, 0.3, 0.6];
     let limit = ((0.16f64 + 0.16 - 0.09) / 0.32).acos().to_degrees();
@@ -183,9 +186,10 @@ fn regress_configurations_are_found_the_other_way_round() {
     assert_eq!(modes[0].modes.iter().filter(|mode| mode.is_followed).count(), 1);
 }
 
-/// Ten loops, of which side 1 first follows all poses round (that took 2.7 s once, growing with the third power).
+/// A chain with ten loops; side 1 first follows all poses over the revolution.
+/// Before, this took 2.7 s and grew with the third power of the number of loops.
 #[test]
-fn a_long_chain_starts() {
+fn both_sides_solve_a_long_chain() {
     let case = four_bars(10, 0.01, 0.01);
     let [one, two] = SIDES.map(|side| side.solve(&case).unwrap_or_else(|error| panic!("{}: {error}", side.name())));
     for ((channel, a), (_, b)) in one.iter().zip(two.iter()) {

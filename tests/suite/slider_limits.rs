@@ -16,9 +16,10 @@ fn on_cranks(case: &Case, cranks: &[f64]) -> Case {
     case.on(Grid::of_inputs(case.crank(), cranks.iter().map(|degrees| degrees.to_radians()).collect())).unwrap()
 }
 
-/// Symptom: the range of a mechanism whose slide goes to infinity is an error, and every message that contains the
-/// range takes 20 s. Cause: its curve is infinitely long. The slide of the tangent mechanism is h tan(phi): its limits
-/// are 90 deg to either side.
+/// Symptom: the range of a mechanism whose slide goes to infinity is an error, and every message with the range takes
+/// 20 s.
+/// Cause: the curve of its poses is infinitely long.
+/// The slide of the tangent mechanism is h tan(phi), so its limits are at -90 and 90 deg.
 #[test]
 fn regress_a_slide_that_goes_to_infinity_ends_the_range() {
     let range = Range::of(&shipped("tangent.toml").case).unwrap();
@@ -28,14 +29,14 @@ fn regress_a_slide_that_goes_to_infinity_ends_the_range() {
         // Promised accuracy of limits.
         assert_within!((limit.crank - expected).abs(), 1e-9, "{:e}", limit.crank - expected);
     }
-    // Counted in poses, not in seconds: the endless curve took the largest allowed number of them.
+    // The test limits poses, not seconds; before, the endless curve took the largest allowed number of poses.
     println!("{} poses", range.samples.len());
     assert!(range.samples.len() < 10_000, "{}", range.samples.len());
 }
 
 /// Beyond the pose with parallel axes the block has passed through infinity.
 #[test]
-fn no_solver_goes_on_behind_parallel_axes() {
+fn no_solver_continues_beyond_parallel_axes() {
     let case = shipped("tangent.toml").case;
     for solver in analytic::all() {
         for cranks in [vec![0.0, 85.0, 95.0], vec![0.0, 120.0], vec![-60.0, 91.0]] {
@@ -51,9 +52,9 @@ fn no_solver_goes_on_behind_parallel_axes() {
     }
 }
 
-/// The rod of `short_rod` is in line with the normal of the guide at 244.158 deg from it: a dead point.
+/// At 244.158 deg the rod of `short_rod` is in line with the normal of the guide: a dead point.
 #[test]
-fn a_start_at_a_dead_point_of_a_slider_says_so() {
+fn a_start_at_a_dead_point_of_a_slider_is_reported() {
     let case = short_rod();
     let range = Range::of(&case).unwrap();
     let Extent::Limited([_, to]) = range.extent else { panic!("{:?}", range.extent) };
@@ -96,14 +97,14 @@ fn slider_crank(rod: f64, offset: f64) -> Case {
 
 /// The rod just spans the distance from the crank pin to the guide: 0.1 sin(phi) = offset +- rod.
 #[test]
-fn a_short_rod_limits_the_crank_where_it_stands_across_the_guide() {
+fn a_short_rod_limits_the_crank_when_perpendicular_to_the_guide() {
     for (rod, offset) in [(0.08, 0.0), (0.06, 0.01), (0.09, -0.03)] {
         let range = Range::of(&slider_crank(rod, offset)).unwrap();
         let Extent::Limited([from, to]) = range.extent else { panic!("{rod}: the crank turns fully") };
         let limit = |sine: f64| if sine.abs() <= 1.0 { Some(sine.asin()) } else { None };
         let expected = [limit((offset - rod) / 0.1), limit((offset + rod) / 0.1)];
         for (found, expected) in [from, to].into_iter().zip(expected) {
-            // Where one side of the guide is out of reach, the crank turns to the same angle on the other side.
+            // If one side of the guide is out of reach, the limit lies at the same angle on the other side.
             if let Some(expected) = expected {
                 assert_within!((found.crank - expected).abs(), 1e-9, "{rod}, {offset}: {found:?}, {expected}");
             }

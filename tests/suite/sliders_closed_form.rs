@@ -1,4 +1,4 @@
-//! Shipped mechanisms with sliders, and the class III group of its own paper, against published and textbook closed
+//! Shipped mechanisms with sliders, and the class III group of a published paper, against published and textbook closed
 //! forms.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -19,7 +19,7 @@ fn solved(case: &Case) -> Vec<Vec<(f64, State)>> {
     all().iter().map(states_of).collect()
 }
 
-/// Largest difference over largest value of a series of pairs.
+/// Largest difference in a series of pairs, over its largest value.
 fn relative(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     let (error, size) = pairs.fold((0.0f64, 0.0f64), |(error, size), (found, expected)| {
         (error.larger((found - expected).abs()), size.larger(expected.abs()))
@@ -33,7 +33,7 @@ fn place(case: &Case, state: &State, name: &str) -> [Vec2; 3] {
     [motion.point(side.local), motion.point_velocity(side.local), motion.point_acceleration(side.local)]
 }
 
-/// One cylinder as its authors write it, with angles clockwise from +y: phi2, l3, omega2, v3, eps2, a3.
+/// One cylinder in the authors' notation, with angles clockwise from +y: phi2, l3, omega2, v3, eps2, a3.
 fn cylinder(l1: f64, l2: f64, phi1: f64, omega1: f64) -> [f64; 6] {
     let phi2 = -(l1 * phi1.sin() / l2).asin();
     let l3 = l1 * phi1.cos() + l2 * phi2.cos();
@@ -49,8 +49,9 @@ const CYLINDERS: [(f64, f64, f64, &str, &str); 2] =
     [(0.06, 0.24, 0.0, "rod_2", "B"), (0.05, 0.24, FRAC_PI_2, "rod_4", "D")];
 const COMPRESSOR_SPEED: f64 = 104.719_755_119_659_78;
 
-/// Each printed formula of a rate is the derivative of the one before it. Fourth-order differences have errors (h)^4 /
-/// 30 of harmonics, which are small for the ratio 1 / 4 of the lengths, and rounding 1e-16 / h.
+/// Each printed formula of a rate is the derivative of the one before it.
+/// Fourth-order differences have errors h^4 / 30 of harmonics, which are small for the ratio 1 / 4 of the lengths.
+/// Their rounding is 1e-16 / h.
 #[test]
 fn val_compressor_printed_rates_are_derivatives() {
     let h = 1e-3;
@@ -111,7 +112,7 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     };
     assert_eq!((local("C") - local("O2")).norm(), 2.0 * (local("B") - local("O2")).norm());
     let mut cranks = upright().to_vec();
-    // The scenario's own oracles of that position are at these angles, to the digits in the file.
+    // The oracles of the scenario for that position are at these angles, to the digits in the file.
     let topmost = || scenario.oracles.iter().filter(|oracle| oracle.name.starts_with("topmost position"));
     for (oracle, crank) in topmost().zip(&cranks) {
         for series in &oracle.series {
@@ -126,7 +127,8 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
         for (crank, state) in rows {
             let rocker = state.angles[case.mechanism.link_named("rocker").unwrap()];
             let [at, velocity, _] = place(case, &state, "D");
-            // O2C + CD; rounding of lengths below a metre and of a speed below 3 m/s.
+            // The height is O2C + CD.
+            // The bound is rounding of lengths below a metre and of a speed below 3 m/s.
             let errors = [rocker - FRAC_PI_2, at.y - 0.7, velocity.norm()];
             errors.iter().for_each(|error| assert_within!(error.abs(), 1e-14, "{crank}: {errors:?}"));
             assert!(at.y >= highest, "{crank}: {} below {highest}", at.y);
@@ -134,8 +136,8 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     }
 }
 
-/// x, v, a of a point by both solvers against a closed form, each relative to its largest value, and the other
-/// coordinate constant.
+/// Checks x, v and a of a point by both solvers against a closed form, each relative to its largest value.
+/// The other coordinate must be constant.
 fn assert_closed_form(name: &str, point: &str, axis: usize, other: f64, form: impl Fn(f64) -> [f64; 3]) {
     let case = shipped(name).case;
     for rows in solved(&case) {
@@ -172,8 +174,9 @@ fn val_tangent_mechanism_is_a_tangent() {
     assert_closed_form("tangent.toml", "B", 1, h, form);
 }
 
-/// The guide is at its extreme positions where it is perpendicular to the crank. The angle at O1 between O1-O2 and the
-/// crank is then acos(r / d), so the quick stroke takes 2 acos(r / d) of the turn.
+/// The guide is at its extreme positions where it is perpendicular to the crank.
+/// The angle at O1 between O1-O2 and the crank is then acos(r / d).
+/// The quick stroke therefore takes 2 acos(r / d) of the revolution.
 #[test]
 fn val_quick_return_time_ratio() {
     let case = shipped("quick_return.toml").case;
@@ -185,13 +188,14 @@ fn val_quick_return_time_ratio() {
     let quick = 2.0 * (0.1f64 / 0.3).acos();
     let between = (second.crank - first.crank).rem_euclid(TAU);
     let found = between.smaller(TAU - between);
-    // Extreme positions are promised to 1e-9 rad each.
+    // The promised accuracy of each extreme position is 1e-9 rad.
     assert_within!((found - quick).abs(), 2e-9, "{found} for {quick}");
     let ratio = (TAU - found) / found;
     assert_within!((ratio - (TAU - quick) / quick).abs(), 1e-8, "{ratio}");
     let swing = (first.angle - second.angle).abs();
     assert_within!((swing - 2.0 * (0.1f64 / 0.3).asin()).abs(), 1e-9, "{swing}");
-    // The ram reverses there too: its speed, below 3 m/s elsewhere, is that of an angle of 1e-9 rad.
+    // The ram reverses there too.
+    // Its speed, up to 3 m/s elsewhere, is then only the effect of an angle error of 1e-9 rad.
     let mut cranks = vec![first.crank, second.crank];
     cranks.sort_by(f64::total_cmp);
     for rows in solved(&case.on(Grid::of_inputs(case.crank(), cranks)).unwrap()) {
@@ -288,8 +292,8 @@ fn val_class3_group_transfer_functions() {
         }
         for (link, pairs) in pairs.into_iter().enumerate() {
             let errors = pairs.map(|pairs| relative(pairs.into_iter()));
-            // For Cramer's rule: rounding. For differences: h^4 / 30 of harmonics up to the sixth, and rounding 1e-16 /
-            // h.
+            // Cramer's rule has only rounding errors.
+            // Differences have errors h^4 / 30 of harmonics up to the sixth, and rounding 1e-16 / h.
             assert_within!(errors[0], 1e-13, "{} alpha{}: {errors:?}", solver.name(), link + 1);
             assert_within!(errors[1].larger(errors[2]), 1e-9, "{} alpha{}: {errors:?}", solver.name(), link + 1);
         }

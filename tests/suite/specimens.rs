@@ -1,4 +1,5 @@
-//! The generator of random correct mechanisms: what it promises, so that a proof that fails on one is to blame itself.
+//! The generator of random correct mechanisms and its promises.
+//! If a proof fails on such a mechanism, the fault lies in the proof.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -10,8 +11,9 @@ use scenario::Scenario;
 
 use crate::common::specimens::specimen;
 
-/// Every shape once. The same seed gives the same text, and another seed another; both sides solve it, unless they say
-/// that they do not know such a motion.
+/// Every shape once.
+/// The same seed gives the same text, and another seed a different one.
+/// Both sides solve it, unless they report that they do not support such a motion.
 #[test]
 fn specimens_follow_from_their_seed_and_can_be_solved() {
     let (mut free, mut sorts) = (0, BTreeSet::new());

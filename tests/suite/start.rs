@@ -19,7 +19,7 @@ fn parse(ground: &str, body: &str, crank: f64, start: &str) -> linkage::Result<S
     Scenario::parse(&text, Path::new("start.toml"))
 }
 
-/// Place of a point (mm) in the first pose; the pose must be closed.
+/// Position of a point (mm) in the start pose; the pose must be closed.
 fn place(scenario: &Scenario, name: &str) -> Vec2 {
     let case = &scenario.case;
     assert_within!(case.start.closure(&case.mechanism), 1e-15);
@@ -66,7 +66,8 @@ fn a_slider_lies_ahead_of_the_crank_pin_or_behind_it() {
     assert_at(place(&ahead, "B"), 240.0, 0.0);
     assert_eq!(ahead.case.modes, [AssemblyMode::Ahead]);
     assert_at(place(&slider_crank(FORWARD, &start("mode = \"behind\"")).unwrap(), "B"), -240.0, 0.0);
-    // The same with the axis reversed, with the slider as first link, and with the rough place instead.
+    // The same with the axis reversed, with the slider as first link, and with an approximate position instead of a
+    // mode.
     let backward = FORWARD.replace("axis_deg = 0", "axis_deg = 180");
     assert_at(place(&slider_crank(&backward, &start("mode = \"ahead\"")).unwrap(), "B"), -240.0, 0.0);
     let swapped = "links = [\"slider\", \"ground\"]\npoints = [\"B\", \"G\"]\naxis_deg = 0";
@@ -79,12 +80,13 @@ fn a_slider_lies_ahead_of_the_crank_pin_or_behind_it() {
 }
 
 #[test]
-fn a_rod_too_short_is_told_in_metres() {
+fn a_rod_that_is_too_short_is_reported_in_metres() {
     let short = SLIDER.replace("x_mm = 260", "x_mm = 90");
     let guide = format!("[[joints]]\nname = \"guide\"\ntype = \"prismatic\"\n{FORWARD}\n");
     let error =
         parse("G = { x_mm = 10, y_mm = 0 }", &format!("{short}{guide}"), 90.0, &start("mode = \"ahead\"")).unwrap_err();
-    assert!(error.to_string().contains("at 0.100000 m, its rod spans 0.090000 m"), "{error}");
+    let words = "0.100000 m away from its outer pin, but its rod is 0.090000 m long";
+    assert!(error.to_string().contains(words), "{error}");
     let error = slider_crank(FORWARD, &start("")).unwrap_err();
     assert!(error.to_string().contains("add `mode = \"ahead\"` or `mode = \"behind\"`, or `near = "), "{error}");
     let error = slider_crank(FORWARD, &start("mode = \"left\"")).unwrap_err();
@@ -151,7 +153,7 @@ axis_deg = 0
     let scenario = parse("G = { x_mm = 0, y_mm = 50 }", yoke, 60.0, "").unwrap();
     assert_at(place(&scenario, "S"), 50.0, 50.0);
     assert_eq!(scenario.case.modes, [AssemblyMode::Only]);
-    // Its slot is parallel to the guide: there is no place, or any place.
+    // The slot is parallel to the guide, so either no position or every position fits.
     let error =
         parse("G = { x_mm = 0, y_mm = 50 }", &yoke.replace("axis_deg = 90", "axis_deg = 0"), 60.0, "").unwrap_err();
     assert!(error.to_string().contains("the axes of its two prismatic joints are parallel"), "{error}");

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Place of a story's test: file relative to `tests/`, and the function.
+/// Location of a story's test: file relative to `tests/`, and the function.
 type Place = (String, String);
 
 fn root() -> &'static Path {
@@ -78,7 +78,7 @@ fn index() -> BTreeMap<u32, Place> {
 }
 
 #[test]
-fn the_index_lists_every_story_of_the_tests_and_no_other() {
+fn the_index_lists_exactly_the_stories_of_the_tests() {
     let mut stories = BTreeMap::new();
     for (path, text) in texts("tests", "rs") {
         let file = path.strip_prefix(root().join("tests")).unwrap().to_string_lossy().replace('\\', "/");
@@ -130,7 +130,7 @@ fn every_story_that_is_cited_is_listed() {
 }
 
 #[test]
-fn stories_are_read_as_they_are_written() {
+fn stories_are_parsed_from_comments_and_tables() {
     let text = "/// Story 99. Symptom: none.\n/// Story line.\n#[test]\nfn regress_99_x() {\n}\nfn other() {}\n";
     assert_eq!(told(text), [(99, "regress_99_x".to_string())]);
     assert_eq!(cited("as in story 7, see stories 12, 51 and (stories 65 to 67). History 8"), [7, 12, 51, 65, 67]);

@@ -1,5 +1,6 @@
-//! Numerical stability: the reference in double-double against closed forms, the sides against it, and what stress has
-//! found.
+//! Numerical stability.
+//! The double-double reference is compared with closed forms, and the sides with it; the rest are faults that stress
+//! has found.
 
 mod precise;
 
@@ -16,7 +17,7 @@ use prover::run::beside::sides;
 use crate::common::assert_within;
 
 #[test]
-fn families_have_their_own_names_and_their_quick_points() {
+fn family_names_are_unique_and_quick_points_valid() {
     for (index, family) in FAMILIES.iter().enumerate() {
         assert!(FAMILIES[index + 1..].iter().all(|other| other.name != family.name), "{}", family.name);
         assert!(family.points.windows(2).all(|pair| pair[0] < pair[1]), "{}", family.name);
@@ -28,8 +29,8 @@ fn families_have_their_own_names_and_their_quick_points() {
     }
 }
 
-/// After 1e4 turns the crank angle has lost five digits as a double, before either side begins. Both sides then agreed
-/// on numbers that were 3.6 times as wrong as their bound allowed: nobody was told.
+/// After 1e4 revolutions, the crank angle as a double has lost five digits before a side starts its computation.
+/// Both sides once agreed, without a warning, although their error was 3.6 times the bound.
 #[test]
 fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
     let turns = named("turns").unwrap();
@@ -43,15 +44,16 @@ fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
         let worst = side.deviations.iter().map(|own| own.used).fold(0.0, f64::larger);
         println!("{}: {worst:.2e} of its bound", side.name);
         assert_within!(worst, 1.0, "{}", side.name);
-        // The bound is no blank cheque. Of angles it is a share of the angle with its turns, as it was before.
+        // The bound must not become too wide.
+        // For angles it remains a share of the angle including its revolutions.
         for own in side.deviations.iter().filter(|own| own.channel.kind.unit != Unit::Radian) {
             assert_within!(own.bound, 1e-9, "{} {}", side.name, own.channel);
         }
     }
 }
 
-/// Symptom: near a change point both sides were within their bounds of double-double, and disagreed with each other.
-/// Cause: the condition of the poses was not measured where only their difference was larger than usual.
+/// Symptom: near a change point both sides were within their double-double bounds, but disagreed with each other.
+/// Cause: the condition number was measured only at poses with an unusually large difference of the sides.
 #[test]
 fn regress_the_condition_of_a_pose_is_in_the_bound_between_the_sides() {
     for gap in [1e-12, 3e-11, 1e-10, 1e-6] {
@@ -63,8 +65,9 @@ fn regress_the_condition_of_a_pose_is_in_the_bound_between_the_sides() {
     }
 }
 
-/// A long chain is solved and judged in a time that grows little faster than its length; here it is only solved, and
-/// held against double-double. No report names a chain of 150.
+/// The time to solve and judge a long chain grows little faster than its length.
+/// This test only solves the chain and compares it with double-double.
+/// No fault report is about a chain of 150.
 #[test]
 fn a_long_chain_keeps_its_digits() {
     let case = (named("chain").unwrap().setup)(150.0, 0, 0).unwrap().case;
@@ -77,10 +80,10 @@ fn a_long_chain_keeps_its_digits() {
     }
 }
 
-/// Side 1 does for a chain what it does for each of its four-bars: work counted, not timed. Side 2 iterates on blocks and
-/// needs no more of them per four-bar in a long chain.
+/// The work of side 1 for a chain is the sum of the work for its four-bars; the test counts it, without a clock.
+/// Side 2 iterates on blocks, and needs the same number of iterations per four-bar in a long chain.
 #[test]
-fn the_work_of_a_chain_is_that_of_its_four_bars() {
+fn work_per_four_bar_does_not_grow_with_the_chain() {
     let work = |count: f64| {
         let case = (named("chain").unwrap().setup)(count, 0, 0).unwrap().case;
         sides(&case.wanting(Wanted::of(&[Stage::Positions])), None).unwrap().sides.map(|side| side.work)
@@ -95,10 +98,10 @@ fn the_work_of_a_chain_is_that_of_its_four_bars() {
     assert!(few > 0 && many <= 12 * few, "side 2: {few} and {many}");
 }
 
-/// A case that solvers refuse has its reason in the result, and the sides hold where a dead point is a hundredth of a
-/// degree away.
+/// If solvers refuse a case, its result contains the reason.
+/// The sides are accurate up to a hundredth of a degree from a dead point.
 #[test]
-fn points_are_results_whatever_comes_of_them() {
+fn refused_points_are_results_with_a_reason() {
     let redundant = run(named("redundant").unwrap(), 2.0, 0, 1);
     assert!(redundant.refused.contains("mobility"), "{redundant:?}");
     let near = run(named("transmission_angle").unwrap(), 0.01, 0, 1);
@@ -113,8 +116,8 @@ fn points_are_results_whatever_comes_of_them() {
     assert!(near.parties.iter().any(|party| party.verdict == PointEnd::Fails));
 }
 
-/// A truth that is wrong in one length by a millionth is contradicted by both sides, while they agree with each other:
-/// this is what a silent wrong number looks like.
+/// The reference has one length that is wrong by a millionth.
+/// Both sides contradict it, while they agree with each other; a silent wrong number would appear in the same way.
 #[test]
 fn a_wrong_number_that_both_sides_share_is_counted() {
     let four_bar = |coupler: f64| {

@@ -1,5 +1,5 @@
-//! Synthesis against analysis: results in closed form or by search are followed by the solvers, which know nothing of
-//! the synthesis.
+//! Synthesis against analysis.
+//! Results from closed forms or by search are followed by the solvers, which do not use the synthesis.
 
 mod closed_form;
 mod drives;

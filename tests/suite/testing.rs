@@ -1,4 +1,4 @@
-//! Proofs in tests: the macro, and what can be set for a proof.
+//! Proofs in tests: the macro and its settings.
 
 use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};
@@ -21,7 +21,7 @@ thread_local! {
     static FAILED_AT: RefCell<Option<(String, u32)>> = const { RefCell::new(None) };
 }
 
-/// The message of a test that fails, and the file and line that it fails at.
+/// The message of a failing test, and the file and line of the failure.
 fn failure(test: impl FnOnce()) -> (String, (String, u32)) {
     let before = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
@@ -35,12 +35,12 @@ fn failure(test: impl FnOnce()) -> (String, (String, u32)) {
 }
 
 #[test]
-fn what_agrees_gives_its_proof() {
+fn an_agreement_returns_its_proof() {
     let proof = assert_proven!("scenarios/crank_rocker.toml", only = ["link.rocker.positions"]);
     assert_eq!(proof.scenario, "crank_rocker");
     let asked = |channel: &linkproof::parts::ChannelProof| channel.residual.channel.of == "rocker";
     assert!(!proof.engine().channels.is_empty() && proof.engine().channels.iter().all(asked));
-    // Several options, one of them with two parts; the crank's length is a parameter.
+    // Several options, one of which has two parts; the crank's length is a parameter.
     let place = Place::new();
     place.edited("formulas/slider_crank_centric.toml", "short.toml", &[("A = { x_mm = 40,", "A = { x_mm = \"r_mm\",")]);
     let file = place.path("scenarios/short.toml");
@@ -50,7 +50,7 @@ fn what_agrees_gives_its_proof() {
 }
 
 #[test]
-fn what_disagrees_fails_at_the_line_of_the_test_with_the_report() {
+fn a_disagreement_fails_at_the_test_line_with_the_report() {
     let place = Place::new();
     let wrong = "[[formula]]\nname = \"w\"\nexpression = \"phi\"\nchannel = \"link.crank.omega_rad_s\"\n";
     let path = place.path(CRANK_ROCKER);
@@ -70,7 +70,7 @@ fn what_disagrees_fails_at_the_line_of_the_test_with_the_report() {
 }
 
 #[test]
-fn what_proves_nothing_fails_too() {
+fn an_inconclusive_proof_fails() {
     let coarse = of(CRANK_ROCKER).with(Options::default().step(0.02)).only(["positions"]);
     let (message, _) = failure(|| drop(coarse.assert()));
     assert!(message.starts_with("crank_rocker is not proven: inconclusive\n\n"), "{message}");
@@ -78,7 +78,7 @@ fn what_proves_nothing_fails_too() {
 }
 
 #[test]
-fn what_cannot_be_proven_fails_with_its_place_in_the_file() {
+fn an_invalid_scenario_fails_with_its_file_position() {
     let place = Place::new();
     place.edited("pendulum.toml", "broken.toml", &[("joint = \"O\"", "joint = \"Q\"")]);
     let (message, _) = failure(|| drop(Proving::of(place.path("scenarios/broken.toml")).assert()));
@@ -88,7 +88,7 @@ fn what_cannot_be_proven_fails_with_its_place_in_the_file() {
 }
 
 #[test]
-fn what_is_set_is_what_is_proven() {
+fn settings_apply_to_the_proof() {
     let times = of(CRANK_ROCKER).times([0.0, 0.1]).only(["positions"]).prove().unwrap();
     assert_eq!(times.reference_trajectory.times(), [0.0, 0.1]);
     let cranks = of(CRANK_ROCKER).cranks([1.0, 2.0]).only(["positions"]).start(1.0).prove().unwrap();
@@ -101,14 +101,14 @@ fn what_is_set_is_what_is_proven() {
     let engines = Options::default().engine(EngineName::Impulse).engine(EngineName::Rapier);
     let both = of(CRANK_ROCKER).with(engines).only(["link.rocker.angle_rad"]).assert();
     assert_eq!(both.engines.iter().map(|engine| engine.info.name).collect::<Vec<_>>(), ["impulse", "rapier"]);
-    // The same step is too coarse for a tighter wish.
+    // The same step is too coarse for a tighter tolerance.
     let step = || of(CRANK_ROCKER).with(Options::default().step(1e-3)).only(["link.rocker.angle_rad"]);
     assert_eq!(step().assert().verdict.word(), "agree");
     assert_eq!(step().tolerance(1e-6).prove().unwrap().verdict.word(), "inconclusive");
 }
 
 #[test]
-fn what_cannot_be_set_is_refused_with_a_way_out() {
+fn invalid_settings_are_refused_with_a_remedy() {
     let refused = |proving: Proving, word: &str| {
         let error: Error = proving.prove().unwrap_err();
         assert!(error.message().contains(word) && error.way_out().is_some(), "{error}");
@@ -121,6 +121,6 @@ fn what_cannot_be_set_is_refused_with_a_way_out() {
     refused(of(CRANK_ROCKER).times([0.0, 0.0]), "are the same");
     refused(of(CRANK_ROCKER).times([f64::NAN]), "NaN");
     for share in [0.0, 1.0, f64::NAN] {
-        refused(of(CRANK_ROCKER).tolerance(share), "share of a channel's scale");
+        refused(of(CRANK_ROCKER).tolerance(share), "fraction of a channel's scale");
     }
 }

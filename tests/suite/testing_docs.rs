@@ -11,7 +11,7 @@ fn blocks(page: &str, language: &str) -> Vec<String> {
     parts.map(|rest| rest.split("\n```").next().unwrap().to_string() + "\n").collect()
 }
 
-/// What is wrong with a CI file, which begins with a comment that names it; `Ok` if nothing is.
+/// Checks a CI file, which begins with a comment with its name; the error describes the fault.
 fn checked(text: &str) -> Result<(), String> {
     let documents = Yaml::load_from_str(text).map_err(|error| error.to_string())?;
     let [document] = documents.as_slice() else { return Err(format!("{} documents", documents.len())) };
@@ -45,10 +45,11 @@ fn texts<'a>(node: &'a Yaml, what: &str) -> Result<Vec<&'a str>, String> {
     list.iter().map(|text| text.as_str().ok_or_else(|| format!("{what}: {text:?} is no text"))).collect()
 }
 
-/// The file that a command writes by an option.
-fn written<'a>(commands: &[&'a str], option: &str) -> Result<&'a str, String> {
-    let words = commands.iter().flat_map(|command| command.split_whitespace());
-    words.skip_while(|word| *word != option).nth(1).ok_or_else(|| format!("nothing writes {option}"))
+/// The file with this ending that a command writes by `-o`.
+fn written<'a>(commands: &[&'a str], ending: &str) -> Result<&'a str, String> {
+    let words: Vec<&str> = commands.iter().flat_map(|command| command.split_whitespace()).collect();
+    let named = words.windows(2).find(|pair| pair[0] == "-o" && pair[1].ends_with(ending));
+    named.map(|pair| pair[1]).ok_or_else(|| format!("no command writes a {ending} file by -o"))
 }
 
 const STEP: [&str; 10] =
@@ -90,10 +91,10 @@ fn github(document: &Yaml) -> Result<(), String> {
                 (Some(_), Some(_)) | (None, None) => return Err("a step needs one of `uses` and `run`".into()),
             }
         }
-        if !kept.contains(&written(&commands, "--junit")?) {
+        if !kept.contains(&written(&commands, ".xml")?) {
             return Err("the JUnit file is not kept".into());
         }
-        let page = written(&commands, "--markdown")?;
+        let page = written(&commands, ".md")?;
         let is_shown = |run: &&str| run.contains(page) && run.contains(">> \"$GITHUB_STEP_SUMMARY\"");
         if !commands.iter().any(is_shown) {
             return Err("the Markdown is not shown".into());
@@ -138,15 +139,15 @@ fn gitlab(document: &Yaml) -> Result<(), String> {
         }
         let Some(artifacts) = job.as_mapping_get("artifacts") else { continue };
         known(artifacts, "artifacts", &["name", "paths", "exclude", "expire_in", "when", "reports"])?;
-        // Reports of a proof that fails are wanted most.
+        // Reports are needed most when a proof fails.
         if artifacts.as_mapping_get("when").and_then(Yaml::as_str) != Some("always") {
             return Err(format!("{name}: what a failing job has written is not kept"));
         }
         let reported = get(get(artifacts, "reports", "artifacts")?, "junit", "reports")?.as_str();
-        if reported != Some(written(&script, "--junit")?) {
+        if reported != Some(written(&script, ".xml")?) {
             return Err("the JUnit file is not kept".into());
         }
-        if !texts(get(artifacts, "paths", "artifacts")?, "paths")?.contains(&written(&script, "--markdown")?) {
+        if !texts(get(artifacts, "paths", "artifacts")?, "paths")?.contains(&written(&script, ".md")?) {
             return Err("the Markdown is not kept".into());
         }
         reports += 1;
@@ -155,7 +156,7 @@ fn gitlab(document: &Yaml) -> Result<(), String> {
 }
 
 #[test]
-fn the_ci_files_are_what_their_hosts_require() {
+fn the_ci_files_are_valid_for_their_hosts() {
     let files = blocks(PAGE, "yaml");
     assert_eq!(files.len(), 2, "one for each host");
     for file in files {
@@ -163,9 +164,9 @@ fn the_ci_files_are_what_their_hosts_require() {
     }
 }
 
-/// The checks see what they are there for: each edit makes a good file a bad one.
+/// The checks find faults: each edit makes a good file a bad one.
 #[test]
-fn a_spoiled_ci_file_is_refused() {
+fn an_invalid_ci_file_is_refused() {
     let edits = [
         [
             ("runs-on", "runs_on"),

@@ -7,7 +7,7 @@ use scenario::{Scenario, StartRequest, When};
 
 use crate::common::disc::disc;
 
-/// What follows the disc: a motor with `M = 4 - 0.1 omega`, from rest: omega = 40 (1 - exp(-0.1 t / 0.05)).
+/// Rest of the file after the disc: a motor with `M = 4 - 0.1 omega`, from rest: omega = 40 (1 - exp(-0.1 t / 0.05)).
 const MOTOR: &str = r#"
 [motor]
 law = "linear"
@@ -40,16 +40,16 @@ fn told(t: &str, value: f64) -> String {
     )
 }
 
-/// Words of the verdicts on the oracle of a text, one a side.
+/// Verdicts, as words, on the published number of a scenario text, one per side.
 fn verdicts(text: &str) -> Vec<&'static str> {
     let proof = prove(&read(text, Path::new("disc.toml")), &Options::default()).unwrap();
     let own = proof.checks.iter().filter(|check| check.family.contains("closed form"));
     own.map(|check| check.verdict.word()).collect()
 }
 
-/// 0.2345 s is no instant of the grid.
+/// 0.2345 s is not an instant of the grid.
 #[test]
-fn a_number_at_a_time_is_one_of_the_motion_itself() {
+fn a_number_at_a_time_may_lie_between_grid_instants() {
     let value = speed(0.2345);
     assert_eq!(verdicts(&told("time_s = 0.2345", value)), ["agree"; 2]);
     assert_eq!(verdicts(&told("time_ms = 234.5", value)), ["agree"; 2]);
@@ -57,7 +57,7 @@ fn a_number_at_a_time_is_one_of_the_motion_itself() {
 }
 
 #[test]
-fn a_prescribed_motion_has_numbers_at_times_too() {
+fn a_prescribed_motion_accepts_numbers_at_a_time() {
     let prescribed = |text: String| text.replace("motion = \"free\"\n", "");
     let at = |time, angle: f64| prescribed(told(time, angle)).replace("disc.omega_rad_s", "disc.angle_rad");
     assert_eq!(verdicts(&at("time_s = 0.2", 4.0)), ["agree"; 2]);
@@ -65,7 +65,7 @@ fn a_prescribed_motion_has_numbers_at_times_too() {
 }
 
 #[test]
-fn tables_may_go_by_time_and_know_their_wrong_cells() {
+fn tables_by_time_support_known_wrong_cells() {
     let directory = tempfile::tempdir().unwrap();
     let rows: String = [0.1, 0.25, 0.4].iter().map(|t| format!("{},{:.6}\n", 1e3 * t, speed(*t))).collect();
     std::fs::write(directory.path().join("run.csv"), format!("t_ms,omega\n{rows}450,99.5\n")).unwrap();
@@ -86,9 +86,9 @@ fn tables_may_go_by_time_and_know_their_wrong_cells() {
     assert_eq!(words, ["agree", "expected", "agree", "expected"]);
 }
 
-/// From another angle the same time is another instant of another motion.
+/// From another start angle, the same time is a different instant of a different motion.
 #[test]
-fn another_start_leaves_numbers_at_times_out() {
+fn another_start_omits_numbers_at_a_time() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker_runup.toml");
     let timed = |scenario: &Scenario| {
         let series = scenario.oracles.iter().flat_map(|oracle| &oracle.series);

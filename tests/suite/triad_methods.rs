@@ -24,7 +24,7 @@ use scenario::Scenario;
 #[derive(Clone, Copy, Debug, Default)]
 struct Differences {
     cramer: [f64; 2],
-    /// Angles, angular velocities and accelerations; zero where the layout does not allow the method.
+    /// Angles, angular velocities and angular accelerations; zero if the layout does not allow the method.
     change: [f64; 3],
     assur_point: f64,
     linear: f64,
@@ -39,8 +39,9 @@ struct Differences {
 }
 
 impl Differences {
-    /// Whether all differences are within `rounding` times a power of the condition. The condition enters once into the
-    /// solution of each linear system and into the angles, and once more with every derivative of them.
+    /// Whether all differences are within `rounding` times a power of the condition number.
+    /// The power is one for the solution of each linear system and for the angles.
+    /// It grows by one with every derivative of the angles.
     fn are_within(&self, rounding: f64) -> bool {
         let (own, chain) = (self.condition, self.condition.larger(self.chain));
         self.cramer[0] <= rounding * own
@@ -69,7 +70,7 @@ fn condition(contours: &Contours) -> f64 {
     matrix.column_iter().map(|column| column.norm()).product::<f64>() / matrix.determinant().abs()
 }
 
-/// The methods at the given states of a solver.
+/// The methods compared with the given states of a solver.
 fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> Differences {
     let links = triad.links();
     let speed = case.crank().at(0.0).rate;
@@ -134,11 +135,13 @@ fn all_methods_agree_with_both_solvers_over_the_turn_of_the_published_drive() {
         for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
             let states = states(solver, case, &case.grid.times).unwrap();
             let found = differences(case, &only_triad(case), &states, &case.grid.times);
-            // Some two hundred operations lie between a pose and the accelerations. If all their roundings (1.1e-16)
-            // had the same sign, the sum would be 2e-14; the solver adds its own.
+            // Some two hundred operations lie between a pose and the accelerations.
+            // If all their rounding errors (1.1e-16) had the same sign, the sum would be 2e-14.
+            // The solver adds its rounding errors.
             assert!(found.are_within(1e-13), "{name} {} {found:?}", solver.name());
             assert!(found.condition < 2.0 && found.chain < 2.0, "{found:?}");
-            // Both limits of the ground lead are passed. Base link and the other lead never come close to one line.
+            // The motion passes both limits of the ground lead.
+            // The base link and the other lead never come close to one line.
             assert_eq!((found.limits, found.exchanges), (2, 0));
         }
     }
@@ -228,7 +231,7 @@ fn mechanism(draw: &mut Draw, moving: bool) -> Option<Scenario> {
     let _ = writeln!(text, "[drive]\njoint = \"O\"\nspeed_rad_s = {speed:?}\nzero_rad = {:?}", draw.between(-3.1, 3.1));
     let _ = writeln!(text, "[gravity]\nx_m_s2 = 1\ny_m_s2 = -9.8");
     let _ = writeln!(text, "[[loads]]\ntype = \"resistance\"\nlink = \"right\"\nmoment_N_m = 3");
-    // The crank's frame is arbitrary: this is the crank angle at which its pin is where it was drawn.
+    // The crank's frame is arbitrary: this is the crank angle that puts its pin at the drawn position.
     let own = text.split("[links.crank.points]").nth(1).unwrap_or_default().lines().skip(1).take(2).map(|line| {
         let number =
             |key: &str| line.split(key).nth(1)?.split([',', ' ', '}']).find(|word| !word.is_empty())?.parse().ok();
@@ -267,14 +270,14 @@ fn class_change_is_lost(case: &Case, times: &[f64]) -> bool {
     }
 }
 
-/// Compares on `count` random mechanisms. Returns how often a conditional driver was exchanged and how often a dead
-/// point was met.
+/// Compares the methods on `count` random mechanisms.
+/// Returns the number of exchanges of a conditional driver and of dead points.
 fn on_random_mechanisms(moving: bool, count: u32) -> [usize; 2] {
     let config = Config {
         cases: count,
         max_global_rejects: 50 * count,
         failure_persistence: None,
-        // A smaller mechanism would be close to failure, not simpler.
+        // Shrinking is off: a smaller mechanism would be nearer to failure, not simpler.
         max_shrink_iters: 0,
         ..Config::default()
     };
@@ -291,7 +294,8 @@ fn on_random_mechanisms(moving: bool, count: u32) -> [usize; 2] {
             let states = match states(solver, case, &times) {
                 Ok(states) => states,
                 Err(error) => {
-                    // A higher group is followed, a dyad is placed: so this error is of the class III group.
+                    // Only higher groups are followed; dyads are placed.
+                    // The error therefore comes from the class III group.
                     if error.message().contains("cannot be followed") && !moving {
                         prop_assert!(class_change_is_lost(case, &times), "{error}\n{text}");
                         seen.set([seen.get()[0], seen.get()[1] + 1]);
@@ -300,7 +304,7 @@ fn on_random_mechanisms(moving: bool, count: u32) -> [usize; 2] {
                 }
             };
             let found = differences(case, &only_triad(case), &states, &times);
-            // The difference that is allowed between the two solvers themselves.
+            // The two solvers may also differ by this much.
             prop_assert!(found.are_within(1e-11), "{} {found:?}\n{text}", solver.name());
             seen.set([seen.get()[0] + found.exchanges, seen.get()[1]]);
         }
@@ -342,7 +346,7 @@ fn only_a_base_link_on_three_leads_is_a_class_iii_group_of_order_3() {
 }
 
 #[test]
-fn a_proof_shows_the_methods_where_there_is_such_a_group() {
+fn a_proof_shows_the_methods_only_for_class_iii_groups() {
     let of_methods = |name: &str| {
         let proof = prove(&shipped(name), &Options::default()).unwrap();
         let checks = proof.checks.into_iter().filter(|check| check.family.starts_with("class III"));

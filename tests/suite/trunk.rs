@@ -1,5 +1,5 @@
-//! Faults in what all parties share, and numbers from outside that see them: a run-up in closed form, and the same
-//! numbers as an `[[oracle]]` at a time.
+//! Faults in code that all parties share, and independent numbers that reveal these faults.
+//! The numbers are a run-up in closed form, and the same values as an `[[oracle]]` at a time.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use crate::common::disc::disc;
 use lab::mutate::{FaultyParty, MutationPlan, Plant, mutate, named};
 use linkproof::{Case, Scenario, solve};
 
-/// What follows the disc: a motor behind a reducer, from a speed of its own.
+/// Rest of the file after the disc: a motor behind a reducer, with an initial speed.
 const REDUCER: &str = r#"initial_speed_rad_s = 3
 
 [motor]
@@ -28,7 +28,7 @@ to_s = 0.5
 step_s = 0.05
 "#;
 
-/// What changes the course of a run-up in time.
+/// Settings that change the course of a run-up in time.
 const COURSE: [&str; 17] = [
     "initial-speed",
     "initial-speed-missing",
@@ -50,8 +50,8 @@ const COURSE: [&str; 17] = [
 ];
 
 /// Angle (rad) and speed (rad/s) in closed form.
-/// With J = J1 + i^2 Jr: J omega' = eta i (a + b i omega), so that omega tends to -a / (b i) with the time constant
-/// J / (-eta b i^2).
+/// With J = J1 + i^2 Jr: J omega' = eta i (a + b i omega), so that omega tends to -a / (b i) with the time constant J /
+/// (-eta b i^2).
 fn closed(t: f64) -> [f64; 2] {
     let [inertia, rotor, ratio, efficiency, at_rest, slope, first] = [0.05, 0.002, 6.0, 0.8, 1.5, -0.01, 3.0];
     let last = -at_rest / (slope * ratio);
@@ -60,7 +60,7 @@ fn closed(t: f64) -> [f64; 2] {
     [10f64.to_radians() + last * t + (first - last) * constant * (1.0 - left), last + (first - last) * left]
 }
 
-/// Largest difference of angle (rad) and speed (rad/s) from the closed form, over their largest values.
+/// Largest difference from the closed form: of angle in rad, and of speed over 25 rad/s.
 fn off(case: &Case, times: &[f64]) -> f64 {
     let last = 25.0;
     let solved = solve(case).unwrap();
@@ -78,7 +78,7 @@ fn off(case: &Case, times: &[f64]) -> f64 {
 }
 
 #[test]
-fn a_run_up_in_closed_form_sees_what_numbers_at_crank_angles_cannot() {
+fn a_closed_form_run_up_finds_faults_hidden_at_crank_angles() {
     let scenario =
         Scenario::parse(&disc(REDUCER), Path::new("flywheel.toml")).unwrap_or_else(|error| panic!("{error}"));
     let (case, times) = (&scenario.case, &scenario.case.grid.times);
@@ -87,15 +87,16 @@ fn a_run_up_in_closed_form_sees_what_numbers_at_crank_angles_cannot() {
         let kind = named(name).unwrap_or_else(|| panic!("{name}"));
         let Plant::Case(change) = kind.plant else { panic!("{name} is no fault in a case") };
         let wrong = change(case, kind.size.unwrap_or(1.0)).unwrap_or_else(|| panic!("{name} cannot be planted"));
-        // A run that fails is seen too; none of these does.
+        // A failing run would show the fault too, but none of these runs fails.
         let found = off(&wrong, times);
         assert!(!(found <= 1e-5), "{name} changes the run-up by {found:e} only");
     }
 }
 
-/// The same numbers in the scenario. Without them nothing inside a proof can see what all parties share.
+/// The same numbers in the scenario.
+/// Without them, nothing inside a proof can reveal faults in the shared code.
 #[test]
-fn numbers_at_a_time_see_the_course_of_a_run_up() {
+fn numbers_at_a_time_find_faults_of_a_run_up() {
     let [angle, speed] = closed(0.23);
     let oracle = format!(
         "\n[[oracle]]\nsource = \"closed form\"\ntime_s = 0.23\nvalues = [\n\

@@ -12,12 +12,13 @@ use crate::common::shipped;
 use exhaustive::{REFERENCES, Space, thinned};
 use near::{FACTOR, near_the_cheapest, tuned};
 
-/// A part of the space of `cargo bench --bench tune -- whole`. Only settings that would make the test fail are run;
-/// sweeps are a factor 4 apart and steps 1.2.
+/// A part of the space of `cargo bench --bench tune -- whole`.
+/// Only settings that could make the test fail are run.
+/// Neighbouring sweeps differ by a factor of 4, neighbouring steps by a factor of 1.2.
 const SMALL: Space = Space { sweeps: &[4, 16, 64, 256], factor: 1.2 };
 
 #[test]
-fn tune_comes_near_the_cheapest_of_an_exhaustive_search_and_keeps_its_promise() {
+fn tune_is_near_the_cheapest_settings_and_meets_the_accuracy() {
     let (one, other) = REFERENCES.split_at(4);
     std::thread::scope(|scope| {
         for names in [one, other] {
@@ -31,7 +32,7 @@ fn tune_comes_near_the_cheapest_of_an_exhaustive_search_and_keeps_its_promise() 
 }
 
 #[test]
-fn wishes_that_make_no_sense_say_so() {
+fn invalid_accuracies_and_channels_are_refused() {
     let scenario = shipped("crank_rocker.toml");
     let options = Options::default().engine(EngineName::Rapier);
     for within in [0.0, -1e-3, 2.0, f64::NAN] {
@@ -43,16 +44,17 @@ fn wishes_that_make_no_sense_say_so() {
 }
 
 #[test]
-fn a_wish_beyond_rounding_tells_how_far_the_engine_comes() {
+fn an_unreachable_accuracy_reports_the_best_one() {
     let scenario = shipped("crank_rocker.toml");
     let options = Options::default().engine(EngineName::Rapier).extrapolated(0).sweeps(64).substeps(1);
     let error = tuned(&scenario, 1e-15, &["accelerations"], &options).unwrap_err();
-    assert!(error.message().contains("rapier comes to"), "{error}");
+    assert!(error.message().contains("rapier reaches "), "{error}");
 }
 
-/// Symptom: four sweeps meet the wish, but the engine's runs show no order with them, so that a proof is inconclusive.
+/// Symptom: four sweeps reach the wanted accuracy, but the engine's runs then show no order, so a proof is
+/// inconclusive.
 #[test]
-fn regress_settings_that_are_recommended_prove_what_they_promise() {
+fn regress_recommended_settings_prove_the_promised_accuracy() {
     for (name, within) in [("crank_rocker", 1e-4), ("six_bar_slider", 1e-3)] {
         let scenario = shipped(&format!("{name}.toml"));
         let found = tuned(&scenario, within, &[], &Options::default().engine(EngineName::Rapier)).unwrap();
@@ -65,19 +67,19 @@ fn regress_settings_that_are_recommended_prove_what_they_promise() {
     }
 }
 
-/// Symptom: a wish below what rounding leaves was searched for without end.
+/// Symptom: an accuracy below rounding was searched for without end.
 #[test]
-fn regress_a_search_ends_with_the_work_that_is_allowed() {
+fn regress_a_search_ends_at_the_work_limit() {
     let scenario = shipped("crank_rocker.toml");
     let options = Options::default().engine(EngineName::Rapier).budget(1e5);
     let error = tuned(&scenario, 1e-9, &[], &options).unwrap_err();
-    assert!(error.message().contains("the work that was allowed is done"), "{error}");
+    assert!(error.message().contains("the work limit was reached"), "{error}");
     assert!(error.way_out().unwrap().contains("1e6 steps"), "{error}");
 }
 
-/// Fewer channels are cheaper: positions need no reactions, and no step that resolves them.
+/// Fewer channels are cheaper: positions need neither reactions nor a step that resolves them.
 #[test]
-fn only_the_channels_asked_for_decide() {
+fn only_requested_channels_decide() {
     let scenario = shipped("crank_rocker.toml");
     let options = Options::default().engine(EngineName::Rapier).extrapolated(0).substeps(1);
     let positions = tuned(&scenario, 1e-4, &["positions"], &options).unwrap();
@@ -86,10 +88,10 @@ fn only_the_channels_asked_for_decide() {
     assert!(positions.best.worst.contains("_m") || positions.best.worst.contains("angle"), "{:?}", positions.best);
 }
 
-/// In free motion probes are refused, whatever the step and the sweeps. So they are not tried again and again, and a
-/// tuning that may use nothing else reports it.
+/// In free motion the engine refuses probes at any step and number of sweeps.
+/// They are therefore not tried repeatedly, and a tuning that may use only probes reports this.
 #[test]
-fn a_route_that_is_refused_is_given_up_at_once() {
+fn a_refused_route_is_given_up_at_once() {
     let scenario = shipped("pendulum.toml");
     let options = Options::default().engine(EngineName::Rapier).route(linkage::engine::Route::Probe);
     let mut runs = 0;
@@ -100,6 +102,6 @@ fn a_route_that_is_refused_is_given_up_at_once() {
         Ok(1.0)
     };
     let error = tune(&scenario, &wish, &options, &mut price, &mut |_| {}).unwrap_err();
-    assert!(error.message().contains("rapier does not run it"), "{error}");
+    assert!(error.message().contains("rapier cannot run the scenario"), "{error}");
     assert!(runs <= 40, "{runs} runs");
 }

@@ -1,5 +1,4 @@
-//! Sixty study variants: the files of scenarios/variants60 are the output of this generator, and their statements are
-//! true.
+//! Sixty study variants: this generator writes the files of scenarios/variants60, and their statements are true.
 //!
 //! `LINKPROOF_WRITE=1 cargo test --release --test suite variants60::` writes the files and the table of
 //! docs/variants60.md.
@@ -36,7 +35,7 @@ fn scenario(plan: &Plan) -> Scenario {
     Scenario::parse(&file::text(plan), Path::new("variant.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// With LINKPROOF_WRITE=1 the file is written; otherwise it must equal the text that would be written.
+/// With LINKPROOF_WRITE=1, writes the file; otherwise the file must equal the text.
 fn written(name: &str, text: &str) {
     let path = path(name);
     if std::env::var_os("LINKPROOF_WRITE").is_some_and(|value| value == "1") {
@@ -58,10 +57,10 @@ fn files_and_table_are_what_the_generator_writes() {
     written("docs/variants60.md", &page::renewed(&page, &plans, &scenarios));
 }
 
-/// Limits and smallest transmission angles: closed forms here, followed curves there. The files have an accuracy of
-/// 1e-12 m.
+/// Limits and smallest transmission angles, by closed forms and by following the mechanism.
+/// The files have an accuracy of 1e-12 m.
 #[test]
-fn ranges_are_those_of_the_curves_that_are_followed() {
+fn closed_form_ranges_match_the_traced_curves() {
     const BOUND: f64 = 1e-6;
     let (mut full, mut crossed) = (0, Vec::new());
     for plan in plans() {
@@ -101,7 +100,7 @@ fn off(from: Vec2, to: Vec2, expected: f64) -> f64 {
 /// The given pose, constructed by hand, closes all joints. Where it is not singular both solvers find it, with its
 /// angles.
 #[test]
-fn the_given_pose_is_a_pose_of_the_file() {
+fn the_given_pose_closes_all_joints_of_the_file() {
     let mut singular = 0;
     for plan in plans() {
         let (linkage, case) = (&plan.linkage, scenario(&plan).case);
@@ -115,8 +114,8 @@ fn the_given_pose_is_a_pose_of_the_file() {
             pose.extend([slider, along(linkage.c, linkage.d)]);
         }
         pose.push(rocker);
-        // Places in the file are rounded to 1e-12 m, so x and y together have an error of half of that times the square
-        // root of two.
+        // Positions in the file are rounded to 1e-12 m.
+        // The error of x and y together is half of that times the square root of two.
         let closure = Pose(pose.into()).closure(&case.mechanism);
         assert_within!(closure, 1e-12, "{}: {closure:e}", v.number);
         if plan.given < 1e-4 {
@@ -151,7 +150,7 @@ fn the_given_pose_is_a_pose_of_the_file() {
 }
 
 #[test]
-fn structure_and_masses_are_those_of_the_reading() {
+fn structure_and_masses_match_the_interpretation() {
     for plan in plans() {
         let (v, case) = (&plan.linkage.variant, scenario(&plan).case);
         let mechanism = &case.mechanism;
@@ -166,7 +165,7 @@ fn structure_and_masses_are_those_of_the_reading() {
         let lengths: f64 = v.lengths.iter().sum::<f64>() + v.rocker.unwrap_or(0.0);
         let slider = if v.rocker.is_some() { 1.0 } else { 0.0 };
         let mass: f64 = mechanism.links().iter().map(|link| link.mass).sum();
-        // Five decimal numbers, each accurate to its last bit.
+        // The sum of five decimal numbers, each accurate to its last bit.
         assert_within!((mass - 10.0 * lengths - slider).abs(), 1e-12, "{}: {mass}", v.number);
     }
 }

@@ -1,4 +1,4 @@
-//! Work that is allowed: whatever costs time counts, and a search that cannot decide is given up early.
+//! Allowed work: every costly operation counts, and a search that cannot decide ends early.
 
 use std::path::Path;
 
@@ -22,7 +22,7 @@ fn proven(scenario: &Scenario, options: &Options) -> (Proof, Work) {
     counted(|| prove(scenario, options).unwrap_or_else(|error| panic!("{error}")))
 }
 
-/// Nothing of an engine was run, and the verdict says what would have to be allowed.
+/// Asserts that no step of an engine was run, and that the verdict states how much work would be needed.
 fn assert_refused((proof, work): &(Proof, Work)) {
     let reason = proof.verdict.reason(Advice::to_string).unwrap_or_default();
     assert_eq!((proof.verdict.word(), work.of(Count::Steps)), ("inconclusive", 0), "{reason}");
@@ -30,49 +30,50 @@ fn assert_refused((proof, work): &(Proof, Work)) {
 }
 
 #[test]
-fn regress_substeps_are_work() {
+fn regress_substeps_count_as_work() {
     assert_refused(&proven(&scenario("substeps.toml"), &Options::default()));
     let many = Options::default().substeps(100_000).budget(1e4);
     assert_refused(&proven(&shipped("crank_rocker.toml"), &many));
-    // Also where nothing is left to find.
+    // The same if no setting is left to search.
     let given = Options::default().step(1e-3).sweeps(64).extrapolated(0).substeps(usize::MAX >> 12);
     assert_refused(&proven(&shipped("crank_rocker.toml"), &given));
 }
 
 #[test]
-fn regress_a_step_of_a_large_mechanism_is_more_work() {
+fn regress_work_per_step_grows_with_the_mechanism() {
     let chain = named("chain").expect("there are chains");
     let case = (chain.setup)(100.0, 0, 0).unwrap().case;
     let large = Scenario::of_case("chain", case).unwrap();
     assert_refused(&proven(&large, &Options::default().budget(1e4)));
-    // What a run allows is kept to, whatever the mechanism: here some 21 moving links.
+    // A run keeps to the allowed work, whatever the mechanism; this one has some 21 moving links.
     let (proof, work) = proven(&scenario("n_four_bar_10.toml"), &Options::default().budget(1e6));
     assert_eq!(proof.verdict.word(), "inconclusive");
     assert!(work.of(Count::Sweeps) < 3_000_000, "{work:?}");
 }
 
-/// Poses of a range, of which each needs systems of all links, were nobody's work: a hundred four-bars had no end.
+/// Symptom: the range of a hundred four-bars was computed without end.
+/// Cause: the poses of a range did not count as work, although each needs systems of all links.
 #[test]
-fn regress_the_range_of_a_large_mechanism_is_work() {
+fn regress_computing_a_range_counts_as_work() {
     let chain = named("chain").expect("there are chains");
     let large = (chain.setup)(100.0, 0, 0).unwrap().case;
     let (found, is_over) = limited(1e5, || Range::of(&large));
     let error = found.expect_err("a hundred four-bars are more than 1e5 steps");
     assert!(is_over && error.message().contains("1.0e5 steps") && !error.advice().is_empty(), "{error}");
-    // A four-bar is little work, and what is left of it is not lost.
+    // A four-bar needs little work, and keeps what is left of it.
     let small = shipped("crank_rocker.toml").case;
     let (found, is_over) = limited(1e5, || Range::of(&small));
     assert!(found.is_ok_and(|range| range.links.len() == 3) && !is_over);
-    // An error is explained as far as that is allowed, and says where it is not.
+    // An error is explained as far as the work allows, and otherwise says that the range is not known.
     let out_of_reach = || Error::new(ErrorKind::Geometry, "the poses end").out_of_reach();
     let (told, _) = limited(10.0, || explained(&small, out_of_reach()));
-    assert!(told.message().contains("is not known") && told.message().contains("1.0e1 steps"), "{told}");
+    assert!(told.message().contains("are not known") && told.message().contains("1.0e1 steps"), "{told}");
     assert_eq!(explained(&small, out_of_reach()).message(), "the poses end");
 }
 
-/// Hundreds of faults, each of them a proof of a large mechanism, went on for hours.
+/// Symptom: hundreds of faults, each a proof of a large mechanism, ran for hours.
 #[test]
-fn regress_faults_are_planted_within_the_work_that_is_allowed() {
+fn regress_planting_faults_keeps_to_the_work_limit() {
     let chain = named("chain").expect("there are chains");
     let large = Scenario::of_case("chain", (chain.setup)(100.0, 0, 0).unwrap().case).unwrap();
     let asked = MutationPlan { options: Options::default().budget(1e4), ..MutationPlan::default() };
@@ -80,32 +81,34 @@ fn regress_faults_are_planted_within_the_work_that_is_allowed() {
     let error = found.err().expect("600 faults in 100 four-bars are too many");
     assert!(error.message().contains("planting") && error.message().contains("1.0e5 are allowed"), "{error}");
     assert!(error.advice().iter().any(|own| own.to_string().contains("some kinds")), "{error}");
-    // Both sides without a fault, and once more their exact answers; no step of an engine.
+    // The work is that of both sides without a fault and of their exact answers, without a step of an engine.
     assert!(work.of(Count::Groups) < 1_000_000 && work.of(Count::Steps) == 0, "{work:?}");
     let few = MutationPlan { kinds: vec!["gravity-sign".into()], parties: vec![FaultyParty::Assur], ..asked };
     assert_eq!(mutate(&large, &few, &mut |_| {}).unwrap().mutants.len(), 1);
 }
 
-/// Chains that swing through their change points: impulses there do not converge, and four rounds show it. Before, they
-/// took 48 of 51 million sweeps.
+/// Chains that swing through their change points.
+/// Impulses do not converge there, and four rounds of the search show this.
+/// Before, the impulses took 48 of 51 million sweeps.
 #[test]
-fn regress_forces_that_no_step_makes_better_are_given_up_in_their_first_rounds() {
+fn regress_forces_without_progress_are_given_up_early() {
     let (proof, work) = proven(&shipped("n_four_bar_1.toml"), &Options::default());
     assert_eq!(proof.verdict.word(), "agree");
     let own = proof.engine().own_forces.as_ref().unwrap();
     assert_eq!(own.search.as_ref().map(|search| search.end), Some(SearchEnd::Pace));
-    assert!(own.verdict.reason(Advice::to_string).unwrap().contains("at the pace of its rounds"), "{:?}", own.verdict);
+    assert!(own.verdict.reason(Advice::to_string).unwrap().contains("at this rate of progress"), "{:?}", own.verdict);
     assert!(work.of(Count::Sweeps) < 5_000_000, "{work:?}");
 }
 
-/// Where the motion alone has taken more than the forces that the engine exerts may take, these are not begun. Before,
-/// this four-bar took 118 million sweeps.
+/// The forces that the engine exerts have a limit on their work.
+/// If the motion alone exceeds this limit, the search for their settings does not begin.
+/// Before, this four-bar took 118 million sweeps.
 #[test]
-fn regress_forces_are_not_searched_where_their_motion_took_more_than_they_may() {
+fn regress_forces_are_skipped_if_the_motion_used_their_work() {
     let (proof, work) = proven(&scenario("transmission_1_deg.toml"), &Options::default());
     assert_eq!(proof.verdict.word(), "agree");
     let own = proof.engine().own_forces.as_ref().unwrap();
     let reason = own.verdict.reason(Advice::to_string).unwrap();
-    assert!(own.channels.is_empty() && reason.contains("the motion has taken the work of"), "{reason}");
+    assert!(own.channels.is_empty() && reason.contains("the motion cost"), "{reason}");
     assert!(work.of(Count::Sweeps) < 40_000_000, "{work:?}");
 }

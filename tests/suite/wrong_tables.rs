@@ -1,5 +1,5 @@
-//! Wrong tables of kinds that the diagnosis was not built on, as engineers and students make them: all are found, no
-//! cause is made up, and most are called by their name.
+//! Wrong tables of kinds that were not used to develop the diagnosis, as engineers and students make them.
+//! All wrong tables are found, no false cause is named, and most causes are named.
 
 mod first_half;
 mod second_half;
@@ -19,9 +19,9 @@ use prover::tables::{Held, load};
 use scenario::Scenario;
 use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 
-/// How a table comes to be wrong.
+/// How a table is made wrong.
 enum Make {
-    /// Places of the scenario's text, and what stands there instead.
+    /// Passages of the scenario's text and their replacements.
     Text(&'static [(&'static str, &'static str)]),
     /// Another case.
     Case(fn(&mut CaseParts)),
@@ -29,8 +29,8 @@ enum Make {
     Values(fn(&mut Sheet)),
 }
 
-/// A wrong table: its scenario, its columns, what is wrong, how it is made, and words of the cause that it may be called
-/// by: the true one, or one that comes to the same.
+/// A wrong table: its scenario, its columns, the fault, and how the table is made.
+/// `named` has words of the accepted causes: the true one, or an equivalent one.
 struct Wrong {
     scenario: &'static str,
     columns: &'static [&'static str],
@@ -39,11 +39,11 @@ struct Wrong {
     named: &'static [&'static str],
 }
 
-/// The right columns of a table.
+/// The correct columns of a table.
 struct Sheet {
     times: Vec<f64>,
     columns: Vec<(String, Vec<f64>)>,
-    /// All channels, to take wrong ones from.
+    /// All channels, as a source of wrong columns.
     all: Trajectory,
 }
 
@@ -57,13 +57,13 @@ impl Sheet {
         self.all.named(name).unwrap_or_else(|| panic!("no channel {name}")).to_vec()
     }
 
-    /// Every value of a column from itself and its row.
+    /// Changes every value of a column, given its row and the value.
     fn each(&mut self, name: &str, change: impl Fn(usize, f64) -> f64) {
         self.of(name).iter_mut().enumerate().for_each(|(row, value)| *value = change(row, *value));
     }
 }
 
-/// Changes the link of a name.
+/// Changes the link with this name.
 fn link(parts: &mut CaseParts, name: &str, change: impl Fn(&mut Link)) {
     let mut links = parts.mechanism.links().to_vec();
     links.iter_mut().filter(|link| link.name == name).for_each(change);
@@ -89,7 +89,7 @@ impl Wrong {
         self.compared_by(&ComparisonRule::default(), |_| ())
     }
 
-    /// The comparison of the table, printed in another way.
+    /// The comparison of the table after a change of its printed form.
     fn compared_by(&self, how: &ComparisonRule, printed: impl Fn(&mut Sheet)) -> PartyComparison {
         let (right, path) = text(self.scenario);
         let scenario = Scenario::parse(&right, &path).unwrap();
@@ -127,7 +127,7 @@ impl Wrong {
     }
 }
 
-/// Counts of tables, and one line about each.
+/// Counts of tables, and a line for each invented cause.
 #[derive(Default)]
 struct Tally {
     all: usize,
@@ -142,7 +142,7 @@ impl Tally {
         for own in tables {
             let compared = own.compared();
             let causes = || compared.pairs.iter().flat_map(|pair| &pair.causes);
-            // What is told of a part of the channels: the cause and those that come to the same.
+            // For each explained part of the channels: the cause and its equivalents.
             let told: Vec<Vec<String>> = causes()
                 .map(|one| why(one).into_iter().chain(one.diagnosis.also.iter().map(cause)).collect())
                 .collect();
@@ -180,20 +180,21 @@ impl Tally {
 }
 
 #[test]
-fn wrong_tables_that_the_diagnosis_was_mended_by_are_named() {
+fn errors_in_tables_used_for_development_are_named() {
     let tally = Tally::of(first_half::TABLES);
     assert!(tally.all >= 30);
     tally.holds();
 }
 
 #[test]
-fn wrong_tables_that_the_diagnosis_had_not_seen_are_named() {
+fn errors_in_unseen_tables_are_named() {
     let tally = Tally::of(second_half::TABLES);
     assert!(tally.all >= 30);
     tally.holds();
 }
 
-/// A table of another program against a scenario: the cause, those that come to the same, and a row that is off besides.
+/// Compares a table of another program with a scenario.
+/// Returns the causes with their equivalents, and a row that is off in addition.
 fn told(scenario: &str, table: &str, lines: &[&str]) -> Vec<(Vec<String>, Option<f64>)> {
     let (right, path) = text(scenario);
     let mut mapping = Mapping::default();
@@ -213,14 +214,14 @@ fn words(found: &PartyComparison) -> Vec<(Vec<String>, Option<f64>)> {
 }
 
 #[test]
-fn a_moment_without_a_link_s_mass_and_inertia_is_called_so() {
+fn a_moment_without_a_links_mass_and_inertia_is_recognised() {
     let found = told("engine", "t_mr.csv", &["t=time_s", "T=drive.torque_N_m"]);
     assert_eq!(found, [(vec!["mass and inertia of rod: missing".to_string()], None)]);
 }
 
-/// At constant speed rows that are late and a crank that is turned are the same: both are told.
+/// At constant speed, late rows and a rotated crank are equivalent: the comparison reports both.
 #[test]
-fn rows_that_are_late_and_a_drive_that_is_turned_are_told_together() {
+fn late_rows_and_a_rotated_drive_are_both_reported() {
     let map = ["t=time_s", "px=point.P.x_m", "py=point.P.y_m"];
     let [(found, but)] = &told("norton", "late2.csv", &map)[..] else { panic!() };
     let expected =
@@ -228,16 +229,18 @@ fn rows_that_are_late_and_a_drive_that_is_turned_are_told_together() {
     assert_eq!((&found[..], *but), (&expected.map(String::from)[..], None));
 }
 
-/// MuJoCo prints what a step began with, but for the first row. The step's own error stays over.
+/// Except in the first row, MuJoCo prints the values at the beginning of a step.
+/// The error of the step remains unexplained.
 #[test]
-fn a_first_row_that_is_right_hides_no_cause() {
+fn a_correct_first_row_hides_no_cause() {
     let found = told("norton", "mj.csv", &["time=time_s", "px=point.P.x_m", "py=point.P.y_m"]);
     let [(found, Some(0.0))] = &found[..] else { panic!("{found:?}") };
     assert!(found.iter().any(|words| words == "angle of the drive at O2 at t = 0: -0.25 deg instead of 0 deg"));
     assert!(found.iter().any(|words| words.starts_with("all channels are 0.41")), "{found:?}");
 }
 
-/// Many programs print angles within one turn. That is right, and hides nothing that is wrong besides.
+/// Many programs print angles within one revolution.
+/// This is correct and hides no other fault.
 #[test]
 fn angles_within_one_turn_hide_no_cause() {
     let wrong = Wrong {
@@ -252,9 +255,10 @@ fn angles_within_one_turn_hide_no_cause() {
     assert_eq!(words(&found), [(vec!["gravity: of the opposite sign".to_string()], None)]);
 }
 
-/// Forces that drift by twice what they are trusted to: no mass is a hundred-thousandth too large.
+/// The forces drift by twice the allowed difference.
+/// No mass that is a hundred-thousandth too large may be named as the cause.
 #[test]
-fn a_drift_is_no_number_of_the_case() {
+fn a_drift_is_not_attributed_to_a_number_of_the_case() {
     let wrong = Wrong {
         scenario: "crank_rocker",
         columns: &["joint.A.fx_N", "joint.B.fy_N", "drive.torque_N_m"],
@@ -271,6 +275,6 @@ fn a_drift_is_no_number_of_the_case() {
     let how =
         ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(1e-5) }], ..ComparisonRule::default() };
     let found = wrong.compared_by(&how, |_| ());
-    let told = "the error grows with time, about with its power of 2: integration, or the step of it";
+    let told = "the error grows with time, roughly with the power 2 of time: integration error or time step";
     assert_eq!(words(&found), [(vec![told.to_string()], None)]);
 }

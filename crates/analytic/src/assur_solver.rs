@@ -43,7 +43,7 @@ impl Solver for AssurSolver {
     }
 }
 
-/// Side 1 with another error allowed per step in the integration of motions under forces.
+/// Side 1 with a chosen integration error per step for motions under forces.
 /// A prescribed motion is not integrated.
 #[derive(Clone, Copy, Debug)]
 pub struct AssurAt(pub f64);
@@ -66,13 +66,15 @@ impl Solver for AssurAt {
 }
 
 /// Side 1 with a tighter integration of motions under forces.
-/// Its difference from [`AssurSolver`] is the integration error of that solver, which both sides share.
+/// Its results differ from those of [`AssurSolver`] by the integration error of [`AssurSolver`].
+/// Both sides have this error, because they share the integrator.
 /// A prescribed motion is not integrated.
 pub const TIGHT_ASSUR: AssurAt = AssurAt(TIGHTER * ACCURACY);
 
-/// Motion under forces.
-/// With one degree of freedom, the reduced equation of motion is solved if the crank angle alone gives its terms.
-/// Otherwise, and with several degrees of freedom, the transfer functions are used.
+/// Solves a motion under forces.
+/// A case of one degree of freedom is solved by the reduced equation of motion if all its terms are functions of the
+/// crank angle.
+/// Every other case is solved with transfer functions.
 fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     let share = if accuracy < ACCURACY { NARROWER } else { 1.0 };
     if !case.drives.further().is_empty() || case.loads.iter().any(Load::is_viscous) {
@@ -83,15 +85,16 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
     let mut times: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     times.dedup();
     let model = match ReducedModel::of(case) {
-        // The loads are not functions of the crank angle over whole turns, or the branch is not known over the full
-        // turn.
+        // Either the loads are not functions of the crank angle over whole turns, or the branch is not known over a
+        // full turn.
         Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::Numeric) => {
             return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
         }
         model => model?,
     };
     if model.kinks().meets {
-        // The transfer functions carry the motion over the change point, by its momentum.
+        // The equations with transfer functions follow the motion over the change point, where its momentum selects the
+        // branch.
         return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
     }
     let (motion, end) =

@@ -21,22 +21,22 @@ pub struct Mode {
     pub poses: Vec<LinkPose>,
     /// Angular velocity of each link (rad/s); `None` in a singular configuration, where it is not determined.
     pub omegas: Option<Vec<f64>>,
-    /// Whether the case follows this configuration.
+    /// Whether the motion of the case follows this configuration.
     pub is_followed: bool,
 }
 
 /// The known real configurations of one group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modes {
-    /// Its configurations; only the followed one if not all are known.
+    /// Configurations of the group. If not all are known, this contains only the followed configuration.
     pub modes: Vec<Mode>,
-    /// Why not all are known, for groups of more than four links; `None` if the list is complete.
+    /// Reason why not all configurations are known, for groups of more than four links; `None` if the list is complete.
     pub unknown: Option<String>,
 }
 
-/// Moves to a crank angle (rad).
-/// If a dead point lies on the way, moves in the other direction to the same pose of the crank.
-/// Returns the angle reached.
+/// Moves the mechanism to a crank angle (rad).
+/// If a dead point lies in between, moves the crank the other way round to the same pose of the crank.
+/// Returns the crank angle reached.
 fn reached(case: &Case, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
     let mut poses = PoseSolver::counting_turns(case)?;
     let Err(error) = poses.solve(crank, 1.0, 0.0, Stage::Positions) else { return Ok((poses, crank)) };
@@ -92,7 +92,7 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
             let mut chosen = case.modes[..=index.index()].to_vec();
             chosen[index] = one.mode;
             let mut plan = SolutionPlan::of(mechanism, &part, &chosen);
-            // The configurations are exact already. Solving them again only prepares the velocities.
+            // The configurations are already exact. This solution only prepares the computation of the velocities.
             let solved = plan.positions(&angles, &mut motions).is_ok();
             let mut placed = pose.clone();
             for (&link, place) in group.links.iter().zip(&one.links) {

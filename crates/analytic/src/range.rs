@@ -1,12 +1,11 @@
-//! The crank angles over which a mechanism can be followed on its branch, their limits, and the condition numbers along
-//! the way.
+//! The crank angles over which a mechanism can be followed on its branch, with their limits and the condition numbers.
 //!
-//! The drive is released. The curve of all poses is followed by arc length, in both directions from the start pose.
+//! The crank is not driven. The curve of all poses is followed by arc length, in both directions from the start pose.
 //! The curve ends at the start pose or at a singular pose.
 //! At a *limit of rotation* (dead point of the crank) the determinant of one group is zero.
 //! Two branches meet there and form one smooth curve, along which the crank reverses.
 //! At a *change point* two such curves cross.
-//! The determinant changes its sign while the crank goes on. Geometry does not decide which curve the mechanism
+//! The determinant changes its sign, and the crank does not reverse. Geometry does not decide which curve the mechanism
 //! follows.
 
 mod constraints;
@@ -30,15 +29,16 @@ use linkage::mechanism::{Group, GroupId, Mechanism, PerGroup, Pose};
 use linkage::work::limited;
 use tracking::{End, Point, Tracker};
 
-/// A nonzero determinant below this is reported as [`SingularityKind::BranchContact`].
-/// It corresponds to a transmission angle of 0.06 deg, at which accelerations have lost six digits.
+/// A minimum of the determinant's magnitude below this value, but above zero, is reported as
+/// [`SingularityKind::BranchContact`].
+/// The value corresponds to a transmission angle of 0.06 deg, at which accelerations have lost six digits.
 const CONTACT: f64 = 1e-3;
-/// Below this, a pose counts as singular.
+/// If a group's determinant is smaller than this, the pose counts as singular.
 /// Rounding separates coinciding configurations by the square root of the rounding error, 1e-8 to 1e-7.
 const SINGULAR: f64 = 1e-6;
 
 /// Work allowed for finding the reachable crank angles as a by-product, for example for an error message.
-/// It is in the unit of budgets: a twentieth of the work allowed for a proof.
+/// The unit is that of work budgets. The value is a twentieth of the work allowed for a proof.
 pub const ASIDE: f64 = 1e6;
 
 /// Crank angles over which a mechanism can be followed on its branch.
@@ -47,16 +47,17 @@ pub enum Extent {
     /// All crank angles.
     /// The mechanism returns to its first pose after this number of turns (one, except with some higher groups).
     FullTurn(i32),
-    /// From one singular pose to another, with the start between them. The range may exceed one turn.
+    /// From one singular pose to another; the start pose lies between them. The range may exceed one turn.
     Limited([Singularity; 2]),
 }
 
 /// The worst values of one group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroupRange {
-    /// Normalised determinant of smallest size, with its sign.
+    /// Smallest magnitude of the normalised determinant, with the determinant's sign.
     pub determinant: ValueAtCrank,
-    /// Largest condition number; `None` if the group is singular at a limit, where it grows without bound.
+    /// Largest condition number. `None` if the group is singular at a limit, where its condition number grows without
+    /// bound.
     pub condition: Option<ValueAtCrank>,
 }
 
@@ -83,8 +84,8 @@ pub struct Range {
     pub groups: PerGroup<GroupRange>,
     /// The range of every moving link.
     pub links: Vec<LinkRange>,
-    /// Measures of all groups along the way, in ascending order of the crank angle, at most two degrees apart, without
-    /// the limits themselves.
+    /// Measures of all groups in ascending order of the crank angle, at most two degrees apart, without the limits
+    /// themselves.
     pub samples: Vec<GroupMeasures>,
     /// Grashof's type, if the mechanism is a four-bar.
     pub four_bar: Option<FourBar>,
@@ -95,7 +96,7 @@ impl Range {
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if the start pose is singular, [`ErrorKind::Numeric`] if the branch cannot be followed,
-    /// [`ErrorKind::Unsupported`] if that is more work than [`limited`] allows.
+    /// [`ErrorKind::Unsupported`] if following the branch takes more work than [`limited`] allows.
     pub fn of(case: &Case) -> Result<Self> {
         let (tracker, start) = Tracker::new(case)?;
         let (points, extent) = both_ways(&tracker, &start)?;
@@ -126,11 +127,11 @@ pub fn reachable(case: &Case) -> Result<Extent> {
     Ok(both_ways(&tracker, &start)?.1)
 }
 
-/// Explains an error of a solver on this case, for code that combines solvers and range analysis.
-/// If the error [reports a pose out of reach](Error::is_out_of_reach), the message gains the reachable crank angles, or
-/// the reason why they are unknown.
+/// Explains an error of a solver on this case. It serves code that combines solvers and range analysis.
+/// If the error [reports a pose out of reach](Error::is_out_of_reach), its message is extended by the reachable crank
+/// angles, or by the reason why they are unknown.
 /// Any other error stays unchanged.
-/// The solvers must not share the range analysis, so they do not call it themselves.
+/// The solvers must not share the range analysis, so they do not call this function themselves.
 #[must_use]
 pub fn explained(case: &Case, error: Error) -> Error {
     if !error.is_out_of_reach() {
@@ -147,16 +148,17 @@ pub fn explained(case: &Case, error: Error) -> Error {
     error.map_message(|message| format!("{message}{reached}")).explained()
 }
 
-/// `from X to Y deg on this branch`, to 1e-6 deg and rounded inwards, so that the user can request these angles.
+/// Returns `from X to Y deg on this branch`. The angles are rounded inwards to 1e-6 deg, so that the user can request
+/// them.
 fn interval([from, to]: [Singularity; 2]) -> String {
-    // An angle within 1e-9 deg of a printed number counts as that number.
+    // If an angle is within 1e-9 deg of a printable number, it counts as that number.
     let from = (from.crank.to_degrees() * 1e6 - 1e-3).ceil() / 1e6 + 0.0;
     let to = (to.crank.to_degrees() * 1e6 + 1e-3).floor() / 1e6 + 0.0;
     sentences::from_to_deg_on_this_branch(&from, &to)
 }
 
 /// Whether two configurations of a group coincide in this pose within rounding error.
-/// Velocities are then undetermined.
+/// Velocities are undetermined in such a pose.
 #[must_use]
 pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
     let constraints = Constraints::of(mechanism, Vec2::zeros(), Vec::new());
@@ -175,7 +177,7 @@ pub fn conditions(mechanism: &Mechanism, groups: &[Group], pose: &Pose) -> Vec<f
     groups.iter().map(of).collect()
 }
 
-/// All poses in ascending order of the crank angle.
+/// Returns all poses in ascending order of the crank angle.
 fn both_ways(tracker: &Tracker, start: &Point) -> Result<(Vec<Point>, Extent)> {
     let forwards = tracker.follow(start, 1.0)?;
     let to = match forwards.end {

@@ -2,7 +2,7 @@
 //!
 //! `omega^2 / 2 dI*/dphi + I* domega/dt = M`. I* and dI*/dphi follow from first and second transfer functions, M from
 //! the powers of motor, gravity and loads.
-//! Artobolevsky, "Theory of mechanisms and machines", motion of a machine under given forces.
+//! It is the kinetic energy theorem for E = I* omega^2 / 2. Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 //! See docs/numerics/forces.md.
 
 pub(crate) mod flow;

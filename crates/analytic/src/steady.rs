@@ -1,4 +1,5 @@
-//! Steady motion under a motor: averaged, periodic, and the course of the reduced quantities over the turn.
+//! Steady motion under a motor: the averaged model, the periodic motion, and the reduced quantities as functions of the
+//! crank angle.
 //! See docs/numerics/forces.md.
 
 pub mod averaged;

@@ -1,4 +1,4 @@
-//! Independent methods for the results of the two sides. They serve only as checks; no other result depends on them.
+//! Independent methods that check the results of the two sides. No other result depends on them.
 
 pub mod momentum;
 pub mod power;

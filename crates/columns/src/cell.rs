@@ -1,24 +1,24 @@
-//! Accuracy of a column, from its printed digits: how far its numbers may be from the numbers before printing.
+//! Accuracy of a column from its printed digits: the distance of its numbers from the numbers before printing.
 
 use crate::instants::chosen;
 use formula::Rounded;
 use linkage::math::KeepNan;
 
-/// A cell with the properties of its printed number.
+/// A cell with its number and the properties of the printed digits.
 #[derive(Clone, Copy, Debug)]
 pub struct TableCell {
-    /// The number; NaN if the cell has no number.
+    /// The number; NaN if the cell does not contain a number.
     value: f64,
     /// Number of printed decimals minus the exponent.
     decimals: i32,
-    /// Number of digits, counted from the first nonzero one.
+    /// Number of digits, counted from the first nonzero digit.
     significant: u16,
-    /// The same without the trailing zeros of a whole number, which may replace digits lost in rounding.
+    /// The same, but without the trailing zeros of a whole number. These zeros may replace digits lost in rounding.
     telling: u16,
     is_missing: bool,
 }
 
-/// Value of an empty cell: nothing was measured, so no number is claimed.
+/// Value of an empty cell. Nothing was measured, so the cell states no number.
 pub const MISSING: Rounded = Rounded::exact(f64::NAN);
 
 /// Value of a cell in which a program wrote NaN or infinity.
@@ -37,11 +37,11 @@ pub fn is_missing(number: &Rounded) -> bool {
 }
 
 impl TableCell {
-    /// Reads a cell; `None` if it is neither a number nor a word for a missing or undefined one.
+    /// Reads a cell; `None` if the text is neither a number nor a word for a missing or undefined number.
     #[must_use]
     pub fn parse(text: &str) -> Option<TableCell> {
         let Some(decimal) = TableCell::decimal(text) else { return TableCell::word(text) };
-        // Python appends `.0` to whole numbers, whatever number of digits they have.
+        // Python appends `.0` to whole numbers, regardless of their number of digits.
         Some(text.strip_suffix(".0").and_then(TableCell::decimal).unwrap_or(decimal))
     }
 
@@ -88,18 +88,18 @@ impl TableCell {
         self.decimals
     }
 
-    /// Number of printed digits, counted from the first nonzero one.
+    /// Number of printed digits, counted from the first nonzero digit.
     pub(crate) fn significant(&self) -> u16 {
         self.significant
     }
 
-    /// Whether it is a number other than zero.
+    /// Whether the cell contains a number other than zero.
     pub(crate) fn has_digits(&self) -> bool {
         self.significant > 0 && !self.value.is_nan()
     }
 
     /// The same number with the trailing zeros that its format left out.
-    /// Zeros are added up to so many decimals, but not beyond so many significant digits.
+    /// Zeros are added up to `decimals` decimals, but to at most `significant` significant digits.
     pub(crate) fn with_zeros(mut self, decimals: i32, significant: u16) -> TableCell {
         let mut zeros = decimals.saturating_sub(self.decimals).max(0);
         if self.has_digits() {
@@ -120,16 +120,17 @@ impl TableCell {
 /// The numbers of a column, each with the uncertainty left by its printed digits.
 ///
 /// A column is printed with a fixed number of decimals or of significant digits, and programs omit trailing zeros.
-/// The longest cell shows that number. Both formats are tried, and the larger half unit counts.
-/// It is that of the actual format: with decimals the largest number has most significant digits, with significant
-/// digits the smallest number has most decimals.
+/// The cell with the most decimals or digits shows that fixed number.
+/// Both formats are tried, and the larger half unit of the last place counts. It is that of the actual format:
+/// with fixed decimals the largest number has most significant digits, with fixed significant digits the smallest
+/// number has most decimals.
 ///
-/// Several whole numbers may have more digits than any other cell only by trailing zeros.
+/// Several whole numbers may have more digits than all other cells only because of trailing zeros.
 /// These zeros then count as rounded-off digits, unless all numbers are multiples of a chosen step.
 ///
-/// Numbers in single precision are printed with up to nine digits but hold fewer.
-/// The shortest text that distinguishes such a number may lie half way to its neighbour, so it is read in single
-/// precision again.
+/// Numbers in single precision are printed with up to nine digits but have fewer significant ones.
+/// The shortest text for such a number may lie half way to the neighbouring number.
+/// It is therefore converted to single precision again.
 #[must_use]
 pub fn numbers(cells: &[TableCell]) -> Vec<Rounded> {
     numbers_as(cells, Precision::of(cells))
@@ -151,7 +152,7 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
                 0 => -decimals,
                 _ => (-decimals).max(cell.first_place() + 1 - significant),
             };
-            // Converting the decimal to binary rounds once more. The excess covers only that rounding error.
+            // Converting the decimal to binary rounds once more. The margin covers only that rounding error.
             let half = 0.5 * 10f64.powi(place) * (1.0 + 1e-9);
             let value = if is_single { f64::from(cell.value as f32) } else { cell.value };
             Rounded { value, error: half.larger(binary * value.abs()) }
@@ -163,12 +164,13 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
     if are_rounded && !chosen(&found) { with(telling) } else { found }
 }
 
-/// Number of whole numbers with trailing zeros that is unlikely by chance. One whole number in ten ends with zero.
+/// If at least this many whole numbers have trailing zeros, chance is an unlikely cause. One whole number in ten ends
+/// with zero.
 const FEW: usize = 2;
 
-/// Number of cells with at least eight digits from which single precision is considered.
-/// Each of them must be the shortest text of a number in single precision.
-/// By chance, about one in eight decimals with eight digits is such a text.
+/// Single precision is considered only if at least this many cells have eight or more digits.
+/// Each cell must be the shortest text of a number in single precision.
+/// By chance, about one in eight decimal numbers with eight digits is such a text.
 const TELLING: usize = 8;
 
 /// Precision of the numbers of a column before they were printed, the coarser one first.
@@ -204,9 +206,9 @@ mod tests {
     fn a_number_has_the_digits_of_its_column() {
         for (cells, halves) in [
             (["1", "1.25"], [0.005, 0.005]),
-            // 2 may have only one significant digit, like .5.
+            // 2 may have only one significant digit, as .5 has.
             ([".5", "2."], [0.05, 0.5]),
-            // With %g and an exponent: a fixed number of significant digits.
+            // Printed by %g with an exponent: a fixed number of significant digits.
             (["1e3", "1.25e3"], [5.0, 5.0]),
             (["0.000277777778", "0.0155555556"], [5e-13, 5e-11]),
             (["1.00001e-05", "123"], [5e-11, 5e-4]),
@@ -219,19 +221,19 @@ mod tests {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);
             }
         }
-        // With three significant digits: as Python prints rounded numbers, and as other programs do.
+        // Three significant digits, as Python prints rounded numbers and as other programs print them.
         for cells in [["-2450.0", "1260.0", "301.0", "0.354"], ["2450", "1260", "301", "0.354"]] {
             for (error, half) in errors(&cells).iter().zip([5.0, 5.0, 0.5, 0.0005]) {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);
             }
         }
-        // As many digits as a double has.
+        // The number has as many digits as a double.
         assert_eq!(errors(&["7.958865576007463e-300"]), [7.958865576007463e-300 * f64::EPSILON]);
         assert_eq!(errors(&["", "-"]), [0.0, 0.0]);
     }
 
     #[test]
-    fn what_is_no_number_is_none() {
+    fn invalid_missing_and_undefined_cells_are_distinguished() {
         for wrong in ["1,5", "x", "1.2.3", "0x10", "12 mm", "--1", "1e", ".", "+", "nano", "1e1.5"] {
             assert!(TableCell::parse(wrong).is_none(), "{wrong}");
         }

@@ -1,22 +1,23 @@
-//! Columns with the same number in every row: a zero moment, a constant speed.
+//! Columns with the same number in every row, such as a zero moment or a constant speed.
 
 use crate::cell::{Precision, TableCell, numbers, numbers_as};
 use crate::instants::chosen;
 use formula::Rounded;
 
-/// Number of digits that single precision is certain to hold.
+/// Number of digits that single precision always represents.
 const SINGLE: u16 = 7;
 
 /// The numbers of a column of a file, each with the uncertainty left by its printed digits.
-/// The result is that of [`numbers`], except for a column of zeros, which is judged by the `others` of the file.
+/// The result is that of [`numbers`], except for a column of zeros. For zeros the `others`, the other columns of the
+/// file, also count.
 ///
 /// A constant column does not show its format.
-/// `0` is an exact zero as printed by `%g`, Python and similar formats, but anything below a half as printed by `%.0f`.
-/// A file usually has one format. If it omits trailing zeros, the cells of its other columns differ in decimals and in
-/// significant digits.
-/// If all other columns show this, the constant has at least the decimals and digits of the coarsest of them.
-/// A column with a fixed number of decimals, as from `%.6f`, or with whole numbers that are not steps, shows that each
-/// column may have a separate format.
+/// `0` printed by `%g`, Python and similar formats is an exact zero. Printed by `%.0f` it may be anything below a half.
+/// A file usually has one format. If the format omits trailing zeros, the cells of other columns differ in decimals and
+/// in significant digits.
+/// If all other columns differ in this way, the constant has at least the decimals and digits of the coarsest of them.
+/// A column with a fixed number of decimals, as from `%.6f`, shows that each column may have a separate format.
+/// So does a column of whole numbers that are not steps.
 /// A constant may then be rounded to its format.
 #[must_use]
 pub fn numbers_beside<Others>(cells: &[TableCell], others: impl FnOnce() -> Others) -> Vec<Rounded>
@@ -32,7 +33,7 @@ where
     }
 }
 
-/// Evidence of other columns: their fewest decimals and digits, and their coarsest precision.
+/// Evidence from other columns: their smallest numbers of decimals and digits, and their coarsest precision.
 #[derive(Clone, Copy)]
 struct Vouched {
     decimals: i32,
@@ -40,7 +41,7 @@ struct Vouched {
     precision: Precision,
 }
 
-/// Evidence of the other columns; `None` if they give none.
+/// Evidence from the other columns; `None` if they give no evidence.
 fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouched> {
     let mut coarsest: Option<Vouched> = None;
     for column in others {
@@ -70,7 +71,7 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouche
 }
 
 /// Whether all numbers of a column are zero.
-/// In a format with significant digits a zero is exact, however few digits there are.
+/// In a format with significant digits a zero is exact, even with few digits.
 /// Any other constant may have been rounded to fewer digits than the other columns have.
 fn is_zero(cells: &[TableCell]) -> bool {
     is_constant(cells) && cells.iter().any(|cell| cell.value() == 0.0)
@@ -100,7 +101,7 @@ mod tests {
         texts.iter().map(|text| TableCell::parse(text).unwrap()).collect()
     }
 
-    /// Error of the first number of a column beside other columns.
+    /// Error of the first number of a column in a file with other columns.
     fn error(column: &[&str], others: &[&[&str]]) -> f64 {
         let others: Vec<Vec<TableCell>> = others.iter().map(|texts| cells(texts)).collect();
         numbers_beside(&cells(column), || others)[0].error
@@ -111,11 +112,12 @@ mod tests {
     const STEPS: &[&str] = &["0.000", "0.025", "0.050"];
 
     #[test]
-    fn a_file_that_leaves_out_zeros_vouches_for_its_constants() {
+    fn a_file_without_trailing_zeros_bounds_its_constants() {
         for zero in [["0", "0", "-0"], ["0.0", "0.0", "0"]] {
             approx::assert_relative_eq!(error(&zero, &[STEPS, GENERAL, FORCES]), 5e-6, max_relative = 1e-6);
         }
-        // Another constant may have had more digits: with three digits, 13.6 and 1.36e1 may both have been 13.63.
+        // A constant other than zero may have had more digits: with three digits, 13.6 and 1.36e1 may both have been
+        // 13.63.
         approx::assert_relative_eq!(error(&["13.6", "13.6", ""], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
         approx::assert_relative_eq!(error(&["1.36e1", "1.36e1"], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
         let three: &[&str] = &["0.123", "1.5", "12.3"];
@@ -123,8 +125,8 @@ mod tests {
     }
 
     #[test]
-    fn a_format_of_its_own_may_have_rounded_a_constant() {
-        // With decimals, with an exponent, with neither. Steps and other constants give no evidence.
+    fn a_constant_in_a_different_format_may_be_rounded() {
+        // Columns with fixed decimals, with an exponent, and with neither. Steps and other constants give no evidence.
         for fixed in [["0.125000", "1.500000", "12.345679"], ["1.25e-1", "1.50e0", "1.23e1"], ["2450", "-13", "301"]] {
             approx::assert_relative_eq!(error(&["0", "0", "0"], &[GENERAL, &fixed]), 0.5, max_relative = 1e-6);
         }

@@ -1,23 +1,24 @@
-//! Uncertainty left by rounded instants.
+//! Uncertainty that results from rounded instants.
 
 use formula::Rounded;
 use linkage::math::KeepNan;
 
-/// Instants count as exact if such a pattern has at most a chance of one in this number.
-/// A step that was not chosen looks constant over n steps in two of n cases.
-/// It has trailing zeros in one of ten cases for each zero.
+/// Instants count as exact if the probability of their pattern by chance is at most one in this number.
+/// A step that was not chosen looks constant over n steps with the probability 2 / n.
+/// Each trailing zero of a step has the probability 1 / 10.
 const EVIDENCE: f64 = 50.0;
 
 /// Whether instants were chosen as printed, not rounded.
-/// They must be multiples of one step, so many or with so round a step that no other step would look the same.
+/// They must be multiples of one step. There must be so many multiples, or so round a step, that no other step would
+/// give the same printed instants.
 #[must_use]
 pub fn chosen(values: &[Rounded]) -> bool {
     chosen_as(values, Sort::Any)
 }
 
-/// The same for degrees.
+/// The same for instants in degrees.
 /// Whole degrees at equal steps always count as chosen.
-/// At unequal steps they must have a common divisor that whole numbers rarely share, such as 0, 30, 45, 60, 90.
+/// At unequal steps they must have a common divisor that whole numbers rarely share, as 0, 30, 45, 60, 90 have.
 #[must_use]
 pub fn degrees_chosen(values: &[Rounded]) -> bool {
     let are_whole = values.iter().all(|at| at.value.fract() == 0.0);
@@ -36,7 +37,7 @@ fn chosen_as(values: &[Rounded], sort: Sort) -> bool {
     let step = values.get(1).map_or(first.value, |second| second.value - first.value);
     let is_step = |pair: &[Rounded]| (pair[1].value - pair[0].value - step).abs() <= 8.0 * f64::EPSILON * size;
     let is_first_one = first.value == 0.0 || is_multiple(first.value, step);
-    // Half a unit has an excess for its rounding error.
+    // The half unit contains a margin for its rounding error, which is removed here.
     let unit = 2.0 * values.iter().map(|at| at.error).fold(0.0, f64::larger) / (1.0 + 1e-9);
     if !is_first_one || !values.windows(2).all(is_step) {
         return are_multiples(values, unit, sort);
@@ -49,8 +50,8 @@ fn is_multiple(value: f64, of: f64) -> bool {
     (value / of - (value / of).round()).abs() <= 1e-6 * (value / of).abs()
 }
 
-/// Evidence given by multiples of a step of `round` units: their number, times two or five for every such factor of the
-/// step.
+/// Evidence from multiples of a step of `round` units. It is their number, multiplied by every factor two or five of
+/// the step.
 fn evidence(multiples: f64, mut round: f64) -> f64 {
     let mut evidence = if multiples < 1.0 { 1.0 } else { multiples };
     // Larger doubles are no longer reliable whole numbers.
@@ -65,11 +66,12 @@ fn evidence(multiples: f64, mut round: f64) -> f64 {
     evidence
 }
 
-/// Largest number of rows that count as independent for a common divisor. Rows of one hidden step depend on each other.
+/// Upper limit of the number of rows that count as independent for a common divisor.
+/// Rows of one hidden step depend on each other.
 const INDEPENDENT: i32 = 3;
 
-/// The same at unequal steps. A common divisor is evidence by its roundness, such as trailing zeros in all rows.
-/// Independent whole degrees share a divisor only with a probability of one over its power.
+/// The same for unequal steps. A round common divisor, such as trailing zeros in all rows, is evidence.
+/// n independent whole degrees share a divisor d only with the probability 1 / d^n.
 fn are_multiples(values: &[Rounded], unit: f64, sort: Sort) -> bool {
     let (mut divisor, mut count) = (0u64, 0i32);
     for at in values.iter().filter(|at| at.value != 0.0) {
@@ -97,12 +99,13 @@ fn common(mut one: u64, mut other: u64) -> u64 {
     one
 }
 
-/// Near an inflection a curve is steeper than both secants: by a ninth with eight rows per period.
+/// Margin for the slope. Near an inflection a curve is steeper than both secants: by a ninth with eight rows per
+/// period.
 const STEEPER: f64 = 1.2;
 
 /// Uncertainty that rounded instants cause in a column, from the slope of the column.
-/// For each row it is the steeper of the two secants times `slack`, the uncertainty of the row's instant.
-/// `order` has the rows in ascending order of the instants `at`. Angles may jump by a `turn`.
+/// For each row it is the slope of the steeper neighbouring secant times `slack`, the uncertainty of the row's instant.
+/// `order` lists the rows in ascending order of the instants `at`. Angles may jump by a `turn`.
 #[must_use]
 pub fn drift(values: &[Rounded], at: &[f64], slack: &[f64], order: &[usize], turn: Option<f64>) -> Vec<f64> {
     let mut drift = vec![0.0; values.len()];
@@ -128,17 +131,17 @@ mod tests {
     }
 
     #[test]
-    fn a_step_is_chosen_where_no_other_would_look_like_it() {
+    fn a_step_is_recognised_only_if_unambiguous() {
         let list = |count: u32, of: &dyn Fn(f64) -> String| (0..count).map(|row| of(row.into())).collect::<Vec<_>>();
         for (count, print, expected) in [
             (361, &(|row: f64| format!("{}", (row * 10.0).round() / 1e3)) as &dyn Fn(f64) -> String, true),
             (4, &|row| format!("{:.6}", 0.01 * row), true),
             (100, &|row| format!("{row}"), true),
-            // A step of 2.777... ms: the three rounded steps look equal.
+            // A step of 2.777... ms: the rounded instants of three rows look equally spaced.
             (3, &|row| format!("{:.0}", 2.7777 * row), false),
             (9, &|row| format!("{:.6}", row / 780.0), false),
             (73, &|row| format!("{:.6}", row / 780.0), false),
-            // The step is round, the first instant is not.
+            // The step is round, but the first instant is not.
             (9, &|row| format!("{:.5}", 1.0 / 12.0 + 0.1 * row), false),
             (1, &|_| "0.0417".into(), false),
             (1, &|_| "0".into(), true),
@@ -153,24 +156,24 @@ mod tests {
         assert!(!degrees_chosen(&of(&["0".into(), "2.7".into(), "5.4".into()])));
         let (degrees, any) = (degrees_chosen as fn(&[Rounded]) -> bool, chosen as fn(&[Rounded]) -> bool);
         for (texts, chosen, expected) in [
-            // As in printed tables, and as a program may have rounded them.
+            // Degrees as in printed tables. A program may also have rounded them.
             (["0", "30", "45", "60", "90"], degrees, true),
             (["0", "30", "45", "60", "90"], any, false),
             (["0", "3", "5", "8", "10"], degrees, false),
-            // With trailing zeros, which are evidence.
+            // Degrees with trailing zeros, which are evidence.
             (["0.000", "17.000", "46.000", "63.000", "90.000"], degrees, true),
             (["0.000", "0.200", "0.500", "0.600", "1.000"], any, true),
             (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], any, false),
-            // A hidden step is even by chance.
+            // The hidden step looks even by chance.
             (["2.068378", "9.362942", "16.657506", "23.952070", "31.246634"], degrees, false),
         ] {
             assert_eq!(chosen(&of(&texts.map(Into::into))), expected, "{texts:?}");
         }
     }
 
-    /// Rows in descending order. Where the angle jumps by a turn, it actually changes by 0.2.
+    /// Rows in descending order. At the jump by a turn, the angle actually changes by 0.2.
     #[test]
-    fn a_column_drifts_by_its_own_slope() {
+    fn drift_follows_the_slope_of_the_column() {
         let values: Vec<Rounded> = [0.5, 0.3, 6.3, 6.1].map(Rounded::exact).to_vec();
         let (at, slack, order) = ([3.0, 2.0, 1.0, 0.0], [0.01, 0.02, 0.0, 0.03], [3, 2, 1, 0]);
         let of = |turn: Option<f64>| drift(&values, &at, &slack, &order, turn);
@@ -181,7 +184,7 @@ mod tests {
                 .all(|((own, slope), slack)| (slope * slack * (1.0 - 1e-9)..=1.5 * slope * slack).contains(own))
         };
         assert!(near(&of(Some(6.2)), [0.2; 4]), "{:?}", of(Some(6.2)));
-        // Without a turn the jump counts as a slope.
+        // Without a turn, the jump counts as a slope.
         assert!(near(&of(None), [0.2, 6.0, 6.0, 0.2]), "{:?}", of(None));
     }
 }

@@ -7,24 +7,25 @@ use linkage::math::KeepNan;
 /// One row of both columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowPair {
-    /// Number of the row in the party that defines the instants.
+    /// Index of the row in the column of the party that defines the instants.
     pub row: usize,
     /// Time (s); NaN if unknown.
     pub time: f64,
-    /// Crank angle (rad, as the scenario states it); NaN if unknown.
+    /// Crank angle (rad, in the scenario's convention); NaN if unknown.
     pub crank: f64,
-    /// Values of the first and the second party, in the unit of the claim; NaN if there is no number.
+    /// Values of the first and the second party, in the unit of the claim. NaN if a party has no number.
     pub values: [f64; 2],
-    /// Second value minus first; for angles without whole turns.
+    /// Second value minus first value. For angles, whole turns are removed.
     pub difference: f64,
     /// Largest difference allowed.
     pub bound: f64,
-    /// Known part of the bound: from the digits of numbers and instants, rounding, and the error bounds of the parties.
+    /// Known part of the bound. It comes from the digits of numbers and instants, from rounding, and from the error
+    /// bounds of the parties.
     pub known: f64,
 }
 
 impl RowPair {
-    /// Difference as a fraction of the bound; infinite if there is no number.
+    /// Difference divided by the bound; infinite if a party has no number.
     #[must_use]
     pub fn used(&self) -> f64 {
         let used = if self.difference == 0.0 { 0.0 } else { self.difference.abs() / self.bound };
@@ -32,7 +33,7 @@ impl RowPair {
     }
 }
 
-/// A difference that is allowed in addition to the known part of the bound: the larger of two.
+/// A difference that is allowed in addition to the known part of the bound. The larger of two values counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Allowance {
     /// Allowance that is the same in every row, in the unit of the columns.
@@ -54,21 +55,22 @@ pub struct Beside<'a> {
     pub turn: Option<f64>,
     /// What is allowed.
     pub allowance: Allowance,
-    /// Which of the two is the reference.
+    /// Selects which of the two columns is the reference.
     pub measure: ScaleColumn,
 }
 
-/// Which of two columns is the reference: the first, unless only the second comes from an analytic side.
+/// Selects the reference of two columns: the first, unless only the second comes from an analytic side.
 #[derive(Clone, Copy, Debug)]
 pub struct ScaleColumn {
     /// Its number, from 0.
     pub party: usize,
-    /// Whether the reference comes from an analytic side. Where an analytic side has no number, none is expected.
+    /// Whether the reference comes from an analytic side. If an analytic side has no number in a row, no number is
+    /// expected.
     pub is_analytic: bool,
 }
 
 impl ScaleColumn {
-    /// Selects the reference. Each flag tells whether a column comes from an analytic side.
+    /// Selects the reference. Each flag says whether that column comes from an analytic side.
     #[must_use]
     pub fn among([one, other]: [bool; 2]) -> Self {
         ScaleColumn { party: usize::from(!one && other), is_analytic: one || other }
@@ -80,7 +82,7 @@ impl ScaleColumn {
 pub struct JudgedColumns {
     /// Number of rows compared.
     pub judged: usize,
-    /// Number of rows without a measurement, or without a defined value.
+    /// Number of rows without a measurement, or in which no number is expected.
     pub missing: usize,
     /// Root mean square of the differences between numbers.
     pub rms: f64,
@@ -92,12 +94,12 @@ pub struct JudgedColumns {
     pub largest: Option<RowPair>,
     /// The row whose difference is the largest fraction of its bound.
     pub worst: Option<RowPair>,
-    /// The first row beyond its bound.
+    /// The row with the earliest instant of those beyond their bounds.
     pub since: Option<RowPair>,
 }
 
-/// Judges row by row.
-/// If one value is a number and the other a computed NaN, they differ: such a NaN exceeds every bound.
+/// Compares the columns row by row.
+/// If one value is a number and the other a computed NaN, they differ. Such a NaN exceeds every bound.
 #[must_use]
 pub fn judge(both: &Beside) -> JudgedColumns {
     let Beside { values, places, drift, turn, allowance, measure } = *both;
@@ -151,9 +153,9 @@ mod tests {
         judge(&Beside { values: [first, second], places, drift: &[], turn: None, allowance, measure })
     }
 
-    /// Rows in descending order of their instants: by time if known, else by crank angle.
+    /// The rows are in descending order of their instants: of times if known, otherwise of crank angles.
     #[test]
-    fn every_number_of_a_judgement_is_that_of_its_row() {
+    fn judgement_values_belong_to_their_row() {
         let of = |value: f64, error: f64| Rounded { value, error };
         let first = [of(10.0, 0.1), of(20.0, 0.0), of(30.0, 0.0), MISSING, of(40.0, 0.0)];
         let second = [of(10.0, 0.2), of(21.0, 0.0), of(26.0, 0.0), of(7.0, 0.0), UNDEFINED];
@@ -163,17 +165,17 @@ mod tests {
             let measure = ScaleColumn { party: 0, is_analytic: true };
             let both = Beside { values: [&first, &second], places, drift: &drift, turn: None, allowance, measure };
             let found = judge(&both);
-            // Differences 0, 1, -4 and NaN; bounds 0.8 + 1, 2, 3 and 4.
+            // The differences are 0, 1, -4 and NaN; the bounds are 0.8 + 1, 2, 3 and 4.
             assert_eq!((found.judged, found.missing, found.widest), (4, 1, 0.1 + 0.2 + 0.5));
             assert_eq!(found.rms, (17.0f64 / 3.0).sqrt());
             let largest = found.largest.unwrap();
             assert_eq!((largest.row, largest.difference, largest.bound), (2, -4.0, 3.0));
-            // The NaN is the worst row and, at the earliest instant, the first one beyond its bound.
+            // The NaN is the worst row. It has the earliest instant, so it is also the first row beyond its bound.
             assert_eq!([found.worst, found.since].map(|own| own.unwrap().row), [4, 4]);
-            // With the second party as reference, whose numbers differ.
+            // The second party is the reference; its numbers differ from those of the first.
             let by_other = judge(&Beside { measure: ScaleColumn { party: 1, is_analytic: false }, ..both });
             assert_eq!(by_other.largest.unwrap().bound, 0.1 * 26.0);
-            // With a turn of 5, a difference of 4 is one of -1.
+            // With a turn of 5, a difference of 4 becomes -1.
             let turned = judge(&Beside { turn: Some(5.0), ..both });
             assert_eq!((turned.largest.unwrap().row, turned.largest.unwrap().difference.abs()), (1, 1.0));
         }
@@ -182,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_computed_and_is_no_number_differs_and_what_is_missing_is_counted() {
+    fn undefined_cells_differ_and_missing_cells_are_counted() {
         let right = [Rounded::exact(1.0); 4];
         let of = |cell: Rounded| judged(&right, &[right[0], cell, cell, right[0]], [true, false]);
         let found = of(MISSING);
@@ -190,10 +192,10 @@ mod tests {
         let found = of(UNDEFINED);
         assert_eq!((found.judged, found.missing, found.since.map(|at| at.row)), (4, 0, Some(1)));
         assert!(found.largest.unwrap().difference == 0.0 && found.worst.unwrap().used().is_infinite());
-        // If the analytic side has no number, none is expected.
+        // If the analytic side has no number, no number is expected.
         let found = judged(&[right[0], UNDEFINED], &right[..2], [true, false]);
         assert_eq!((found.judged, found.missing, found.since), (1, 1, None));
-        // One of two tables has no number.
+        // Neither column is analytic, and only one of them has a number.
         assert!(judged(&[right[0], UNDEFINED], &right[..2], [false; 2]).since.is_some());
         assert_eq!(judged(&[UNDEFINED], &[UNDEFINED], [false; 2]).missing, 1);
     }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::text::divide;
 
-/// A table in a text: its header and the positions of its rows. A cell is read on request.
+/// A table in a text: its header and the positions of its rows. Cells are read on request.
 #[derive(Clone, Debug)]
 pub struct Records<'a> {
     text: &'a str,
@@ -19,7 +19,7 @@ impl<'a> Records<'a> {
     /// The rows of a text of at most 4 GiB. Blank lines do not count.
     ///
     /// # Errors
-    /// The byte range of the first line whose number of cells differs from that of the header, and that number.
+    /// The byte range and the number of cells of the first line whose number of cells differs from that of the header.
     pub fn of(text: &'a str) -> Result<Self, (Range<usize>, usize)> {
         let mut records = Records { text, header: Vec::new(), rows: Vec::new() };
         let mut start = 0;

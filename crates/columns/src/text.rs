@@ -14,7 +14,7 @@ use formula::Rounded;
 /// Characters that begin a comment line.
 const COMMENTS: [char; 3] = ['#', '%', ';'];
 
-/// A table as read from a file, whatever its columns mean. All columns have the same length.
+/// A table as read from a file. The columns have no meaning yet. All columns have the same length.
 #[derive(Clone, Debug, Default)]
 pub struct TextTable {
     /// Names of the columns; `c1`, `c2`, ... if the text has no names.
@@ -32,7 +32,8 @@ impl TextTable {
         self.columns.first().map_or(0, Vec::len)
     }
 
-    /// A row in words, given its index from 0: its line number, if there are lines, otherwise its row number.
+    /// Words for the row with this index, counted from 0: its line number if the table has lines, otherwise its row
+    /// number.
     #[must_use]
     pub fn place(&self, row: usize) -> String {
         match self.lines.get(row) {
@@ -48,7 +49,7 @@ impl TextTable {
     }
 }
 
-/// Why a text is not a table.
+/// The reason why a text is not a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableFault {
     /// Bytes of the line.
@@ -59,7 +60,7 @@ pub struct TableFault {
     pub help: String,
 }
 
-/// Two columns with the same name. It displays as a message.
+/// Two columns with the same name. It can be displayed as a message.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Twice {
     /// The name.
@@ -168,7 +169,7 @@ fn number(cell: &str) -> Option<TableCell> {
 }
 
 /// The lines that are not comments, each with the position of its first byte.
-/// Trailing tabs are kept, because they may separate empty cells.
+/// Trailing tabs stay, because they may separate empty cells.
 fn lines(text: &str) -> impl DoubleEndedIterator<Item = (usize, &str)> {
     let begin = text.as_ptr() as usize;
     let all = text.strip_prefix('\u{feff}').unwrap_or(text).split('\n');
@@ -193,8 +194,8 @@ pub(crate) fn divide(line: &str, separator: Option<char>, give: &mut dyn FnMut(&
     }
 }
 
-/// The first cell of a line, and the rest after its separator.
-/// A quoted cell may contain separators. Two quotes stand for a quote character.
+/// The first cell of a line, and the rest of the line after the separator.
+/// A quoted cell may contain separators. Two quotes stand for one quote character.
 fn cell(line: &str, separator: char) -> (Cow<'_, str>, Option<&str>) {
     let own = line.trim_start();
     let Some(quoted) = own.strip_prefix('"') else {
@@ -246,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_told_with_its_line() {
+    fn malformed_tables_are_reported_with_the_line() {
         for (text, line, part) in [
             ("t,x\n0,1\n1,2,3\n", 3, "3 cells"),
             ("t,x\n0,1\n1\n2,3\n", 3, "1 cells"),
@@ -261,7 +262,7 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Whatever a text holds: columns of equal length, or a fault with its place.
+        /// For any text the result is columns of equal length, or a fault with its location.
         #[test]
         fn any_text_is_a_table_or_a_fault(text in "([-+0-9.,;eE \t\r\n#\"a-z\u{fc}\u{20ac}]{0,12}\n){0,8}") {
             match read(&text) {
@@ -276,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_that_stands_twice_is_told_with_both_places() {
+    fn duplicate_column_names_are_reported_with_both_columns() {
         let twice = Twice::of(["t", "x", "", "", " t"]).unwrap();
         assert_eq!(twice.to_string(), "the columns 1 and 5 of the table are both called \"t\"");
         assert_eq!(Twice::of(["t", "T", "", ""]), None);

@@ -12,7 +12,7 @@ use linkage::math::statistics::ends;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Largest crank angle between two samples (rad); a reaction has only a few maxima per turn.
+/// Upper limit of the crank angle between two samples (rad). A reaction has only a few maxima per turn.
 const SAMPLE_STEP: f64 = PI / 360.0;
 
 /// Largest value of a quantity over a range of crank angles, with the crank angle where it occurs.
@@ -95,7 +95,7 @@ fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p Stat
     poses.solve(crank, drive.rate, drive.acceleration, Stage::BalancingMoment)
 }
 
-/// Returns the largest sample, refined by golden-section search between its neighbours.
+/// Finds the largest sample and refines it by golden-section search between the neighbouring samples.
 fn refined(case: &Case, poses: &mut PoseSolver, quantity: &Quantity, cranks: &[f64], samples: &[f64]) -> Result<Peak> {
     let mut value = |crank: f64| -> Result<f64> { Ok(quantity(at(case, poses, crank)?)) };
     let (crank, value) = extremum::greatest(cranks, samples, &mut value)?;

@@ -1,5 +1,5 @@
 //! Clearance: smallest distances between links and from a housing, first collision, and swept areas.
-//! All results are proven over the whole range of the grid, including the crank angles between its instants.
+//! Every result is proven for all crank angles in the range of the grid, also for those between the instants.
 
 mod gap;
 mod search;
@@ -29,12 +29,13 @@ use search::DistanceSearch;
 use swept::Sweep;
 use tube::Tubes;
 
-/// Default tolerance of distances, as a share of the mechanism's size.
+/// Default tolerance of a distance, divided by the mechanism's size.
 const TOLERANCE: f64 = 1e-6;
-/// Distance that counts as contact where nothing finer can be proven, as a share of the mechanism's size.
+/// Contact distance, divided by the mechanism's size.
+/// If a part of the range cannot be halved further, bodies that are nearer than this count as touching.
 const TOUCH: f64 = 1e-9;
-/// Largest number of pairs of convex parts that one run examines, over all parts of the range.
-/// It is also the largest number of tests for one swept area.
+/// Upper limit of the number of pairs of convex parts that one run examines, over all parts of the range.
+/// The second constant is the upper limit of the number of tests for one swept area.
 const BUDGET: usize = 5_000_000;
 const AREA_BUDGET: usize = 8_000_000;
 
@@ -45,9 +46,10 @@ pub struct PairClearance {
     pub bodies: [usize; 2],
     /// Smallest distance over the range.
     pub smallest: Smallest,
-    /// First contact; `None` if the two never meet.
+    /// First contact; `None` if the two bodies never touch.
     pub collision: Option<Meeting>,
-    /// First pose that violates the required clearance; `None` if there is no such pose or no required clearance.
+    /// First pose that violates the required clearance.
+    /// `None` if no pose violates the clearance, or if no clearance is required.
     pub too_near: Option<Meeting>,
 }
 
@@ -58,9 +60,9 @@ pub struct ClearanceWork {
     pub poses: usize,
     /// Additional poses computed by side 1 for swept areas.
     pub positions: usize,
-    /// Pairs of convex parts whose nearest points were computed.
+    /// Number of pairs of convex parts whose nearest points were computed.
     pub distances: usize,
-    /// Tests of a square of the plane against a part of the range.
+    /// Number of tests whether the body covers a square of the plane during a part of the range.
     pub squares: usize,
 }
 
@@ -73,7 +75,7 @@ pub struct ClearanceResult {
     pub pairs: Vec<PairClearance>,
     /// Swept areas of the question's moving bodies: index of the body and area.
     pub swept: Vec<(usize, Area)>,
-    /// Parts of the range over which no bound could be proven (rad): neighbourhoods of singular poses.
+    /// Parts of the range (rad) for which no bound could be proven. They lie around singular poses.
     pub open: Vec<[f64; 2]>,
     /// Error bound of the smallest distances (m).
     pub tolerance: f64,
@@ -83,13 +85,13 @@ pub struct ClearanceResult {
 
 impl ClearanceResult {
     /// Returns the pair that collides first, with its first contact.
-    /// If several pairs touch at the start, the first one of the question is returned.
+    /// If several pairs touch at the start, the pair that comes first in the question is returned.
     #[must_use]
     pub fn first_collision(&self) -> Option<(&PairClearance, Meeting)> {
         self.first(|pair| pair.collision)
     }
 
-    /// Returns the pair that first violates the required clearance, with the pose where it does.
+    /// Returns the pair that first violates the required clearance, and the pose of this violation.
     #[must_use]
     pub fn first_too_near(&self) -> Option<(&PairClearance, Meeting)> {
         self.first(|pair| pair.too_near)
@@ -109,9 +111,10 @@ impl ClearanceResult {
 }
 
 /// Answers a clearance question about a case over the crank angles that its grid spans.
-/// `progress` receives the finished share, from 0 to 1.
+/// `progress` receives the finished fraction, from 0 to 1.
 ///
-/// A mechanism whose groups are all dyads repeats its poses after a turn, so one turn of a longer range is examined.
+/// The poses repeat after a turn if all groups are dyads, there is one drive, and change points are not passed.
+/// Only one turn of a longer range is then examined.
 /// For a free motion with one degree of freedom, the range comes from the crank angles at the instants of the grid.
 ///
 /// # Errors
@@ -206,7 +209,8 @@ pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
     cranks.iter().map(&mut at).collect()
 }
 
-/// Returns the crank angles at the instants of the grid (rad). For a motion under forces they come from its solution.
+/// Returns the crank angles at the instants of the grid (rad).
+/// For a motion under forces, the angles come from the solution of the motion.
 fn cranks(case: &Case) -> Result<Vec<f64>> {
     if !case.is_free() {
         return Ok(case.grid.inputs.clone());
@@ -233,7 +237,7 @@ fn range(case: &Case) -> Result<[f64; 2]> {
     Ok(if forwards { [low, high] } else { [high, low] })
 }
 
-/// Sorts ranges in the direction of motion and joins those that touch.
+/// Sorts ranges in the direction of motion and merges ranges that touch or overlap.
 fn merged(mut open: Vec<[f64; 2]>, range: [f64; 2]) -> Vec<[f64; 2]> {
     let gone = |angle: f64| (angle - range[0]).abs();
     open.sort_by(|a, b| gone(a[0]).total_cmp(&gone(b[0])).then(gone(a[1]).total_cmp(&gone(b[1]))));

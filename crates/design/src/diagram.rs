@@ -1,4 +1,5 @@
-//! Graphs over the crank angle, timing diagrams, and motion diagrams by chords and by graphical integration, as data.
+//! Data of graphs over the crank angle, timing diagrams and motion diagrams.
+//! Motion diagrams are made by chords and by graphical integration.
 
 pub mod chord;
 pub mod graphs;

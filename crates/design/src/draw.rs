@@ -1,4 +1,5 @@
-//! Drawings as SVG, one unit per millimetre. Printed at full size they have the scale factors written on them.
+//! Drawings as SVG with one unit per millimetre.
+//! The scale factors on a drawing hold if it is printed at full size.
 
 mod axes;
 mod clearance_sheet;

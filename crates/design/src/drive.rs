@@ -1,4 +1,4 @@
-//! Choice of a drive: the motor's power and speed, its catalogue, and the flywheel.
+//! Choice of a drive: the power and speed of the motor, the motor catalogue, and the flywheel.
 
 pub mod catalogue;
 pub mod flywheel;

@@ -1,4 +1,4 @@
-//! Design work outside the proof, on a mechanism whose numbers are proven.
+//! Design of a mechanism whose numbers are proven. It is not part of the proof.
 //! It covers bearings, clearance, diagrams, export, flywheel, motor choice and synthesis.
 
 pub mod bearings;

@@ -1,4 +1,4 @@
-//! Velocity and acceleration plans, kinematic diagrams, and the singular Assur point of a class IV group, as data.
+//! Data of velocity and acceleration plans, kinematic diagrams, and the singular Assur point of a class IV group.
 
 pub(crate) mod builder;
 mod names;

@@ -2,19 +2,19 @@
 
 linkage::sentences! {
     // bearings.rs
-    PEAKS_ARE_LOOKED_FOR_OVER = "peaks are looked for over the crank angle, but the drive's law may come to an angle more than once";
+    PEAKS_ARE_LOOKED_FOR_OVER = "peaks are searched over the crank angle, but the drive's law may reach an angle more than once";
     // drive/catalogue.rs
-    GIVE_BREAKDOWN_TORQUE_OVER_RATED = "give breakdown torque over rated torque, 2 to 3 as a rule, or leave it out";
+    GIVE_BREAKDOWN_TORQUE_OVER_RATED = "give the breakdown torque divided by the rated torque, usually 2 to 3, or leave it out";
     THE_BREAKDOWN_TORQUE_IS_NOT_ABOVE = "the breakdown torque is not above the rated one";
     CHECK_THE_TWO_SPEEDS_AND_THEIR = "check the two speeds and their units";
     THE_RATED_SPEED_IS_NOT_BELOW = "the rated speed is not below the synchronous one";
     ADD_A_TABLE_MOTORS_FOR_EACH = "add a table `[[motors]]` for each";
-    THE_CATALOGUE_HOLDS_NO_MOTOR = "the catalogue holds no motor";
+    THE_CATALOGUE_HOLDS_NO_MOTOR = "the catalogue contains no motor";
     GIVE_THE_PATH_OF_A_CATALOGUE = "give the path of a catalogue of motors, such as catalogues/motors.toml";
     the_catalogue_cannot_be_read(path, error) = "the catalogue {path} cannot be read: {error}";
     // clearance.rs
     PRESCRIBE_THE_DRIVES_OR_LET = "prescribe the drives, or let no more than one link move freely";
-    CLEARANCE_IS_LOOKED_FOR_OVER = "clearance is looked for over crank angles, but forces decide several freedoms of the motion";
+    CLEARANCE_IS_LOOKED_FOR_OVER = "clearance is searched over crank angles, but forces determine several degrees of freedom of the motion";
     // plan/builder.rs
     along_the_guide(joint) = ", along the guide {joint}";
     tangential_part_alpha_perpendicular_to(line) = "tangential part, alpha l, perpendicular to {line}";
@@ -38,13 +38,13 @@ linkage::sentences! {
     EXACT_BY_THE_SOLVER = "exact, by the solver";
     CRANK_ANGLE_DEG_3 = "crank angle, deg";
     scale_factor_2(channel, sub, scale, per) = "{channel}, scale factor μ{sub} = {scale} {per}";
-    chord_method_and_graphical_integration(divisions) = "chord method and graphical integration, {divisions} divisions of the turn; errors as shares of half the range of the exact curve";
+    chord_method_and_graphical_integration(divisions) = "chord method and graphical integration, {divisions} divisions of the turn; errors as fractions of half the range of the exact curve";
     // draw/plan_sheet.rs
     FROM_TO = "from → to";
     crank_at(name, degrees) = "{name}, crank at {degrees}°";
     scale_factor_3(symbol, sub, scale, scripted) = "scale factor {symbol}{sub} = {scale} {scripted}";
     // draw/timing_sheet.rs
-    WANTED_REST_OR_AT_LEAST_SO = "wanted: rest, or at least so far";
+    WANTED_REST_OR_AT_LEAST_SO = "required: rest, or at least this displacement";
     ACHIEVED_SHARE_OF_THE_STROKE = "achieved, share of the stroke";
     // diagram/motion.rs
     SOLVE_WITH_ANOTHER_SOLVER = "solve with another solver";
@@ -56,15 +56,15 @@ linkage::sentences! {
     allowed_here(names) = "allowed here: {names}";
     CHANNELS_ARE_NAMED_LIKE_POINT = "channels are named like point.B.x_m, point.B.y_m or link.crank.angle_rad";
     is_neither_a_position_nor(name) = "\"{name}\" is neither a position nor an angle";
-    ask_for_its_diagram_shows(stem, endings) = "ask for {stem}{endings}: its diagram shows this one too";
-    is_a_derivative_already_a_motion(name) = "\"{name}\" is a derivative already; a motion diagram starts from a position or an angle";
+    ask_for_its_diagram_shows(stem, endings) = "request {stem}{endings}: its diagram also shows this channel";
+    is_a_derivative_already_a_motion(name) = "\"{name}\" is already a derivative; a motion diagram starts from a position or an angle";
     the_mechanism_has_no_channel(name) = "the mechanism has no channel \"{name}\"";
     // plan/planner.rs
-    GIVE_A_CRANK_ANGLE_IN_DEGREES = "give a crank angle in degrees, as 70 or -30";
-    name_some_of(all) = "name some of {all}";
-    no_point_and_no_link_is_called(name) = "no point and no link is called \"{name}\"";
+    GIVE_A_CRANK_ANGLE_IN_DEGREES = "give a crank angle in degrees, such as 70 or -30";
+    name_some_of(all) = "name one or several of {all}";
+    no_point_and_no_link_is_called(name) = "no point or link is called \"{name}\"";
     // plan/singular.rs
-    TAKE_A_CRANK_ANGLE_A_LITTLE = "take a crank angle a little beside this one";
+    TAKE_A_CRANK_ANGLE_A_LITTLE = "choose a slightly different crank angle";
     the_singular_point_lies_in_line(names) = "the singular point {names} lies in line with the outer joints: a dead point";
     the_leads_are_parallel_their(names) = "the leads {names} are parallel: their singular point lies at infinity";
     // export/mjcf/effects.rs
@@ -85,38 +85,38 @@ linkage::sentences! {
     the_time_step_is_but_must(step) = "the time step is {step} s, but must be positive";
     // export/mjcf/names.rs
     the_file_would_have_two_sites(name) = "the file would have two sites called \"{name}\"";
-    MUJOCO_TAKES_NO_EMPTY_NAMES = "MuJoCo takes no empty names and none with control characters";
-    MUJOCO_CALLS_THE_GROUND_WORLD = "MuJoCo calls the ground \"world\" and takes no other body of that name";
+    MUJOCO_TAKES_NO_EMPTY_NAMES = "MuJoCo accepts neither empty names nor names with control characters";
+    MUJOCO_CALLS_THE_GROUND_WORLD = "MuJoCo calls the ground \"world\" and accepts no second body with that name";
     GIVE_IT_ANOTHER_NAME_IN_THE_SCENARIO = "give it another name in the scenario";
     // export/mjcf/write.rs
-    WHAT_ACTS_ON_THE_BODY_IN_THE_JOINT = "What acts on the body in the joint that carries it, in the body's frame; moments about the joint's place, without frictionloss.";
-    DRIVE_A_ROTOR_SO_HEAVY_THAT_ITS_SPEED = "Drive: a rotor so heavy that its speed stays what it is at the start.";
+    WHAT_ACTS_ON_THE_BODY_IN_THE_JOINT = "Load on the body in the joint that carries it, in the body's frame; moments about the joint's position, without frictionloss.";
+    DRIVE_A_ROTOR_SO_HEAVY_THAT_ITS_SPEED = "Drive: a rotor so heavy that its speed stays at its initial value.";
     ROTOR_AND_REDUCER_OF_THE_MOTOR = "Rotor and reducer of the motor.";
-    IT_HAS_NO_MASS_OR_NO_INERTIA = "It has no mass or no inertia: MuJoCo gets a small one.";
-    AS_STIFF_AS_A_STEP_ALLOWS = "As stiff as a step allows: the time constant is raised to twice the time step, whatever that is.";
+    IT_HAS_NO_MASS_OR_NO_INERTIA = "The body has no mass or no moment of inertia: MuJoCo gets a small one.";
+    AS_STIFF_AS_A_STEP_ALLOWS = "As stiff as the time step allows: the time constant is raised to twice the time step.";
     // drive/flywheel.rs
-    ASK_FOR_A_LARGER_COEFFICIENT = "ask for a larger coefficient";
+    ASK_FOR_A_LARGER_COEFFICIENT = "request a larger coefficient";
     the_flywheel_for_a_coefficient(wanted, steps) = "the flywheel for a coefficient of non-uniformity of {wanted} was not found in {steps} steps";
-    no_flywheel_makes_the_coefficient(wanted) = "no flywheel makes the coefficient of non-uniformity {wanted}";
+    no_flywheel_makes_the_coefficient(wanted) = "no flywheel reaches a coefficient of non-uniformity of {wanted}";
     GIVE_A_NUMBER_ABOVE_ZERO = "give a number above zero, such as 0.02";
-    a_coefficient_of_non_uniformity(wanted) = "a coefficient of non-uniformity of {wanted} is asked for";
+    a_coefficient_of_non_uniformity(wanted) = "a coefficient of non-uniformity of {wanted} is requested";
     // drive/motor.rs
-    GIVE_A_CATALOGUE_WITH_STRONGER = "give a catalogue with stronger motors, or lower the peak: a flywheel on the crank carries over it";
-    the_drive_asks_for_kw_the_strongest(asked, strongest) = "the drive asks for {asked:.4} kW, the strongest motor has {strongest:.4} kW";
+    GIVE_A_CATALOGUE_WITH_STRONGER = "use a catalogue with stronger motors, or lower the peak; a flywheel on the crank carries the mechanism over a peak";
+    the_drive_asks_for_kw_the_strongest(asked, strongest) = "the drive needs {asked:.4} kW, but the strongest motor has {strongest:.4} kW";
     GIVE_THE_SCENARIO_THE_LOADS = "give the scenario the loads that the drive works against";
-    the_greatest_moment_of_resistance(greatest) = "the greatest moment of resistance is {greatest:.6} N m: nothing needs a motor";
+    the_greatest_moment_of_resistance(greatest) = "the greatest moment of resistance is {greatest:.6} N·m: no motor is needed";
     GIVE_A_SHARE_ABOVE_AND_AT_MOST = "give a share above 0 and at most 1: 0.92 for 92 %";
     the_efficiency_is(efficiency) = "the efficiency is {efficiency}";
     // synthesize/redraw.rs
     GIVE_THE_TEXT_OF_THE_SCENARIO = "give the text of the scenario that the task names";
-    the_drawing_has_no_where(name) = "the drawing has no `{name}` where the task has it";
-    left_out_of_the_drawing_because(keys) = "\nLeft out of the drawing, because it holds for its own dimensions only: {keys}.\nComments below are those of the drawing.";
+    the_drawing_has_no_where(name) = "the text of the drawing has no `{name}`, which the scenario of the task has";
+    left_out_of_the_drawing_because(keys) = "\nNot taken over from the drawing, because valid for its own dimensions only: {keys}.\nThe comments below come from the drawing.";
     the_file_is_not_valid_toml(error) = "the file is not valid TOML: {error}";
     // synthesize/achieved.rs
     THE_MECHANISM_CANNOT_BE_ASSEMBLED = "the mechanism cannot be assembled over a whole turn of its crank, or its output does not rock";
     // synthesize/crank_rocker.rs
-    GIVE_THE_ROCKER_A_PIVOT_OF_ITS_OWN = "give the rocker a pivot of its own";
-    BOTH_PIVOTS_ARE_ONE_POINT = "both pivots are one point";
+    GIVE_THE_ROCKER_A_PIVOT_OF_ITS_OWN = "give the rocker a separate pivot";
+    BOTH_PIVOTS_ARE_ONE_POINT = "the two pivots coincide";
     GIVE_AN_ANGLE_BETWEEN_AND_DEG = "give an angle between -180 and 180 deg that is not zero";
     the_swing_is_deg(wish) = "the swing is {wish} deg";
     GIVE_A_LENGTH_GREATER_THAN_ZERO = "give a length greater than zero";
@@ -124,80 +124,80 @@ linkage::sentences! {
     GIVE_DECIMAL_NUMBERS = "give decimal numbers";
     A_COORDINATE_OR_AN_ANGLE = "a coordinate or an angle is not finite";
     MOVE_A_PIVOT_OR_TURN_THE_EXTREME = "move a pivot, or turn the extreme positions away from the line of the pivots";
-    an_extreme_position_lies_on_the_line(told, found) = "{told}: an extreme position lies on the line of the pivots but for rounding, a {found}";
-    CHOOSE_A_SMALLER_SWING_OR_PIVOTS = "choose a smaller swing, or pivots whose line leaves both positions of B on one side";
-    THE_LINE_OF_THE_TWO_PIVOTS = "the line of the two pivots goes between the two extreme positions, or through one: no crank leads from one to the other without taking the dyad apart";
+    an_extreme_position_lies_on_the_line(told, found) = "{told}: within rounding error, an extreme position lies on the line through the pivots, a {found}";
+    CHOOSE_A_SMALLER_SWING_OR_PIVOTS = "choose a smaller swing, or pivots whose connecting line leaves both positions of B on one side";
+    THE_LINE_OF_THE_TWO_PIVOTS = "the line through the two pivots passes between the two extreme positions, or through one: no crank can move the rocker between them without taking the dyad apart";
     MOVE_A_PIVOT_OR_TURN_THE_EXTREME_POSITIONS = "move a pivot, or turn the extreme positions, so that one lies farther from the crank's pivot";
-    a_crank_of_no_length_would(told) = "{told}: a crank of no length would be needed";
+    a_crank_of_no_length_would(told) = "{told}: a crank of zero length would be needed";
     is_from_in_one_extreme_position(distances, distances_2) = "O is {distances:.6} m from B in one extreme position and {distances_2:.6} m in the other";
     // synthesize/draft.rs
     JOINTS_NAME_GUIDE_TYPE_PRISMATIC = "[[joints]]\nname = \"guide\"\ntype = \"prismatic\"\nlinks = [\"ground\", \"slider\"]\npoints = [\"G\", \"B\"]\naxis_deg = 0\n\n";
     ground_points_on_the_slider(offset) = "[ground.points]\nO = {{ x_m = 0, y_m = 0 }}\nG = {{ x_m = 0, y_m = {offset} }} # on the slider's line\n";
     joints_name_type_revolute_links(name, first, second) = "[[joints]]\nname = \"{name}\"\ntype = \"revolute\"\nlinks = [\"{first}\", \"{second}\"]\n\n";
     // synthesize/search.rs
-    DRAW_MORE_CANDIDATES_NARROW_THE_BOUNDS = "draw more candidates, narrow the bounds about a drawing that turns fully, or ask for less in `limits`";
-    none_of_candidates_can_be_assembled(candidates) = "none of {candidates} candidates can be assembled over a whole turn of the crank with the transmission angle and the stroke asked for";
+    DRAW_MORE_CANDIDATES_NARROW_THE_BOUNDS = "draw more candidates, narrow the bounds around a drawing that turns fully, or relax `limits`";
+    none_of_candidates_can_be_assembled(candidates) = "none of {candidates} candidates can be assembled over a whole turn of the crank with the required transmission angle and stroke";
     // synthesize/slider_crank.rs
     ask_for_less_than_or_choose(most) = "ask for less than {most:.6}, or choose a smaller offset";
-    a_time_ratio_of_is_out_of_reach(ratio, stroke, e) = "a time ratio of {ratio} is out of reach with a stroke of {stroke:.6} m at an offset of {e:.6} m";
+    a_time_ratio_of_is_out_of_reach(ratio, stroke, e) = "a time ratio of {ratio} cannot be reached with a stroke of {stroke:.6} m at an offset of {e:.6} m";
     GIVE_THE_LENGTH_OF_THE_ROD = "give the length of the rod instead of the time ratio, or change the offset";
     WITH_AN_OFFSET_THE_TWO_STROKES = "with an offset the two strokes never take the same time";
     without_an_offset_both_strokes(ratio) = "without an offset both strokes take the same time, not {ratio} times as long";
     WITHOUT_AN_OFFSET_ANY_ROD = "without an offset any rod gives a time ratio of 1";
     the_time_ratio_is(ratio) = "the time ratio is {ratio}";
-    GIVE_THE_TIME_OF_THE_SLOWER = "give the time of the slower stroke over that of the faster one, 1 or more";
+    GIVE_THE_TIME_OF_THE_SLOWER = "give the duration of the slower stroke divided by that of the faster stroke, 1 or more";
     give_a_rod_longer_than(shortest) = "give a rod longer than {shortest:.6} m";
     a_rod_of_is_too_short_for_a_stroke(rod, stroke, e) = "a rod of {rod:.6} m is too short for a stroke of {stroke:.6} m at an offset of {e:.6} m: the crank could not turn fully";
     the_rod_length_is(rod) = "the rod's length is {rod} m";
     the_offset_is(offset) = "the offset is {offset} m";
-    GIVE_A_DECIMAL_NUMBER_FOR_A_CENTRAL = "give a decimal number; 0 for a central one";
+    GIVE_A_DECIMAL_NUMBER_FOR_A_CENTRAL = "give a decimal number; 0 for a central slider-crank";
     the_stroke_is(stroke) = "the stroke is {stroke} m";
     // synthesize/task.rs
     THE_SEARCH_HAS_NO_CANDIDATES = "the search has no candidates, no refinements or no evaluations";
     GIVE_COUNTS_OF_OR_MORE_AND_NO_MORE = "give counts of 1 or more, and no more refinements than candidates";
     LEAVE_TRANSMISSION_OUT = "leave `transmission` out";
-    A_SMALLEST_TRANSMISSION_ANGLE_IS_ASKED = "a smallest transmission angle is asked for, but higher groups have none";
-    NOTHING_MAY_VARY = "nothing may vary";
+    A_SMALLEST_TRANSMISSION_ANGLE_IS_ASKED = "a smallest transmission angle is required, but higher groups have no transmission angle";
+    NOTHING_MAY_VARY = "no dimension may vary";
     ADD_A_TABLE_VARY_FOR_EACH = "add a table `[[vary]]` for each length or pivot to be found";
-    TAKE_A_SCENARIO_WITH_ONE_DRIVE = "take a scenario with one `[drive]`";
+    TAKE_A_SCENARIO_WITH_ONE_DRIVE = "use a scenario with one `[drive]`";
     THE_MECHANISM_HAS_SEVERAL_DRIVES = "the mechanism has several drives, but a timing belongs to one crank";
     // synthesize/task/timing.rs
-    GIVE_EVERY_MOVING_PHASE_ITS_LEVEL = "give every moving phase its `level`, or leave `follow` out";
-    THE_CURVE_IS_TO_BE_FOLLOWED = "the curve is to be followed, but not all levels are known";
+    GIVE_EVERY_MOVING_PHASE_ITS_LEVEL = "give every moving phase its `level`, or leave out `follow`";
+    THE_CURVE_IS_TO_BE_FOLLOWED = "the curve is to be followed, but some levels are not given";
     AN_OUTPUT_THAT_ROCKS_GOES = "an output that rocks goes forward and back in every turn";
-    no_phase_goes_the_output(sense) = "no phase goes {sense}: the output would not come round";
+    no_phase_goes_the_output(sense) = "no phase moves {sense}: the output would not return";
     LET_IT_END_AT_DEG = "let it end at 360 deg";
     the_last_phase_ends_at_deg(to_degrees) = "the last phase ends at {to_degrees:.6} deg, not after a whole turn";
-    GIVE_A_NUMBER_FROM_TO_BELOW = "give a number from 0 to below 1";
+    GIVE_A_NUMBER_FROM_TO_BELOW = "give a number of at least 0 and below 1";
     THE_LEAST_DISPLACEMENT_IS_A_SHARE = "the least displacement is a share of the stroke";
     GIVE_A_NUMBER_FROM_TO = "give a number from 0 to 1";
     A_LEVEL_IS_A_SHARE_OF_THE_STROKE = "a level is a share of the stroke";
     LET_CRANK_ANGLES_ASCEND_FROM_PHASE = "let crank angles ascend from phase to phase; the first begins at 0";
-    the_phase_leads_from_to_deg(phase, phase_2) = "the phase leads from {phase:.6} to {phase_2:.6} deg";
-    JOIN_PHASES_OF_ONE_SENSE = "join phases of one sense";
+    the_phase_leads_from_to_deg(phase, phase_2) = "the phase runs from {phase:.6} to {phase_2:.6} deg";
+    JOIN_PHASES_OF_ONE_SENSE = "merge successive phases of the same sense";
     found_phases_more_than(phases, most_phases) = "found {phases} phases, more than {most_phases}";
-    found_phases_but_a_motion(phases) = "found {phases} phases, but a motion has two at least";
+    found_phases_but_a_motion(phases) = "found {phases} phases, but a motion has at least two";
     // synthesize/task_file.rs
-    NOTHING_ABOUT_THIS_POINT_VARIES = "nothing about this point varies";
-    PUT_ALL_THAT_VARIES_ABOUT = "put all that varies about a point into one table";
+    NOTHING_ABOUT_THIS_POINT_VARIES = "no property of this point varies";
+    PUT_ALL_THAT_VARIES_ABOUT = "put everything that varies about a point into one table";
     THIS_POINT_VARIES_ALREADY = "this point varies already";
-    DRAW_THE_TWO_POINTS_IN_DIFFERENT = "draw the two points in different places";
-    point_of_the_drawing_lies(point_name) = "point \"{point_name}\" of the drawing lies on another point of the link: its joints cannot be told apart";
+    DRAW_THE_TWO_POINTS_IN_DIFFERENT = "draw the two points at different positions";
+    point_of_the_drawing_lies(point_name) = "point \"{point_name}\" of the drawing coincides with another point of the link: its joints cannot be distinguished";
     link_has_no_point(link_name, name) = "link \"{link_name}\" has no point \"{name}\"";
-    LET_FROM_BE_THE_SMALLER_OF_THE_TWO = "let `from` be the smaller of the two";
+    LET_FROM_BE_THE_SMALLER_OF_THE_TWO = "make `from` the smaller of the two";
     THE_GREATEST_VALUE_IS_BELOW = "the greatest value is below the least one";
-    GIVE_A_WHOLE_NUMBER_FROM_ON = "give a whole number from 0 on";
+    GIVE_A_WHOLE_NUMBER_FROM_ON = "give a whole number of at least 0";
     found_but_a_count_is_not_negative(found) = "found {found}, but a count is not negative";
     GIVE_LESS_THAN_DEG_TO_DEG = "give less than 90 deg; 30 to 45 deg are usual";
     a_transmission_angle_of_deg(transmission) = "a transmission angle of {transmission:.6} deg cannot be kept over a turn";
     AN_OUTPUT_IS_ONE_LINK_OR_ONE_POINT = "an output is one link or one point";
     WRITE_LINK_LEVER_FOR_ITS_ANGLE = "write `link = \"lever\"` for its angle, or `point = \"F\"` and `along_deg = 90` for a coordinate";
     no_moving_link_has_a_point(name) = "no moving link has a point \"{name}\"";
-    NAME_THE_MOVING_LINK_WHOSE = "name the moving link whose angle is watched";
+    NAME_THE_MOVING_LINK_WHOSE = "name the moving link whose angle is the output";
     THE_GROUND_DOES_NOT_TURN = "the ground does not turn";
-    is_no_sense_of_an_output(other) = "\"{other}\" is no sense of an output";
-    is_no_sense_of_a_phase(word) = "\"{word}\" is no sense of a phase";
-    NAME_THE_SCENARIO_FILE_OF_THE_DRAWING = "name the scenario file of the drawing, beside this file";
+    is_no_sense_of_an_output(other) = "\"{other}\" is not a sense of an output";
+    is_no_sense_of_a_phase(word) = "\"{word}\" is not a sense of a phase";
+    NAME_THE_SCENARIO_FILE_OF_THE_DRAWING = "name the scenario file of the drawing, in the directory of this file";
     GIVE_THE_PATH_OF_A_SYNTHESIS = "give the path of a synthesis file, such as sinker_task.toml";
     the_synthesis_file_cannot_be_read(path, error) = "the synthesis file {path} cannot be read: {error}";
 }

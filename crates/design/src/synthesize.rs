@@ -1,4 +1,5 @@
-//! Dimensions from a wanted motion: in closed form where possible, else by a search over lengths and pivots.
+//! Finds the dimensions for a required motion: in closed form where possible, otherwise by a search over lengths and
+//! pivots.
 
 pub mod achieved;
 pub mod crank_rocker;

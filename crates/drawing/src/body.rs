@@ -28,8 +28,8 @@ pub fn corners(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     hull(places(mechanism, link))
 }
 
-/// A position on a link where a symbol hides no joint: the middle of a plate, or of the longest piece of a bar.
-/// `None` if that piece or plate is shorter than `least` (m).
+/// A point on a link where a symbol hides no joint: the middle of a plate, or of the longest piece of a bar.
+/// `None` if the piece or plate is shorter than `least` (m).
 pub fn free(mechanism: &Mechanism, link: LinkId, least: f64) -> Option<Vec2> {
     let (mut places, corners) = (places(mechanism, link), corners(mechanism, link));
     if let [first, _] = corners[..] {
@@ -86,7 +86,7 @@ pub fn tracer(at: Vec2, unit: f64) -> [Mark; 2] {
     [half, turned(half)].map(|half| Mark::line(MarkRole::Tracer, [at - half, at + half]))
 }
 
-/// Points on a circle from the direction `from` on, counter-clockwise, `steps` of 90 deg / [`QUARTER`].
+/// Points on a circle, counter-clockwise from the direction `from`, in `steps` steps of 90 deg / [`QUARTER`].
 fn sector(centre: Vec2, radius: f64, from: Vec2, steps: usize) -> Vec<Vec2> {
     let start = from.y.atan2(from.x);
     let step = std::f64::consts::FRAC_PI_2 / QUARTER as f64;

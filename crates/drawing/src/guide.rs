@@ -18,14 +18,15 @@ const HEAD: f64 = 2.5;
 /// Length of hatching lines, and their spacing along the rail.
 const HATCH: f64 = 1.6;
 const PITCH: f64 = 2.0;
-/// Longest extension of a centre line beyond the rail, towards the ground point on its line.
+/// A centre line extends at most this far beyond the rail, towards the ground point on its line.
 const AXIS: f64 = 150.0;
-/// Box that a pivot keeps free of rails: its centre below the pin, and its half size.
+/// Box around a pivot in which no rail is drawn: distance of its centre below the pin, and half its width and height.
 const BELOW: f64 = 2.0;
 const BOX: [f64; 2] = [5.2, 5.0];
-/// Words that mark a pair as piston and cylinder if they occur in the names of the joint or its links.
+/// If one of these words occurs in the name of the joint or of one of its links, the pair is a piston in a cylinder.
 const CYLINDERS: [&str; 4] = ["bore", "cylinder", "piston", "plunger"];
-/// Distance from an axis, as a share of the link's size, below which a point lies on it.
+/// A point lies on an axis if its distance from the axis is below this fraction of the link's largest distance from the
+/// block's point.
 const ON_AXIS: f64 = 1e-6;
 
 /// The guide of a joint and the block that slides on it.
@@ -65,8 +66,9 @@ pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(LinkId
 }
 
 /// Whether a prismatic pair is drawn as a piston in a cylinder.
-/// It is if the joint says so, or if the names say so.
-/// It also is if guide and block both move and the rod is pinned farther along the axis.
+/// If the joint states how it is drawn, this decides.
+/// Otherwise the pair is drawn so if the names say so, or if the guide moves and all points of the block's link lie on
+/// the axis.
 fn is_cylinder(mechanism: &Mechanism, joint: &Joint, guide: JointSide, block: JointSide, axis: Vec2) -> bool {
     if let Some(guise) = joint.drawn {
         return guise == Guise::Cylinder;
@@ -114,8 +116,8 @@ impl Guide {
         marks
     }
 
-    /// The closed end of a cylinder: 1 in the direction of the axis, -1 against it.
-    /// It is the end farther from the guide's point, where the crank is.
+    /// The closed end of a cylinder: 1 in the direction of the axis, -1 in the opposite direction.
+    /// The closed end is farther from the guide's point, where the crank is.
     fn head(&self) -> f64 {
         if self.travel[1] + self.travel[0] >= 0.0 { 1.0 } else { -1.0 }
     }
@@ -126,7 +128,7 @@ impl Guide {
         if self.head() > 0.0 { [from, to + HEAD * self.unit] } else { [from - HEAD * self.unit, to] }
     }
 
-    /// A slot of a moving link, or a cylinder that is open opposite its head, and the bar that leads to it.
+    /// A slot of a moving link, or a cylinder whose end opposite the head is open, and the bar that connects it.
     fn moving(&self) -> Vec<Mark> {
         let ([from, to], play) = (self.covered(), PLAY * self.unit);
         let ends = if self.is_cylinder { self.barrel() } else { [from - play, to + play] };
@@ -151,8 +153,8 @@ impl Guide {
     }
 
     /// Rails or bore of a fixed guide, hatched, and its centre line.
-    /// Rails leave the pivots free.
-    /// A rail on the line of an earlier one is not hatched again there, because its hatching would fill the gaps.
+    /// Rails are interrupted at pivots.
+    /// Where a rail lies on the line of an earlier rail, it is not hatched again: the hatching would fill the gaps.
     fn fixed(&self, pivots: &[Vec2], drawn: &mut Vec<[Vec2; 2]>) -> Vec<Mark> {
         let u = self.unit;
         let (role, ends) =
@@ -195,7 +197,7 @@ fn pieces(rail: [Vec2; 2], pivots: &[Vec2], unit: f64) -> Vec<[Vec2; 2]> {
     })
 }
 
-/// Shares of a segment's length at which it enters and leaves the box around `centre` (Liang and Barsky 1984).
+/// Fractions of a segment's length at which it enters and leaves the box around `centre` (Liang and Barsky 1984).
 #[must_use]
 pub fn inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> Option<[f64; 2]> {
     let [start, end] = segment.map(|point| point - centre);

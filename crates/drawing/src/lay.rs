@@ -1,5 +1,5 @@
-//! A mechanism assembled as far as possible: every group that can be placed, and the other links as near to closed as
-//! possible.
+//! A mechanism assembled as far as possible.
+//! Every group that can be placed is placed; the gaps between the other links are as small as possible.
 
 mod nearest;
 
@@ -11,9 +11,10 @@ use linkage::mechanism::{
     AssemblyMode, GROUND, Group, GroupId, GroupKind, JointId, LinkId, LinkPose, Mechanism, Pose, StartGroup, Structure,
 };
 
-/// Share of the mechanism's size above which a joint is open.
+/// A joint is open if its gap is larger than this fraction of the mechanism's size.
 const OPEN: f64 = 1e-6;
-/// Share of the largest gap below which other gaps are ignored: they only come from distributing it over the joints.
+/// Gaps smaller than this fraction of the largest gap are ignored.
+/// They only arise because the largest gap is distributed over the joints.
 const SEEN: f64 = 1e-2;
 
 /// A mechanism at one instant, whole or in part.
@@ -21,9 +22,9 @@ const SEEN: f64 = 1e-2;
 pub struct Laid {
     /// Where every link is.
     pub places: Vec<LinkPlacement>,
-    /// Joints that stay open: number, and the two world points (m) that should be one.
+    /// Joints that stay open: number, and the two world points (m) that should coincide.
     pub gaps: Vec<(JointId, [Vec2; 2])>,
-    /// Circles that points of links reach and that do not intersect: centres and radii (m).
+    /// Circles that the points of links can reach and that do not intersect: centres and radii (m).
     pub reaches: Vec<(Vec2, f64)>,
     /// What is missing, group by group.
     pub faults: Vec<Error>,
@@ -113,7 +114,7 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
                 done = tried;
             }
             Err(error) => {
-                // A group whose only fault is an unspecified mode can be closed.
+                // The group can be closed if its only fault is an unspecified mode.
                 if configurations(mechanism, group, &laid.pose()).is_err() {
                     laid.reaches.extend(reaches(mechanism, group, &laid));
                 }
@@ -124,8 +125,8 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
     close(mechanism, laid)
 }
 
-/// Assembles a mechanism without a structure, because links or joints are missing or too many.
-/// Dyads are placed as far as they can be found.
+/// Assembles a mechanism that has no structure, because links or joints are missing or too many.
+/// It places the dyads that it finds.
 #[must_use]
 pub fn lay_loose(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], angles: &[f64], fault: Error) -> Laid {
     let mut laid = Laid::start(mechanism, drivers, angles);
@@ -198,7 +199,7 @@ fn close(mechanism: &Mechanism, mut laid: Laid) -> Laid {
     laid
 }
 
-/// The circles on which the inner joint of a dyad of three pins would lie.
+/// The circles on which the inner pin of a dyad would lie, one for each link with an outer pin.
 fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)> {
     let (GroupKind::Rrr | GroupKind::Rrp, Some(&inner)) = (group.kind, group.inner.first()) else { return Vec::new() };
     let of_link = |(&link, &outer): (&LinkId, &JointId)| {

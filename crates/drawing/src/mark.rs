@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use linkage::math::{Vec2, unit};
 
-/// Corners of a full circle where it is drawn as a line.
+/// Number of corners of a full circle that is drawn as a line.
 const CORNERS: f64 = 32.0;
 
 /// A shape in the frame of a link (m).
@@ -38,7 +38,8 @@ pub enum MarkShape {
 }
 
 impl MarkShape {
-    /// The shape as a line through points, for output that has only lines. It may be [closed](MarkShape::is_closed).
+    /// The shape as a line through points, for output formats that have only lines.
+    /// The line may be [closed](MarkShape::is_closed).
     #[must_use]
     pub fn points(&self) -> Vec<Vec2> {
         let arc = |centre: Vec2, radius: f64, from: f64, sweep: f64, count: usize| {
@@ -103,7 +104,7 @@ roles! {
     Bar = "bar": Link, None, 1.1, Links;
     /// Shows that a bar continues past the pin in its middle.
     Weld = "weld": Link, Ink, 0.2, Links;
-    /// Slot of a moving link, in which a block slides.
+    /// Slot in a moving link, for a sliding block.
     Slot = "slot": Link, Paper, 0.6, Links;
     /// Cylinder of a moving link, in which a piston slides.
     Cylinder = "cylinder": Link, Paper, 0.6, Links;
@@ -125,7 +126,7 @@ roles! {
     CoincidentPin = "coincident-pin": Text, None, 0.35, Joints;
     /// Mass centre: its circle.
     MassCentre = "mass-centre": Quiet, Paper, 0.3, Stretched;
-    /// Mass centre: two of its quarters.
+    /// Mass centre: two opposite quarters of its disc.
     MassQuarter = "mass-quarter": Quiet, Ink, 0.1, Stretched;
     /// Named point of a link that is not a joint.
     Tracer = "tracer": Link, None, 0.5, Joints;

@@ -4,7 +4,7 @@
 
 use linkage::mechanism::LinkId;
 
-/// A colour on light and on dark paper, and the hatching that replaces it where there is no colour.
+/// A colour for light and dark paper, and the hatching that replaces it in pictures without colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaletteColour {
     /// On light paper, `#rrggbb`: at least 3 : 1 against white.
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn every_colour_stands_out_from_its_paper() {
+    fn every_colour_has_enough_contrast_with_the_paper() {
         for paint in LINKS.into_iter().chain([TEXT, QUIET, LOAD]) {
             let light = (luminance(PAPER.light) + 0.05) / (luminance(paint.light) + 0.05);
             let dark = (luminance(paint.dark) + 0.05) / (luminance(PAPER.dark) + 0.05);

@@ -15,17 +15,17 @@ use linkage::mechanism::{GROUND, LinkId, LinkPose, Mechanism};
 /// Radius (mm) of the disc around a link's number, and of the area covered by a pin.
 const NUMBER: f64 = 2.3;
 const CLEAR: f64 = 1.4;
-/// Points closer to each other on paper than this (mm) share one label.
+/// If points are closer to each other on paper than this (mm), they share one label.
 const ONE: f64 = 0.7;
 /// Length (mm) of the arrow of the largest force, length of the arrow of gravity, and radius of the arrows of moments.
 const FORCE: f64 = 22.0;
 const GRAVITY: f64 = 12.0;
 const MOMENT: f64 = 6.5;
-/// Smallest force or moment that is drawn: as a share of the largest one, and as a value (N, N m).
-/// Smaller ones are rounding errors.
+/// Threshold below which forces and moments are not drawn: as a fraction of the largest one, and as a value (N, N m).
+/// Smaller values are rounding errors.
 const LEAST: f64 = 1e-6;
 const NOTHING: f64 = 1e-9;
-/// Dash patterns of links without a certain pose, and of construction lines.
+/// Dash patterns: of links whose pose is uncertain, and of construction lines.
 const LOOSE: &str = "2 1.4";
 const CONSTRUCTION: &str = "4 1 0.5 1";
 /// Half the angle over which a circle of reachable points is drawn (rad).
@@ -41,9 +41,9 @@ pub const ALARM: &str = "#d11149";
 pub enum LinkPlacement {
     /// Here.
     Here(LinkPose),
-    /// Here, but only approximately: it is drawn with dashes.
+    /// Approximate pose: the link is drawn with dashes.
     Loose(LinkPose),
-    /// Nowhere: it is not drawn.
+    /// No pose: the link is not drawn.
     Nowhere,
 }
 
@@ -58,7 +58,7 @@ impl LinkPlacement {
     }
 }
 
-/// A picture being drawn; the world's origin is the figure's origin.
+/// A picture under construction; the world's origin is the figure's origin.
 pub struct Picture<'a> {
     sketch: &'a Sketch,
     places: &'a [LinkPlacement],
@@ -194,7 +194,8 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// A text at a point on paper, in a preferred direction from it. A zero direction leaves the choice open.
+    /// A text at a point on paper, in a preferred direction from it. If the direction is zero, any direction may be
+    /// chosen.
     pub fn letters(&mut self, anchor: Vec2, away: Vec2, clear: f64, text: String, paint: &'static str) {
         let label = labels::PlacedLabel { anchor, away, size: label_size(&text), clear };
         self.written.push(Written { sort: Sort::Letters, label, text, paint });
@@ -279,8 +280,8 @@ impl<'a> Picture<'a> {
         self.letters((ends[0] + ends[1]) / 2.0, Vec2::zeros(), 1.0, text, ALARM);
     }
 
-    /// Places all letters and returns the figure.
-    /// `drawings` is the number of figures made together: they share the work for placing letters.
+    /// Places all labels and returns the figure.
+    /// `drawings` is the number of figures made together: they share the allowed work for placing labels.
     #[must_use]
     pub fn finish(mut self, drawings: usize) -> DrawnFigure {
         self.written.sort_by_key(|own| own.sort);

@@ -6,15 +6,15 @@ use super::paper::style::{BLACK, GREY};
 use super::picture::{ALARM, millimetres};
 use linkage::math::{KeepNan, Vec2};
 
-/// Margin of the sheet and distance between cells (mm).
+/// Margin of the sheet, and distance between cells (mm).
 const MARGIN: f64 = 6.0;
 const GAP: f64 = 9.0;
-/// Font sizes (mm) of title, headings and notes, and the distance of lines in font sizes.
+/// Font sizes (mm) of title, headings and notes, and line spacing as a multiple of the font size.
 const TITLE: f64 = 5.2;
 const HEADING: f64 = 4.2;
 const NOTE: f64 = 3.4;
 const LINE: f64 = 1.45;
-/// Height for the scale below a picture (mm), and the greatest length of the scale.
+/// Height of the space for the scale below a picture (mm), and the greatest length of the scale.
 const SCALE: f64 = 9.0;
 const LONGEST: f64 = 40.0;
 
@@ -25,7 +25,7 @@ pub struct SheetCell {
     pub heading: Vec<String>,
     /// The picture.
     pub figure: DrawnFigure,
-    /// Corners of the area that it may cover (mm): the same for all frames of an animation.
+    /// Corners of the area that the picture may cover (mm): the same for all frames of an animation.
     pub bounds: [Vec2; 2],
     /// Length in the world of a millimetre on paper (m).
     pub scale: f64,
@@ -33,7 +33,7 @@ pub struct SheetCell {
     pub faults: Vec<String>,
 }
 
-/// Scale (m/mm), of two digits, at which an extent (m) fits into the available size (mm).
+/// Scale (m/mm), with two digits, at which an extent (m) fits into the available size (mm).
 #[must_use]
 pub fn fit(extent: Vec2, room: Vec2) -> f64 {
     let least = (extent.x / room.x).larger(extent.y / room.y);
@@ -46,7 +46,7 @@ pub fn fit(extent: Vec2, room: Vec2) -> f64 {
     format!("{rounded:.1e}").parse().unwrap_or(rounded)
 }
 
-/// Number of columns for so many cells.
+/// Number of columns for this number of cells.
 #[must_use]
 pub fn columns(cells: usize) -> usize {
     cells.clamp(1, 2)
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn scales_have_two_digits_and_leave_room() {
+    fn scales_have_two_digits_and_fit_the_sheet() {
         for k in 0..200 {
             let extent = 1e-4 * 1.13f64.powi(k);
             let found = fit(Vec2::new(extent, 0.0), Vec2::new(120.0, 80.0));
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_as_wide_as_there_is_room() {
+    fn text_is_wrapped_to_the_given_width() {
         assert_eq!(wrapped("a bc  def", 1.0, 100.0), ["a bc def"]);
         assert!(wrapped("a bc def", 1.0, 2.0).len() == 3 && wrapped("", 1.0, 2.0).is_empty());
     }

@@ -1,4 +1,4 @@
-//! What acts on a mechanism: drives, motors, forces, moments, torsional springs and dampers.
+//! Symbols of everything that acts on a mechanism: drives, motors, forces, moments, torsional springs and dampers.
 
 use super::mark::{Mark, MarkRole, MarkShape};
 use linkage::drive::{Drive, Load, On};
@@ -6,24 +6,24 @@ use linkage::math::{KeepNan, Vec2, turned, unit};
 use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 use std::f64::consts::{PI, TAU};
 
-/// Arrow of a drive's direction: its radius, its angle (rad), and the angle from its link to its start.
+/// Arrow of a drive's direction: its radius, the angle that it spans (rad), and the angle from its link to its start.
 const DRIVE: f64 = 8.0;
 const SWEEP: f64 = 1.7;
 const AHEAD: f64 = 0.35;
 /// Radius of a motor's circle.
 const MOTOR: f64 = 3.4;
-/// Length of an arrow's head, its largest share of the arrow, and its half width.
+/// Length of an arrow's head, its largest fraction of the arrow's length, and its half width.
 const HEAD: f64 = 2.8;
 const HEAD_SHARE: f64 = 0.45;
 const HALF: f64 = 0.9;
-/// Smallest and largest radius of a spiral, and its turns.
+/// Smallest and largest radius of a spiral, and its number of turns.
 const SPIRAL: [f64; 2] = [1.9, 4.6];
 const TURNS: f64 = 2.25;
 const STEPS: usize = 54;
 /// Radius of a torsional damper's drum.
 const DRUM: f64 = 5.4;
 
-/// A load that is drawn as an arrow: its size and direction are known only for a state of the mechanism.
+/// A load drawn as an arrow. Its size and direction are known only for a given state of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadSign {
     /// Number of the load in its case.

@@ -55,7 +55,7 @@ pub enum Lettering {
     Point,
     /// A link: its number.
     Link,
-    /// The mass centre of a link: S and its number.
+    /// The mass centre of a link: the letter S and the link's number.
     MassCentre,
     /// A motor: M.
     Motor,
@@ -73,8 +73,8 @@ pub struct SketchLabel {
 }
 
 impl Sketch {
-    /// Links and joints of a mechanism, with guides as long as these travels. Symbols are multiples of `unit` (m): see
-    /// [`unit`](self::unit).
+    /// Links and joints of a mechanism; the guides are as long as these travels.
+    /// Symbols are multiples of `unit` (m): see [`unit`](self::unit).
     #[must_use]
     pub fn of(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Sketch {
         let body = |link| {
@@ -88,14 +88,14 @@ impl Sketch {
         Sketch { unit, bodies, stretched: Vec::new(), loads: Vec::new(), labels: labels(mechanism) }
     }
 
-    /// A whole case: links, joints, drives and loads.
+    /// The drawing of a whole case: links, joints, drives and loads.
     #[must_use]
     pub fn of_case(case: &CaseParts, travels: &Travels, unit: f64) -> Sketch {
         let sketch = Sketch::of(&case.mechanism, travels, unit);
         sketch.with_drives(&case.mechanism, &case.drives).with_loads(&case.mechanism, &case.loads)
     }
 
-    /// The same with the directions of drives, and with motors.
+    /// The sketch with the directions of drives, and with motors.
     #[must_use]
     pub fn with_drives(mut self, mechanism: &Mechanism, drives: &[Drive]) -> Sketch {
         for drive in drives {
@@ -108,7 +108,7 @@ impl Sketch {
         self
     }
 
-    /// The same with loads. Ground points with springs and dampers are drawn as pivots.
+    /// The sketch with loads. Ground points with springs and dampers are drawn as pivots.
     #[must_use]
     pub fn with_loads(mut self, mechanism: &Mechanism, loads: &[Load]) -> Sketch {
         self.stretched = stretched::of_loads(loads, self.unit);
@@ -130,7 +130,7 @@ impl Sketch {
         self
     }
 
-    /// The same without the marks of some roles.
+    /// The sketch without the marks of some roles.
     #[must_use]
     pub fn without(mut self, roles: &[MarkRole]) -> Sketch {
         for body in &mut self.bodies {
@@ -139,15 +139,16 @@ impl Sketch {
         self
     }
 
-    /// All marks of all links, with the number of their link, in the order in which they are drawn: by layers, and within
-    /// a layer larger links first. Springs and dampers belong to [`Layer::Stretched`].
+    /// All marks of all links, with the link's number, in drawing order.
+    /// They are ordered by layer; within a layer, larger links come first.
+    /// Springs and dampers belong to [`Layer::Stretched`].
     #[must_use]
     pub fn in_order(&self) -> Vec<(LinkId, &Mark)> {
         let mut all: Vec<(Layer, f64, LinkId, &Mark)> = Vec::new();
         for body in &self.bodies {
             all.extend(body.marks.iter().map(|mark| (mark.role.look().layer, body.size, body.link, mark)));
         }
-        // Stable: the marks of one link keep their order.
+        // The sort is stable: the marks of one link keep their order.
         all.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)).then(a.2.cmp(&b.2)));
         all.into_iter().map(|(_, _, link, mark)| (link, mark)).collect()
     }

@@ -9,7 +9,7 @@ use linkage::mechanism::JointSide;
 const WIDTH: f64 = 4.0;
 /// Distance between the middle lines of parallel springs and dampers, in widths.
 const APART: f64 = 1.25;
-/// Teeth of a spring's zigzag, and the shares of its length at which they begin and end.
+/// Number of teeth of a spring's zigzag, and the fractions of the spring's length at which they begin and end.
 const TEETH: usize = 8;
 const COIL: [f64; 2] = [0.18, 0.82];
 
@@ -22,7 +22,7 @@ pub struct Stretched {
     pub load: usize,
     /// End points.
     pub ends: [JointSide; 2],
-    /// Width (m). Multiply the y of the marks by it, and the x by the distance between the ends.
+    /// Width (m). The y of the marks is multiplied by it, the x by the distance between the ends.
     pub width: f64,
     /// The drawing from (0, 0) to (1, 0); lines only.
     pub marks: Vec<Mark>,

@@ -3,9 +3,8 @@
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{JointId, LinkId, Mechanism};
 
-/// Smallest and largest distance of the block's point from the guide's point along the guide's axis (m), for every
-/// joint.
-/// `None` for joints that do not slide, and before any pose is known.
+/// Range of the distance between the block's point and the guide's point along the guide's axis (m), for every joint.
+/// `None` for joints that do not slide, and as long as no pose has been included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Travels(Vec<Option<[f64; 2]>>);
 
@@ -49,7 +48,7 @@ impl Travels {
         self.0[joint]
     }
 
-    /// The same with this travel (m) on a joint.
+    /// The travels with this travel (m) of one joint.
     #[must_use]
     pub fn with(mut self, joint: JointId, travel: [f64; 2]) -> Travels {
         self.0[joint] = Some(travel);

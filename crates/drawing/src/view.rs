@@ -12,7 +12,7 @@ use linkage::drive::{Drive, Load};
 use linkage::math::{KeepNan, Vec2, corners};
 use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
-/// Smallest length of a link between two joints that has space for its number (mm).
+/// If the distance between two joints of a link is below this (mm), the link has no space for its number.
 const FREE: f64 = 11.0;
 
 /// What is drawn.
@@ -35,12 +35,12 @@ pub struct Extras {
     pub loads: bool,
     /// Lengths of the links.
     pub dimensions: bool,
-    /// Draws only the names of ground points, and numbers on the links that have space, so that nothing jumps between
-    /// frames.
+    /// Draws only the names of ground points, and numbers only on links with enough space.
+    /// No label then jumps between frames.
     pub is_moving: bool,
 }
 
-/// One instant: where the links are, and what loads do.
+/// One instant: positions of the links, and effects of the loads.
 #[derive(Clone, Debug)]
 pub struct Shot {
     /// Where every link is.
@@ -90,7 +90,7 @@ fn figure(
         picture.draw_trace(path, *link);
     }
     for (index, (centre, radius)) in laid.reaches.iter().enumerate() {
-        // Towards the other circle of the same dyad, or along x without one.
+        // Towards the other circle of the same dyad; along x if there is no other circle.
         let other = laid.reaches.get(index ^ 1).map_or(Vec2::new(1.0, 0.0), |other| other.0 - centre);
         picture.draw_reach(*centre, *radius, other);
     }

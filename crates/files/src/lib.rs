@@ -1,9 +1,9 @@
-//! Writes files whole or not at all.
-//! It replaces a file only if the caller named it or this program wrote it.
+//! Writes files completely or not at all.
+//! An existing file is replaced only if the caller named it or this program wrote it.
 //!
 //! The content goes to a new, locked temporary file in the same directory, which then replaces the file.
 //! A run that fails or is killed therefore leaves an older file unchanged.
-//! Two runs that write to one path do not mix.
+//! If two runs write to one path, their contents do not mix.
 
 mod seal;
 mod sentences;
@@ -21,9 +21,9 @@ pub use text::{LARGEST, read_named, read_text, text, text_from, visible, visible
 use target::Place;
 use temporary::{clear, create, directory_of};
 
-/// Lets `fill` write the file of a target. The file is replaced when everything is written.
-/// If the caller named a path that is not a regular file, such as a pipe, or is already open, such as `/dev/stdout`,
-/// the content is written to it directly.
+/// Lets `fill` write the content of a target. The file is replaced when the whole content is written.
+/// The caller may name a path that is not a regular file, such as a pipe, or a path that is already open, such as
+/// `/dev/stdout`. The content is then written to that path directly.
 ///
 /// # Errors
 /// Those of `fill` and of the file system; [`io::ErrorKind::AlreadyExists`] if an existing file may not be replaced.
@@ -41,7 +41,7 @@ pub fn replace<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&Fil
     }
     fill(temporary.as_file())?;
     temporary.as_file().sync_all()?;
-    // A file that has appeared meanwhile may not be replaced either.
+    // The same rule applies to a file that has appeared since the first check.
     target.place()?;
     temporary.persist(&place).map_err(|error| error.error)?;
     Ok(())

@@ -5,12 +5,12 @@ use std::path::Path;
 
 /// Text before the digits of the seal.
 const MARK: &str = sentences::MADE_BY_LINKPROOF_SEAL;
-/// Hexadecimal digits of a seal.
+/// Number of hexadecimal digits of a seal.
 const DIGITS: usize = 16;
 
 /// Returns a text with its seal, in a comment or key that the file format allows.
-/// These formats are JSON, HTML, SVG, other XML, manual pages, and tables that begin with lines of `#`.
-/// Any other text has the seal in its last line.
+/// These formats are JSON, HTML, SVG, other XML, manual pages, and tables whose first lines may begin with `#`.
+/// In any other format the seal is the last line.
 pub fn sealed(text: &str, place: &Path) -> String {
     let blank = format!("{MARK}{}", "0".repeat(DIGITS));
     let open = match place.extension().and_then(|ending| ending.to_str()).unwrap_or_default() {
@@ -40,14 +40,14 @@ pub fn is_sealed(bytes: &[u8]) -> bool {
     })
 }
 
-/// FNV-1a hash, which is the same in every version of the language.
+/// FNV-1a hash. It is the same in every version of the language.
 /// Carriage returns do not count, because tools change line endings.
 fn hash(bytes: &[u8]) -> u64 {
     let letters = bytes.iter().filter(|&&byte| byte != b'\r');
     letters.fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
-/// Check digits of a word. [`super::temporary`] uses them to recognise its file names.
+/// Check digits of a word. `super::temporary` uses them to recognise the names of its files.
 pub(super) fn check(word: &str) -> String {
     format!("{:08x}", hash(word.as_bytes()) >> 32)
 }
@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_seal_breaks_with_any_change_but_that_of_line_ends() {
+    fn any_change_except_line_endings_breaks_the_seal() {
         for (name, text) in [
             ("a.json", "{\n  \"b\": 1\n}\n"),
             ("a.html", "<!doctype html>\n<p>b</p>\n"),

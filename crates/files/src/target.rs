@@ -1,4 +1,4 @@
-//! Where files may be written, which files they may replace, and the errors if they may not.
+//! Paths to which files may be written, files that may be replaced, and the errors if this is not allowed.
 
 use crate::sentences;
 use std::fs::{self, File};
@@ -8,32 +8,32 @@ use std::path::{Path, PathBuf};
 use super::temporary::{create, directory_of};
 use linkage::error::{Error, ErrorKind};
 
-/// Largest number of symbolic links from a name to its file.
+/// Upper limit of the number of symbolic links followed from a name to its file.
 const LINKS: usize = 40;
-/// Largest part of an older file that is read (bytes).
+/// Number of bytes of an older file that are read at most.
 const SEEN: u64 = 64 << 20;
 
-/// A file to be written, and the rule for replacing an existing file. The rule is implemented only here.
+/// A file to be written, with the rule for replacing an existing file. Only this type implements the rule.
 /// A file is replaced only if the caller named it or this program wrote it.
 /// A symbolic link is followed only if the caller named it.
 pub enum OutputTarget<'a> {
     /// The caller named exactly this file.
     Named(&'a Path),
-    /// The program generated the name, or a part of it.
+    /// The program generated the name of the file, or a part of the name.
     /// An older file is replaced if `is_ours` accepts its beginning.
     Made(&'a Path, &'a dyn Fn(&[u8]) -> bool),
 }
 
-/// Where the content of a target goes.
+/// Destination of the content of a target.
 pub(super) enum Place {
-    /// To a path that is already open or is not a regular file.
+    /// The content goes to a path that is already open or is not a regular file.
     Open(PathBuf),
-    /// In place of this file, with its metadata if it exists.
+    /// The content replaces this file. If the file exists, its metadata follow.
     File(PathBuf, Option<fs::Metadata>),
 }
 
 impl OutputTarget<'_> {
-    /// Where the content goes.
+    /// Returns the destination of the content.
     ///
     /// # Errors
     /// [`io::ErrorKind::AlreadyExists`] if an existing file may not be replaced, and those of the file system.
@@ -69,13 +69,13 @@ impl OutputTarget<'_> {
         }
     }
 
-    /// Why the target may not be written, if an existing file may not be replaced.
+    /// The reason why the target may not be written, if an existing file may not be replaced.
     pub fn in_the_way(&self) -> Option<String> {
         self.place().err().filter(|error| error.kind() == io::ErrorKind::AlreadyExists).map(|error| error.to_string())
     }
 }
 
-/// Whether a path is a name for a file that this process or the system has already open.
+/// Whether a path names a file that this process or the system already has open.
 fn is_open_already(path: &Path) -> bool {
     let open = ["/dev/stdout", "/dev/stderr", "/dev/stdin"].map(Path::new);
     open.contains(&path) || path.starts_with("/dev/fd") || path.starts_with("/proc/self/fd")
@@ -87,15 +87,15 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
     for _ in 0..LINKS {
         match fs::read_link(&place) {
             Ok(next) => place = directory_of(&place).join(next),
-            // The first path that is not a link is the result.
+            // The first path that is not a symbolic link is the result.
             Err(_) => return Ok(place),
         }
     }
     Err(io::Error::other(sentences::more_than_symbolic_links_lead(&LINKS)))
 }
 
-/// Tests, before any work is done, whether a file can be written at `path`, which the caller named.
-/// It leaves no file behind and touches no existing file.
+/// Tests whether a file can be written at `path`, which the caller named. The test comes before any work.
+/// It leaves no file behind and does not change an existing file.
 ///
 /// # Errors
 /// The obstacle, in words.
@@ -104,7 +104,7 @@ pub fn may_write(path: &Path) -> Result<(), String> {
         return Err(sentences::THIS_IS_A_DIRECTORY_EXPECTED.into());
     }
     let place = match OutputTarget::Named(path).place() {
-        // A pipe or a device is opened when there is something to write.
+        // A pipe or a device is opened only when its content is written.
         Ok(Place::Open(_)) => return Ok(()),
         Ok(Place::File(place, _)) => place,
         Err(error) => return Err(sentences::expected_a_file(&error)),
@@ -120,7 +120,7 @@ pub fn may_write(path: &Path) -> Result<(), String> {
     }
 }
 
-/// The same for a directory that is created together with its parents.
+/// The same test for a directory that is created together with its parents.
 ///
 /// # Errors
 /// The obstacle, in words.
@@ -143,7 +143,7 @@ fn try_directory(directory: &Path) -> Result<(), String> {
     }
 }
 
-/// Why an output could not be written, in words.
+/// The reason why an output could not be written, in words.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
 fn why(error: &io::Error) -> String {
     match error.kind() {
@@ -156,7 +156,8 @@ fn why(error: &io::Error) -> String {
 
 /// The error of an output that could not be written.
 /// `what` names the output. `needs` is its size in bytes, if known.
-/// `usual` is the remedy unless the cause is missing space, an existing file or a size limit.
+/// `usual` is the remedy, except for three causes with special remedies: missing space, an existing file and a size
+/// limit.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
 pub fn unwritten(what: &str, error: &io::Error, needs: Option<u64>, usual: &str) -> Error {
     let way_out = match error.kind() {
@@ -186,14 +187,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn targets_are_tried_and_left_alone() {
+    fn checking_a_target_does_not_change_it() {
         let own = tempfile::tempdir().unwrap();
         let at = |name: &str| own.path().join(name);
         fs::write(at("file"), "old").unwrap();
         for (path, words) in [
             (at(""), "a directory"),
             (at("new/"), "a directory"),
-            (at("no/file"), "there is no directory"),
+            (at("no/file"), "the directory"),
             (at("file/below"), "directory"),
         ] {
             let told = may_write(&path).unwrap_err();
@@ -210,15 +211,15 @@ mod tests {
     }
 
     #[test]
-    fn sizes_are_told_in_few_digits() {
+    fn sizes_are_printed_with_few_digits() {
         let told = [874, 874_918, 5_000_000, 62_000_000].map(size);
         assert_eq!(told, ["874 bytes", "875 kB", "5.0 MB", "62 MB"]);
     }
 
     #[test]
-    fn a_full_device_is_called_so() {
+    fn a_full_device_is_reported_as_such() {
         let told = |kind: io::ErrorKind| unwritten("out.csv", &kind.into(), Some(20_400), "usual").to_string();
-        let full = "out.csv cannot be written: no room is left on the device; 20 kB are needed; make room there, or write to another device";
+        let full = "out.csv cannot be written: no space is left on the device; 20 kB are needed; free space there, or write to another device";
         assert_eq!(told(io::ErrorKind::StorageFull), full);
         assert!(
             told(io::ErrorKind::FileTooLarge)

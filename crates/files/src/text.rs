@@ -1,4 +1,4 @@
-//! Reading text files, and the errors for files that are not text.
+//! Reads text files, and describes the errors for files that are not text.
 
 use crate::sentences;
 use std::fmt;
@@ -8,13 +8,13 @@ use std::path::Path;
 
 use linkage::mechanism::is_unseen;
 
-/// Largest file that is read as text (bytes).
+/// Upper limit of the size of a file that is read as text (bytes).
 pub const LARGEST: u64 = 64 << 20;
-/// Longest part of a message that is shown (characters).
+/// Upper limit of the length of a message that is shown (characters).
 const LONGEST: usize = 2000;
 
-/// A text of bounded length with every invisible character escaped.
-/// A name from a file can then neither forge a line nor control a terminal.
+/// A text of limited length, with every invisible character escaped.
+/// A name from a file can then neither imitate a line of output nor control a terminal.
 #[must_use]
 pub fn visible(text: &str) -> String {
     shown(text, is_unseen)
@@ -62,10 +62,10 @@ pub fn text_from(from: impl Read) -> io::Result<String> {
 }
 
 /// The same as [`read_text`], for a file that another file names.
-/// It must be a regular file, because reading anything else, such as a terminal, might never end.
+/// The file must be regular, because reading any other kind, such as a terminal, might never end.
 ///
 /// # Errors
-/// Those of [`read_text`]; also if it is not a regular file.
+/// Those of [`read_text`]; also if the file is not regular.
 pub fn read_named(path: &Path) -> io::Result<String> {
     if fs::metadata(path)?.is_file() {
         read_text(path)
@@ -85,7 +85,7 @@ pub fn text(path: &Path) -> io::Result<Option<String>> {
     }
 }
 
-/// Remedy for a file that could not be read: `usual`, unless the file has another encoding.
+/// Remedy for a file that could not be read. It is `usual`, unless the file has another encoding.
 pub fn way_out(error: &io::Error, usual: &str) -> String {
     match error.get_ref().and_then(|inner| inner.downcast_ref::<Encoding>()) {
         None => usual.into(),
@@ -115,7 +115,7 @@ fn decoded(bytes: Vec<u8>) -> Result<String, Encoding> {
     match bytes.as_slice() {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => return Err(other("UTF-32")),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return Err(other("UTF-16")),
-        // Without a byte order mark: every other byte of ASCII text is zero.
+        // There is no byte order mark: every other byte of ASCII text in this encoding is zero.
         [first, 0, second, 0, ..] if *first != 0 && *second != 0 => return Err(other("UTF-16LE")),
         [0, first, 0, second, ..] if *first != 0 && *second != 0 => return Err(other("UTF-16BE")),
         _ => {}
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn other_encodings_are_named_with_a_way_out() {
+    fn other_encodings_are_named_with_a_remedy() {
         let utf16 = |swap: bool| -> Vec<u8> {
             "name = \"ä\""
                 .encode_utf16()
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn utf_8_is_read_with_and_without_its_mark() {
+    fn utf_8_is_read_with_and_without_byte_order_mark() {
         assert_eq!(text_from("ä".as_bytes()).unwrap(), "ä");
         assert_eq!(text_from("\u{feff}a".as_bytes()).unwrap(), "\u{feff}a");
         assert_eq!(text_from(&b""[..]).unwrap(), "");

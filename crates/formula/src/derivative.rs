@@ -7,7 +7,8 @@ use crate::tree::Operator::{Minus, Over, Plus, Power, Times};
 impl FormulaGraph {
     /// The derivative of a node with respect to an input.
     pub fn derivative(&mut self, of: NodeId, input: usize) -> NodeId {
-        // Arguments precede the nodes that use them, so the parts of a node are done before the node itself.
+        // Arguments precede the nodes that use them, so the derivatives of arguments exist before that of the node
+        // itself.
         for id in self.needed_but(&[of], &|id| self.derivatives.contains_key(&(id, input))) {
             let found = self.rule(id, input);
             self.derivatives.insert((id, input), found);
@@ -15,7 +16,7 @@ impl FormulaGraph {
         self.derivatives[&(of, input)]
     }
 
-    /// Rate of change of a node from those of the inputs: the sum of partial derivatives times `rates`.
+    /// Rate of change of a node from the rates of the inputs: the sum of partial derivatives times `rates`.
     /// Inputs without a rate are constant.
     pub fn rate(&mut self, of: NodeId, rates: &[Option<NodeId>]) -> NodeId {
         let mut sum = self.whole(0.0);
@@ -45,7 +46,7 @@ impl FormulaGraph {
                         let (first, second) = (self.pair(Times, a, right), self.pair(Times, left, b));
                         self.pair(Plus, first, second)
                     }
-                    // (a - q b) / r, where the quotient q = l / r is the node itself and already exists.
+                    // (a - q b) / r: the quotient q = l / r is the node itself and already exists.
                     Over => {
                         let taken = self.pair(Times, id, b);
                         let above = self.pair(Minus, a, taken);
@@ -102,7 +103,7 @@ impl FormulaGraph {
                 self.pair(Times, slope, a)
             }
             Function::Asin | Function::Acos => {
-                // 1 - x^2 as a product, so that no digits cancel near the ends of the domain.
+                // 1 - x^2 is written as a product, so that no digits cancel near the ends of the domain.
                 let (less, more) = (self.pair(Minus, one, x), self.pair(Plus, one, x));
                 let product = self.pair(Times, less, more);
                 let root = self.call(Function::Sqrt, product, product);
@@ -137,7 +138,7 @@ impl FormulaGraph {
         }
     }
 
-    /// Zero, but undefined if `x` is zero, because a kink or a jump has no derivative.
+    /// Zero, but undefined if `x` is zero, because the function has no derivative at a kink or a jump.
     fn but_at_zero(&mut self, x: NodeId) -> NodeId {
         let zero = self.whole(0.0);
         self.put(Node::Pair(Over, zero, x))

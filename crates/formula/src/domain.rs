@@ -1,4 +1,4 @@
-//! Operations outside their domain, as messages.
+//! Messages for operations outside their domain.
 
 use crate::sentences;
 use std::fmt::Write;
@@ -7,7 +7,7 @@ use crate::rounded::Rounded;
 use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 
 impl FormulaTree {
-    /// Value of the formula, where `of` gives the values of names.
+    /// Value of the formula. `of` gives the values of names.
     ///
     /// # Errors
     /// The first operation outside its domain, with its position.

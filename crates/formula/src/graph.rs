@@ -1,4 +1,4 @@
-//! Formulas as a graph in which common parts occur only once.
+//! Formulas as a graph in which each common part occurs only once.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +11,7 @@ use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub(crate) u32);
 
-/// Operation of a node. Its arguments precede it, each at a position `P`.
+/// Operation of a node. Its arguments precede it. `P` is the type of their positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Node<P = NodeId> {
     Input(usize),
@@ -22,7 +22,7 @@ pub(crate) enum Node<P = NodeId> {
 }
 
 impl<P: Copy> Node<P> {
-    /// The same operation with other positions.
+    /// The same operation with its positions changed by `to`.
     pub(crate) fn map<Q>(self, to: impl Fn(P) -> Q) -> Node<Q> {
         match self {
             Node::Input(input) => Node::Input(input),
@@ -42,7 +42,7 @@ impl<P: Copy> Node<P> {
         }
     }
 
-    /// Value of the node, where `at` gives those of its arguments. A missing input is undefined.
+    /// Value of the node. `at` gives the values of its arguments. A missing input is undefined.
     #[inline]
     pub(crate) fn value(self, inputs: &[Rounded], at: impl Fn(P) -> Rounded) -> Rounded {
         match self {
@@ -55,7 +55,7 @@ impl<P: Copy> Node<P> {
     }
 }
 
-/// A node as a key, with numbers by their bits.
+/// A node as a key. Its numbers are represented by their bits.
 type Key = (u8, u64, u64, u64);
 
 fn key(node: Node) -> Key {
@@ -84,7 +84,7 @@ pub struct FormulaGraph {
 }
 
 impl FormulaGraph {
-    /// A graph with inputs of these names, `unnamed` further inputs, and `pi`.
+    /// A graph with inputs of these names, `unnamed` further inputs without a name, and `pi`.
     #[must_use]
     pub fn new(inputs: &[&str], unnamed: usize) -> Self {
         let mut graph = FormulaGraph { inputs: inputs.len() + unnamed, ..FormulaGraph::default() };
@@ -103,7 +103,7 @@ impl FormulaGraph {
     /// The node of an input.
     ///
     /// # Panics
-    /// If there are fewer inputs.
+    /// If there is no input with this index.
     #[must_use]
     pub fn input(&self, index: usize) -> NodeId {
         assert!(index < self.inputs, "there are {} inputs", self.inputs);
@@ -144,7 +144,7 @@ impl FormulaGraph {
         self.added(tree, false)
     }
 
-    /// The same for a formula that must have a value.
+    /// The same as [`FormulaGraph::add`], for a formula that must have a value.
     ///
     /// # Errors
     /// Those of [`FormulaGraph::add`], and an operation on constants outside its domain, with its position.
@@ -169,7 +169,7 @@ impl FormulaGraph {
         Ok(lower.expect("a tree is one of its parts"))
     }
 
-    /// The nodes of the arguments of a part that is not a pair.
+    /// The nodes of the arguments of a part other than a pair.
     fn parts(&mut self, tree: &FormulaTree, must_be_defined: bool) -> Result<[Option<NodeId>; 2], FormulaFault> {
         let mut part = |index: usize| tree.parts().get(index).map(|part| self.added(part, must_be_defined)).transpose();
         let first = part(0)?;
@@ -183,12 +183,12 @@ impl FormulaGraph {
             (NodeShape::Negative(_), [Some(part), _]) => self.negative(part),
             (NodeShape::Pair(operator, _), [Some(left), Some(right)]) => {
                 match (operator, self.exact(left), self.exact(right)) {
-                    // A node minus itself is exactly zero, whatever its error, unless it is undefined.
+                    // A node minus itself is exactly zero even if the node has an error, unless the node is undefined.
                     (Operator::Minus, ..) if left == right => {
                         let zero = self.whole(0.0);
                         self.put(Node::Pair(Operator::Times, zero, left))
                     }
-                    // The zero is kept, because the other part may be outside a domain.
+                    // The zero factor stays in the graph, because the other part may be outside a domain.
                     (Operator::Times | Operator::Over, Some(0.0), _)
                     | (Operator::Times | Operator::Power, _, Some(0.0)) => self.put(Node::Pair(*operator, left, right)),
                     _ => self.pair(*operator, left, right),
@@ -223,7 +223,7 @@ impl FormulaGraph {
         self.needed_but(nodes, &|_| false)
     }
 
-    /// The same without the nodes that are done, and without nodes that only these need.
+    /// The same, but without the nodes that are done, and without nodes that only done nodes need.
     /// Common parts of formulas are then visited once.
     pub(crate) fn needed_but(&self, nodes: &[NodeId], is_done: &dyn Fn(NodeId) -> bool) -> Vec<NodeId> {
         let mut needed: BTreeSet<NodeId> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();
@@ -236,7 +236,7 @@ impl FormulaGraph {
         needed.into_iter().collect()
     }
 
-    /// Lets `then` add to the graph, and afterwards removes the additions, names included.
+    /// Lets `then` add to the graph. Afterwards the additions are removed, names included.
     pub fn meanwhile<T>(&mut self, then: impl FnOnce(&mut FormulaGraph) -> T) -> T {
         let (nodes, derivatives) = (self.nodes.len(), self.derivatives.len());
         self.is_meanwhile = true;
@@ -292,8 +292,8 @@ impl FormulaGraph {
         }
     }
 
-    /// A pair, simplified by the zeros and ones that derivatives produce.
-    /// The dropped factor already exists as a node and is judged there.
+    /// A pair, simplified for the zeros and ones that derivatives produce.
+    /// A dropped factor already exists as a node, and its domain is checked at that node.
     pub(crate) fn pair(&mut self, operator: Operator, left: NodeId, right: NodeId) -> NodeId {
         let (a, b) = (self.exact(left), self.exact(right));
         match (operator, a, b) {

@@ -10,14 +10,14 @@ use winnow::{ModalResult, Parser};
 
 use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 
-/// Longest text of a formula (bytes). A notebook page has several thousand.
+/// Upper limit of the length of a formula's text (bytes). A notebook page has several thousand.
 const LONGEST: usize = 20_000;
-/// Deepest nesting, so that no text exhausts the stack.
+/// Upper limit of the nesting depth, so that no text exhausts the stack.
 const DEEPEST: usize = 200;
 
 type Input<'a> = LocatingSlice<&'a str>;
 
-/// A fault while reading. If it is empty, another alternative may fit.
+/// A fault found in reading. If it is empty, the parser may try another alternative.
 #[derive(Debug)]
 struct Found(Option<FormulaFault>);
 
@@ -59,7 +59,7 @@ impl FormulaTree {
     }
 }
 
-/// Checks that reading the text cannot exhaust memory or stack.
+/// Checks that the text cannot exhaust memory or stack when it is read.
 fn bounded(text: &str) -> Result<(), FormulaFault> {
     if text.len() > LONGEST {
         let message = sentences::the_formula_has_bytes_more(&text.len(), &LONGEST);
@@ -70,7 +70,7 @@ fn bounded(text: &str) -> Result<(), FormulaFault> {
         match byte {
             b'(' => open += 1,
             b')' => open = open.saturating_sub(1),
-            // Powers, and signs in a row, nest to the right.
+            // Powers, and several signs in a row, nest to the right.
             b'^' => powers += 1,
             b'-' | b'+' => signs += 1,
             b' ' => {}
@@ -96,7 +96,7 @@ fn whole(input: &mut Input<'_>) -> Read<FormulaTree> {
     }
 }
 
-/// The fault of a character in place of an operator or the end of a part.
+/// The fault of a character that stands where an operator or the end of a part is expected.
 fn no_operator<T>(sign: char, at: usize) -> Read<T> {
     let own = at..at + sign.len_utf8();
     if sign == ',' {
@@ -135,7 +135,7 @@ fn sum(input: &mut Input<'_>) -> Read<FormulaTree> {
     expression(operand).prefix(sign).infix(between).parse_next(input)
 }
 
-/// A minus or plus before a part.
+/// A minus or plus sign before a part.
 fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMode<Found>>> {
     let at = input.current_token_start();
     let first = input.chars().next();
@@ -207,7 +207,7 @@ fn operand(input: &mut Input<'_>) -> Read<FormulaTree> {
         None => {
             refused(sentences::THE_FORMULA_ENDS_WHERE_A_PART, start..start, sentences::ADD_A_NUMBER_A_NAME_OR_A_CALL)
         }
-        // The minus before a part.
+        // A minus or plus sign before a part.
         Some('-' | '+') => none(),
         Some(sign @ (')' | ',' | '=' | '*' | '/' | '^')) => refused(
             sentences::a_part_is_missing_before(&sign),

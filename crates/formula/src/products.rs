@@ -3,7 +3,7 @@
 /// Typical numeric factors in derivations, each with its contribution to the complexity.
 const NUMBERS: [(f64, usize); 9] =
     [(1.0, 0), (2.0, 1), (0.5, 1), (4.0, 4), (0.25, 4), (1.5, 4), (3.0, 5), (1.0 / 3.0, 5), (0.125, 5)];
-/// Largest number of quantities in a product.
+/// Upper limit of the number of quantities in a product.
 const FACTORS: usize = 3;
 
 /// Exponents of kilogram, metre and second; `None` if unknown.
@@ -54,7 +54,7 @@ impl Products {
         self.list.is_empty()
     }
 
-    /// The products of this size within a relative accuracy, the simplest first.
+    /// The products of this absolute value within a relative accuracy, the simplest first.
     #[must_use]
     pub fn near(&self, size: f64, accuracy: f64) -> Vec<&Product> {
         let [low, high] = [size * (1.0 - accuracy), size * (1.0 + accuracy)];
@@ -64,7 +64,7 @@ impl Products {
         near
     }
 
-    /// Number of products of this dimension with at most this complexity. An unknown dimension matches any.
+    /// Number of products of this dimension up to this complexity. An unknown dimension matches any dimension.
     #[must_use]
     pub fn alike(&self, weight: usize, dimension: Dimension) -> usize {
         let is_alike = |own: &&Product| match (own.dimension, dimension) {
@@ -101,8 +101,8 @@ fn put(quantities: &[(f64, Dimension)], next: usize, chosen: &mut Vec<(u8, i8)>,
 }
 
 /// Bits of information in a number that is known to a relative accuracy, such as 3 for a sixtieth and 13 for 1.4715.
-/// A number that is neither round nor a simple fraction, also not of pi, has as many bits as the accuracy.
-/// A number of few bits is easily met by chance.
+/// If a number is not round and not a simple fraction, not even of pi, it has as many bits as the accuracy.
+/// A number with few bits is easily matched by chance.
 #[must_use]
 pub fn information(value: f64, accuracy: f64) -> f64 {
     let most = -(if accuracy > 1e-15 { accuracy } else { 1e-15 }).log2();
@@ -118,7 +118,8 @@ pub fn information(value: f64, accuracy: f64) -> f64 {
     least
 }
 
-/// The digits of a decimal number as a whole number, without leading and trailing zeros, if it has at most nine.
+/// The digits of a decimal number as a whole number, without leading and trailing zeros. At most nine digits are
+/// allowed.
 fn whole(value: f64, accuracy: f64) -> Option<f64> {
     if !(value > 0.0) || !value.is_finite() {
         return None;
@@ -139,7 +140,7 @@ mod tests {
     use super::{Products, information};
 
     #[test]
-    fn round_numbers_say_little() {
+    fn round_numbers_carry_little_information() {
         for (value, bits) in [(1.0, 0.0), (60.0, 2.6), (1.0 / 60.0, 2.6), (1.4715, 12.5), (std::f64::consts::TAU, 3.0)]
         {
             let found = information(value, 1e-9);
@@ -161,7 +162,8 @@ mod tests {
             assert_eq!(products.near(size, 1e-6)[0].powers, [(0, 1), (1, 2)], "{size}");
             assert!(products.near(size, 1e-7).is_empty(), "{size}");
         }
-        // m, 1/m, l, 1/l and so on, with the numeric factors. Few of them have the dimension of a mass.
+        // The products are m, 1/m, l, 1/l and so on, with the numeric factors. Few of them have the dimension of a
+        // mass.
         assert_eq!(products.alike(2, Some([1.0, 0.0, 0.0])), 1);
         assert_eq!(products.alike(3, Some([1.0, 0.0, 0.0])), 3);
     }

@@ -3,8 +3,8 @@
 use crate::graph::{FormulaGraph, Node, NodeId};
 use crate::rounded::Rounded;
 
-/// Formulas ready to be evaluated: every common part once, arguments first.
-/// Parts that depend on no input are evaluated beforehand.
+/// Formulas ready to be evaluated: every common part once, and arguments before the nodes that use them.
+/// Parts that do not depend on any input are evaluated beforehand.
 #[derive(Clone, Debug)]
 pub struct Program {
     /// Operations that depend on the inputs, each with the position of its value.
@@ -57,7 +57,7 @@ impl Program {
         self.steps.len()
     }
 
-    /// Whether no result depends on the inputs.
+    /// Whether all results are independent of the inputs.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()

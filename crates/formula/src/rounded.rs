@@ -7,7 +7,7 @@ use crate::tree::{Function, Operator};
 ///
 /// An operation outside its domain gives [`Rounded::UNDEFINED`], and so does every operation on that result.
 /// Unlike in IEEE 754, `1/(1/0)`, `(0/0)^0` and `atan(1/0)` have no value.
-/// An argument outside the domain by less than its error is moved to the end of the domain.
+/// If an argument is outside the domain by less than its error, it is moved to the end of the domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded {
     /// The number; NaN if it is undefined.
@@ -33,7 +33,8 @@ impl Rounded {
         Rounded { value, error: 0.0 }
     }
 
-    /// A double for a decimal number: exact if it is whole, otherwise with half a unit in the last place.
+    /// The double of a decimal number: exact if the number is whole, otherwise with an error of half a unit in the last
+    /// place.
     #[must_use]
     pub fn decimal(value: f64) -> Self {
         let is_whole = value.fract() == 0.0 && value.abs() < 9e15;
@@ -51,11 +52,11 @@ impl Rounded {
             return Rounded::UNKNOWN;
         }
         let error = error + rounding * value.abs();
-        // Zero times nothing known.
+        // Zero times an unknown (infinite) error is NaN. The error of the result is then unknown too.
         Rounded { value, error: if error.is_nan() { f64::INFINITY } else { error } }
     }
 
-    /// Adds an error to a result too small for a double, unless the result `is_zero` exactly.
+    /// Adds an error for a result that may be too small for a double, unless the result `is_zero` exactly.
     fn or_tiny(self, is_zero: bool) -> Self {
         match self.value.abs() < f64::MIN_POSITIVE && !is_zero {
             true => Rounded { error: self.error + f64::MIN_POSITIVE, ..self },
@@ -122,7 +123,7 @@ impl Rounded {
             }
             Function::Tan => {
                 let value = x.value.tan();
-                // The slope at the end of the interval that is nearer to a pole.
+                // The slope at that end of the interval which is nearer to a pole.
                 let steepest = value.abs() + x.error * (1.0 + value * value) * 2.0;
                 let is_near = !(x.error * (1.0 + value.abs()) < 0.1);
                 let error = if is_near { f64::INFINITY } else { x.error * (1.0 + steepest * steepest) };
@@ -133,7 +134,7 @@ impl Rounded {
                 let of = |value: f64| if function == Function::Asin { value.asin() } else { value.acos() };
                 let end = x.value.abs() + x.error;
                 if end < 1.0 {
-                    // The slope is steepest at the end of the interval that is nearer to the end of the domain.
+                    // The slope is steepest at that end of the interval which is nearer to the end of the domain.
                     return Rounded::of(of(x.value), x.error / ((1.0 - end) * (1.0 + end)).sqrt(), WHOLE);
                 }
                 growing(of, x, [-1.0, 1.0])
@@ -175,18 +176,18 @@ impl Rounded {
     }
 }
 
-/// Error of a sine or cosine with this `slope`.
+/// Error of a sine or cosine whose slope is `slope`.
 fn swing(x: Rounded, slope: f64) -> f64 {
     let least = |bound: f64, other: f64| if other < bound { other } else { bound };
     least(least(slope.abs() * x.error + x.error * x.error / 2.0, x.error), 2.0)
 }
 
-/// The number, but zero if it is negative. NaN stays.
+/// The number, or zero if it is negative. NaN stays.
 fn not_below_zero(number: f64) -> f64 {
     if number < 0.0 { 0.0 } else { number }
 }
 
-/// The larger of two sizes; infinite if one of them is NaN.
+/// The larger of two sizes; infinite if a size is NaN.
 fn larger(one: f64, other: f64) -> f64 {
     match one.is_nan() || other.is_nan() {
         true => f64::INFINITY,
@@ -197,7 +198,7 @@ fn larger(one: f64, other: f64) -> f64 {
 
 /// Value of a function that is monotonic from `domain[0]` to `domain[1]`.
 /// Its largest change is at one end of the interval of the argument.
-/// An argument beyond the domain by less than its error is moved to the end of the domain.
+/// If the argument is beyond the domain by less than its error, it is moved to the end of the domain.
 fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Rounded {
     let at = |value: f64| function(value.clamp(domain[0], domain[1]));
     let value = at(x.value);
@@ -220,7 +221,8 @@ fn power(a: Rounded, b: Rounded) -> Rounded {
         let power = b.value as i32;
         // A product of many factors is rounded at every factor.
         let rounding = WHOLE * (1.0 + b.value.abs());
-        // The slope is steepest where the base is largest or, for a negative exponent, smallest.
+        // The slope is steepest where the base is largest. For a negative exponent it is steepest where the base is
+        // smallest.
         let end = if power >= 0 { a.value.abs() + a.error } else { a.value.abs() - a.error };
         let slope = if power < 0 && !(end > 0.0) { f64::INFINITY } else { b.value.abs() * end.powi(power - 1) };
         let found = match power {
@@ -244,7 +246,8 @@ fn power(a: Rounded, b: Rounded) -> Rounded {
     if a.error == 0.0 && b.error == 0.0 {
         return Rounded::of(value, 0.0, 4.0 * WHOLE).or_tiny(base == 0.0);
     }
-    // The size of the power is monotonic in that of the base and in the exponent, so the largest change is at a corner.
+    // The absolute value of the power is monotonic in that of the base and in the exponent.
+    // The largest change is therefore at a corner.
     let sign = if value < 0.0 { -1.0 } else { 1.0 };
     let mut error = 0.0;
     for base in [a.value - a.error, a.value + a.error] {

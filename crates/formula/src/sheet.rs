@@ -10,7 +10,7 @@ use crate::tree::{FormulaTree, NodeShape, Operator};
 /// A part of the sheet. Its arguments have smaller indices.
 #[derive(Clone, Copy, Debug)]
 enum Part {
-    /// A name, given by the position of its part.
+    /// A name, given as the position of the part that it stands for.
     Named(usize),
     Own(Node<usize>),
 }
@@ -19,12 +19,12 @@ enum Part {
 #[derive(Clone, Debug, Default)]
 pub struct DerivationSheet {
     parts: Vec<Part>,
-    /// The parts of every formula, each before its arguments.
+    /// The parts of every formula. Each part precedes its arguments.
     formulas: Vec<Vec<usize>>,
     names: BTreeMap<String, usize>,
     /// Inputs, by instant.
     inputs: Vec<Vec<Rounded>>,
-    /// Values of all parts, by instant.
+    /// Values of all parts, for each instant.
     values: Vec<Vec<Rounded>>,
     /// Values after a change, each with the number of the change for which it was calculated.
     changed: Vec<(u32, Rounded)>,
@@ -32,11 +32,11 @@ pub struct DerivationSheet {
     operations: u64,
 }
 
-/// First character of names that refer to the part at a position, in trees made for a change.
+/// Prefix of names such as `#12`. In a tree made for a change, such a name stands for part 12.
 const PLACE: char = '#';
-/// Largest number of steps in the search for the missing amount at an instant.
+/// Upper limit of the number of steps in the search for the missing amount at an instant.
 const STEPS: usize = 30;
-/// Change of an amount, relative to its size, for measuring a slope.
+/// Change of an amount, relative to its size, that is used to measure a slope.
 const DIFFERENCE: f64 = 1e-6;
 
 /// Correct value of a formula at an instant.
@@ -44,14 +44,14 @@ const DIFFERENCE: f64 = 1e-6;
 pub struct FormulaTarget {
     /// The right value.
     pub value: f64,
-    /// Largest allowed distance of a value from it.
+    /// Largest allowed distance of a value from the correct value.
     pub bound: f64,
     /// A whole turn, if the value is an angle.
     pub turn: Option<f64>,
 }
 
 impl FormulaTarget {
-    /// A value minus the correct one; for angles without whole turns.
+    /// A value minus the correct value. For angles, whole turns are removed.
     #[must_use]
     pub fn difference(&self, value: f64) -> f64 {
         let difference = value - self.value;
@@ -132,7 +132,7 @@ impl DerivationSheet {
         }
     }
 
-    /// Positions of the parts of a formula, each before its arguments, in the order of [`FormulaTree::parts`].
+    /// Positions of the parts of a formula, in the order of [`FormulaTree::parts`]. Each part precedes its arguments.
     /// Formulas are numbered in the order in which they were added.
     #[must_use]
     pub fn places(&self, formula: usize) -> &[usize] {
@@ -180,12 +180,12 @@ impl DerivationSheet {
         self.operations
     }
 
-    /// Counts work done outside the sheet, in the same unit.
+    /// Adds operations done outside the sheet to the count, in the same unit.
     pub fn count(&mut self, operations: u64) {
         self.operations += operations;
     }
 
-    /// These positions and all that depend on them, in the order of evaluation, up to the last formula.
+    /// These positions and all positions that depend on them, in the order of evaluation, up to the last formula.
     pub fn depending(&mut self, places: &[usize]) -> Vec<usize> {
         let Some(&first) = places.iter().min() else { return Vec::new() };
         // Nothing is evaluated here. Visiting a part costs a small fraction of an operation.
@@ -209,7 +209,7 @@ impl DerivationSheet {
 
     /// The value of the last formula at an instant, with other trees at some positions.
     /// `depending` is the result of [`DerivationSheet::depending`] for these positions.
-    /// Names that are unknown before a position are NaN.
+    /// A name that is unknown before a position has the value NaN.
     pub fn changed(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize], instant: usize) -> Rounded {
         self.change += 1;
         for &place in depending {
@@ -223,7 +223,7 @@ impl DerivationSheet {
         self.current(self.parts.len() - 1, instant)
     }
 
-    /// The same with a number at one position.
+    /// The same, but with a number at one position.
     fn with_number(&mut self, number: Rounded, depending: &[usize], instant: usize) -> Rounded {
         self.change += 1;
         let Some((&first, rest)) = depending.split_first() else { return Rounded::exact(f64::NAN) };
@@ -267,10 +267,10 @@ impl DerivationSheet {
         }
     }
 
-    /// The correction of a part that makes the last formula correct at an instant, and the uncertainty of that
+    /// The correction of a part that makes the last formula correct at an instant, with the uncertainty of that
     /// correction.
-    /// It is the amount to add to the part (`Plus`) or the missing factor (`Times`).
-    /// Newton's method starts `from` an amount. `None` if it finds no correction.
+    /// The correction is the amount to add to the part (`Plus`) or the missing factor (`Times`).
+    /// Newton's method starts at the amount `from`. `None` if it finds no correction.
     /// `depending` is the result of [`DerivationSheet::depending`] for the part.
     pub fn amount(
         &mut self,

@@ -17,15 +17,15 @@ fn value(text: &str) -> f64 {
 
 /// If both arguments may be zero, any direction is possible.
 #[test]
-fn the_direction_of_what_may_be_nothing_is_known_to_half_a_turn() {
+fn atan2_of_two_possible_zeros_is_known_to_half_a_turn() {
     let near = Rounded { value: 1e-12, error: 1e-9 };
     assert!(at("atan2(x, y)", near, near).error >= std::f64::consts::PI);
-    // Away from zero the direction is known.
+    // The direction is known if the vector is away from zero.
     assert!(at("atan2(x, y)", Rounded { value: 1.0, error: 1e-9 }, near).error < 2e-9);
 }
 
 #[test]
-fn formulas_are_read_as_they_are_written_down() {
+fn formulas_parse_with_the_usual_precedence() {
     let (x, y) = (0.3f64, -1.7f64);
     let cases = [
         ("-x^2", -(x * x)),
@@ -56,7 +56,7 @@ fn formulas_are_read_as_they_are_written_down() {
 }
 
 #[test]
-fn what_cannot_be_read_is_told_with_its_place_and_the_way_out() {
+fn syntax_errors_are_reported_with_position_and_remedy() {
     let cases = [
         ("2x", 1..2, "2*phi"),
         ("x y", 2..3, "2*phi"),
@@ -91,9 +91,9 @@ fn what_cannot_be_read_is_told_with_its_place_and_the_way_out() {
     assert_eq!((fault.at, fault.help.contains("phi")), (3..5, true));
 }
 
-/// Long sums do not count as nesting.
+/// A long sum does not count as deep nesting.
 #[test]
-fn a_long_sum_is_read() {
+fn a_long_sum_parses() {
     assert_relative_eq!(value(&vec!["x"; 9999].join("+")), 2999.7, max_relative = 1e-12);
 }
 
@@ -115,7 +115,7 @@ fn tree() -> impl Strategy<Value = FormulaTree> {
                 let power = FormulaTree::number(f64::from(power));
                 NodeShape::Pair(Power, Box::new([base, power]))
             }),
-            // Any power of a positive base is defined.
+            // Every power of a positive base is defined.
             (inner.clone(), inner.clone()).prop_map(move |(base, power)| {
                 NodeShape::Pair(Power, Box::new([FormulaTree::call(Function::Exp, vec![base]), power]))
             }),
@@ -144,7 +144,7 @@ fn graph_of(tree: &FormulaTree) -> (FormulaGraph, crate::NodeId) {
     (graph, id)
 }
 
-/// Text for exmex, with parentheses everywhere, because precedence is not under test here.
+/// Text for exmex, with parentheses everywhere, because this test is not about precedence.
 fn in_parentheses(tree: &FormulaTree) -> String {
     match &tree.shape {
         NodeShape::Number(number) => format!("{number}"),
@@ -167,14 +167,14 @@ fn with_derivatives(tree: &FormulaTree, x: f64, y: f64) -> [Rounded; 3] {
     [found[0], found[1], found[2]]
 }
 
-/// The limit of central differences by Ridders' extrapolation, and its error.
-/// `None` if the limit is not accurate to five digits: near a kink, a pole, or the end of a domain.
+/// The limit of central differences by Ridders' extrapolation, with its error.
+/// `None` if the limit is not accurate to five digits, as near a kink, a pole, or the end of a domain.
 fn limit_of_differences(function: &dyn Fn(f64) -> Rounded) -> Option<(f64, f64)> {
     let (mut before, mut best) = (Vec::<f64>::new(), None::<(f64, f64)>);
     for level in 0..9 {
         let step = 0.02 * 0.6f64.powi(level);
         let [above, below] = [function(step), function(-step)];
-        // The arguments x + step are rounded too, which contributes by the slope.
+        // The arguments x + step are rounded too. Their error contributes in proportion to the slope.
         let slope = (above.value - below.value).abs() / (2.0 * step);
         let rounding = (above.error + below.error + 4.0 * f64::EPSILON * (1.0 + slope)) / (2.0 * step);
         let mut row = vec![(above.value - below.value) / (2.0 * step)];
@@ -197,16 +197,16 @@ fn holds(tree: &FormulaTree, test: &dyn Fn(&NodeShape) -> bool) -> bool {
 }
 
 proptest! {
-    /// A written tree is read back unchanged.
+    /// A tree that was written as text is read back unchanged.
     #[test]
-    fn a_tree_is_read_as_it_is_written(tree in tree()) {
+    fn a_printed_tree_parses_to_itself(tree in tree()) {
         let text = tree.to_string();
         prop_assert_eq!(shape_of(&FormulaTree::parse(&text).unwrap()), shape_of(&tree), "{}", text);
     }
 
-    /// Any text is read or rejected, with a position inside the text.
+    /// Any text is either read or rejected, with a position inside the text.
     #[test]
-    fn any_text_has_an_answer(text in "[-+*/^(),.0-9a-z φ²=]{0,60}") {
+    fn any_text_parses_or_is_rejected_with_a_position(text in "[-+*/^(),.0-9a-z φ²=]{0,60}") {
         if let Err(fault) = FormulaTree::parse(&text) {
             prop_assert!(fault.at.start <= fault.at.end && fault.at.end <= text.len(), "{:?}", fault);
             prop_assert!(text.is_char_boundary(fault.at.start) && text.is_char_boundary(fault.at.end));
@@ -215,8 +215,8 @@ proptest! {
 
     /// Derivatives agree with those of an independent library.
     #[test]
-    fn derivatives_are_those_of_exmex(tree in tree(), x in 0.1f64..2.0, y in -2.0f64..2.0) {
-        // exmex lacks atan2, abs and sign.
+    fn derivatives_agree_with_exmex(tree in tree(), x in 0.1f64..2.0, y in -2.0f64..2.0) {
+        // exmex does not have atan2, abs and sign.
         let unknown = |shape: &NodeShape| {
             matches!(shape, NodeShape::Call(Function::Atan2 | Function::Abs | Function::Sign, _))
         };
@@ -228,7 +228,7 @@ proptest! {
         let theirs = [theirs.eval(&[x, y]).unwrap(), theirs.partial(1).unwrap().eval(&[x, y]).unwrap()];
         for (ours, theirs) in [first, mixed].into_iter().zip(theirs) {
             prop_assume!(theirs.is_finite() && ours.error < 1e-6 * (1.0 + ours.value.abs()));
-            // exmex squares the divisor, and loses digits where the square is a subnormal number.
+            // exmex squares the divisor, and loses digits if the square is a subnormal number.
             prop_assume!(ours.value.abs() < 1e100);
             let bound = (ours.error + 1e-12 * ours.value.abs()) * 1e3 + 1e-9;
             prop_assert!((ours.value - theirs).abs() <= bound, "{}: {:?} {}", tree, ours, theirs);
@@ -248,9 +248,9 @@ proptest! {
         }
     }
 
-    /// The bound covers the results for all inputs within their bounds.
+    /// The error bound covers the results for all inputs within their error bounds.
     #[test]
-    fn errors_of_inputs_are_within_the_bound(
+    fn the_bound_covers_input_errors(
         tree in tree(), x in 0.1f64..2.0, y in -2.0f64..2.0, error in 1e-9f64..0.1, share in proptest::array::uniform2(-1.0f64..1.0),
     ) {
         let (graph, id) = graph_of(&tree);
@@ -258,7 +258,7 @@ proptest! {
         let known = program.run(&[Rounded { value: x, error }, Rounded { value: y, error }])[0];
         let other = program.run(&[Rounded::exact(x + share[0] * error), Rounded::exact(y + share[1] * error)])[0];
         prop_assume!(known.value.is_finite() && known.error.is_finite() && other.value.is_finite());
-        // At its branch cut atan2 jumps by a turn. Angles are compared modulo a turn.
+        // atan2 jumps by a turn at its branch cut, so it is excluded. Angles are compared modulo a turn.
         prop_assume!(!holds(&tree, &|shape| matches!(shape, NodeShape::Call(Function::Atan2, _))));
         prop_assert!((known.value - other.value).abs() <= known.error + other.error, "{}: {:?} {:?}", tree, known, other);
     }
@@ -266,7 +266,7 @@ proptest! {
 
 /// Cancelled digits are lost, and the bound shows it.
 #[test]
-fn cancellation_is_told() {
+fn cancellation_widens_the_bound() {
     let x = Rounded::exact(1e-9);
     let lost = at("(1 - cos(x))/x^2", x, x);
     assert!((lost.value - 0.5).abs() <= lost.error && lost.error > 1e-3, "{lost:?}");
@@ -281,7 +281,7 @@ fn cancellation_is_told() {
 
 /// Large errors: the bound covers both ends of the interval of the argument, whatever the curvature.
 #[test]
-fn a_bound_holds_the_ends_of_wide_arguments() {
+fn a_bound_covers_the_ends_of_wide_arguments() {
     type Case = (&'static str, [f64; 2], [f64; 2], fn(f64, f64) -> f64);
     let wide: [Case; 8] = [
         ("ln(x)", [1.0, 0.5], [0.0, 0.0], |x, _| x.ln()),
@@ -304,7 +304,7 @@ fn a_bound_holds_the_ends_of_wide_arguments() {
 
 /// Powers with any exponent are accurate to a few units in the last place, and propagate an error by their slope.
 #[test]
-fn a_power_is_known_as_well_as_its_base_and_exponent() {
+fn a_power_is_as_accurate_as_its_base_and_exponent() {
     let known = |x: Rounded, y: Rounded| at("x^y", x, y);
     let exact = Rounded::exact;
     for (x, y) in [(2.0, 0.5), (1.0001, 2000.0), (0.3, -1.7), (-1.001, 1025.0)] {
@@ -327,9 +327,9 @@ fn common_parts_are_evaluated_once() {
     assert_eq!(Program::of(&graph, &[one, other]).len(), alone + 1);
 }
 
-/// The rate of x(phi(t), t), twice: w and a are the first and second derivative of phi.
+/// The second rate of x(phi(t), t): w and a are the first and second derivative of phi.
 #[test]
-fn rates_go_through_all_inputs() {
+fn rates_follow_the_chain_rule_over_all_inputs() {
     let mut graph = FormulaGraph::new(&["phi", "t"], 2);
     let place = graph.add(&FormulaTree::parse("t*sin(phi)").unwrap()).unwrap();
     let (w, a) = (graph.input(2), graph.input(3));
@@ -346,7 +346,7 @@ fn rates_go_through_all_inputs() {
 }
 
 #[test]
-fn what_was_added_meanwhile_is_forgotten() {
+fn temporary_nodes_are_removed() {
     let mut graph = FormulaGraph::new(&["x"], 0);
     let place = graph.add(&FormulaTree::parse("x^2").unwrap()).unwrap();
     graph.name("place", place);
@@ -365,7 +365,7 @@ fn what_was_added_meanwhile_is_forgotten() {
 }
 
 #[test]
-fn a_name_with_other_signs_stands_between_backquotes() {
+fn names_with_other_characters_need_backquotes() {
     let tree = FormulaTree::parse("2*`body 2.x (m)` - a").unwrap();
     assert_eq!(tree.names().iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["body 2.x (m)", "a"]);
     assert_eq!(tree.to_string(), "2*`body 2.x (m)` - a");
@@ -376,7 +376,7 @@ fn a_name_with_other_signs_stands_between_backquotes() {
 
 /// Another node may later take the position of a removed one. Derivatives of the removed node must not apply to it.
 #[test]
-fn derivatives_taken_meanwhile_are_forgotten() {
+fn temporary_derivatives_are_removed() {
     let mut graph = FormulaGraph::new(&["x", "y"], 0);
     graph.constant(Rounded::exact(0.0));
     graph.meanwhile(|graph| {
@@ -391,7 +391,7 @@ fn derivatives_taken_meanwhile_are_forgotten() {
 /// Every operator and every function, with both arguments varying, against the rules of calculus.
 /// The random test skips cases that it cannot decide. This test skips none.
 #[test]
-fn every_rule_of_calculus_is_kept() {
+fn derivatives_follow_the_rules_of_calculus() {
     let (x, y) = (0.7f64, 1.3f64);
     let cases: [(&str, f64, f64); 23] = [
         ("x + y", 1.0, 0.0),
@@ -429,8 +429,8 @@ fn every_rule_of_calculus_is_kept() {
     }
 }
 
-/// There is no derivative at a kink or a jump. It is not zero either: the mean of the two one-sided slopes is neither
-/// of them.
+/// A function has no derivative at a kink or a jump.
+/// Zero, the mean of the two one-sided slopes, would be wrong: it is neither of them.
 #[test]
 fn a_kink_has_no_derivative() {
     for text in ["abs(x)", "x*sign(x)", "abs(x)*abs(x)"] {
@@ -445,8 +445,8 @@ fn a_kink_has_no_derivative() {
 
 /// Every operation outside its domain, in every context where IEEE 754 or algebra would hide it.
 #[test]
-fn what_is_undefined_stays_undefined_whatever_it_is_multiplied_by() {
-    // With constants, and the same with x = 1.
+fn undefined_values_stay_undefined_in_every_context() {
+    // Operations with constants, each with the same operation in x = 1.
     let outside = [
         ("ln(-1)", "ln(-x)"),
         ("ln(0)", "ln(x - 1)"),
@@ -498,12 +498,12 @@ fn what_is_undefined_stays_undefined_whatever_it_is_multiplied_by() {
     ];
     for (operation, varied) in outside {
         for context in contexts {
-            // With constants the formula is rejected at once, with the position of the operation.
+            // With constants the formula is rejected at once, and the error has the position of the operation.
             let text = context.replace('@', &format!("({operation})"));
             let fault = FormulaGraph::new(&["x"], 0).add_defined(&FormulaTree::parse(&text).unwrap()).expect_err(&text);
             let first = context.find('@').unwrap();
             assert!(fault.at.start >= first && fault.at.end <= first + operation.len() + 2, "{text}: {fault:?}");
-            // With inputs the formula has no value, and the operation is also named.
+            // With inputs the formula has no value, and the error names the operation.
             let varied = context.replace('@', &format!("({varied})"));
             let tree = FormulaTree::parse(&varied).unwrap_or_else(|fault| panic!("{varied}: {fault}"));
             let mut graph = FormulaGraph::new(&["x"], 0);
@@ -517,7 +517,7 @@ fn what_is_undefined_stays_undefined_whatever_it_is_multiplied_by() {
 
 /// A result too large or too small for a double is not undefined: it is unknown, or known to be tiny.
 #[test]
-fn overflow_and_underflow_are_not_called_undefined() {
+fn overflow_and_underflow_are_not_undefined() {
     let one = Rounded::exact(1.0);
     for text in ["exp(1000*x)", "1e300^(2*x)", "(1e200*x)*1e200", "x/(1e-200*1e-200)", "1/(sin(pi) - x + x)"] {
         let found = at(text, one, one);
@@ -527,7 +527,7 @@ fn overflow_and_underflow_are_not_called_undefined() {
         let found = at(text, one, one);
         assert!(!found.is_undefined() && found.error > 0.0, "{text}: {found:?}");
     }
-    // An argument outside a domain by less than its error is moved to the end of the domain.
+    // If an argument is outside a domain by less than its error, it is moved to the end of the domain.
     let near = |value: f64| Rounded { value, error: 1e-15 };
     for (text, value) in [("sqrt(x)", -1e-16), ("acos(x)", 1.0 + 4e-16), ("x^0.5", -1e-16)] {
         let found = at(text, near(value), one);

@@ -1,4 +1,4 @@
-//! A formula as written, the only table of its functions, and the faults in its text with their positions.
+//! A formula as written, the only table of functions, and faults in the text of a formula with their positions.
 
 use std::fmt;
 use std::ops::Range;
@@ -51,7 +51,7 @@ const WHOLE: u8 = 5;
 pub enum NodeShape {
     /// A number.
     Number(f64),
-    /// A name: an input, or a formula with that name.
+    /// A name: that of an input, or that of another formula.
     Name(String),
     /// The negative of a part.
     Negative(Box<FormulaTree>),
@@ -110,7 +110,7 @@ impl FormulaTree {
         FormulaTree { shape, at: 0..0 }
     }
 
-    /// The same tree with `other` in place of every occurrence of a name.
+    /// The same tree with every occurrence of a name replaced by `other`.
     #[must_use]
     pub fn with_name(&self, name: &str, other: &FormulaTree) -> FormulaTree {
         if matches!(&self.shape, NodeShape::Name(own) if own == name) {
@@ -156,7 +156,8 @@ impl FormulaTree {
         names
     }
 
-    /// The tree, its left argument, the left argument of that, and so on. Long sums are deep only in this direction.
+    /// The tree, its left argument, the left argument of that argument, and so on. Long sums are deep only in this
+    /// direction.
     pub(crate) fn left_parts(&self) -> Vec<&FormulaTree> {
         std::iter::successors(Some(self), |tree| match &tree.shape {
             NodeShape::Pair(_, parts) => Some(&parts[0]),
@@ -179,7 +180,7 @@ impl FormulaTree {
     }
 }
 
-/// Written with only the necessary parentheses.
+/// Writes the formula with only the necessary parentheses.
 impl fmt::Display for FormulaTree {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.shape {

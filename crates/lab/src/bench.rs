@@ -1,7 +1,7 @@
-//! Work and precision: error against time and exact effort of every solver, engine and setting.
+//! Work and precision: error against time and against exact effort, for every solver, engine and setting.
 //!
 //! Each method of solving a scenario is a [`BenchPoint`].
-//! Methods that fail are kept, with their reason.
+//! Methods that fail are kept, with the reason.
 //! The command line passes the clock in.
 //! See docs/numerics/laboratory.md.
 
@@ -38,9 +38,9 @@ pub struct Bench {
     pub is_free: bool,
     /// Stages that were wanted.
     pub stages: Vec<Stage>,
-    /// The reference and its own error.
+    /// The reference, and its error.
     pub floor: Floor,
-    /// Shortest time (s) of side 1 at its usual accuracy: the unit of all ratios.
+    /// Shortest time (s) of side 1 at its usual accuracy; all ratios are relative to it.
     pub unit: f64,
     /// Versions of engines and peers, by name.
     pub versions: Vec<(String, String)>,
@@ -48,14 +48,15 @@ pub struct Bench {
     pub points: Vec<BenchPoint>,
     /// Number of settings that the budget did not allow.
     pub left_out: usize,
-    /// Peers that could not be called at all, with the reason.
+    /// Peers that could not be called, with the reason.
     pub absent: Vec<(String, String)>,
 }
 
-/// Measures all methods of solving a scenario. `progress` receives the finished share.
+/// Measures all methods of solving a scenario. `progress` receives the completed fraction.
 ///
 /// # Errors
-/// Those of the two sides: without a reference no error can be measured. Engines and peers that fail are points.
+/// Those of the two sides, because no error can be measured without a reference.
+/// Engines and peers that fail are points.
 pub fn bench(
     scenario: &Scenario,
     options: &BenchOptions,

@@ -1,8 +1,8 @@
 //! The laboratory: studies of the prover that a proof does not need.
 //!
 //! - [`mod@bench`]: work against error of every solver and engine.
-//! - [`stress`], [`specimens`]: families of hard mechanisms, and random ones.
-//! - [`mutate`]: faults planted in one party, and which checks find them.
+//! - [`stress`], [`specimens`]: families of hard mechanisms, and random mechanisms.
+//! - [`mutate`]: faults planted in one party, and the checks that find them.
 //! - [`tune`]: engine settings by their cost.
 //! - [`outside`]: other programs that solve a case or show it.
 

@@ -1,13 +1,12 @@
-//! Does the cross-check see faults? Single faults are planted in one party of a proof at default settings, or in the
-//! code
-//! that all parties share.
+//! Tests whether the cross-check finds faults.
+//! Single faults are planted in one party of a proof at default settings, or in the code that all parties share.
 //!
 //! A fault wraps a solver or an engine; otherwise the proof is the same as a user's.
-//! If one analytic side contradicts a fault in the other, the verdict needs no engine.
+//! If one analytic side contradicts a fault in the other side, the verdict needs no engine.
 //! Other proofs with an unchanged engine reuse the runs of the first such proof.
 //! Their verdicts are those of new runs, because an engine's runs do not depend on the data they are compared with.
 //!
-//! Formulas are a party too: both sides, whose motion is right, judge a mistake in a formula.
+//! Formulas are a party too: both sides, whose motion is correct, judge a mistake in a formula.
 
 mod effect;
 mod formulas;

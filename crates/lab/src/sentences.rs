@@ -7,16 +7,16 @@ linkage::sentences! {
     // bench/measure.rs
     NO_REASON_WAS_GIVEN = "no reason was given";
     and_more(more) = " and {more} more";
-    THE_ANSWER_HAS_NONE_OF_THE_WANTED = "the answer has none of the wanted channels";
+    THE_ANSWER_HAS_NONE_OF_THE_WANTED = "the answer has none of the requested channels";
     THE_ANSWER_HAS_NO_TIME_ABOVE = "the answer has no time above 0 s";
-    row_of_the_answer_is_at_and_is_wanted(row, times, wanted) = "row {row} of the answer is at {times} s, and {wanted} s is wanted";
-    the_answer_has_instants_and_are_wanted(times, wanted) = "the answer has {times} instants, and {wanted} are wanted";
+    row_of_the_answer_is_at_and_is_wanted(row, times, wanted) = "row {row} of the answer is at {times} s; expected {wanted} s";
+    the_answer_has_instants_and_are_wanted(times, wanted) = "the answer has {times} instants; expected {wanted}";
     THE_ANSWER_HAS_NO_COLUMN = "the answer has no column t_s";
     // bench/reference.rs
     DIFFERENCE_OF_THE_TWO_SIDES = "difference of the two sides";
     SIDE_ASSUR = "side 1 (assur)";
-    SIDE_ASSUR_INTEGRATED_A_HUNDRED = "side 1 (assur), integrated a hundred times as tightly";
-    DIFFERENCE_OF_BOTH_SIDES_AT_THE_TIGHTER = "difference of both sides at the tighter integration, or what the tighter integration leaves";
+    SIDE_ASSUR_INTEGRATED_A_HUNDRED = "side 1 (assur), integrated with a tolerance a hundred times tighter";
+    DIFFERENCE_OF_BOTH_SIDES_AT_THE_TIGHTER = "difference of both sides at the tighter tolerance, or the remaining error of the tighter integration";
     // mutate/judging.rs
     AN_ANGULAR_VELOCITY_BY_A_SHARE = "an angular velocity, by a share";
     DRIVING_MOMENT_FROM_REACTIONS_AND_FROM_POWERS = "driving moment from reactions and from powers (rapier)";
@@ -37,67 +37,67 @@ linkage::sentences! {
     BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS = "balancing moment from equilibrium and from powers (assur)";
     SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS = "shaking force and moment from reactions and from momentum (assur)";
     // mutate/plan.rs
-    PLANT_FEWER_OF_THEM_SOME = "plant fewer of them: some kinds, one party, or no sizes";
-    planting_faults_takes_the_work(scenario, faults, work, budget) = "{scenario}: planting {faults} faults takes the work of about {work} steps of a four-bar, {budget} are allowed";
-    PROVE_IT_WITHOUT_A_FAULT = "prove it without a fault, and mend what disagrees";
-    disagrees_without_a_fault_so(scenario) = "{scenario} disagrees without a fault, so that every fault would count as found";
+    PLANT_FEWER_OF_THEM_SOME = "plant fewer faults: select some kinds or one party, or omit the sizes";
+    planting_faults_takes_the_work(scenario, faults, work, budget) = "{scenario}: planting {faults} faults costs about {work} steps of a four-bar; {budget} are allowed";
+    PROVE_IT_WITHOUT_A_FAULT = "prove it without a fault, and correct what disagrees";
+    disagrees_without_a_fault_so(scenario) = "{scenario} disagrees without a fault, so every fault would count as found";
     // mutate/planted.rs
-    the_case_with_the_fault_cannot(kind) = "the case with the fault {kind} cannot be put together";
+    the_case_with_the_fault_cannot(kind) = "the case with the fault {kind} cannot be built";
     // mutate/seen.rs
-    own_forces(name) = "{name}'s own forces";
+    own_forces(name) = "forces that {name} itself exerts";
     assur_against_newton_2(channel) = "{channel} (assur against newton)";
     // mutate/stage.rs
-    THE_CASE_CANNOT_BE_PUT_TOGETHER = "the case cannot be put together";
-    MISTAKES_OF_FORMULAS_ARE_PLANTED = "mistakes of formulas are planted in formulas";
+    THE_CASE_CANNOT_BE_PUT_TOGETHER = "the case cannot be built";
+    MISTAKES_OF_FORMULAS_ARE_PLANTED = "mistakes of formulas can only be planted in formulas";
     // outside/answer.rs
-    row_of_is(row, name, chars) = "row {row} of {name} is \"{chars}\"";
+    row_of_is(row, name, chars) = "row {row} of {name}: expected a number, found \"{chars}\"";
     row_of_its_table(row, error) = "row {row} of its table: {error}";
     its_table(twice) = "its table: {twice}";
-    its_table_has_columns_and_at_most(header, columns) = "its table has {header} columns, and at most {columns} are read";
+    its_table_has_columns_and_at_most(header, columns) = "its table has {header} columns, but at most {columns} are read";
     its_table_cannot_be_read(error) = "its table cannot be read: {error}";
-    its_count_of_is_which_is_no_whole(name, times) = "its count of {name} is {times}, which is no whole number";
-    it_counts_things_and_at_most(all, counted) = "it counts {all} things, and at most {counted} are shown";
-    ITS_WORK_IS_NO_JSON_OBJECT = "its \"work\" is no JSON object";
-    its_time_is_and_to_can_be_measured(value, least, most) = "its time is {value}, and {least} s to {most} s can be measured";
+    its_count_of_is_which_is_no_whole(name, times) = "its count of {name} is not a whole number: {times}";
+    it_counts_things_and_at_most(all, counted) = "it reports {all} counts, but at most {counted} are shown";
+    ITS_WORK_IS_NO_JSON_OBJECT = "its \"work\" is not a JSON object";
+    its_time_is_and_to_can_be_measured(value, least, most) = "its time is {value}; expected {least} s to {most} s";
     ITS_ANSWER_HAS_NO_SECONDS = "its answer has no \"seconds\"";
-    ITS_ANSWER_IS_NO_JSON_OBJECT = "its answer is no JSON object";
+    ITS_ANSWER_IS_NO_JSON_OBJECT = "its answer is not a JSON object";
     it_refuses(reason) = "it refuses: {reason}";
-    the_way_has_no_name_or_no_resolution(value) = "the way {value} has no name or no resolution";
-    it_has_ways_and_to_are_possible(list, most) = "it has {list} ways, and 1 to {most} are possible";
-    ITS_WAYS_ARE_NO_JSON_ARRAY = "its ways are no JSON array";
-    the_last_line_of_its_output(error) = "the last line of its output is no JSON: {error}";
-    IT_WROTE_NOTHING_TO_STANDARD = "it wrote nothing to standard output";
+    the_way_has_no_name_or_no_resolution(value) = "the way of running {value} has no name or no resolution";
+    it_has_ways_and_to_are_possible(list, most) = "it offers {list} ways of running; 1 to {most} are allowed";
+    ITS_WAYS_ARE_NO_JSON_ARRAY = "its list of ways of running is not a JSON array";
+    the_last_line_of_its_output(error) = "the last line of its output is not JSON: {error}";
+    IT_WROTE_NOTHING_TO_STANDARD = "its standard output is empty";
     // outside/machine.rs
     WITH_DEBUG_ASSERTIONS = "with debug assertions";
     LOAD_AT_THE_START = "load at the start";
     // outside/peer.rs
     the_request_cannot_be_written(error) = "the request cannot be written: {error}";
-    no_temporary_directory(error) = "no temporary directory: {error}";
+    no_temporary_directory(error) = "no temporary directory can be created: {error}";
     // outside/process.rs
-    has_more_than_bytes(most) = "has more than {most} bytes";
+    has_more_than_bytes(most) = "is larger than {most} bytes";
     cannot_be_read(error) = "cannot be read: {error}";
     cannot_be_read_2(path, error) = "{path} cannot be read: {error}";
-    is_no_regular_file(path) = "{path} is no regular file";
-    is_not_there(path, error) = "{path} is not there: {error}";
+    is_no_regular_file(path) = "{path} is not a regular file";
+    is_not_there(path, error) = "{path} does not exist: {error}";
     it_was_stopped_after_bytes(most) = "it was stopped after {most} bytes of output";
     it_was_stopped_after_without(limit) = "it was stopped after {limit} s without an answer";
-    it_cannot_be_waited_for(error) = "it cannot be waited for: {error}";
+    it_cannot_be_waited_for(error) = "cannot wait for it: {error}";
     it_ended_with(status, last) = "it ended with {status}: {last}";
-    NOTHING_ON_STANDARD_ERROR = "nothing on standard error";
+    NOTHING_ON_STANDARD_ERROR = "its standard error is empty";
     it_cannot_be_started(error) = "it cannot be started: {error}";
     // outside/viewer.rs
     it_ended_with_2(status) = "it ended with {status}";
     exec_rerun(python) = "exec {python} -m rerun \"$1\"";
     // stress/point.rs
-    THERE_IS_NOTHING_TO_HOLD = "there is nothing to hold it against";
+    THERE_IS_NOTHING_TO_HOLD = "there is no reference to compare with";
     the_other_side(without) = "the other side ({without})";
     THE_OTHER_SIDE_2 = "the other side";
     // tune.rs
-    the_scenario_wants_no_channel(asked) = "the scenario wants no channel \"{asked}\"";
-    the_work_that_was_allowed(message) = "{message}; the work that was allowed is done";
-    no_settings_meet_an_error(significant, tells) = "no settings meet an error within {significant} of the scale: {tells}";
-    does_not_run_it(name) = "{name} does not run it";
-    comes_to(name, significant) = "{name} comes to {significant}";
+    the_scenario_wants_no_channel(asked) = "the scenario does not request a channel \"{asked}\"";
+    the_work_that_was_allowed(message) = "{message}; the work limit was reached";
+    no_settings_meet_an_error(significant, tells) = "no settings reach an error of at most {significant} of the scale: {tells}";
+    does_not_run_it(name) = "{name} cannot run the scenario";
+    comes_to(name, significant) = "{name} reaches {significant}";
     GIVE_A_SHARE_OF_A_CHANNEL = "give a share of a channel's scale between 0 and 1, such as 1e-4";
-    an_error_within_is_wanted(within) = "an error within {within} is wanted";
+    an_error_within_is_wanted(within) = "an error of at most {within} is requested";
 }

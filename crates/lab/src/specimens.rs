@@ -1,7 +1,8 @@
-//! Random correct mechanisms, the same from the same seed on every machine: for stress families and for tests.
+//! Random correct mechanisms for stress families and for tests. The same seed gives the same mechanism on every
+//! machine.
 //!
 //! A mechanism is drawn in its start pose ([`sketch`]), so that it can be assembled.
-//! It is stored as data ([`spec`]) that can be turned, mirrored and loaded before it becomes the text of a scenario.
+//! It is stored as data ([`spec`]). It can be turned, mirrored and loaded before it becomes the text of a scenario.
 
 pub mod dyads;
 pub mod sketch;

@@ -4,13 +4,13 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
 use linkage::math::KeepNan;
 
-/// Time (s) between the first and the last instant of a case, t = 0 included.
+/// Time (s) between the first and the last instant of a case; t = 0 counts as an instant.
 pub(crate) fn span(case: &Case) -> f64 {
     let end = |of: fn(f64, f64) -> f64| case.grid.times.iter().copied().fold(0.0, of);
     end(f64::larger) - end(f64::smaller)
 }
 
-/// Work of a run, in steps without sweeps. It is 0 (unknown) for an engine that chooses its steps itself.
+/// Work of a run, in steps without sweeps. If the engine chooses its steps itself, the result is 0 (unknown).
 pub(crate) fn work_of_run(case: &Case, engine: &dyn Engine, settings: &Settings) -> f64 {
     if engine.controls_error() {
         return 0.0;

@@ -1,5 +1,5 @@
-//! Numerical stability: families of mechanisms and settings with one parameter each.
-//! Each has the results of every solver and engine.
+//! Numerical stability: families of mechanisms and settings, each with one varied parameter.
+//! Every solver and engine runs on each family.
 //! A family is one entry of [`FAMILIES`].
 //! See docs/numerics/laboratory.md.
 

@@ -1,8 +1,8 @@
-//! The cheapest settings of an engine that keep a requested error, found by measurement.
+//! Searches the cheapest settings of an engine that keep a requested error, by measurement.
 //!
 //! The error falls with a power of the step, so a few runs against the reference find the largest step of each method.
 //! Three runs of the engine also predict the error without the reference.
-//! The predicted error is reported beside the measured one.
+//! The predicted error is reported beside the measured error.
 //! See docs/numerics/laboratory.md.
 
 mod bench;
@@ -29,13 +29,14 @@ use prover::numbers::significant;
 use prover::run::{Options, memory};
 use scenario::Scenario;
 
-/// Work allowed by default, in steps without sweeps: many times the work for the shipped mechanisms at 1e-7.
+/// Work allowed by default, in steps without sweeps.
+/// It is many times the work that the shipped mechanisms need at 1e-7.
 const BUDGET: f64 = 5e6;
 
 /// The wanted accuracy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WantedAccuracy {
-    /// Largest error, as a share of each channel's scale (half its range over the run).
+    /// Largest error allowed, divided by each channel's scale (half its range in the run).
     pub within: f64,
     /// Channels by name, or stages (`positions`, `reactions`, ...). If empty: all channels that the scenario requests.
     pub channels: Vec<String>,
@@ -44,22 +45,24 @@ pub struct WantedAccuracy {
 /// Result of tuning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tuning {
-    /// The cheapest settings that meet the request and that a proof confirms; if no proof confirms any, the cheapest.
+    /// The cheapest settings that meet the request and that a proof confirms.
+    /// If no proof confirms any settings, the cheapest settings that meet the request.
     pub best: Candidate,
     /// The cheapest settings that meet the request, whether a proof confirms them or not.
     pub cheapest: Candidate,
-    /// Largest error of `best` over the channel's scale, predicted without the reference.
-    /// The prediction uses the engine's runs at three steps and with twice the sweeps.
+    /// Largest error of `best` divided by the channel's scale, predicted without the reference.
+    /// The prediction uses the engine's runs at three steps, and a run with twice the sweeps.
     pub predicted: f64,
-    /// The cheapest settings of every engine that meets the request, the cheapest first.
+    /// The cheapest settings of every engine that meets the request; the cheapest engine is first.
     pub by_engine: Vec<Candidate>,
-    /// Engines that do not meet the request, with the smallest error found; infinite if no run of the engine finished.
+    /// Engines that do not meet the request, with the smallest error found.
+    /// The error is infinite if no run of the engine finished.
     pub too_coarse: Vec<(&'static str, f64)>,
-    /// Engines whose cost exceeds that of another engine before they meet the request.
+    /// Engines that could meet the request only at a higher cost than another engine.
     pub too_dear: Vec<&'static str>,
     /// Number of runs in the search.
     pub runs: usize,
-    /// Whether the search ended because the allowed work was used up: cheaper settings may exist.
+    /// Whether the search ended because the allowed work was used up. Cheaper settings may then exist.
     pub is_spent: bool,
 }
 
@@ -67,9 +70,9 @@ pub struct Tuning {
 /// Settings that the options fix stay unchanged.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if the request or a channel makes no sense; [`ErrorKind::Numeric`] if no engine meets the
-/// request,
-/// with the smallest error of each; those of the analytic solver.
+/// [`ErrorKind::Input`] if the request or a channel makes no sense.
+/// [`ErrorKind::Numeric`] if no engine meets the request; the message has the smallest error of each engine.
+/// Those of the analytic solver.
 pub fn tune(
     scenario: &Scenario,
     wish: &WantedAccuracy,

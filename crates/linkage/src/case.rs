@@ -1,4 +1,4 @@
-//! The input of every solver: mechanism, drives, loads, start pose, grid of instants and wanted channels.
+//! The input of every solver: mechanism, drives, loads, start pose, grid of instants and requested channels.
 
 mod builder;
 mod check;
@@ -26,7 +26,7 @@ pub use parts::{CaseParts, Wanted};
 pub use scene::{LeftOut, Scene};
 pub use seats::{Seat, Seats};
 
-/// Share of the fastest link's angular velocity below which a speed is rounding error and has no sense of rotation.
+/// An angular velocity below this fraction of the fastest link's is rounding error and has no sense of rotation.
 const STANDSTILL: f64 = 1e-12;
 
 /// A complete, checked problem that any solver accepts.
@@ -36,7 +36,7 @@ const STANDSTILL: f64 = 1e-12;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     parts: CaseParts,
-    /// For every link: whether its joints let it turn.
+    /// For every link: whether the link can turn.
     turning: Vec<bool>,
 }
 
@@ -53,7 +53,7 @@ impl Case {
     /// Checks the parts and returns their case.
     ///
     /// # Errors
-    /// Every error has the faulty part as its key.
+    /// Every error names the faulty part by its key.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) if drives, loads, start pose or modes do not belong to the
     /// mechanism, if one of their numbers is NaN or infinite, or if the structure does not match mechanism and drives.
     /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose or a driving link is
@@ -67,7 +67,8 @@ impl Case {
         Ok(Case { parts, turning })
     }
 
-    /// Returns the case of these parts without any check: for tests that plant a fault and assert which check finds it.
+    /// Returns the case of these parts without any check.
+    /// Tests use it to plant a fault and to assert which check finds the fault.
     #[cfg(any(test, feature = "fixtures"))]
     #[doc(hidden)]
     #[must_use]
@@ -106,13 +107,13 @@ impl Case {
         Ok(self.of_parts(CaseParts { grid, ..self.parts.clone() }))
     }
 
-    /// Returns this case with all channels of the stages in `wanted`.
+    /// Returns this case with a request for all channels of the stages in `wanted`.
     #[must_use]
     pub fn wanting(&self, wanted: Wanted) -> Case {
         self.of_parts(CaseParts { wanted, only: None, ..self.parts.clone() })
     }
 
-    /// Returns this case with its wanted channels reduced to `channels`; channels that the case does not have are
+    /// Returns this case with its requested channels reduced to `channels`. Channels that the case does not have are
     /// ignored.
     #[must_use]
     pub fn wanting_only(&self, channels: &[Channel]) -> Case {
@@ -134,13 +135,13 @@ impl Case {
         self.with(|parts| *parts.drives.crank_mut() = self.crank().with_motor(motor))
     }
 
-    /// Returns this case with every drive in its nominal motion, to which crank angles refer.
+    /// Returns this case with every drive replaced by its nominal motion. Crank angles refer to the nominal motion.
     #[must_use]
     pub fn nominal(&self) -> Case {
         self.of_parts(CaseParts { drives: self.drives.map(Drive::nominal), ..self.parts.clone() })
     }
 
-    /// Returns this case with the crank turning constantly at its drive's top speed.
+    /// Returns this case with the crank at constant speed: the top speed of its drive.
     #[must_use]
     pub fn at_top_speed(&self) -> Case {
         let mut drives = self.drives.clone();
@@ -148,7 +149,7 @@ impl Case {
         self.of_parts(CaseParts { drives, ..self.parts.clone() })
     }
 
-    /// Wanted channels in the order of columns: links, points, joints, sliders, frame, drive, further drives.
+    /// Requested channels in the order of columns: links, points, joints, sliders, frame, drive, further drives.
     /// Within each subject the order is that of [`CHANNELS`].
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
@@ -169,7 +170,7 @@ impl Case {
         self.subjects().flat_map(rows).collect()
     }
 
-    /// Whether the angle of a link is wanted.
+    /// Whether the angle of a link is requested.
     #[must_use]
     pub fn wants_angles(&self) -> bool {
         self.only.as_ref().is_none_or(|only| only.iter().any(|own| own.kind.reading == Reading::Link(OfLink::Angle)))
@@ -182,20 +183,21 @@ impl Case {
         self.drives.crank()
     }
 
-    /// The input at `value`, formatted for messages.
+    /// The input with the value `value`, formatted for messages.
     #[must_use]
     pub fn told(&self, value: f64) -> InputValue {
         self.crank().told(value)
     }
 
-    /// Input value in a state of the mechanism, as the scenario states it. Arguments as in [`Case::each_load`].
+    /// Value of the input in a state of the mechanism, in the scenario's convention. Arguments as in
+    /// [`Case::each_load`].
     #[inline]
     #[must_use]
     pub fn input_in(&self, motions: &[Motion], angles: &[f64]) -> f64 {
         self.state_in(motions, angles).value
     }
 
-    /// Input with its rate and acceleration in a state of the mechanism. Arguments as in [`Case::each_load`].
+    /// Value, rate and acceleration of the input in a state of the mechanism. Arguments as in [`Case::each_load`].
     #[inline]
     #[must_use]
     pub fn state_in(&self, motions: &[Motion], angles: &[f64]) -> InputState {
@@ -210,7 +212,7 @@ impl Case {
         }
     }
 
-    /// Step of the input that moves the links as far as a rotation of the driving link by `turn` (rad).
+    /// Change of the input that corresponds to a rotation of the driving link by `turn` (rad).
     #[inline]
     #[must_use]
     pub fn step(&self, turn: f64) -> f64 {
@@ -280,9 +282,9 @@ impl Case {
         self.turning[link]
     }
 
-    /// Angular velocity of a link (rad/s) for loads that depend on its sense of rotation.
-    /// Zero for a link that cannot turn, and where it is within the rounding error of the fastest link's angular
-    /// velocity.
+    /// Angular velocity of a link (rad/s), for loads that depend on its sense of rotation.
+    /// It is zero for a link that cannot turn.
+    /// It is also zero if it is within the rounding error of the fastest link's angular velocity.
     #[inline]
     #[must_use]
     pub fn spin(&self, motions: &[Motion], link: LinkId) -> f64 {
@@ -313,8 +315,8 @@ impl Case {
         self.loads_with(motions, angles, |_, load, link, crank| load.moment_in(self.spin(motions, link), crank), out);
     }
 
-    /// [`Case::loads_on`] with `sensed` giving the moment (N m) of every load that depends on the sense of rotation of
-    /// a link.
+    /// The same as [`Case::loads_on`], but `sensed` gives the moment (N m) of every load that depends on the sense of
+    /// rotation of a link.
     /// `sensed` receives the number of the load, the load, the link and the crank angle (rad).
     /// It is not called for links that cannot turn, because these loads do not act on them.
     #[inline]
@@ -328,9 +330,11 @@ impl Case {
         self.loads_along(motions, angles, sensed, |_, velocity| sense_of(velocity), out);
     }
 
-    /// [`Case::loads_with`] with `way` giving the direction of motion (unit vector, or zero) of the loaded point.
-    /// It applies to every load that depends on that direction.
-    /// `way` receives the number of the load and the point's velocity (m/s), set to zero where it is rounding error.
+    /// The same as [`Case::loads_with`], but `way` gives the direction of motion (unit vector, or zero) of the loaded
+    /// point.
+    /// The direction applies to every load that depends on it.
+    /// `way` receives the number of the load and the point's velocity (m/s). The velocity is set to zero if it is
+    /// rounding error.
     #[inline]
     pub fn loads_along(
         &self,
@@ -369,7 +373,7 @@ impl Case {
         }
     }
 
-    /// Power of all loads (W), positive where they drive the mechanism. Arguments as in [`Case::each_load`].
+    /// Power of all loads (W), positive if they drive the mechanism. Arguments as in [`Case::each_load`].
     #[must_use]
     pub fn load_power(&self, motions: &[Motion], angles: &[f64]) -> f64 {
         let mut power = 0.0;

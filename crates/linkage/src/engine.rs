@@ -22,12 +22,13 @@ use crate::error::Result;
 use crate::solver::{Progress, Solver, State};
 use crate::trajectory::ChannelKind;
 
-/// Computes the forces of a state's motion, at a row of the grid, and writes them into the state.
+/// Computes the forces that belong to a state's motion and writes them into the state.
+/// The number is the row of the grid.
 pub type Statics = Box<dyn FnMut(&Case, usize, &mut State) -> Result<()>>;
 
 /// An engine: a solver that integrates numerically and whose settings determine its accuracy.
 ///
-/// Implement [`StandIn`] to replace another engine; use [`Wrapped`] to change an engine's results.
+/// Implement [`StandIn`] for an engine that replaces another one; use [`Wrapped`] to change an engine's results.
 pub trait Engine: Solver {
     /// Name and version of the underlying software.
     fn version(&self) -> String;
@@ -57,15 +58,16 @@ pub trait Engine: Solver {
     fn own_routes(&self, case: &Case) -> &'static [Route];
 
     /// Smallest and largest useful number of sweeps for a case; `None` for an engine that does not iterate.
-    /// Both are 1 where the iteration has nothing to converge to.
+    /// Both numbers are 1 if one sweep already solves the case.
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]>;
 
-    /// Smallest and largest useful number of sweeps for a case; `None` for an engine that does not iterate.
-    /// Both are 1 if a single sweep solves the case exactly.
+    /// Function that computes reactions and balancing moments of a motion by the engine's method, if the motion alone
+    /// determines them; `None` if the engine itself reports them.
+    /// It gives an extrapolated motion the forces that belong to it.
     fn statics(&self, case: &Case) -> Option<Statics>;
 
     /// Runs the whole case and returns its states.
-    /// An engine that keeps its runs returns the kept run if there is one.
+    /// An engine that stores its runs returns the stored run, if there is one.
     ///
     /// # Errors
     /// Those of [`Solver::sweep`].
@@ -73,16 +75,16 @@ pub trait Engine: Solver {
         Rows::of_solver(self, case, progress)
     }
 
-    /// Number of steps that a run of a prescribed motion takes beyond each end of its grid.
+    /// Number of steps by which a run of a prescribed motion extends beyond each end of its grid.
     fn overrun(&self) -> f64;
 
-    /// Expected order of convergence of a channel of a case, with the present method and extrapolation.
+    /// Expected order of convergence of a channel, with the engine's present method and extrapolation.
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64;
 
     /// Bound on the rounding error of a channel on the grid of a case, in the channel's unit.
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;
 
-    /// Whether the factors in [`Engine::noise`] were measured, not chosen.
+    /// Whether the factors in [`Engine::noise`] were measured. Otherwise they were chosen.
     fn is_noise_measured(&self) -> bool;
 
     /// Settings that influence the result, by name, for display.

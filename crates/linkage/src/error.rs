@@ -1,4 +1,4 @@
-//! The only error type: request, finding, location and remedy.
+//! The only error type. An error holds what was requested, what was found, its location and the remedy.
 //! All of them are stored as data and become text only in the output.
 
 mod advice;
@@ -33,7 +33,7 @@ pub enum ErrorKind {
     Io,
 }
 
-/// Place in a text file that an error refers to.
+/// Location in a text file that an error refers to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     /// Path of the file as the user gave it.
@@ -74,13 +74,13 @@ pub struct KeyPath {
 }
 
 impl KeyPath {
-    /// Key of one of several Assur groups under a dotted path: the group with these links.
+    /// Key of an Assur group in the list of groups under a dotted path. The links identify the group.
     #[must_use]
     pub fn of_group(path: &str, links: Vec<String>) -> Self {
         KeyPath { text: format!("{path} ({})", links.join(", ")), path: path.len(), links }
     }
 
-    /// Keys and names from the top of the description, joined by dots: `joints.A`.
+    /// Dotted path of the key from the top of the description: `joints.A`.
     #[must_use]
     pub fn path(&self) -> &str {
         &self.text[..self.path]
@@ -100,23 +100,23 @@ impl<T: Into<String>> From<T> for KeyPath {
     }
 }
 
-/// A number beyond its bound.
+/// A number that exceeds its bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excess {
     /// The number; may be NaN.
     pub value: f64,
     /// The bound.
     pub bound: f64,
-    /// Unit of both; empty for a ratio.
+    /// Unit of the number and its bound; empty for a ratio.
     pub unit: &'static str,
 }
 
 /// How far a run got before it failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RunReached {
-    /// Up to this time (s).
+    /// The run reached this time (s).
     Time(f64),
-    /// Up to this value of the input.
+    /// The run reached this value of the input.
     Input(InputValue),
 }
 
@@ -151,7 +151,7 @@ struct Inner {
 }
 
 impl Error {
-    /// New error of this kind. `message` says what was asked and what was found.
+    /// New error of this kind. `message` says what was requested and what was found.
     #[must_use]
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
         Error(Box::new(Inner { kind, message: message.into(), ..Inner::default() }))
@@ -235,7 +235,7 @@ impl Error {
     }
 
     /// Marks the error as a pose out of reach on the branch of the case.
-    /// A caller that knows both solvers and range of motion then adds the reachable crank angles.
+    /// A caller that knows the solvers and the range of motion can then add the reachable crank angles.
     #[must_use]
     pub fn out_of_reach(mut self) -> Self {
         self.0.out_of_reach = true;
@@ -249,8 +249,8 @@ impl Error {
         self
     }
 
-    /// Names the scenario key (dotted path) at fault. A key that is already set is kept, because the innermost caller
-    /// knows best.
+    /// Names the scenario key (dotted path) at fault.
+    /// A key that is already set stays, because the innermost caller knows the fault best.
     #[must_use]
     pub fn key(mut self, key: impl Into<KeyPath>) -> Self {
         self.0.key.get_or_insert_with(|| key.into());
@@ -270,13 +270,13 @@ impl Error {
         self.0.kind
     }
 
-    /// What was asked and what was found, without key, location and remedy.
+    /// What was requested and what was found, without key, location and remedy.
     #[must_use]
     pub fn message(&self) -> &str {
         &self.0.message
     }
 
-    /// The scenario key at fault in words, if known: its dotted path, followed by the links if it is an Assur group.
+    /// The scenario key at fault in words, if known: its dotted path. For an Assur group, the group's links follow.
     #[must_use]
     pub fn scenario_key(&self) -> Option<&str> {
         self.0.key.as_ref().map(|key| key.text.as_str())
@@ -312,25 +312,25 @@ impl Error {
         self.0.part.as_ref()
     }
 
-    /// The number beyond its bound, if there is one.
+    /// The number that exceeds its bound, if there is one.
     #[must_use]
     pub fn residual(&self) -> Option<Excess> {
         self.0.residual
     }
 
-    /// How far the run got, if it had begun.
+    /// How far the run got. `None` if no run had begun.
     #[must_use]
     pub fn reached(&self) -> Option<RunReached> {
         self.0.reached
     }
 
-    /// Whether the requested pose is out of reach on the case's branch and no caller has explained it yet.
+    /// Whether the requested pose is out of reach on the case's branch, as long as no caller has explained the error.
     #[must_use]
     pub fn is_out_of_reach(&self) -> bool {
         self.0.out_of_reach
     }
 
-    /// The remedies, which are alternatives; empty if none is known.
+    /// The remedies, each of them an alternative to the others; empty if none is known.
     #[must_use]
     pub fn advice(&self) -> &[Advice] {
         &self.0.advice
@@ -382,7 +382,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_tells_its_data_and_its_way_out() {
+    fn an_error_carries_its_data_and_a_remedy() {
         let error = Error::new(ErrorKind::Numeric, "the loop has opened")
             .at_time(0.25)
             .at_input(Input::Angle.at(1.5))
@@ -395,7 +395,7 @@ mod tests {
         assert_eq!(error.part(), Some(&ErrorSubject::Joint("B".into())));
         assert_eq!(error.residual(), Some(Excess { value: 0.2, bound: 0.1, unit: "m" }));
         assert_eq!(error.advice(), [Advice::SmallerStep { to: None }, "check the pose".into()]);
-        let way_out = "choose a smaller time step, or check the pose; the run stands up to t = 0.125000 s";
+        let way_out = "choose a smaller time step, or check the pose; the results are valid up to t = 0.125000 s";
         assert_eq!(error.way_out().unwrap(), way_out);
         assert_eq!(error.to_string(), format!("the loop has opened; {way_out}"));
         let other = error.map_message(|old| format!("{old} again")).help("go on");
@@ -404,7 +404,7 @@ mod tests {
     }
 
     #[test]
-    fn a_key_is_told_in_words_and_carried_as_data() {
+    fn a_key_is_printed_and_carried_as_data() {
         let links = vec!["coupler".to_string(), "rocker".to_string()];
         let error =
             Error::new(ErrorKind::Geometry, "open").key(KeyPath::of_group("start.groups", links.clone())).key("drive");
@@ -416,7 +416,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mark_of_a_pose_out_of_reach_comes_off_once() {
+    fn explaining_an_error_clears_its_out_of_reach_mark() {
         let error = Error::new(ErrorKind::Geometry, "too far").out_of_reach();
         assert!(error.is_out_of_reach() && !error.clone().explained().is_out_of_reach());
         assert!(!Error::new(ErrorKind::Geometry, "too far").is_out_of_reach());

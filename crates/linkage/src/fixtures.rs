@@ -85,7 +85,7 @@ pub fn turning(mechanism: Mechanism) -> Case {
     turning_from(mechanism, 0.0, &left)
 }
 
-/// A case of the turning mechanism, for Assur groups of any kind.
+/// The same case for a mechanism with Assur groups of any kind.
 /// It starts at this crank angle (rad), with `group` for every group.
 pub fn turning_from(mechanism: Mechanism, crank: f64, group: &StartGroup) -> Case {
     let drives = Drives::from(Drive::prescribed(JointId(0), LinkId(1), 0.0, crank, MotionLaw::ConstantSpeed(1.0)));

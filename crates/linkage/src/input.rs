@@ -1,14 +1,14 @@
 //! The input: the joint coordinate that moves a mechanism.
-//! Only this module defines what an input measures, its names in files and messages, and its unit conversion.
+//! This module alone defines what an input measures, how it is named in files and messages, and how its units convert.
 
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// What an input measures. Its values are in SI units, with the zero that the scenario uses.
+/// What an input measures. Its values are in SI units, and their zero is that of the scenario.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Input {
     /// Angle of a crank, a driving link that turns about its joint.
-    /// It is counter-clockwise from the link's zero direction and counts whole turns.
+    /// It is measured counter-clockwise from the link's zero direction and counts whole turns.
     #[default]
     Angle,
 }
@@ -17,7 +17,7 @@ impl Input {
     /// All of them.
     pub const ALL: [Input; 1] = [Input::Angle];
 
-    /// The input at `value` (in its SI unit), formatted for messages.
+    /// The input with the value `value` (in its SI unit), formatted for messages.
     #[inline]
     #[must_use]
     pub const fn at(self, value: f64) -> InputValue {
@@ -74,8 +74,8 @@ impl Input {
         }
     }
 
-    /// Period after which the driving link has the same pose again, and its name in the plural; `None` if there is no
-    /// period.
+    /// Period after which the driving link has the same pose again, with its name in the plural.
+    /// `None` if there is no period.
     #[must_use]
     pub const fn period(self) -> Option<(f64, &'static str)> {
         match self {
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_input_is_told_with_name_and_unit_and_read_back() {
+    fn an_input_is_printed_with_name_and_unit_and_read_back() {
         let input = Input::Angle;
         let half = input.at(std::f64::consts::PI);
         assert_eq!(

@@ -25,10 +25,10 @@ pub mod work;
 
 pub use error::{Error, ErrorKind, Result};
 
-/// Declares the sentences that a crate can show.
+/// Declares the messages that a crate can show.
 /// `NAME = "text";` declares a constant.
 /// `name(a, b) = "text with {a} and {b}";` declares a function from values to a `String`.
-/// Each crate keeps its sentences in one file, to be read as a list.
+/// Each crate has all its messages in one file, so that they can be read as a list.
 #[macro_export]
 macro_rules! sentences {
     (@one $name:ident = $text:literal) => { pub(crate) const $name: &str = $text; };

@@ -48,8 +48,8 @@ pub fn unit(angle: f64) -> Vec2 {
     Vec2::new(cos, sin)
 }
 
-/// Lower left and upper right corner of the smallest box around points.
-/// Without points the lower left corner is at plus infinity and the upper right corner at minus infinity.
+/// Lower left and upper right corner of the smallest box that contains the points.
+/// If there are no points, the lower left corner is at plus infinity and the upper right corner at minus infinity.
 #[must_use]
 pub fn corners(points: impl IntoIterator<Item = Vec2>) -> [Vec2; 2] {
     let none = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];

@@ -1,4 +1,4 @@
-//! The mechanism: links, joints, structure, and start pose. No time, no files, no solvers.
+//! The mechanism: links, joints, structure, and start pose. This module knows no time, files or solvers.
 
 pub mod assembly;
 mod ids;
@@ -34,11 +34,11 @@ pub struct Mechanism {
     joints: PerJoint<Joint>,
     /// Joints on every link, in order.
     on: PerLink<Vec<JointId>>,
-    /// For every joint: index of its first equation in a list of all joints' equations. The last entry is their total
-    /// number.
+    /// For every joint: index of its first equation in the list of all joints' equations. The last entry is the total
+    /// number of equations.
     rows: Vec<usize>,
-    /// Size of the mechanism, needed in every pose.
-    /// It is computed once, because a link with many points has far more distances.
+    /// Size of the mechanism. It is needed in every pose.
+    /// It is computed only once, because a link with many points has many more distances between them.
     size: f64,
 }
 
@@ -99,8 +99,8 @@ impl Mechanism {
         self.rows[joint]..self.rows[joint.index() + 1]
     }
 
-    /// Number of equations of all joints.
-    /// In a list of equations, any others, such as those of drives, come after them.
+    /// Total number of equations of all joints.
+    /// In a list of equations, those of the joints come first. Other equations, such as those of drives, follow.
     #[inline]
     #[must_use]
     pub fn equations(&self) -> usize {
@@ -135,7 +135,8 @@ impl Mechanism {
         joint.slides().then(|| if size(first) >= size(second) { [first, second] } else { [second, first] })
     }
 
-    /// Moving points, each name once: the first link that carries the point, and its position on that link.
+    /// Points of moving links, each name once. Each entry has the first link that carries the point and its position on
+    /// that link.
     pub fn moving_points(&self) -> impl Iterator<Item = (&str, JointSide)> {
         let mut seen: BTreeSet<&str> = self.links[GROUND].points.iter().map(|point| point.name.as_str()).collect();
         let mut points = Vec::new();
@@ -149,8 +150,9 @@ impl Mechanism {
         points.into_iter()
     }
 
-    /// Largest extent of a link (m); for the ground, that of its points. Closure gaps are compared with this size.
-    /// It is positive: 1 m if no link has an extent, because then no length matters.
+    /// Largest extent of a link (m); for the ground, the extent of its points. Closure gaps are compared with this
+    /// size.
+    /// It is always positive: if no link has an extent, lengths do not matter and the size is 1 m.
     #[must_use]
     pub fn size(&self) -> f64 {
         self.size
@@ -248,7 +250,7 @@ impl Mechanism {
             for joint in self.joints.iter().filter(|joint| joint.is_pin() && joint.on(link).is_some()) {
                 let other = joint.other(link).link;
                 if !reached.contains(&other) && at(joint.first) && at(joint.second) {
-                    // Stop early: on a link with many joints, visiting all the others would take long.
+                    // Stops early: on a link with many joints, visiting all other links would take long.
                     if other == b {
                         return true;
                     }
@@ -286,7 +288,7 @@ mod tests {
             link("b", &[("P", 0.0, 0.0)])
         }];
         let error = mechanism(links, &[("O", "O", "ground", "a")]).unwrap_err();
-        assert!(error.to_string().contains("no joint holds the two together"), "{error}");
+        assert!(error.to_string().contains("no joint connects them"), "{error}");
     }
 
     #[test]
@@ -303,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn equations_stand_in_the_order_of_joints_as_many_as_each_kind_has() {
+    fn equations_are_ordered_by_joint() {
         let mechanism = four_bar();
         let mut next = 0;
         for (index, joint) in mechanism.joints().entries() {

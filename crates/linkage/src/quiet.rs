@@ -1,6 +1,6 @@
-//! Panics inside an engine or a file reader are caught and become an error's message.
-//! The panic hook belongs to the process, not to a library.
-//! Here a program can ask which panics need no separate output.
+//! Catches panics inside an engine or a file reader and turns them into the message of an error.
+//! The panic hook belongs to the process, so this library does not set it.
+//! A program can ask here which panics are already reported as errors.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -11,10 +11,10 @@ thread_local! {
     static GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether the current thread is inside a call, such as a step of the engine, whose panic is caught and becomes an
-/// error.
+/// Whether the current thread is inside a call whose panic is caught and becomes an error, such as a step of the
+/// engine.
 ///
-/// A program may ask this in its panic hook and print nothing then: the error contains the panic's message.
+/// A program may ask this in its panic hook and then print nothing: the error contains the panic's message.
 /// The hook runs on the thread that panics, before the panic is caught.
 /// This crate sets no hook.
 #[must_use]
@@ -41,11 +41,11 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     const ALONE: &str = "LINKPROOF_TEST_OF_THE_PANIC_HOOK";
-    const NAME: &str = "quiet::tests::the_hook_stays_the_process_own_and_can_tell_caught_panics";
+    const NAME: &str = "quiet::tests::the_panic_hook_is_unchanged_and_recognises_caught_panics";
 
     /// Panic hooks belong to the process, so the test runs again in a separate process.
     #[test]
-    fn the_hook_stays_the_process_own_and_can_tell_caught_panics() {
+    fn the_panic_hook_is_unchanged_and_recognises_caught_panics() {
         static HEARD: AtomicUsize = AtomicUsize::new(0);
         static CAUGHT: AtomicUsize = AtomicUsize::new(0);
         if std::env::var_os(ALONE).is_none() {
@@ -65,7 +65,7 @@ mod tests {
         assert!(guarded(is_guarded).unwrap());
         // The hook is unchanged: it sees every panic and knows which panics are caught.
         assert_eq!((HEARD.load(Ordering::SeqCst), CAUGHT.load(Ordering::SeqCst)), (1, 1));
-        // The guard does not extend to another thread: its panic counts as unguarded.
+        // The guard does not extend to another thread: a panic there counts as unguarded.
         let outside = guarded(|| thread::spawn(|| panic!("outside")).join()).unwrap();
         outside.unwrap_err();
         catch_unwind(|| panic!("outside")).unwrap_err();

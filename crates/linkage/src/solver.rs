@@ -16,7 +16,7 @@ use crate::trajectory::{Channel, Trajectory};
 pub enum Provision {
     /// It is computed, or read from the engine, without conversion.
     Computed,
-    /// It is derived from other quantities. The text says how.
+    /// It is derived from other quantities. The text describes the method.
     Derived(&'static str),
 }
 
@@ -26,7 +26,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(f64);
 /// Receives every state with its row of the grid. If it returns an error, the run stops.
 pub type Visit<'a> = &'a mut dyn FnMut(usize, &State) -> Result<()>;
 
-/// Anything that turns a case into a trajectory.
+/// A method that turns a case into a trajectory.
 pub trait Solver: Send + Sync {
     /// Short name, as on the command line.
     fn name(&self) -> &'static str;
@@ -35,7 +35,7 @@ pub trait Solver: Send + Sync {
     fn provides(&self, channel: &Channel) -> Provision;
 
     /// Passes the state at every instant of the case's grid to `visit`, with its row, in any order.
-    /// Only the parts that the wanted channels need are computed; the rest of the state has no meaning.
+    /// Only the parts of the state that the requested channels need are computed; the other parts are undefined.
     ///
     /// # Errors
     /// An error with the crank angle if the solution cannot stay on the requested branch; also the errors of `visit`.
@@ -49,7 +49,7 @@ pub trait Solver: Send + Sync {
         self.sweep(case, visit, &mut |_| {})
     }
 
-    /// Solves the case: all its wanted channels on its grid.
+    /// Solves the case: computes all requested channels on the case's grid.
     ///
     /// # Errors
     /// Those of [`Solver::sweep`]; also an error if a result is NaN or infinite.
@@ -73,11 +73,11 @@ pub trait Solver: Send + Sync {
     }
 }
 
-/// Checks that no wanted instant of a free motion lies before t = 0, where the motion starts.
+/// Checks that no requested instant of a free motion lies before t = 0, where the motion starts.
 /// A prescribed motion allows any instant.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] with such an instant.
+/// [`ErrorKind::Input`] with an instant before t = 0.
 pub fn check_instants(case: &Case) -> Result<()> {
     match case.grid.times.iter().find(|&&t| t < 0.0) {
         Some(t) if case.is_free() => {

@@ -1,4 +1,4 @@
-//! Parallel work on several items. No result depends on the number of threads.
+//! Runs work on several items in parallel. Results do not depend on the number of threads.
 
 use std::ops::ControlFlow;
 use std::panic::resume_unwind;
@@ -19,10 +19,10 @@ pub fn cores() -> usize {
 /// The calling thread passes each message with its index to `hear`. If `hear` breaks, no further index is started.
 /// [Counts](work) of the work are added to those of the calling thread.
 ///
-/// With one thread, or if the system cannot start any, the calling thread does the work.
+/// With one thread, or if the system cannot start a thread, the calling thread does the work.
 ///
 /// # Panics
-/// If `work` panics, after all started work is finished.
+/// If `work` panics. All started work is finished first.
 pub fn side_by_side<M: Send>(
     count: usize,
     threads: usize,
@@ -51,7 +51,7 @@ pub fn side_by_side<M: Send>(
         let (tell, told) = mpsc::channel();
         let start = |_| {
             let tell = tell.clone();
-            // After a break the channel has no receiver, so a failed send is ignored.
+            // After `hear` breaks, the channel has no receiver, so a failed send is ignored.
             let all = || take(&mut move |index, message| drop(tell.send((index, message))));
             thread::Builder::new().spawn_scoped(scope, || work::counted(all).1).ok()
         };
@@ -97,7 +97,7 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn results_come_in_order_and_work_is_counted_whatever_the_number_of_threads() {
+    fn results_are_ordered_and_work_counted_for_any_thread_count() {
         let items: Vec<u64> = (0..20).collect();
         for threads in [0, 1, 2, 7, 100] {
             let mut finished = Vec::new();
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn after_a_break_no_further_work_is_begun() {
+    fn no_further_work_starts_after_a_break() {
         for threads in [1, 3] {
             let begun = AtomicUsize::new(0);
             let work = |index: usize, tell: &mut dyn FnMut(usize)| {
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_is_that_of_the_work() {
+    fn a_panic_of_the_work_is_passed_on() {
         for threads in [1, 3] {
             let work = |&item: &u64| assert!(item != 4, "item four");
             let panic = std::panic::catch_unwind(|| made(&[1, 2, 3, 4, 5], threads, work, |_| {}));

@@ -12,11 +12,11 @@ pub use unit::Unit;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::{Input, InputValue};
 
-/// Values of several channels on a common grid.
+/// Values of several channels on one common grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
     times: Vec<f64>,
-    /// What moves the mechanism, and its values.
+    /// The input that moves the mechanism.
     input: Input,
     inputs: Vec<f64>,
     channels: Vec<Channel>,
@@ -24,8 +24,9 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// A trajectory from its grid (times in s, the input in its SI unit as the scenario states it) and one column of
-    /// values per channel. The input is an angle: see [`Trajectory::of_input`].
+    /// A trajectory from its grid and one column of values per channel.
+    /// The grid has times (s) and values of the input (SI unit, in the scenario's convention).
+    /// The input is taken to be an angle; for other inputs see [`Trajectory::of_input`].
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] if a value is NaN or infinite (with its channel, time and crank angle), or if lengths
@@ -49,7 +50,7 @@ impl Trajectory {
         Ok(Trajectory { times, input: Input::Angle, inputs, channels, columns })
     }
 
-    /// The same trajectory, with its values of the input attributed to `input`.
+    /// The same trajectory, with `input` as the meaning of its input values.
     #[must_use]
     pub fn of_input(self, input: Input) -> Self {
         Trajectory { input, ..self }
@@ -61,7 +62,7 @@ impl Trajectory {
         self.input
     }
 
-    /// The input in a row, formatted for messages.
+    /// The input in one row, formatted for messages.
     #[must_use]
     pub fn told(&self, row: usize) -> InputValue {
         self.input.at(self.inputs[row])
@@ -73,7 +74,7 @@ impl Trajectory {
         &self.times
     }
 
-    /// The input over the grid (in its SI unit, as the scenario states it): see [`Trajectory::input`].
+    /// Values of the input on the grid (SI unit, in the scenario's convention): see [`Trajectory::input`].
     #[must_use]
     pub fn inputs(&self) -> &[f64] {
         &self.inputs
@@ -85,33 +86,33 @@ impl Trajectory {
         &self.channels
     }
 
-    /// Values of one channel over the grid, in its SI unit.
+    /// Values of one channel on the grid, in its SI unit.
     #[must_use]
     pub fn column(&self, channel: &Channel) -> Option<&[f64]> {
         let index = self.channels.iter().position(|own| own == channel)?;
         Some(&self.columns[index])
     }
 
-    /// The same as [`Trajectory::column`], but checks position `index` first.
-    /// Trajectories of one case have the channel there.
+    /// The same as [`Trajectory::column`], but looks first at position `index`.
+    /// In all trajectories of one case the channel is at the same position.
     #[must_use]
     pub fn column_near(&self, channel: &Channel, index: usize) -> Option<&[f64]> {
         if self.channels.get(index) == Some(channel) { Some(&self.columns[index]) } else { self.column(channel) }
     }
 
-    /// Values of the channel with the name `name`, such as `joint.A.fx_N`, over the grid, in its SI unit.
+    /// Values of the channel called `name`, such as `joint.A.fx_N`, on the grid, in its SI unit.
     #[must_use]
     pub fn named(&self, name: &str) -> Option<&[f64]> {
         self.column(&Channel::named(name)?)
     }
 
-    /// The trajectory at the rows where `keep` is true.
+    /// The trajectory reduced to the rows where `keep` is true.
     #[must_use]
     pub fn at_rows(&self, keep: &[bool]) -> Trajectory {
         self.part(keep, &|_| true)
     }
 
-    /// The `wanted` channels at the rows where `keep` is true.
+    /// The trajectory reduced to the channels in `wanted` and the rows where `keep` is true.
     #[must_use]
     pub fn part(&self, keep: &[bool], wanted: &dyn Fn(&Channel) -> bool) -> Trajectory {
         let thin = |values: &[f64]| -> Vec<f64> {
@@ -134,7 +135,7 @@ impl Trajectory {
 }
 
 /// Whether all numbers are finite.
-/// Zero times a non-finite number is NaN, so a sum of such products tests several numbers at a time.
+/// Zero times a non-finite number is NaN, so the sum of such products tests several numbers at once.
 fn all_finite(values: &[f64]) -> bool {
     let (chunks, rest) = values.as_chunks::<8>();
     let mut sums = [0.0; 8];
@@ -151,7 +152,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn not_a_number_is_refused_with_its_place() {
+    fn nan_is_refused_with_channel_and_instant() {
         let channel = Channel::named("joint.A.fx_N").unwrap();
         let error = Trajectory::new(vec![0.0, 0.5], vec![0.0, 1.0], vec![channel], vec![vec![1.0, f64::NAN]]);
         let message = error.unwrap_err().to_string();
@@ -159,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_are_none_are_found_anywhere() {
+    fn non_finite_values_are_found_at_any_position() {
         for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for length in [1, 7, 8, 21] {
                 let finite = vec![-f64::MAX; length];

@@ -11,31 +11,31 @@ use crate::error::{Advice, Error, ErrorKind, Result};
 /// What is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Count {
-    /// Computed poses of a whole mechanism, including intermediate poses on the way to a wanted pose.
+    /// Computed poses of the whole mechanism, including intermediate poses between requested poses.
     Poses,
-    /// Assur groups placed for these poses.
+    /// Assur groups placed to compute these poses.
     Groups,
     /// Iterations of Newton's method.
     Iterations,
     /// Factorisations of a Jacobian.
     Factorisations,
-    /// Solutions for the velocities of a whole mechanism.
+    /// Solutions for the velocities of the whole mechanism.
     Velocities,
     /// Solutions for its accelerations.
     Accelerations,
-    /// Solutions for the reactions and balancing moments of a whole mechanism, from a known motion.
+    /// Solutions for the reactions and balancing moments of the whole mechanism, from a known motion.
     Forces,
     /// Evaluations of an equation of motion.
     Evaluations,
-    /// Accepted integration steps of a motion under forces.
+    /// Accepted integration steps of a motion that forces determine.
     Intervals,
     /// Engine worlds built.
     Worlds,
-    /// Time steps of engine worlds.
+    /// Time steps in simulations by engines.
     Steps,
-    /// Sweeps over the constraints of a world, summed over all steps.
+    /// Sweeps over the constraints of an engine's simulation, summed over all steps.
     Sweeps,
-    /// Tiny steps from a given pose, to read the forces that the engine exerts there.
+    /// Tiny steps from a given pose. They show the forces that the engine exerts in that pose.
     Probes,
 }
 
@@ -78,7 +78,7 @@ impl Count {
     }
 }
 
-/// The numbers of all counts.
+/// A number for every kind of count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work([u64; Count::ALL.len()]);
 
@@ -109,9 +109,9 @@ thread_local! {
     static DONE: Cell<Work> = const { Cell::new(Work::NONE) };
 }
 
-/// Runs `run` and returns its answer with the work that this thread did meanwhile.
-/// That includes work of other threads passed to [`add`].
-/// A tally counts when it is dropped, so the tallies of `run` should not outlive it.
+/// Runs `run` and returns its result with the work that this thread did during the call.
+/// This work includes that of other threads passed to [`add`].
+/// A tally is added when it is dropped, so no tally of `run` should outlive the call.
 pub fn counted<T>(run: impl FnOnce() -> T) -> (T, Work) {
     let before = DONE.replace(Work::NONE);
     let answer = run();
@@ -120,23 +120,23 @@ pub fn counted<T>(run: impl FnOnce() -> T) -> (T, Work) {
     (answer, own)
 }
 
-/// Adds work that was done elsewhere, as on another thread, to that of this thread.
+/// Adds work that was done elsewhere, for example on another thread, to the work of this thread.
 pub fn add(work: &Work) {
     DONE.set(DONE.get().and(work));
 }
 
-/// Work of placing one Assur group, or of one link in a step of Newton's method over all constraints.
+/// Work of placing one Assur group. It is also the work for one link in a step of Newton's method over all constraints.
 /// The unit is that of budgets: one time step of an engine on a four-bar, without sweeps.
 /// Measured on chains of 1 to 1000 four-bars.
 pub const PLACED: f64 = 0.2;
 
 thread_local! {
-    /// Remaining work and allowed work.
+    /// Remaining work and total allowed work.
     static ALLOWED: Cell<[f64; 2]> = const { Cell::new([f64::INFINITY; 2]) };
 }
 
 /// Runs `run` with a limit on its work (in the unit of budgets). Beyond the limit, [`spend`] fails on this thread.
-/// Returns the answer of `run` and whether the limit was exceeded. Of nested limits the smallest applies.
+/// Returns the result of `run` and whether the limit was exceeded. If limits are nested, the smallest applies.
 pub fn limited<T>(limit: f64, run: impl FnOnce() -> T) -> (T, bool) {
     let [left, allowed] = ALLOWED.get();
     let own = if limit < left { [limit, limit] } else { [left, allowed] };
@@ -147,8 +147,8 @@ pub fn limited<T>(limit: f64, run: impl FnOnce() -> T) -> (T, bool) {
     (answer, still < 0.0)
 }
 
-/// Takes work (in the unit of budgets) from the [allowed](limited) work.
-/// Loops over successive poses call it, so that none runs without end.
+/// Subtracts work (in the unit of budgets) from the [allowed](limited) work.
+/// Loops over successive poses call this function, so that every loop ends.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] if the allowed work is used up, with a larger budget as the remedy.
@@ -201,7 +201,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn work_is_counted_once_and_also_by_those_around() {
+    fn nested_work_counts_once_in_the_outer_count() {
         let ((inner, outer_first), outer) = counted(|| {
             let mut own = WorkTally::default();
             own.many(Count::Steps, 3);
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_allowed_is_used_up_by_all_inside_and_ends_with_a_way_out() {
+    fn nested_work_counts_towards_the_outer_limit() {
         assert!(spend(1e300).is_ok());
         let ((inner, last), outer) = limited(10.0, || {
             let inner = limited(4.0, || (spend(3.0).is_ok(), spend(2.0).is_ok()));
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn counts_are_listed_in_their_own_order() {
+    fn counts_are_listed_in_declaration_order() {
         for (index, what) in Count::ALL.into_iter().enumerate() {
             assert_eq!(what as usize, index, "{}", what.name());
         }

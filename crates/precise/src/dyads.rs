@@ -1,8 +1,8 @@
-//! Dyads of three revolute pairs in closed form, one after the other. Forces are computed in reverse order.
+//! Dyads of three revolute pairs in closed form, one dyad after the other. Forces are computed in reverse order.
 //!
 //! The inner joint is an intersection of two circles, on the same side as in the start pose.
-//! Rates follow from projecting the joints' velocities on the two links.
-//! Forces follow from moments about the inner joint.
+//! Projections of the joints' velocities on the two links give the rates.
+//! Moments about the inner joint give the forces.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -29,7 +29,7 @@ struct Dyad {
     is_left: bool,
 }
 
-/// The same as [`solve`](super::solve), for a mechanism of such dyads.
+/// The same as [`solve`](super::solve), for a mechanism of dyads with three revolute pairs.
 ///
 /// # Errors
 /// Those of [`solve`](super::solve); also [`ErrorKind::Unsupported`] for other groups.
@@ -75,7 +75,7 @@ impl Dyad {
         let rods = self.locals.map(|[outer, inner]| Vector::of(inner) - Vector::of(outer));
         let (base, half) = (b - a, Long::of(0.5));
         let square = base.dot(base);
-        // Position of the inner joint along and across the base, as fractions of the base.
+        // Position of the inner joint along and perpendicular to the base, as fractions of the base.
         let along = (square + rods[0].dot(rods[0]) - rods[1].dot(rods[1])) * half / square;
         let across = rods[0].dot(rods[0]) / square - along * along;
         if !(across > Long::ZERO) {
@@ -94,7 +94,8 @@ impl Dyad {
         });
         let alphas = projected(carried[1] - carried[0]);
         for k in 0..2 {
-            // Direction of the frame: that of the rod in the world, rotated back by that of the rod in the frame.
+            // Direction of the frame: the direction of the rod in the world, rotated back by its direction in the
+            // frame.
             let direction = arms[k].rotated_back(rods[k]);
             let direction = direction * (Long::ONE / direction.norm());
             let to_origin = -Vector::of(self.locals[k][0]).rotated(direction);
@@ -112,13 +113,13 @@ impl Dyad {
     }
 }
 
-/// Reactions and torque by the equilibrium of every dyad, the last first.
+/// Reactions and torque from the equilibrium of every dyad, starting with the last.
 fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
-    // Force and moment about the world's origin on every link: weight, inertia, and actions of later groups.
+    // Force and moment about the world's origin on every link: from its weight, its inertia, and later groups.
     let mut acting: Vec<(Vector, Long)> =
         case.mechanism.links().ids().map(|link| instant.inertia(case, link)).collect();
     let joints = case.mechanism.joints();
-    // Converts the force on a link in a joint to the force of the first link on the second.
+    // Converts the force that a joint exerts on a link to the force of the joint's first link on its second.
     let told =
         |joint: JointId, link: LinkId, force: Vector| if joints[joint].second.link == link { force } else { -force };
     for dyad in dyads.iter().rev() {
@@ -126,8 +127,8 @@ fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
         let c = instant.frames[dyad.links[0]].point(dyad.locals[0][1]);
         let [one, two] = dyad.links.map(|link| acting[link]);
         let about = |place: Vector, (force, moment): (Vector, Long)| moment - place.cross(force);
-        // Force in the second outer joint, from two equations of moments.
-        // They are those of the second link about the inner joint, and of both links about the first outer joint.
+        // Force in the second outer joint, from two moment equations:
+        // that of the second link about the inner joint, and that of both links about the first outer joint.
         let (whole, part) = (-(about(a, one) + about(a, two)), -about(c, two));
         let (p, q) = (b - a, b - c);
         let second = (q * whole - p * part) * (Long::ONE / p.cross(q));

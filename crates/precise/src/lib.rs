@@ -21,7 +21,7 @@ use linkage::error::Result;
 use linkage::mechanism::GroupKind;
 use linkage::trajectory::Trajectory;
 
-/// The method that computed the numbers, in words.
+/// Name of the method that computed the numbers, in words.
 #[must_use]
 pub fn method(case: &Case) -> &'static str {
     if are_all_rrr(case) { sentences::CLOSED_FORM_IN_DOUBLE_DOUBLE } else { sentences::ALL_EQUATIONS_IN_DOUBLE_DOUBLE }
@@ -31,9 +31,9 @@ pub fn method(case: &Case) -> &'static str {
 ///
 /// # Errors
 /// [`Unsupported`](linkage::ErrorKind::Unsupported) for a case with several drives, loads, instants before t = 0, or
-/// any law other than a constant speed.
-/// [`Geometry`](linkage::ErrorKind::Geometry) if the mechanism cannot be assembled or is singular, with the crank
-/// angle.
+/// a law other than constant speed.
+/// [`Geometry`](linkage::ErrorKind::Geometry) with the crank angle, if the mechanism cannot be assembled or is
+/// singular.
 pub fn solve(case: &Case) -> Result<Trajectory> {
     if are_all_rrr(case) { dyads::solve(case) } else { whole::solve(case) }
 }

@@ -7,7 +7,7 @@
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A double-double number: the nearest double, and the remainder.
+/// A double-double number: the nearest double and the remainder.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Long(f64, f64);
 
@@ -18,7 +18,7 @@ fn sum(a: f64, b: f64) -> Long {
     Long(sum, (a - (sum - second)) + (b - second))
 }
 
-/// The same if the first is the larger one (Dekker).
+/// The same sum if the first number has the larger absolute value (Dekker).
 fn ordered_sum(a: f64, b: f64) -> Long {
     let sum = a + b;
     Long(sum, b - (sum - a))
@@ -77,16 +77,16 @@ impl Long {
     }
 }
 
-/// Terms of the power series: (pi / 4)^29 / 29! is 1e-34.
+/// Number of terms of the power series: (pi / 4)^29 / 29! is 1e-34.
 const TERMS: u8 = 29;
 
-/// Sine and cosine by their power series, for at most an eighth of a turn.
+/// Sine and cosine of an angle of at most an eighth of a turn, by their power series.
 fn series(angle: Long) -> (Long, Long) {
     let (mut sums, mut term) = ([Long::ONE, Long::ZERO], Long::ONE);
     for k in 1..=TERMS {
         term = term * angle / Long::of(f64::from(k));
         let own = &mut sums[usize::from(k % 2)];
-        // + for 0, 1, 4, 5, ..., - for 2, 3, 6, 7, ...
+        // The sign is + for k = 0, 1, 4, 5, ... and - for k = 2, 3, 6, 7, ...
         *own = if k % 4 < 2 { *own + term } else { *own - term };
     }
     (sums[1], sums[0])
@@ -145,7 +145,7 @@ mod tests {
     fn sums_and_products_keep_thirty_digits() {
         let third = Long::ONE / Long::of(3.0);
         assert!(near(third + third + third, Long::ONE));
-        // 1 + 2^-90 - 1, whatever is added and subtracted between.
+        // 1 + 2^-90 - 1 is exactly 2^-90.
         let small = Long::of(2f64.powi(-90));
         assert_eq!(Long::ONE + small - Long::ONE, small);
         for value in [2.0, 1e-12, 0.3, 7e11] {
@@ -165,7 +165,7 @@ mod tests {
             assert!(off.iter().all(|off| off.abs().rounded() < 1e-30), "{k}: {off:?}");
             assert!((s.rounded() - (a + b).rounded().sin()).abs() < 1e-15);
         }
-        // The sine of a twelfth of a turn is a half, also a hundred thousand turns later.
+        // The sine of a twelfth of a turn is a half, even a hundred thousand turns later.
         let turn = Long::PI * Long::of(2.0);
         for turns in [0.0, 1.0, 1e5] {
             let (sin, _) = (turn / Long::of(12.0) + turn * Long::of(turns)).sin_cos();

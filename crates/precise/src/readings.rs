@@ -1,4 +1,4 @@
-//! Channels of instants, read in full precision and rounded once.
+//! Channels at the instants, computed in full precision and rounded once.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -32,7 +32,7 @@ pub(crate) fn trajectory(case: &Case, instants: &[Snapshot]) -> Result<Trajector
 fn keep_turns(values: &mut [f64]) {
     for row in 1..values.len() {
         let turns = ((values[row - 1] - values[row]) / TAU).round();
-        // Without whole turns there is no addition and so no rounding error.
+        // Without whole turns nothing is added, so there is no rounding error.
         if turns != 0.0 {
             values[row] += turns * TAU;
         }
@@ -104,7 +104,7 @@ impl<'a> Places<'a> {
     }
 }
 
-/// Angle of a direction (rad), within half a turn: a rough angle in doubles plus the remainder.
+/// Angle of a direction (rad), within half a turn: an approximate angle in doubles plus the remainder.
 fn angle(direction: Vector) -> f64 {
     let rough = direction.y.rounded().atan2(direction.x.rounded());
     let rest = direction.rotated_back(Vector::unit(Long::of(rough)));
@@ -123,7 +123,7 @@ fn of_point(frame: &Frame, local: linkage::math::Vec2, reading: OfPoint) -> f64 
     .rounded()
 }
 
-/// Slide along the first link's axis with its rates: the motion of the second point as seen from the rotating first
+/// Slide along the first link's axis with its rates: the motion of the second point relative to the rotating first
 /// link.
 fn slide(instant: &Snapshot, joint: &Joint) -> [Long; 3] {
     let [first, second] = [joint.first, joint.second].map(|side| (&instant.frames[side.link], side.local));
@@ -132,7 +132,7 @@ fn slide(instant: &Snapshot, joint: &Joint) -> [Long; 3] {
     let gap_rate = second.0.point_velocity(second.1) - first.0.point_velocity(first.1);
     let gap_second = second.0.point_acceleration(second.1) - first.0.point_acceleration(first.1);
     let (omega, alpha, two) = (first.0.omega, first.0.alpha, Long::of(2.0));
-    // The derivatives of axis . gap, where the axis rotates with the first link.
+    // The derivatives of axis . gap. The axis rotates with the first link.
     let turned = axis.turned();
     let second_rate =
         axis.dot(gap_second) + two * omega * turned.dot(gap_rate) + (turned * alpha - axis * (omega * omega)).dot(gap);

@@ -1,4 +1,4 @@
-//! The cases that this reference supports, and the crank's motion.
+//! The cases that this reference solver supports, and the crank's motion.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -51,7 +51,7 @@ impl Task {
         Long::of(self.zero) + Long::of(self.start) + Long::of(self.speed) * Long::of(time)
     }
 
-    /// Frame of the crank, hinged to the ground, at a world angle.
+    /// Frame of the crank at a world angle. The crank is hinged to the ground.
     pub(crate) fn crank(&self, case: &Case, angle: Long) -> Frame {
         let joint = &case.mechanism.joints()[self.joint];
         let ground = [joint.first, joint.second].into_iter().find(|side| side.link == GROUND);

@@ -2,7 +2,7 @@
 //!
 //! The unknowns are the frames of all moving links.
 //! The start pose is followed in steps of at most one degree of the crank.
-//! At the wanted instants Newton's method continues until the change is at the level of rounding errors.
+//! At the requested instants Newton's method continues until the change is at the level of rounding errors.
 //! The elimination is dense, for some tens of links.
 
 use crate::sentences;
@@ -17,15 +17,15 @@ use super::readings::trajectory;
 use super::task::{Task, at_start, stuck};
 use super::vector::Vector;
 
-/// Crank angle of one step between wanted instants (rad).
+/// Largest crank angle of one step between requested instants (rad).
 const STEP: f64 = std::f64::consts::PI / 180.0;
-/// Largest number of iterations at one pose. Convergence is quadratic.
+/// Upper limit of the number of iterations at one pose. Convergence is quadratic.
 const MOST: usize = 30;
-/// Change of a pose, relative to the mechanism's size, that counts as rounding error.
+/// A change of a pose counts as rounding error if it is at most this, relative to the mechanism's size.
 const SETTLED: f64 = 1e-28;
-/// The same if further iterations no longer reduce the change.
+/// The same limit if further iterations no longer reduce the change.
 const ROUNDING: f64 = 1e-20;
-/// The same in steps between wanted instants.
+/// The same limit in steps between requested instants.
 const NEAR: f64 = 1e-10;
 
 /// The same as [`solve`](super::solve), for any mechanism of some tens of links.
@@ -131,7 +131,7 @@ impl Whole<'_> {
     }
 
     /// All equations in a pose: those of the joints, then that of the drive.
-    /// The right-hand side depends on `what`: gaps of the pose, speeds, or the quadratic velocity terms of the
+    /// The right-hand side depends on `what`: the gaps of the pose, the speeds, or the quadratic velocity terms of the
     /// accelerations.
     fn system(&self, frames: &[Frame], what: What) -> System {
         let mut system = self.empty();
@@ -209,7 +209,7 @@ impl Whole<'_> {
             if !largest.is_finite() {
                 return None;
             }
-            // In ill-conditioned poses rounding errors are larger, and show as a change that does not shrink.
+            // In ill-conditioned poses rounding errors are larger: the change no longer decreases.
             if largest <= settled || (largest <= ROUNDING && largest > 0.5 * before) {
                 return Some(());
             }
@@ -234,7 +234,7 @@ impl Whole<'_> {
         Some(instant)
     }
 
-    /// Force, moment about the world's origin, and joint moment on the second link for each of a joint's two unknowns.
+    /// For each of a joint's two unknowns: force, moment about the world's origin, and joint moment on the second link.
     fn reactions(joint: &Joint, frames: &[Frame]) -> [(Vector, Long, Long); 2] {
         let place = frames[joint.second.link].point(joint.second.local);
         let along = |force: Vector| (force, place.cross(force), Long::ZERO);
@@ -247,7 +247,7 @@ impl Whole<'_> {
         }
     }
 
-    /// Equilibrium of all links: for each of them two force equations and a moment equation about the world's origin.
+    /// Equilibrium of all links. Each link has two force equations and a moment equation about the world's origin.
     fn forces(&self, instant: &mut Snapshot) -> Option<()> {
         let mut system = self.empty();
         let joints = self.case.mechanism.joints();

@@ -104,16 +104,40 @@ pub fn fixed_in(value: f64, decimals: usize, unit: &str) -> String {
     with_unit(&fixed(value, decimals), unit)
 }
 
+/// Significant digits of a quantity in a report.
+const SHOWN: usize = 6;
+
+/// Units that take a decimal prefix, and the least value in kilo.
+const PREFIXED: [(&str, f64); 4] = [("N", 1e4), ("N m", 1e4), ("W", 1e3), ("Pa", 1e3)];
+
+/// A quantity in an SI unit, with six significant digits and the decimal prefix of its size: `115.101 kN`.
+#[must_use]
+pub fn quantity(value: f64, unit: &str) -> String {
+    let least = PREFIXED.iter().find(|(own, _)| *own == unit).map_or(f64::INFINITY, |(_, least)| *least);
+    let (factor, prefix) = match value.abs() {
+        size if size >= 1e3 * least => (1e-6, "M"),
+        size if size >= least => (1e-3, "k"),
+        _ => (1.0, ""),
+    };
+    with_unit(&significant(value * factor, SHOWN), &format!("{prefix}{unit}"))
+}
+
 /// Part of a whole in per cent: `0.2 %`, `34 %`.
 #[must_use]
 pub fn percent(share: f64) -> String {
     format!("{} %", significant(100.0 * share, 2))
 }
 
-/// A number with its unit after a blank, or alone if it has none.
+/// A unit as people write it: `N·m`, `kg·m²`, `rad/s²`.
+#[must_use]
+pub fn shown(unit: &str) -> String {
+    unit.replace("N m", "N·m").replace("kg m", "kg·m").replace("^2", "²")
+}
+
+/// A number with its unit after a blank, or alone without a unit.
 #[must_use]
 pub fn with_unit(number: &str, unit: &str) -> String {
-    if unit.is_empty() { number.into() } else { format!("{number} {unit}") }
+    if unit.is_empty() { number.into() } else { format!("{number} {}", shown(unit)) }
 }
 
 /// From a thousandth to a hundred thousand, decimals are shorter than an exponent.
@@ -131,7 +155,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_have_three_digits_and_an_exponent_only_where_it_is_shorter() {
+    fn errors_have_three_digits_in_the_shorter_notation() {
         for (value, text) in [
             (0.0, "0"),
             (-0.0, "0"),
@@ -151,7 +175,7 @@ mod tests {
             assert_eq!(error(value), text);
         }
         assert_eq!(error(f64::NAN), "NaN");
-        assert_eq!([error_in(0.5, "N m"), error_in(0.5, "")], ["0.5 N m", "0.5"]);
+        assert_eq!([error_in(0.5, "N m"), error_in(0.5, "")], ["0.5 N·m", "0.5"]);
     }
 
     #[test]
@@ -189,7 +213,21 @@ mod tests {
     }
 
     #[test]
-    fn what_rounds_to_zero_has_no_sign() {
+    fn a_quantity_has_six_digits_and_a_prefix() {
+        for (value, unit, text) in [
+            (115_101.088_59, "N", "115.101 kN"),
+            (-6_494.629_4, "N", "-6494.63 N"),
+            (2.4e5, "N m", "240 kN·m"),
+            (2e8, "Pa", "200 MPa"),
+            (0.464_057_601, "kg m^2", "0.464058 kg·m²"),
+            (-0.0, "N", "0 N"),
+        ] {
+            assert_eq!(quantity(value, unit), text);
+        }
+    }
+
+    #[test]
+    fn values_rounded_to_zero_have_no_sign() {
         assert_eq!([fixed(-0.000_000_4, 6), fixed(-0.000_4, 3)], ["0.000000", "0.000"]);
         assert_eq!([fixed(-0.06, 1), fixed(-10.0, 0), fixed(0.0, 2)], ["-0.1", "-10", "0.00"]);
         assert_eq!([percent(0.344), percent(1.0), percent(0.0), percent(2.5e-7)], ["34 %", "100 %", "0 %", "2.5e-5 %"]);

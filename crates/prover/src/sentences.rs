@@ -2,54 +2,54 @@
 
 linkage::sentences! {
     // accept.rs
-    TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN = "too little is known, now or when it was accepted";
-    NOT_AS_ACCEPTED = "not as accepted";
+    TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN = "bounds are too wide to compare, now or when the figures were accepted";
+    NOT_AS_ACCEPTED = "differs from the accepted figures";
     // check/cause.rs
-    THE_SEARCH_ENDED_AT_ITS_LIMIT = "the search ended at its limit of work, before all slips and terms were tried";
-    for_the_most_part_with_that_of_the_difference(cause, left) = "for the most part {cause}; with that, {left:.2} % of the difference stays over";
-    no_single_slip_or_term_it_is_right(significant, significant_2) = "no single slip or term; it is right to {significant} % of the largest number, as an approximation or a rounded number is: `error = {significant_2}` claims it as one";
-    IT_IS_A_CONSTANT_AND_WHAT = "it is a constant, and what it claims changes with the crank";
-    another_quantity_is_claimed_it_is(channel) = "another quantity is claimed: it is {channel}";
+    THE_SEARCH_ENDED_AT_ITS_LIMIT = "the search reached its work limit before all slips and terms were tried";
+    for_the_most_part_with_that_of_the_difference(cause, left) = "for the most part {cause}; {left:.2} % of the difference remains";
+    no_single_slip_or_term_it_is_right(significant, significant_2) = "no single slip or term; the formula is right to {significant} % of the largest value, like an approximation or a rounded number: `error = {significant_2}` declares it as one";
+    IT_IS_A_CONSTANT_AND_WHAT = "it is a constant, but the claimed quantity changes with the crank";
+    another_quantity_is_claimed_it_is(channel) = "it gives another quantity: {channel}";
     or_more(more) = "; or {more} more";
     one_of_several_that_fit_equally(told) = "one of several that fit equally: {told}";
-    another_branch_it_is_right(after, before) = "another branch: it is right up to crank angle {after} deg, and no longer at {before} deg; atan2 in place of acos, asin or atan follows it";
+    another_branch_it_is_right(after, before) = "another branch: it is right up to crank angle {after} deg, but wrong at {before} deg; atan2 instead of acos, asin or atan follows the branch";
     A_MISSING_TERM = "a missing term";
     a_missing_in(noun, formula, what, beside) = "a missing {noun}, in {formula}: `{what}`{beside}";
     DIVISOR_OR_A_FACTOR_TOO_MANY = "divisor, or a factor too many";
-    too_large_by_the_factor_everywhere(significant) = "too large by the factor {significant} everywhere";
-    too_much_everywhere(significant) = "{significant} too much everywhere";
+    too_large_by_the_factor_everywhere(significant) = "too large by a factor of {significant} everywhere";
+    too_much_everywhere(significant) = "too large by {significant} everywhere";
     in_instead_of(kind, formula, right, written, wherever) = "{kind}, in {formula}: `{right}` instead of `{written}`{wherever}";
-    WHEREVER_IT_STANDS = " wherever it stands";
+    WHEREVER_IT_STANDS = " wherever it occurs";
     // check/course.rs
-    was_not_asked_for(what) = "{what} was not asked for";
+    was_not_asked_for(what) = "{what} was not requested";
     // check/judged.rs
-    WRITE_IT_SO_THAT_NO_DIGITS = "write it so that no digits cancel, for example with atan2 in place of acos";
-    rounding_leaves_the_formula_less(lost, all) = "rounding leaves the formula less than six digits at {lost} of {all} instants";
-    LET_THE_GRID_COME_TO_THEM = "let the grid come to them, or claim it for others";
+    WRITE_IT_SO_THAT_NO_DIGITS = "write it so that no digits cancel, for example with atan2 instead of acos";
+    rounding_leaves_the_formula_less(lost, all) = "rounding error leaves the formula fewer than six digits at {lost} of {all} instants";
+    LET_THE_GRID_COME_TO_THEM = "extend the grid to them, or claim the formula for other crank angles";
     NO_INSTANT_LIES_BETWEEN_THE_CRANK = "no instant lies between the crank angles for which the formula is claimed";
-    CLAIM_IT_WHERE_THE_CRANK = "claim it where the crank turns";
-    the_claim_has_no_number_at_any(undefined) = "the claim has no number at any of {undefined} instants: it divides by zero";
+    CLAIM_IT_WHERE_THE_CRANK = "claim it for instants at which the crank turns";
+    the_claim_has_no_number_at_any(undefined) = "the claimed quantity has no value at any of {undefined} instants: it divides by zero";
     // check/slips/rules.rs
     PI_PI_PI_PI_PI_PI_PI_PI = "q => q + pi/2; q - pi/2; q + pi; q - pi; q + 2*pi; q - 2*pi; pi - q; pi/2 - q";
     PI_PI_PI_PI_PI_PI = "r => r*(180/pi); r/(180/pi); r*(30/pi); r/(30/pi); r*60; r/60; r*(2*pi); r/(2*pi)";
     PI_PI = "t => t*(180/pi); t/(180/pi)";
     // check/undefined.rs
-    at_crank_angle_deg_whatever(message, crank, place, help) = "{message} at crank angle {crank} deg, {place}: {help}, whatever the result is multiplied by";
-    in_from_its_letter(written, formula, start) = "`{written}` in {formula}, from its letter {start}";
+    at_crank_angle_deg_whatever(message, crank, place, help) = "{message} at crank angle {crank} deg, {place}: {help}, even if the result is multiplied by zero";
+    in_from_its_letter(written, formula, start) = "`{written}` in {formula}, from character {start} on";
     // bounds/residual.rs
     COMPARE_ONLY_TRAJECTORIES_THAT_WERE_SOLVED = "compare only trajectories that were solved for the same times";
-    THE_TWO_TRAJECTORIES_STAND_ON_DIFFERENT = "the two trajectories stand on different grids";
+    THE_TWO_TRAJECTORIES_STAND_ON_DIFFERENT = "the two trajectories have different grids";
     // bounds/verdict.rs
     is_beyond_the_bound(error_in, error_in_2) = "{error_in} is beyond the bound {error_in_2}";
-    neither_the_printed_number_nor(finding, place) = "neither the printed number nor the one that \"{finding}\" says is right: {place}";
+    neither_the_printed_number_nor(finding, place) = "neither the printed number nor the one that finding \"{finding}\" calls right is right: {place}";
     the_finding_says_that_the_printed(finding) = "the finding \"{finding}\" says that the printed number is wrong, but it agrees: correct one of the two";
-    MOST_OF_IT_IS_THE_REFERENCE = "; most of it is the reference's own";
-    MOST_OF_IT_IS_LEFT_BY_THE_SWEEPS = "; most of it is left by the sweeps";
-    MOST_OF_IT_IS_ROUNDING = "; most of it is rounding";
-    the_engine_error_may_reach(reached, proves) = "the engine's error may reach {reached} of the channel's scale, more than the {proves} that still proves something";
+    MOST_OF_IT_IS_THE_REFERENCE = "; most of it is the error of the reference";
+    MOST_OF_IT_IS_LEFT_BY_THE_SWEEPS = "; most of it is iteration error: too few sweeps";
+    MOST_OF_IT_IS_ROUNDING = "; most of it is rounding error";
+    the_engine_error_may_reach(reached, proves) = "the engine's error may reach {reached} of the channel's scale; only up to {proves} is conclusive";
     the_engine_converges_with_order(observed, formal) = "the engine converges with order {observed:.2} instead of {formal:.0} here: its error cannot be estimated";
     THE_SWEEPS_HAVE_HARDLY_BEGUN = "the sweeps have hardly begun to converge here: the error cannot be estimated";
-    THE_REFERENCE_IS_ZERO_THROUGHOUT = "the reference is zero throughout, without a scale that an error could be measured by; masses, loads or more instants would give one";
+    THE_REFERENCE_IS_ZERO_THROUGHOUT = "the reference is zero throughout, so there is no scale for the error; masses, loads or more instants would give one";
     is_beyond_the_bound_at_crank(error, bound, t, crank) = "{error} is beyond the bound {bound} at t = {t} s, crank angle {crank} deg";
     expected_see(place) = "expected, see {place}";
     // diagnosis/knobs.rs
@@ -71,12 +71,12 @@ linkage::sentences! {
     SECONDS_TAKEN_FOR_MILLISECONDS = "seconds taken for milliseconds";
     MILLISECONDS_TAKEN_FOR_SECONDS = "milliseconds taken for seconds";
     // diagnosis/slips.rs
-    POUND_INCHES_INSTEAD_OF = "pound-inches instead of N m";
-    POUND_FEET_INSTEAD_OF = "pound-feet instead of N m";
-    TAKEN_FOR_CM = "N m taken for N cm";
-    CM_INSTEAD_OF = "N cm instead of N m";
+    POUND_INCHES_INSTEAD_OF = "pound-inches instead of N·m";
+    POUND_FEET_INSTEAD_OF = "pound-feet instead of N·m";
+    TAKEN_FOR_CM = "N·m taken for N·cm";
+    CM_INSTEAD_OF = "N·cm instead of N·m";
     POUNDS_FORCE_INSTEAD_OF_NEWTONS = "pounds-force instead of newtons";
-    MULTIPLES_OF_STANDARD_GRAVITY_INSTEAD = "multiples of standard gravity instead of m/s^2";
+    MULTIPLES_OF_STANDARD_GRAVITY_INSTEAD = "multiples of standard gravity instead of m/s²";
     KM_INSTEAD_OF = "km/h instead of m/s";
     RAD_TAKEN_FOR_REVOLUTIONS_PER = "rad/s taken for revolutions per minute";
     REVOLUTIONS_PER_MINUTE_INSTEAD_OF_RAD = "revolutions per minute instead of rad/s";
@@ -97,72 +97,72 @@ linkage::sentences! {
     DEGREES_INSTEAD_OF_RADIANS = "degrees instead of radians";
     // engines.rs
     build_with_the_cargo_feature(feature) = "build with the cargo feature \"{feature}\"";
-    the_engine_is_asked_for_but_this_build(name) = "the engine \"{name}\" is asked for, but this build does not have it";
+    the_engine_is_asked_for_but_this_build(name) = "the engine \"{name}\" is requested, but this build does not include it";
     // run.rs
-    ITS_SHARE_OF_THE_WORK_THAT_WAS_ALLOWED = "its share of the work that was allowed is done";
+    ITS_SHARE_OF_THE_WORK_THAT_WAS_ALLOWED = "its share of the work limit was reached";
     REST_OF_THE_DIAGNOSIS = "rest of the diagnosis";
-    WHAT_ORACLE_SAYS = "what [[oracle]] says";
+    WHAT_ORACLE_SAYS = "the data of [[oracle]]";
     // run/checks.rs
-    REACTIONS_AND_SPEEDS_COME_FROM_THE_ENGINE = "reactions and speeds come from the engine each by itself";
-    BOTH_FROM_THE_SAME_ACCELERATIONS = "both from the same accelerations, so that it holds the equations of motion and the speeds of the loops, not the accelerations";
+    REACTIONS_AND_SPEEDS_COME_FROM_THE_ENGINE = "reactions and speeds are read from the engine independently";
+    BOTH_FROM_THE_SAME_ACCELERATIONS = "both use the same accelerations, so this checks the equations of motion and the loop velocities, but not the accelerations";
     driving_moment_from_reactions_and_from_powers(engine) = "driving moment from reactions and from powers ({engine})";
-    AN_OPENING_IS_ALL_ERROR_IT_MUST = "an opening is all error: it must vanish as its runs say";
+    AN_OPENING_IS_ALL_ERROR_IT_MUST = "an open joint is pure error: it must vanish at the rate that the runs show";
     closure_of_all_joints(engine) = "closure of all joints ({engine})";
     in_at(channel, reference) = "in {channel} at {reference:.3}";
-    TWO_SOLVERS_WITHOUT_A_COMMON = "two solvers without a common equation, each good to the rounding of its poses and to the error of the integration that a tighter run shows";
+    TWO_SOLVERS_WITHOUT_A_COMMON = "two solvers without a common equation, each accurate to the rounding error of its poses and to the integration error that a tighter run shows";
     SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS = "shaking force and moment from reactions and from momentum";
     SUMS_OF_AS_MANY_FORCES_AS_THERE = "sums of as many forces as there are links";
     BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS = "balancing moment from equilibrium and from powers";
     SUMS_OF_A_FEW_FORCES_AND_POWERS = "sums of a few forces and powers";
     CLOSURE_OF_ALL_JOINTS_2 = "closure of all joints";
-    POSITIONS_ARE_GOOD_TO_A_FEW = "positions are good to a few units in the last place of the largest coordinate";
+    POSITIONS_ARE_GOOD_TO_A_FEW = "positions are accurate to a few units in the last place of the largest coordinate";
     // run/dial.rs
     is_beyond_the_scaled_bound(error, error_2) = "{error} is beyond the scaled bound {error_2}";
     // run/engine_proof.rs
-    a_millionth_more_of_gravity(share) = "; a millionth more of gravity and motor torque changes the channel by {share:.2} millionths of its scale";
-    AT_THE_PACE_OF_ITS_ROUNDS = "at the pace of its rounds the work that was allowed would not be enough";
-    THE_WORK_THAT_WAS_ALLOWED = "the work that was allowed is done";
-    A_FINER_STEP_ADDS_MORE_ROUNDING = "a finer step adds more rounding than it takes away";
+    a_millionth_more_of_gravity(share) = "; increasing gravity and motor torque by a millionth changes the channel by {share:.2} millionths of its scale";
+    AT_THE_PACE_OF_ITS_ROUNDS = "at this rate of progress the work limit would not be enough";
+    THE_WORK_THAT_WAS_ALLOWED = "the work limit was reached";
+    A_FINER_STEP_ADDS_MORE_ROUNDING = "a finer step adds more rounding error than it removes";
     // run/engines.rs
-    leave_the_step_to_the_proof(error, sweeps, combined, outcome) = "leave the step to the proof: it takes {error} s and {sweeps} sweeps, {combined}, and {outcome}";
+    leave_the_step_to_the_proof(error, sweeps, combined, outcome) = "let the proof choose the step: it chooses {error} s and {sweeps} sweeps, {combined}, and {outcome}";
     extrapolated_times(times) = "extrapolated {times} times";
     the_verdict_there_is(verdict) = "the verdict there is {verdict}";
-    NOTHING_IS_PROVEN_THERE_EITHER = "nothing is proven there either";
-    THE_WORK_ALLOWED_IS_NOT_ENOUGH = "the work allowed is not enough there either";
-    A_RUN_WITH_A_QUARTER_OF_THE_SWEEPS = "a run with a quarter of the sweeps fails, so that nobody knows what they leave";
-    NO_FORCE_IS_WANTED_OR_ITS_FORCES = "no force is wanted, or its forces are read by its own route";
-    WHAT_IT_EXERTS_ITSELF_BESIDE = "what it exerts itself, beside what follows from its motion";
+    NOTHING_IS_PROVEN_THERE_EITHER = "the result is inconclusive there too";
+    THE_WORK_ALLOWED_IS_NOT_ENOUGH = "the work limit is not enough there either";
+    A_RUN_WITH_A_QUARTER_OF_THE_SWEEPS = "a run with a quarter of the sweeps fails, so the iteration error is unknown";
+    NO_FORCE_IS_WANTED_OR_ITS_FORCES = "no force is requested, or its forces are already read by its own method";
+    WHAT_IT_EXERTS_ITSELF_BESIDE = "the forces that it exerts itself, besides those that follow from its motion";
     own_forces(engine) = "{engine}, own forces";
     other_settings(engine) = "{engine}, other settings";
-    THE_GIVEN_STEP_PROVES_NOTHING = "the given step proves nothing: what a free one would";
-    the_work_that_was_allowed_is_done(error) = "the work that was allowed is done, and no run stands: {error}";
-    ITS_ERROR_FROM_ITS_OWN_RUNS = "its error from its own runs";
-    FINDS_ITS_SETTINGS_AND_ITS_ERROR = "finds its settings, and its error from its own runs";
+    THE_GIVEN_STEP_PROVES_NOTHING = "the given step is inconclusive: tries the settings that a free choice finds";
+    the_work_that_was_allowed_is_done(error) = "the work limit was reached without a usable run: {error}";
+    ITS_ERROR_FROM_ITS_OWN_RUNS = "estimates its error from its own runs";
+    FINDS_ITS_SETTINGS_AND_ITS_ERROR = "chooses its settings and estimates its error from its own runs";
     // run/entrants.rs
     BY_VALUE_AND_BY_DERIVATIVE = "by value and by derivative, on both sides";
-    NONE_CLAIMS_A_WANTED_CHANNEL = "none claims a wanted channel";
-    SOLVED_AT_THEIR_OWN_INSTANTS = "solved at their own instants";
-    THERE_ARE_NONE_OF_WANTED = "there are none of wanted channels";
+    NONE_CLAIMS_A_WANTED_CHANNEL = "no formula claims a requested channel";
+    SOLVED_AT_THEIR_OWN_INSTANTS = "solved at the instants of these numbers";
+    THERE_ARE_NONE_OF_WANTED = "no published number belongs to a requested channel";
     THERE_IS_NO_TRIAD_OF_CLASS = "there is no triad of class III";
-    OTHERS_THAN_OURS_FOR_ITS_TRIAD = "others than ours for its triad";
-    THE_SIDES_DIFFER_BY_USUAL = "the sides differ by usual rounding";
+    OTHERS_THAN_OURS_FOR_ITS_TRIAD = "other methods than those of the solvers, for the triad";
+    THE_SIDES_DIFFER_BY_USUAL = "the sides differ by usual rounding error only";
     CONDITION_OF_EVERY_POSE = "condition of every pose";
-    THE_SIDES_DIFFER_BY_MORE = "the sides differ by more than usual";
+    THE_SIDES_DIFFER_BY_MORE = "the sides differ by more than usual rounding error";
     THE_MOTION_IS_PRESCRIBED = "the motion is prescribed";
     SHOWS_THE_ERROR_THAT_BOTH = "shows the error that both sides share";
     CHECKS_THE_REFERENCE = "checks the reference";
     // run/figures.rs
-    ADD_MOTOR_OR_LEAVE_THE_FIGURE = "add `[motor]`, or leave the figure out";
-    THE_STEADY_SPEED_NEEDS_A_MOTOR = "the steady speed needs a motor, and the crank has none";
+    ADD_MOTOR_OR_LEAVE_THE_FIGURE = "add `[motor]`, or leave out the figure";
+    THE_STEADY_SPEED_NEEDS_A_MOTOR = "the steady speed needs a motor, but the crank has no motor";
     // run/formulas.rs
-    first_at_crank_angle_deg(fixed, fixed_2, found, significant) = "first at t = {fixed} s, crank angle {fixed_2} deg: {found}, the mechanism {significant}";
+    first_at_crank_angle_deg(fixed, fixed_2, found, significant) = "first at t = {fixed} s, crank angle {fixed_2} deg: {found}, the mechanism gives {significant}";
     it_gives(significant) = "it gives {significant}";
     IT_HAS_NO_VALUE = "it has no value";
     cause_not_found(cut) = "cause not found: {cut}";
-    cause_perhaps_another(cause, cut) = "cause: {cause}; perhaps another: {cut}";
+    cause_perhaps_another(cause, cut) = "cause: {cause}; another cause is possible: {cut}";
     // run/judge.rs
     A_DRIVE_OR_A_LOADED_LINK = "a drive or a loaded link reverses at every instant";
-    THE_MOTION_CHANGES_WITHIN_A_FRACTION = "the motion changes within a fraction of a step, so that no runs at such steps show their error";
+    THE_MOTION_CHANGES_WITHIN_A_FRACTION = "the motion changes within a fraction of a step, so runs at such steps cannot show their error";
     // run/memory.rs
     instants_of_channels_need_about(instants, channels, gigabytes) = "{instants} instants of {channels} channels need about {gigabytes} of memory";
     are_allowed(what, gigabytes) = "{what}; {gigabytes} are allowed";
@@ -173,10 +173,10 @@ linkage::sentences! {
     CLASS_III_REACTIONS_BY_THE_SINGULAR = "class III reactions by the singular Assur point";
     CLASS_III_BY_CLASS_CHANGE = "class III by class change";
     CLASS_III_BY_CRAMER_RULE = "class III by Cramer's rule";
-    TWO_METHODS_WITHOUT_A_COMMON = "two methods without a common equation, each good to rounding";
+    TWO_METHODS_WITHOUT_A_COMMON = "two methods without a common equation, each accurate to rounding error";
     // run/options.rs
     choose_one_of(offered) = "choose one of: {offered}";
-    there_is_no_route_of_engine(engine, asked) = "there is no route of engine {engine} called \"{asked}\"";
+    there_is_no_route_of_engine(engine, asked) = "engine {engine} has no route (method for the reactions) called \"{asked}\"";
     GIVE_A_WHOLE_NUMBER_GREATER = "give a whole number greater than zero";
     found_but_an_engine_needs(what) = "found 0 {what}, but an engine needs at least one";
     // run/oracle.rs
@@ -185,11 +185,11 @@ linkage::sentences! {
     NAME_A_LINK_POINT_OR_JOINT = "name a link, point or joint of this scenario";
     oracle_there_is_no_channel(oracle, channel) = "oracle {oracle}: there is no channel {channel}";
     PRINT_THE_INSTANTS_WITH_MORE = "print the instants with more digits, zeros at their ends included";
-    at_the_rounding_of_the_instant(at) = "at {at} the rounding of the instant leaves more open than a hundredth of the channel's scale, and the number is off by more";
+    at_the_rounding_of_the_instant(at) = "at {at} the number is off by more than a hundredth of the channel's scale, and only the rounding of its instant covers this";
     // run/order.rs
-    the_runs_converge_with_order(order, error, error_2, formal) = "the runs converge with order {order:.2}, at all of five steps from {error} to {error_2} s, where the method has {formal}: what is read or computed is not what the method gives";
+    the_runs_converge_with_order(order, error, error_2, formal) = "the runs converge with order {order:.2} at all five steps from {error} to {error_2} s, but the method has order {formal}: the values read or computed are not those of the method";
     // run/own_forces.rs
-    the_motion_has_taken_the_work(error, error_2) = "the motion has taken the work of {error} steps, and the forces that the engine exerts need no less; {error_2} are allowed for them";
+    the_motion_has_taken_the_work(error, error_2) = "the motion cost {error} steps, and the forces that the engine exerts need at least as many; {error_2} are allowed for them";
     // run/planted.rs
     VALUE_DIGITS = "value = 0.26, digits = 2";
     VALUE_DIGITS_2 = "value = 0.25, digits = 2";
@@ -208,12 +208,12 @@ linkage::sentences! {
     ASSUR_AGAINST_NEWTON_VELOCITIES = "assur against newton, velocities";
     ASSUR_AGAINST_NEWTON_POSITIONS = "assur against newton, positions";
     // run/runs.rs
-    the_run_from_which_the_error(what, message) = "the run {what}, from which the error of the run asked for is estimated, failed: {message}";
+    the_run_from_which_the_error(what, message) = "the run {what}, which is needed to estimate the error of the requested run, failed: {message}";
     with_sweeps(sweeps) = "with {sweeps} sweeps";
     // run/settle.rs
-    THE_OTHERS_ARE_NOT_CONCLUSIVE = "the others are not conclusive";
-    NO_FINER_RUN_BEARS_IT_OUT = "no finer run bears it out";
-    the_first_runs_of_the_engine(error, error_2) = "the first runs of the engine, with all their substeps, take the work of {error} steps of a four-bar, {error_2} are allowed";
+    THE_OTHERS_ARE_NOT_CONCLUSIVE = "the other results are not conclusive";
+    NO_FINER_RUN_BEARS_IT_OUT = "no finer run confirms it";
+    the_first_runs_of_the_engine(error, error_2) = "the first runs of the engine, with all their substeps, cost {error} steps of a four-bar; {error_2} are allowed";
     // run/solved.rs
     CLAIM_A_CHANNEL_OF_THE_SCENARIO = "claim a channel of the scenario";
     NO_CLAIMED_CHANNEL_WAS_SOLVED = "no claimed channel was solved";
@@ -222,31 +222,31 @@ linkage::sentences! {
     // tables.rs
     GIVE_A_TABLE_WITH_A_HEADER = "give a table with a header and one row per instant";
     has_no_rows_of_numbers(path) = "{path} has no rows of numbers";
-    WRITE_IT_TO_A_FILE_FIRST = "write it to a file first: its end is read first";
+    WRITE_IT_TO_A_FILE_FIRST = "write it to a file first: a Parquet file is read from its end";
     the_table_is_a_parquet_file(path) = "the table {path} is a Parquet file that comes through a pipe";
     BUILD_WITH_THE_FEATURE_PARQUET = "build with the feature `parquet`, or write it as CSV";
     the_table_is_a_parquet_file_which_this_build(path) = "the table {path} is a Parquet file, which this build does not read";
     // tables/held.rs
-    its_columns_are_backquotes_hold(some) = "its columns are {some}; backquotes hold a name with blanks or signs";
+    its_columns_are_backquotes_hold(some) = "its columns are {some}; put a name with blanks or signs in backquotes";
     did_you_mean(near) = "did you mean `{near}`?";
     the_table_has_no_column(name) = "the table has no column `{name}`";
-    else_leave_the_row_out_or_its_cell(help) = "{help}; else leave the row out, or its cell empty";
+    else_leave_the_row_out_or_its_cell(help) = "{help}; otherwise leave out the row, or leave its cell empty";
     and_more(shown, more) = "{shown} and {more} more";
     compare_by_or_map_a_column(has, lacks) = "compare by {has}, or map a column to {lacks}";
-    the_rows_of_a_table_have_and_no(has, lacks) = "the rows of a table have {has}, and no {lacks}";
+    the_rows_of_a_table_have_and_no(has, lacks) = "the rows of a table have {has}, but no {lacks}";
     MAP_COLUMNS_TO_CHANNELS_SUCH_AS_PHI3 = "map columns to channels, such as phi3*180/pi=link.rocker.angle_deg";
-    no_column_of_the_table_is_a_channel(some) = "no column of the table is a channel; they are {some}";
+    no_column_of_the_table_is_a_channel(some) = "no column of the table is a channel; its columns are {some}";
     MAP_A_COLUMN_TO_TIME_TIME = "map a column to time_s, time_ms, crank_deg or crank_rad, such as time=time_s";
-    nothing_says_where_the_rows(some) = "nothing says where the rows of the table hold; its columns are {some}";
-    TAKE_THE_ROW_OUT_OR_COMPLETE = "take the row out, or complete it";
-    holds_at_no_instant_is_no_number(raw, mapped) = "{raw} holds at no instant: `{mapped}` is no number there";
+    nothing_says_where_the_rows(some) = "the table has no column of times or crank angles; its columns are {some}";
+    TAKE_THE_ROW_OUT_OR_COMPLETE = "remove the row, or complete it";
+    holds_at_no_instant_is_no_number(raw, mapped) = "{raw} has no instant: `{mapped}` is not a number there";
     MAP_A_TIME = "map a time";
-    THIS_IS_NO_INSTANT = "this is no instant";
+    THIS_IS_NO_INSTANT = "this is not an instant";
     // tables/parquet_file.rs
-    A_COLUMN_HAS_FEWER_VALUES = "a column has fewer values than it says";
+    A_COLUMN_HAS_FEWER_VALUES = "a column has fewer values than it announces";
     A_COLUMN_HAS_FEWER_VALUES_THAN_THERE = "a column has fewer values than there are rows";
     it_has_values_more_than(values, most) = "it has {values} values, more than {most}";
-    ITS_GROUPS_HAVE_OTHER_ROWS = "its groups have other rows than the file says";
+    ITS_GROUPS_HAVE_OTHER_ROWS = "its row groups have another number of rows than the file announces";
     its_columns_are_compressed_with_which_is_not_read(name) = "its columns are compressed with {name}, which is not read here";
     the_table(path, message) = "the table {path}: {message}";
     ITS_PARTS_CONTRADICT_EACH_OTHER = "its parts contradict each other";
@@ -259,23 +259,23 @@ linkage::sentences! {
     its_pages_have_more_values(rows) = "its pages have more values than the {rows} rows of their group";
     A_PAGE_IS_LONGER_THAN_ITS_COLUMN = "a page is longer than its column";
     A_PAGE_HAS_NO_SIZE = "a page has no size";
-    THE_SIZE_OF_A_PAGE_IS_NO_NUMBER = "the size of a page is no number";
+    THE_SIZE_OF_A_PAGE_IS_NO_NUMBER = "the size of a page is not a number";
     a_page_announces_bytes(number) = "a page announces {number} bytes";
-    more_than_of_its_columns(deepest) = "more than {deepest} of its columns are within each other";
-    IT_ANNOUNCES_COLUMNS_THAT_ARE_NOT_THERE = "it announces columns that are not there";
+    more_than_of_its_columns(deepest) = "its columns are nested more than {deepest} deep";
+    IT_ANNOUNCES_COLUMNS_THAT_ARE_NOT_THERE = "it announces columns that do not exist";
     ITS_END_IS_NOT_THAT_OF_A_PARQUET = "its end is not that of a Parquet file";
     // tables/parquet_file/thrift.rs
-    IT_HAS_A_NUMBER_WITHOUT_AN_END = "it has a number without an end";
+    IT_HAS_A_NUMBER_WITHOUT_AN_END = "it has an unterminated number";
     it_is_described_by_more_than_parts(most) = "it is described by more than {most} parts";
     it_has_a_part_of_the_unknown(kind) = "it has a part of the unknown kind {kind}";
-    more_than_of_its_parts_are_within(deepest) = "more than {deepest} of its parts are within each other";
+    more_than_of_its_parts_are_within(deepest) = "its parts are nested more than {deepest} deep";
     // tables/source.rs
     GIVE_A_SCENARIO_TOML_A_RECORDING = "give a scenario (.toml), a recording (.mcap), a table of text (.csv) or a Parquet file";
     the_table_cannot_be_read(path, error) = "the table {path} cannot be read: {error}";
     // tolerance.rs
-    rounding_passed_through_its_operations(origin, error) = "{origin}: {error} rounding, passed through its operations, and what the side knows";
+    rounding_passed_through_its_operations(origin, error) = "{origin}: {error} rounding error, propagated through its operations, and the uncertainty of the side";
     THE_ERROR_THAT_THE_FORMULA = "the error that the formula claims, its";
-    of_the_bound_for_the_rounding(instant) = "; {instant} of the bound for the rounding of the instant";
+    of_the_bound_for_the_rounding(instant) = "; {instant} of the bound covers the rounding of the instant";
     with_decimals(origin, digits, source) = "{origin} with {digits} decimals: {source}";
     truncation_at_resolutions_and_safety(origin, order, resolution, resolution_2, resolution_3, safety, discretisation, iteration, rounding, noise, reference) = "{origin}: truncation, {order} at resolutions {resolution}, {resolution_2} and {resolution_3}, safety factor {safety}; discretisation {discretisation}, iteration {iteration}, rounding {rounding} ({noise}), reference {reference}";
     observed_order_formal(observed, formal) = "observed order {observed:.2} (formal {formal})";
@@ -283,37 +283,37 @@ linkage::sentences! {
     // compare.rs
     NAME_A_SIDE_THAT_BOTH_HAVE_SUCH_AS_REFERENCE = "name a side that both have, such as reference";
     and_have_no_side_of_the_same(names, names_2) = "{names} and {names_2} have no side of the same name";
-    it_has(choice) = "it has {choice}";
+    it_has(choice) = "it has: {choice}";
     a_recording_has_no_side(side) = "a recording has no side {side}";
     // compare/align.rs
     ALLOW_INTERPOLATION_OR_GIVE_BOTH = "allow interpolation, or give both the same instants; check the units of both";
-    of_the_second_party_is_one_of_the_first(which, what) = "{which} {what} of the second party is one of the first";
+    of_the_second_party_is_one_of_the_first(which, what) = "{which} {what} of the second party occurs in the first";
     MAP_THE_COLUMNS_OF_BOTH_TO_THE_SAME = "map the columns of both to the same channels";
     the_two_have_no_channel_in_common(some, some_2) = "the two have no channel in common: {some} against {some_2}";
     // compare/allowed.rs
     name_one_of_them_a_subject(all) = "name one of them ({all}, ...), a subject or a stage";
-    no_channel_that_is_compared(word) = "no channel that is compared is called {word}";
+    no_channel_that_is_compared(word) = "no compared channel is called {word}";
     // compare/analytic_party.rs
     the_instants_of_the_other(message) = "the instants of the other party: {message}";
     CHECK_THE_UNIT_OF_THE_INSTANTS = "check the unit of the instants, and where they begin";
     GIVE_THE_TABLE_A_COLUMN_OF_TIMES = "give the table a column of times";
     COMPARE_THE_SAME_MECHANISM_OR_MAP = "compare the same mechanism, or map columns to channels of the scenario";
-    the_scenario_has_no_channel(scenario) = "the scenario {scenario} has no channel of the other party";
+    the_scenario_has_no_channel(scenario) = "the scenario {scenario} has no channel in common with the other party";
     NAME_A_CHANNEL_A_SUBJECT = "name a channel, a subject or a stage of both";
-    no_channel_that_both_have_is_called(how) = "no channel that both have is called {how}";
+    no_channel_that_both_have_is_called(how) = "no common channel is called {how}";
     comparing_rows(at) = "comparing {at} rows";
     // compare/cause.rs
     THE_OTHER_PARTY = "the other party";
     THE_ANALYTIC_SIDES = "the analytic sides";
     // compare/judge.rs
     first_at_against(when, told, told_2, way_out) = "first at {when}: {told} against {told_2}{way_out}";
-    LEAVE_A_CELL_EMPTY_WHERE = "; leave a cell empty where nothing was measured";
-    GIVE_MORE_DIGITS_OR_CLOSER = "give more digits or closer instants, or say what difference is allowed";
-    the_numbers_are_known_to_of_their(scale) = "the numbers are known to {scale} of their scale only: digits, instants or interpolation";
-    SAY_WHAT_DIFFERENCE_IS_ALLOWED = "say what difference is allowed";
-    they_differ_by_up_to_and_neither(largest) = "they differ by up to {largest}, and neither is analytic, so that no bound is known";
-    AT_NO_INSTANT_DO_BOTH_HAVE_A_NUMBER = "at no instant do both have a number";
+    LEAVE_A_CELL_EMPTY_WHERE = "; leave a cell empty where there is no measured value";
+    GIVE_MORE_DIGITS_OR_CLOSER = "give more digits or closer instants, or state the allowed difference";
+    the_numbers_are_known_to_of_their(scale) = "the numbers are known only to {scale} of their scale, limited by digits, instants or interpolation";
+    SAY_WHAT_DIFFERENCE_IS_ALLOWED = "state the allowed difference";
+    they_differ_by_up_to_and_neither(largest) = "they differ by up to {largest}, but neither is analytic, so no bound is known";
+    AT_NO_INSTANT_DO_BOTH_HAVE_A_NUMBER = "there is no instant at which both have a number";
     // compare/pair.rs
-    THE_CRANK_ANGLES_DIFFER_AND_NEITHER = "the crank angles differ, and neither party is analytic: say by how much the channel crank may differ";
-    BOTH_ARE_SAID_TO_COUNT_THE_CRANK = "both are said to count the crank angle alike: digits, rounding and integration allow this";
+    THE_CRANK_ANGLES_DIFFER_AND_NEITHER = "the crank angles differ, but neither party is analytic: state the allowed difference of the channel crank";
+    BOTH_ARE_SAID_TO_COUNT_THE_CRANK = "both are declared to measure the crank angle alike; digits, rounding error and integration error allow this difference";
 }

@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bound_that_is_rounding_in_the_main_says_how_its_rounding_is_known() {
+    fn a_bound_dominated_by_rounding_states_the_rounding_origin() {
         let estimated = truncation(Parts { discretisation: 1.0, rounding: 0.5, ..Parts::default() });
         let measured = truncation(Parts { discretisation: 0.5, rounding: 1.0, ..Parts::default() });
         assert_eq!([estimated.origin(), measured.origin()], [BoundOrigin::Estimated, BoundOrigin::Measured]);

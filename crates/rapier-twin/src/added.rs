@@ -1,11 +1,12 @@
-//! Masses that a free motion needs in Rapier but not in the case, and the loads that compensate them.
+//! Masses that Rapier needs for a free motion but that the case does not have, and the loads that compensate them.
 //!
 //! Rapier divides by the mass and by the moment of inertia of a separate body, so a point mass could not turn there.
-//! In a multibody a point mass may stay one unless it lies in a joint: the mass matrix of the whole chain is regular.
-//! A link that lacks mass or inertia gets an added one, and the load m a + J alpha - m g of the added part.
-//! With the true accelerations the motion is that of the case: (M + M') a = f + M' a reduces to M a = f.
-//! A step uses the accelerations of the step before.
-//! The error is of first order, like that of the whole step.
+//! In a multibody, Rapier accepts a point mass that does not lie in a joint: the mass matrix of the chain is regular.
+//! A link that lacks mass or inertia gets an added mass or inertia.
+//! It also gets the load m a + J alpha - m g of the added part.
+//! With the true accelerations, the motion is that of the case: (M + M') a = f + M' a reduces to M a = f.
+//! The load in a step uses the accelerations of the step before.
+//! The resulting error is of first order, like that of the whole step.
 //! It decays from step to step, because an added mass is smaller than the total: M' / (M + M') is below 1.
 //! See docs/numerics/twins.md.
 
@@ -26,15 +27,15 @@ pub(super) struct Added {
 }
 
 impl Added {
-    /// The added masses in a world with this tree; `None` if no link needs one.
+    /// The added masses in a world with this tree; `None` if no link needs an added mass.
     pub(super) fn of(case: &Case, tree: &SpanningTree) -> Option<Self> {
         let masses: Vec<[f64; 2]> = case.mechanism.links().ids().map(|link| added(case, link, tree)).collect();
         let accelerations = vec![[0.0; 3]; masses.len()];
         masses.iter().flatten().any(|&mass| mass > 0.0).then_some(Added { masses, accelerations })
     }
 
-    /// Takes the accelerations of the window's last step.
-    /// Before the first step, the accelerations of the last trial stay.
+    /// Stores the accelerations of the window's last step.
+    /// Before the first step, the accelerations of the last trial remain.
     pub(super) fn follow(&mut self, window: &Window) {
         if window.newest() > 0 {
             for (link, own) in self.accelerations.iter_mut().enumerate().skip(1) {
@@ -43,9 +44,9 @@ impl Added {
         }
     }
 
-    /// Takes the accelerations of a trial step from the start.
-    /// Returns the largest change of an added load, divided by the largest added load.
-    /// Moments count as forces at an arm of the mechanism's size.
+    /// Stores the accelerations of a trial step from the start.
+    /// Returns the largest change of a compensating load, divided by the largest compensating load.
+    /// A moment is converted to a force at an arm of the mechanism's size.
     pub(super) fn guess(&mut self, case: &Case, mut of: impl FnMut(usize) -> [f64; 3]) -> f64 {
         let size = case.mechanism.size();
         let (mut change, mut all) = (0.0f64, 0.0f64);

@@ -1,7 +1,8 @@
-//! Whether the engine is still on the branch on which it began.
+//! Checks whether the engine is still on the branch on which it began.
 //!
-//! Near a dead point two assembly modes of a group are close together, and an engine may slip from one to the other
-//! while its loops hardly open. Each mode has its own sign of the determinant of the group's constraints.
+//! Near a dead point, two assembly modes of a group are close together.
+//! The engine may then slip from one mode to the other while its loops hardly open.
+//! The two modes differ in the sign of the determinant of the group's constraints.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -11,12 +12,12 @@ use linkage::math::{KeepNan, Motion, Vec2, turned, unit};
 use linkage::mechanism::{GROUND, GroupId, LinkPose};
 use linkage::solver::State;
 
-/// Share of a group's largest determinant.
-/// A determinant of the opposite sign beyond this share means another branch.
-/// Below it, the small opening of the engine's loops at a dead point explains the sign.
+/// Threshold, as a fraction of a group's largest determinant.
+/// If a determinant of the opposite sign is larger than this, the group is on another branch.
+/// If it is smaller, the sign is explained by the small opening of the engine's loops at a dead point.
 const BEYOND: f64 = 0.02;
 
-/// The groups of a case whose motion is prescribed.
+/// The supervised groups of a case; none in a free motion.
 #[derive(Debug)]
 pub(super) struct Branches {
     groups: Vec<Watched>,
@@ -25,13 +26,14 @@ pub(super) struct Branches {
 /// One group.
 #[derive(Debug)]
 struct Watched {
-    /// Its number in the structure.
+    /// The group's number in the structure.
     index: GroupId,
-    /// Constraints of its joints, in the coordinates of its links: x, y (m), and angle times the mechanism's size.
+    /// Constraints of the group's joints, in the coordinates of its links: x, y (m), and angle times the mechanism's
+    /// size.
     constraints: Lu,
-    /// Sign of the determinant on its branch.
+    /// Sign of the determinant on the start branch.
     sense: f64,
-    /// Largest size of the determinant so far.
+    /// Largest absolute value of the determinant so far.
     largest: f64,
     /// Times (s) and determinants of the last two states, the older one first.
     last: [Option<(f64, f64)>; 2],
@@ -86,7 +88,7 @@ impl Branches {
     }
 }
 
-/// The error for an engine that has not gone on smoothly at a change point.
+/// The error for an engine that has turned back at a change point.
 fn turned_back(case: &Case, group: GroupId, t: f64) -> Error {
     let names = case.structure.groups[group].names(&case.mechanism);
     let at = case.told(case.crank().at(t).value);
@@ -96,9 +98,9 @@ fn turned_back(case: &Case, group: GroupId, t: f64) -> Error {
 }
 
 impl Watched {
-    /// Whether the determinant has turned back before zero.
-    /// At a change point that is passed smoothly, the determinant goes on through zero.
-    /// If it was about to pass zero and its slope has reversed instead, the engine has changed branch.
+    /// Whether the determinant has turned back before it reaches zero.
+    /// At a change point that is passed smoothly, the determinant passes through zero.
+    /// If its slope reverses shortly before zero, the engine has changed branch.
     fn turns_back(&mut self, t: f64, determinant: f64) -> bool {
         let [older, newer] = self.last;
         self.last = [newer, Some((t, determinant))];
@@ -155,7 +157,8 @@ mod tests {
     use super::*;
     use linkage::fixtures::{four_bar, turning};
 
-    /// A four-bar's rocker and coupler mirrored about the line between their outer pins close every loop.
+    /// The rocker and coupler of a four-bar are mirrored about the line between their outer pins: all loops stay
+    /// closed.
     #[test]
     fn the_mirrored_dyad_is_another_branch() {
         let case = turning(four_bar());

@@ -11,7 +11,7 @@ use linkage::error::Result;
 use linkage::solver::{Progress, Provision, Solver, Visit};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
 
-/// Largest number of sweeps that is tried. A loop that stays open beyond it has another fault.
+/// Upper limit of the number of sweeps. If a loop stays open with so many sweeps, it has another fault.
 const MOST_SWEEPS: usize = 65_536;
 
 impl Engine for Rapier {
@@ -45,7 +45,7 @@ impl Engine for Rapier {
 
     fn own_routes(&self, _: &Case) -> &'static [Route] {
         // Probes cost more and need many more sweeps at coarse steps.
-        // Their tiny steps leave an error that does not show in any run.
+        // Their tiny steps cause an error that a comparison of runs does not reveal.
         &[Route::Native]
     }
 
@@ -54,8 +54,8 @@ impl Engine for Rapier {
         let reports = self.settings.route == Route::Native;
         let begins = case.is_free() && case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
         match self.build {
-            // The worlds that report the forces of a tree cut the tree open.
-            // One sweep does not give their links the start velocities, and later steps do not correct that.
+            // The worlds that report the forces of a tree have cut joints.
+            // One sweep does not give their links the start velocities, and later steps do not correct them.
             Build::Multibody if alone && reports && begins => Some([2, MOST_SWEEPS]),
             // A tree with one motor is solved exactly in one sweep.
             Build::Multibody if alone => Some([1, 1]),
@@ -78,7 +78,7 @@ impl Engine for Rapier {
 
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         let native = self.settings.route == Route::Native && channel.stage >= Stage::Reactions;
-        // With forces, each step applies the loads at its start to the whole step.
+        // In a free motion, each step applies the loads at its start for the whole step.
         if native || case.is_free() { 1.0 } else { 2.0 }
     }
 
@@ -91,7 +91,7 @@ impl Engine for Rapier {
     }
 
     fn told(&self) -> Vec<(&'static str, String)> {
-        // The engine's name states the resolution, and `how` states the route.
+        // The engine's name already states the resolution, and `how` states the route.
         // This engine does not know whether its results are extrapolated.
         let Settings { resolution: _, sweeps, substeps, route: _, extrapolated: _ } = self.settings;
         let build = match self.build {

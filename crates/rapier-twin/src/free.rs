@@ -19,12 +19,13 @@ use linkage::solver::State;
 /// Rotation (rad) of the fastest free link in the tiny step that makes the start velocities consistent.
 const SETTLING_TURN: f64 = 1e-4;
 
-/// Share of the fastest link's speed below which a link rests at the beginning.
+/// If a link's initial speed is below this fraction of the fastest link's speed, the link counts as being at rest.
 const STANDSTILL: f64 = 1e-9;
 
-/// Number of tiny steps that take back a trial.
+/// Number of tiny steps that undo a trial.
 const UNDOING: usize = 8;
-/// Largest number of trials of the first step, and the relative change of the accelerations at which the trials end.
+/// Largest number of trials of the first step.
+/// The trials end earlier if the compensating loads change by less than the second value (relative).
 const MOST_TRIALS: usize = 200;
 const GUESSED: f64 = 1e-9;
 
@@ -36,7 +37,7 @@ pub(super) struct Acting {
     before: Vec<f64>,
     /// Velocities, one step earlier, of the points whose motion some loads oppose; one for each load.
     swept: Vec<Vec2>,
-    /// Speeds that links at rest reach in the trial step, where one was made.
+    /// Speeds that links at rest reach in the trial step; 0 without a trial step.
     setting_off: Vec<f64>,
     loads: Vec<Wrench>,
     /// The loads plus those that compensate added masses.
@@ -72,7 +73,7 @@ impl Acting {
     }
 
     /// Sets motor and loads of all worlds for the step between the times `ends` (s).
-    /// The step begins with the newest state of the window.
+    /// The newest state of the window is the start of the step.
     pub(super) fn act(&mut self, case: &Case, window: &Window, worlds: &mut [Guard], ends: [f64; 2]) {
         for (before, motion) in self.before.iter_mut().zip(&self.state.motions) {
             *before = if window.newest() > 0 { motion.omega } else { f64::NAN };
@@ -90,8 +91,7 @@ impl Acting {
         let State { motions, angles, .. } = &self.state;
         let (before, setting_off) = (&self.before, &self.setting_off);
         // A link may reverse within the step.
-        // Its load is then the weighted mean of the loads before and after the reversal.
-        // The weights are their shares of the step.
+        // Its load is then the mean of the loads before and after the reversal, weighted by their durations.
         let sensed = |_: usize, load: &Load, link: LinkId, crank: f64| {
             let now = motions[link].omega;
             if now == 0.0 {
@@ -151,7 +151,7 @@ impl Acting {
         }
     }
 
-    /// Whether a link at rest at the start has a load or reducer losses that depend on its sense of rotation.
+    /// Whether a link at rest at the start has a load, or reducer losses, that depend on its sense of rotation.
     fn must_try(&self, case: &Case) -> bool {
         let losses = case.crank().moving_motor().is_some_and(|motor| motor.efficiency < 1.0);
         let mut sensed = case
@@ -174,15 +174,15 @@ impl Acting {
         let branch = match self.branch {
             Some(branch) if holds(&branch) => branch,
             _ => {
-                // From rest, the branch is that of the speeds reached in the trial step.
+                // If the crank is at rest, the speed reached in the trial step selects the branch.
                 let towards = if omega == 0.0 { sense * self.setting_off[case.crank().link] } else { 0.0 };
                 *self.branch.insert(motor.branch(omega, if towards < 0.0 { -1.0 } else { 1.0 }))
             }
         };
         let (mut moment, mut slope) = (branch.moment(omega), branch.slope(omega));
-        // The speed may leave the branch within the step: where the power flow reverses, the losses of a reducer make
-        // the moment jump.
-        // As with loads, both moments count by their shares of the step.
+        // The speed may leave the motor's branch within the step.
+        // Where the power flow reverses, the losses of a reducer make the moment jump.
+        // As for loads, the moments of the two branches are weighted by their durations.
         let next = 2.0 * omega - sense * self.before[case.crank().link];
         let [least, most] = branch.speeds;
         if next < least || next >= most {
@@ -201,17 +201,17 @@ impl Acting {
         [0.0; 2]
     }
 
-    /// Moment of the motor on the crank (N m) that was a load in the last step and is therefore in none of its
-    /// impulses.
+    /// Moment of the motor on the crank (N m) that was applied as a load in the last step.
+    /// The impulse of Rapier's motor does not contain this moment.
     pub(super) fn direct(&self) -> f64 {
         self.direct
     }
 }
 
-/// Gives worlds at the start pose the velocities of the driving links there.
-/// Returns the window of the motion that begins.
-/// A load or the losses of a reducer may depend on the sense of rotation of a link at rest.
-/// Then one step is tried and undone.
+/// Gives worlds at the start pose the start velocities of the driving links.
+/// Returns the window of the motion.
+/// If a load or the losses of a reducer depend on the sense of rotation of a link at rest, one step is tried and
+/// undone.
 /// In this trial the load does not act, and power flows from the motor.
 ///
 /// # Errors
@@ -239,7 +239,7 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
     Ok(window)
 }
 
-/// Repeats the first step until its accelerations, from which the compensating loads follow, no longer change.
+/// Repeats the first step until its accelerations no longer change, because the compensating loads depend on them.
 /// Every trial is undone.
 fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard], step: f64) -> Result<()> {
     for _ in 0..MOST_TRIALS {
@@ -263,14 +263,14 @@ fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard]
 
 /// Undoes a trial step.
 /// Each tiny step starts from the velocities and impulses of the step before.
-/// After several tiny steps the trial has no effect any more.
+/// After several tiny steps, nothing of the trial remains.
 fn undo(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
     (0..UNDOING).try_for_each(|_| settle(case, worlds, step))
 }
 
-/// Places worlds at the start with the velocities of the driving links there.
-/// A tiny step with rigid drives makes all other velocities consistent.
-/// These velocities exclude the correction of gaps: over a tiny step, even a gap of rounding size would give a speed.
+/// Places worlds at the start pose and gives the driving links their start velocities.
+/// A tiny step with rigid drives then makes all other velocities consistent.
+/// These velocities exclude the correction of gaps: in a tiny step, even a gap of rounding size would give a speed.
 /// Later velocities include the correction.
 fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
     let fastest = case.drives.iter().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));

@@ -1,8 +1,8 @@
-//! How the engine's world differs from the case, and what the difference adds to the reactions.
+//! Differences between the engine's world and the case, and their contribution to the reactions.
 //!
 //! Rapier needs a mass and a moment of inertia on every link.
 //! For a given motion, reactions and driving moment are linear in masses, inertias and loads.
-//! The contribution of the differences can therefore be computed alone and subtracted.
+//! The contribution of the differences can therefore be computed separately and subtracted.
 //! It follows from the Newton-Euler equations with the engine's accelerations.
 //! See docs/numerics/twins.md.
 
@@ -13,7 +13,7 @@ use linkage::case::Case;
 use linkage::error::Result;
 use linkage::solver::State;
 
-/// Stand-ins for missing masses, flywheels that are accelerated, and loads that the engine was not given.
+/// Stand-ins for missing masses, flywheels in accelerated motion, and loads that are missing in the engine.
 #[derive(Debug)]
 pub(super) struct Ghost {
     statics: NewtonEuler,
@@ -21,7 +21,7 @@ pub(super) struct Ghost {
 }
 
 impl Ghost {
-    /// The stand-ins of a case, and its loads if the engine was not given them (`unloaded`).
+    /// The stand-ins of a case; also its loads if they are missing in the engine (`unloaded`).
     /// `None` if nothing has to be subtracted.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
         // A flywheel adds a moment only while it is accelerated.
@@ -31,7 +31,7 @@ impl Ghost {
         let mut extra: Vec<[f64; 2]> =
             links.map(|(link, [mass, inertia])| [mass - link.mass, inertia - link.inertia]).collect();
         if case.is_free() {
-            // Loads in the world already compensate the added masses.
+            // Loads in the engine's world already compensate the added masses.
             for (link, extra) in case.mechanism.links().ids().zip(&mut extra) {
                 let [mass, inertia] = added(case, link, &tree);
                 extra[0] -= mass;
@@ -40,7 +40,7 @@ impl Ghost {
         }
         let unloaded = unloaded && !case.loads.is_empty();
         let any = unloaded || extra.iter().flatten().any(|&extra| extra != 0.0);
-        // Loads that the engine lacks are subtracted with a negative sign, which adds them.
+        // Subtracting the missing loads with a negative sign adds them.
         let load_share = if unloaded { -1.0 } else { 0.0 };
         any.then(|| Ghost { statics: NewtonEuler::of(case, extra, load_share), state: State::at_rest(case) })
     }

@@ -1,6 +1,7 @@
 //! A world under supervision.
-//! Any of these becomes an error with its time, crank angle and joint or link:
-//! a loop that opens, a link that turns too far in one step, NaN or infinity, or a panic inside the engine.
+//! Each of these events becomes an error: a loop opens, a link turns too far in one step, a number is NaN or infinite,
+//! or the engine panics.
+//! The error states time, crank angle, and joint or link.
 //! See docs/numerics/twins.md.
 
 use crate::sentences;
@@ -21,11 +22,12 @@ use linkage::quiet::guarded;
 use linkage::solver::State;
 use linkage::work::{Count, WorkTally};
 
-/// Largest opening of a loop before the run is stopped, as a share of the mechanism's size.
+/// If a loop opens by more than this fraction of the mechanism's size, the run is stopped.
 const LARGEST_GAP: f64 = 0.05;
-/// Largest rotation of a link in one step (rad). Beyond it the trajectory is meaningless.
+/// If a link turns by more than this angle (rad) in one step, the run is stopped: its trajectory is meaningless.
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
-/// Growth of kinetic energy in one step beyond which a run has diverged: a factor of ten in the speeds.
+/// If the kinetic energy grows by more than this factor in one step, the run has diverged.
+/// The factor corresponds to a factor of ten in the speeds.
 /// Energy is not conserved, because the drives supply and absorb whatever their speeds need.
 /// But the kinetic energy depends on the pose alone, and the pose changes little in a step.
 const LARGEST_GROWTH: f64 = 100.0;
@@ -48,15 +50,15 @@ pub(super) struct Guard<'a> {
     sweeps: usize,
     tally: WorkTally,
     /// Largest kinetic energy so far (J).
-    /// Its lower limit assumes that all links turn with the fastest drive, at a distance of one mechanism size from the
-    /// axis.
+    /// The initial value assumes that all links turn as fast as the fastest drive, with mass centres one mechanism size
+    /// from the axis.
     energy: f64,
     /// Whether no step has been done yet.
     first: bool,
 }
 
 impl<'a> Guard<'a> {
-    /// Supervises a world in its start pose with the settings that it was built with.
+    /// Supervises a world in its start pose; `settings` are those of the world.
     pub(super) fn new(case: &'a Case, world: Box<dyn World>, settings: &Settings) -> Self {
         let mut tally = WorkTally::default();
         tally.one(Count::Worlds);
@@ -82,7 +84,7 @@ impl<'a> Guard<'a> {
         guard
     }
 
-    /// Stores the world's frames as those after the last step.
+    /// Stores the world's present frames.
     fn stand(&mut self) {
         self.frames.clear();
         self.frames.extend_from_slice(self.world.frames());
@@ -105,7 +107,7 @@ impl<'a> Guard<'a> {
         self.world.as_ref()
     }
 
-    /// Sets all drives to the speeds (rad/s) that `speed` gives them.
+    /// Sets the speed of every drive to `speed` of that drive (rad/s).
     pub(super) fn drive(&mut self, speed: impl Fn(&Drive) -> f64) {
         for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, speed(drive));
@@ -113,7 +115,7 @@ impl<'a> Guard<'a> {
     }
 
     /// Sets all drives for a step between two times (s).
-    /// Links with prescribed motion get their speed over the step.
+    /// Links with prescribed motion get their mean speed in the step.
     /// A free crank gets `motor`: target speed (rad/s) and damping (N m s/rad). Other free links get no motor.
     pub(super) fn drive_freely(&mut self, [from, to]: [f64; 2], motor: [f64; 2]) {
         for (index, drive) in self.case.drives.iter().enumerate() {
@@ -160,7 +162,7 @@ impl<'a> Guard<'a> {
         self.stand();
     }
 
-    /// Does one time step; the time after it is `t` (s).
+    /// Does one time step, which ends at `t` (s).
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] in any of these cases: a loop has opened, a link has turned by more than a quarter turn,
@@ -192,7 +194,7 @@ impl<'a> Guard<'a> {
             centres[link] = centre;
         }
         let energy = 0.5 * twice_energy / (self.step * self.step);
-        // The first step sets the scale of the speeds: links may be much faster than the drives.
+        // The first step sets the reference energy, because links may be much faster than the drives.
         let first = std::mem::take(&mut self.first) && energy.is_finite();
         if !first && !(energy <= LARGEST_GROWTH * self.energy) {
             let (growth, place) = (energy / self.energy, place(before));
@@ -212,10 +214,10 @@ impl<'a> Guard<'a> {
         Ok(())
     }
 
-    /// Checks that the world is back in the case's start pose after its run backwards and forwards.
+    /// Checks that the world is back in the case's start pose after it has run backwards and forwards.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a link is farther off than the largest loop opening.
+    /// [`ErrorKind::Numeric`] if a link deviates by more than the largest loop opening.
     /// The engine has then passed a dead point into another assembly mode.
     pub(super) fn check_start(&self) -> Result<()> {
         let case = self.case;
@@ -239,7 +241,7 @@ impl<'a> Guard<'a> {
     }
 }
 
-/// A supervised world for every tree.
+/// One supervised world for each tree.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] if Rapier refuses a joint.
@@ -263,7 +265,7 @@ struct Moment {
 }
 
 impl Moment {
-    /// A free crank has the angle `before` the step.
+    /// For a free crank, `before` is the angle before the step; a prescribed crank has its angle at `t`.
     fn of(drive: &Drive, before: f64, t: f64) -> Self {
         Moment { t, input: drive.told(if drive.is_free() { before } else { drive.at(t).value }) }
     }
@@ -299,7 +301,7 @@ mod tests {
     use linkage::math::{rotated, unit};
     use linkage::mechanism::JointId;
 
-    /// A world whose steps fail; afterwards it reports wrong positions and angles.
+    /// A world whose steps fail. After a failing step, it reports wrong positions and angles.
     struct Broken {
         world: Box<dyn World>,
         wrong: fn(&mut dyn World),
@@ -369,12 +371,12 @@ mod tests {
 
     const BUILDS: [Build; 2] = [Build::Multibody, Build::Impulse];
 
-    /// Result of a guarded step that fails and leaves all positions and angles wrong by `off`.
+    /// Result of a guarded step that fails. It shifts all positions and angles by `off`.
     fn step(build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
         step_after(0, build, wrong, off)
     }
 
-    /// The same after some healthy steps.
+    /// The same after `healthy` sound steps.
     fn step_after(healthy: usize, build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
         let case = turning(four_bar());
         let engine = Rapier::new(build, Precision::Double, 1e-3);
@@ -406,7 +408,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_that_is_none_stops_the_run() {
+    fn nan_stops_the_run() {
         for build in BUILDS {
             let error = step(build, |_| {}, turned(f64::NAN)).unwrap_err();
             assert!(error.message().contains("has turned by NaN deg in one step, t = 0.250000 s"), "{error}");
@@ -414,7 +416,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wild_turn_stops_the_run() {
+    fn an_implausible_rotation_stops_the_run() {
         for build in BUILDS {
             let error = step(build, |_| {}, turned(1.6)).unwrap_err();
             assert!(error.message().contains("has turned by 91.7 deg in one step"), "{error}");
@@ -423,14 +425,14 @@ mod tests {
         }
     }
 
-    /// No link turns and no loop opens, but all links run away, as sliders can.
+    /// All links move away together, as sliders can: no link turns and no loop opens.
     /// The links reach 5 m and the drive turns at 1 rad/s.
-    /// A step of a millisecond may move them by some 5 cm, ten times the travel of a link at that distance.
+    /// In a step of a millisecond, 5 cm is ten times the travel of a link at that distance.
     #[test]
-    fn energy_out_of_nothing_stops_the_run() {
+    fn spurious_energy_stops_the_run() {
         for build in BUILDS {
             step_after(1, build, |_| {}, (Vec2::new(0.01, 0.0), 0.0)).unwrap();
-            // The first step sets the scale of the speeds.
+            // The first step sets the reference energy.
             step(build, |_| {}, (Vec2::new(0.2, 0.0), 0.0)).unwrap();
             let error = step_after(1, build, |_| {}, (Vec2::new(0.2, 0.0), 0.0)).unwrap_err();
             assert!(error.message().contains("kinetic energy has grown"), "{error}");

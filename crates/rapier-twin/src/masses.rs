@@ -1,4 +1,4 @@
-//! Masses of links in Rapier: their own, and what Rapier needs beyond them.
+//! Masses of links in Rapier: those of the case, and the additions that Rapier needs.
 
 use super::tree::SpanningTree;
 use linkage::case::Case;
@@ -6,33 +6,37 @@ use linkage::engine::bodies::stand_in;
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, Joint, Link, LinkId};
 
-/// Mass added to a link without mass, as a share of the mean mass.
-/// A small mass is compensated quickly: the error of a first guess decays with this share from step to step.
+/// Mass added to a massless link, divided by the mean mass.
+/// A small mass is compensated quickly: in each step, the error of the first guess is multiplied by about this
+/// fraction.
 const SHARE: f64 = 0.1;
-/// Moment of inertia of a slender rod over its mass and the square of its length.
+/// Moment of inertia of a slender rod, divided by its mass and the square of its length.
 const ROD: f64 = 1.0 / 12.0;
 
-/// Smallest distance of a mass centre from all joints of its link, as a share of the link's extent.
-/// From this distance on, a point mass makes the mass matrix of a multibody regular.
+/// Lower limit of the distance of a mass centre from all joints of its link, divided by the link's extent.
+/// If the distance exceeds this limit, a point mass is enough for a regular mass matrix of a multibody.
 const OFF_JOINTS: f64 = 1e-2;
 
-/// Additional moment of inertia of driving links, in units of all masses times the square of the mechanism's size.
+/// Additional moment of inertia of driving links, divided by the total mass times the square of the mechanism's size.
 /// A link with prescribed speed may have any moment of inertia: it affects neither motion nor reactions.
-/// It affects the driving moment only where the speed changes, and is subtracted there
+/// It affects the driving moment only where the speed changes. There, its contribution is subtracted
 /// ([`Ghost`](super::ghost::Ghost)).
-/// With a large one, the drives' rows hardly depend on those of the loops, and the sweeps converge.
-/// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps then achieve what 1024 do without it.
+/// With a large moment of inertia, the drives' rows hardly depend on those of the loops, and the sweeps converge.
+/// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps with the flywheel achieve as much as
+/// 1024 without it.
 /// A flywheel ten times as large gives no further gain.
 const FLYWHEEL: f64 = 1.0;
 
 /// Mass (kg) and moment of inertia (kg m^2) of every link in Rapier, without flywheels.
-/// Rapier cannot move a body without them.
-/// Under a prescribed speed the motion does not depend on the masses.
-/// Each link then has at least the mean mass, and at least the moment of inertia of a rod of that mass.
-/// The sweeps hardly converge if the masses of neighbours differ much.
-/// What this adds to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
-/// In a free motion the crank also carries rotor and gearbox.
-/// Stand-ins then depend on the world's tree, and loads compensate them ([`Added`](super::added::Added)).
+/// Rapier cannot move a body without mass and inertia.
+///
+/// If the speed is prescribed, the motion does not depend on the masses, but the sweeps do.
+/// They hardly converge if the masses of neighbours differ much.
+/// Each link therefore has at least the mean mass, and at least the moment of inertia of a rod of that mass.
+/// The contribution of these additions to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
+///
+/// In a free motion, the crank also carries rotor and gearbox.
+/// The stand-ins then depend on the world's tree, and loads compensate them ([`Added`](super::added::Added)).
 pub(super) fn masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     let mut masses = bare_masses(case, tree);
     if case.is_free() {
@@ -47,7 +51,7 @@ pub(super) fn masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     masses
 }
 
-/// The same, with nothing added to links that have both mass and moment of inertia.
+/// The same, but links that have both mass and moment of inertia get no addition.
 fn bare_masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     let of = |(index, link): (LinkId, &Link)| {
         let [mass, inertia] = if case.is_free() { added(case, index, tree) } else { stand_in(case, index) };
@@ -59,9 +63,9 @@ fn bare_masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     masses
 }
 
-/// Masses of a world that only moves, under prescribed speeds: the same for every link, with the moment of inertia of a
-/// rod of the link's extent.
-/// The motion does not depend on them, but the sweeps do: with masses of very different size they hardly converge.
+/// Masses of a world that only provides a motion with prescribed speeds.
+/// Every link has the same mass, and the moment of inertia of a rod of the link's extent.
+/// The motion does not depend on them, but the sweeps do: they hardly converge if the masses differ much.
 fn even_masses(case: &Case) -> Vec<[f64; 2]> {
     let of = |link: &Link| [1.0, ROD * length(case, link) * length(case, link)];
     let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(of).collect();
@@ -69,10 +73,10 @@ fn even_masses(case: &Case) -> Vec<[f64; 2]> {
     masses
 }
 
-/// What a world is for.
+/// Use of a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Loading {
-    /// The world only moves: under prescribed speeds it has [`even_masses`].
+    /// Only the motion is read. Under prescribed speeds the world has [`even_masses`].
     Moving,
     /// Its forces are read, and the contribution of stand-ins is subtracted.
     Read,
@@ -106,8 +110,8 @@ fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     masses
 }
 
-/// Mass (kg) and moment of inertia (kg m^2) that a link of a free motion gets in addition; 0 where it needs none.
-/// What it needs depends on whether it is in the tree of the world.
+/// Mass (kg) and moment of inertia (kg m^2) that are added to a link in a free motion; 0 if none is needed.
+/// The values depend on whether the link is in the tree of the world.
 pub(super) fn added(case: &Case, link: LinkId, tree: &SpanningTree) -> [f64; 2] {
     if link == GROUND {
         return [0.0; 2];

@@ -1,6 +1,6 @@
 //! Reactions and moments as the engine reports them during the run.
-//! Loads are left to the Newton-Euler equations: they jump where a link reverses.
-//! A jump cannot be interpolated between steps.
+//! Loads are added afterwards by the Newton-Euler equations.
+//! They jump where a link reverses, and a jump cannot be interpolated between steps.
 
 use super::ghost::Ghost;
 use super::guard::Guard;
@@ -14,16 +14,16 @@ use linkage::mechanism::{JointId, PerJoint};
 use linkage::solver::State;
 
 /// Delay of the engine's reports, in substeps.
-/// It is measured from the instant that a report describes best to the end of the reported step.
+/// It is the time from the instant that a report describes best to the end of the reported step.
 /// The impulses of step n belong to the pose of step n - 1.
 /// They change the velocities of step n - 2 into those of step n - 1.
 /// The error is of first order whichever instant the impulses are assigned to.
-/// On `ov7_base` and `crank_rocker` the instants t_n, t_(n-1) and t_(n-2) gave
-/// 3.8e-2, 2.0e-2, 2.1e-2 and 1.7e-2, 5.8e-3, 6.6e-3 at 0.32 deg a step.
+/// At 0.32 deg a step, the instants t_n, t_(n-1) and t_(n-2) gave these errors:
+/// 3.8e-2, 2.0e-2 and 2.1e-2 on `ov7_base`; 1.7e-2, 5.8e-3 and 6.6e-3 on `crank_rocker`.
 const LATE: f64 = 1.0;
 
-/// For every joint, the index of the world that reports it.
-/// `None` for some joints whose reactions are not requested.
+/// For every joint, the index of the world that reports its reaction.
+/// `None` is possible only for joints whose reactions are not requested.
 pub(super) fn reporters(case: &Case, cuts: &[&[JointId]]) -> PerJoint<Option<usize>> {
     let of = |joint: JointId| cuts.iter().position(|cut| cut.contains(&joint));
     case.mechanism.joints().ids().map(of).collect()
@@ -37,7 +37,7 @@ pub(super) struct Native {
     reporters: PerJoint<Option<usize>>,
     ghost: Option<Ghost>,
     row: Vec<f64>,
-    /// Smallest number of the step at or before a reading's instant from which the reading is interpolated.
+    /// Lower limit of the step at or before the reading's instant; readings before it are extrapolated.
     lowest: i64,
 }
 
@@ -47,17 +47,18 @@ impl Native {
         let cuts: Vec<&[JointId]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let width = 3 * case.mechanism.joints().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
-        // In a free motion step 1 is the first one reported.
-        // The first steps of moving bodies begin with velocities along the constraints of the present pose, not of the
-        // pose before.
-        // The impulses of these steps lack the difference.
+        // In a free motion, the first reported step is step 1.
+        // If bodies move at the start, the first steps use velocities along the constraints of the present pose.
+        // Later steps use velocities along the constraints of the pose before.
+        // The impulses of the first steps lack the difference.
         let lowest = if case.is_free() { 3 + first_steps(case, plain) } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
         let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);
         Native { step, late, ring, reporters, ghost, row, lowest }
     }
 
-    /// Stores the reports of a step. `direct` is the moment (N m) that the crank's motor had as a load.
+    /// Stores the reports of a step.
+    /// `direct` is the moment of the crank's motor (N m) that was applied as a load.
     pub(super) fn push(&mut self, worlds: &[Guard], direct: f64) {
         let row = self.ring.push();
         let drives = 3 * self.reporters.len();

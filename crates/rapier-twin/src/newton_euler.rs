@@ -8,14 +8,15 @@
 //! For a prismatic joint they are the force across its axis, at its point on the second link, and the moment.
 //!
 //! The unknowns are the components in the joints that the tree cuts.
-//! What a tree joint must transmit follows from the motion of all links beyond it, the leaves first.
-//! It is a linear function of the unknowns: a force and a moment on the joint's outer link.
+//! The force and moment that a tree joint must transmit to its outer link follow from the motion of all links beyond
+//! it.
+//! They are a linear function of the unknowns and are computed from the leaves inwards.
 //! A revolute joint transmits no moment, and a prismatic joint no force along its axis.
-//! That gives one equation for every joint of the tree.
-//! These are the composite bodies of Featherstone, "Rigid Body Dynamics Algorithms", 2008, ch. 8.
+//! Each joint of the tree therefore gives one equation.
+//! The links beyond a joint form a composite body: Featherstone, "Rigid Body Dynamics Algorithms", 2008, ch. 8.
 //! Driven joints are in the tree, and the remainder of their equation is the driving moment.
 //! The remaining equations are as many as the components in cut joints.
-//! A four-bar has two; the equations of all its links together are nine.
+//! A four-bar has two such equations; the equations of all its links together are nine.
 
 mod seam;
 mod stages;
@@ -34,18 +35,18 @@ use linkage::work::{Count, WorkTally};
 use seam::{PAIR, Seam, Stand, Term};
 use stages::{Limb, Row, Stage, stages};
 
-/// The equations, reused for every pose.
+/// The equations. Their memory is reused for every pose.
 #[derive(Debug)]
 pub struct NewtonEuler {
     /// The links of the tree, from the ground outwards.
     tree: Vec<Limb>,
     cut: Vec<Seam>,
-    /// Components of each cut joint, in the list of all components.
+    /// For each cut joint, the range of its components in the list of all components.
     of_cut: Vec<Range<usize>>,
     /// The joints of the tree, then the cut joints, in the present pose.
     stands: Vec<Stand>,
-    /// What every link of the tree needs from the joint that carries it.
-    /// There is a term for every component of a cut joint, and a constant term.
+    /// Force and moment that the joint carrying a link must transmit to the link, for every link of the tree.
+    /// Each component of a cut joint has one term, and there is a constant term.
     needs: Vec<Term>,
     stages: Vec<Stage>,
     /// The components in the cut joints.
@@ -53,20 +54,20 @@ pub struct NewtonEuler {
     /// Mass (kg) and moment of inertia (kg m^2) of every link.
     masses: Vec<[f64; 2]>,
     loads: Vec<Wrench>,
-    /// Share of the loads that is included.
+    /// Fraction of the loads that is included.
     load_share: f64,
     tally: WorkTally,
 }
 
 impl NewtonEuler {
-    /// The equations of a case with its own masses and all its loads.
+    /// The equations of a case with the case's masses and all its loads.
     #[must_use]
     pub fn new(case: &Case) -> Self {
         let masses = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
         NewtonEuler::of(case, masses, 1.0)
     }
 
-    /// The equations with other masses (kg) and moments of inertia (kg m^2), and with a share of the loads.
+    /// The equations with other masses (kg) and moments of inertia (kg m^2), and with a fraction of the loads.
     #[must_use]
     pub fn of(case: &Case, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
@@ -132,7 +133,7 @@ impl NewtonEuler {
     /// Fills in the reactions and the driving moment of a state whose motion is known.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] where the equations do not determine them.
+    /// [`ErrorKind::Numeric`] where the equations do not determine the reactions.
     pub fn solve(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         self.tally.one(Count::Forces);
         self.begin(case, state);
@@ -146,7 +147,7 @@ impl NewtonEuler {
         Ok(())
     }
 
-    /// Numbers of stages in which cut joints are solved: those with two unknowns, and those with more.
+    /// Number of stages with two unknowns, and number of stages with more unknowns.
     #[must_use]
     pub fn stages(&self) -> [usize; 2] {
         let pairs = self.stages.iter().filter(|stage| matches!(stage, Stage::Pair(..))).count();
@@ -185,7 +186,7 @@ impl NewtonEuler {
         true
     }
 
-    /// Adds to the needs of every link those of the links beyond it, the leaves first.
+    /// Adds to the needs of every link the needs of the links beyond it, the leaves first.
     fn pass_on(&mut self) {
         let width = self.components.len() + 1;
         for (number, limb) in self.tree.iter().enumerate().rev() {
@@ -200,7 +201,7 @@ impl NewtonEuler {
         }
     }
 
-    /// Sets up what every link needs for itself, and what the cut joints contribute.
+    /// Sets up the needs of every single link, and the contributions of the cut joints.
     fn begin(&mut self, case: &Case, state: &State) {
         let width = self.components.len() + 1;
         self.stands.clear();
@@ -226,7 +227,7 @@ impl NewtonEuler {
         }
     }
 
-    /// Reactions and driving moments, from the components in the cut joints.
+    /// Computes reactions and driving moments from the components in the cut joints.
     fn read(&self, state: &mut State) {
         let (constant, (stands, cut)) = (self.components.len(), self.stands.split_at(self.tree.len()));
         for ((seam, stand), own) in self.cut.iter().zip(cut).zip(&self.of_cut) {

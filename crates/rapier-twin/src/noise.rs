@@ -9,35 +9,36 @@ use linkage::math::KeepNan;
 use linkage::math::interpolate::lagrange_weights;
 use linkage::trajectory::{ChannelKind, ChannelSubject, Stage, Unit};
 
-/// Rounding of a speed in the solver's sweeps, in units in the last place.
-/// 12 were measured on the crank-rocker, 2 on `ov7_base`.
+/// Rounding error of a speed in the solver's sweeps, in units in the last place.
+/// Measured: 12 on the crank-rocker, 2 on `ov7_base`.
 const SPEED_ULPS: f64 = 20.0;
-/// Rounding of a divided second difference, in units of epsilon times the largest angle.
-/// Four half units come from the difference itself (12.6 epsilon over a turn; 11.7 were measured).
-/// They are doubled for the links behind the crank.
+/// Rounding error of a divided second difference, in units of epsilon times the largest angle.
+/// Four half units come from the difference itself (12.6 epsilon for a full turn; 11.7 were measured).
+/// For the links behind the crank, this is doubled.
 const DIFFERENCE_ULPS: f64 = 4.0;
-/// Smallest angle (rad) for the rounding of a second difference.
+/// Lower limit of the angle (rad) in the rounding error of a second difference.
 /// Unit vectors and positions are rounded even if a link has hardly turned.
-/// Over a quarter and over half a turn, 12.6 epsilon were measured on the crank-rocker and on `quick_return`.
+/// For a quarter turn and for half a turn, 12.6 epsilon were measured on the crank-rocker and on `quick_return`.
 /// 26 were measured on `ov7_base`; 37 are allowed.
 const LEAST_TURN: f64 = 3.0 * std::f64::consts::PI;
-/// Average of half a unit in the last place of an angle from zero to its present value, in units of epsilon.
-/// Rounding of a unit vector takes up to a whole epsilon, however small the angle.
+/// Mean of half a unit in the last place while an angle grows from zero to its present value, in units of epsilon.
+/// The rounding error of a unit vector is up to a whole epsilon, however small the angle.
 const MEAN_HALF_ULP: f64 = 0.25;
-/// Rounding of the speed change due to an impulse, in units in the last place.
-/// It is the rounding of a speed times the condition number of the loop that the impulse is read from.
+/// Rounding error of the speed change due to an impulse, in units in the last place.
+/// It is the rounding error of a speed times the condition number of the loop that determines the impulse.
 /// On the crank-rocker in f32, 3100 and 3570 were measured at 1e-3 s and 2.5e-4 s (in the impulse build 557 and 570).
-/// The bound is about twice that.
+/// The bound is about twice as large.
 const IMPULSE_ULPS: f64 = 8000.0;
-/// The same for a probe, which subtracts one reading from twice another: 4450 and 7080 were measured, doubled.
+/// The same for a probe, which subtracts one reading from twice another reading.
+/// 4450 and 7080 were measured; the bound is about twice as large.
 const PROBE_ULPS: f64 = 16000.0;
 
 /// Bound on the rounding noise of a channel, in the channel's unit.
 ///
-/// Angles are sums of rounded increments, one for each step.
-/// Each increment is off by up to half a unit in the last place of the angle so far.
-/// The sign of this error stays the same as long as speed and exponent do.
-/// Lengths, forces and moments follow with the mechanism's size and mass.
+/// An angle is a sum of rounded increments, one for each step.
+/// The error of each increment is at most half a unit in the last place of the angle so far.
+/// The sign of this error stays the same as long as speed and exponent stay the same.
+/// The bounds of lengths, forces and moments follow with the mechanism's size and mass.
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
@@ -46,7 +47,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
 
-    // Positions are world coordinates: far from the origin their rounding is coarser than the mechanism's size
+    // Positions are world coordinates. Far from the origin, their rounding error is larger than the mechanism's size
     // suggests.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));
     let place = epsilon * reach;
@@ -78,16 +79,16 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
         Unit::Newton => linear * mass,
         Unit::NewtonMetre => match engine.settings.route {
             Route::Differences => linear * mass * lever(case, reach, channel.subject),
-            // The impulse of a drive is read from a flywheel of the mechanism's size.
+            // The driving moment follows from the impulse on a flywheel of the mechanism's size.
             Route::Native | Route::Probe => linear * mass * reach,
         },
     }
 }
 
-/// Lever arm (m) of the forces that make up a moment.
-/// For a driving moment it reaches to the far end of the driving link.
+/// Lever arm (m) of the forces in a moment.
+/// For a driving moment, the arm extends to the far end of the driving link.
 /// A prismatic joint, also one on the driving link, may transmit its force anywhere in the mechanism.
-/// On the frame, moments are taken about the origin.
+/// For the frame, moments are taken about the origin.
 fn lever(case: &Case, reach: f64, subject: ChannelSubject) -> f64 {
     match (subject.is_drive(), subject == ChannelSubject::Frame) {
         (true, _) => case.drive_arm(),
@@ -96,9 +97,9 @@ fn lever(case: &Case, reach: f64, subject: ChannelSubject) -> f64 {
     }
 }
 
-/// Factor on the rounding of second differences at the beginning of a free motion.
-/// Second differences and impulses are extrapolated back over the first steps.
-/// The factor is therefore the sum of the absolute Lagrange weights there.
+/// Factor on the rounding error of second differences at the beginning of a free motion.
+/// There, second differences and impulses are extrapolated backwards from the first regular steps.
+/// The factor is therefore the sum of the absolute Lagrange weights of this extrapolation.
 fn beginning(case: &Case, engine: &Rapier) -> f64 {
     let steps = first_steps(case, engine.build == Build::Impulse) as f64;
     let first = case.grid.times.iter().fold(f64::INFINITY, |least: f64, &t| least.smaller(t));

@@ -1,11 +1,11 @@
-//! Reactions and moments from tiny steps of the engine, started on its own trajectory.
+//! Reactions and moments from tiny steps of the engine, started on the engine's trajectory.
 //!
 //! A separate world is placed in the pose at t - h, and one step makes the velocities consistent with pose and drives.
-//! All degrees of freedom are driven, so the answer is unique.
+//! All degrees of freedom are driven, so the velocities are unique.
 //! Then the world is placed in the pose at t with these velocities, and a step of h is done.
-//! Its impulses are the reactions at t with an error proportional to h.
-//! The same with h / 2 gives 2 y(h / 2) - y(h).
-//! Only poses come from the trajectory: no velocity, no acceleration.
+//! The impulses of this step give the reactions y(h) at t with an error proportional to h.
+//! A second probe with h / 2 gives the extrapolated result 2 y(h / 2) - y(h).
+//! Only poses are taken from the trajectory, not velocities or accelerations.
 
 use super::ghost::Ghost;
 use super::guard::Guard;
@@ -33,7 +33,7 @@ pub(super) struct Probe<'a> {
 }
 
 impl<'a> Probe<'a> {
-    /// Probes of worlds whose trees together cut every joint. The crank turns by `turn` (rad) in a tiny step.
+    /// Probes of worlds whose trees together cut every joint. The fastest drive turns by `turn` (rad) in a tiny step.
     pub(super) fn new(case: &'a Case, worlds: Vec<Guard<'a>>, turn: f64) -> Self {
         let cuts: Vec<&[JointId]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let reporters = reporters(case, &cuts);
@@ -42,7 +42,7 @@ impl<'a> Probe<'a> {
         Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses, tally }
     }
 
-    /// Fills in the reactions and moments of a state. Its motion is that of the window at `t` (s).
+    /// Fills in the reactions and moments of a state with the window's motion at `t` (s).
     pub(super) fn solve(&mut self, case: &Case, window: &Window, state: &mut State, t: f64) -> Result<()> {
         state.forces.fill(Vec2::zeros());
         state.moments.fill(0.0);
@@ -69,7 +69,7 @@ impl<'a> Probe<'a> {
         self.ghost.as_mut().map_or(Ok(()), |ghost| ghost.take_off(case, state, t))
     }
 
-    /// Adds `share` times the reports of a world.
+    /// Adds the reports of a world, multiplied by `share`.
     fn add(&self, index: usize, share: f64, state: &mut State) {
         let world: &dyn World = self.worlds[index].world();
         for joint in self.reporters.ids().filter(|&joint| self.reporters[joint] == Some(index)) {
@@ -86,8 +86,8 @@ impl<'a> Probe<'a> {
 }
 
 /// Rotation of the fastest driving link in a tiny step (rad).
-/// In 2 y(h / 2) - y(h) the error is proportional to the square of this rotation, and the rounding to its inverse.
-/// The optimum is flat.
+/// In 2 y(h / 2) - y(h), the truncation error is proportional to the square of this rotation.
+/// The rounding error is inversely proportional to it. The optimum is flat.
 pub(super) fn probe_turn(precision: Precision) -> f64 {
     match precision {
         Precision::Double => 1e-4,

@@ -1,4 +1,4 @@
-//! The engine: how a mechanism is built, in which precision, and settings.
+//! The engine: build of the mechanism, precision, and settings.
 
 use super::masses::Loading;
 use super::tree::SpanningTree;
@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::engine::{Route, Settings};
 use linkage::error::Result;
 
-/// How a mechanism is built in Rapier.
+/// Method of building a mechanism in Rapier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Build {
     /// The spanning tree is a multibody; impulse joints close the loops.
@@ -48,12 +48,12 @@ pub struct Rapier {
 
 impl Rapier {
     /// Solver sweeps per step.
-    /// With 256, random chains of three dyads keep a first-order error in their velocities.
-    /// Refining the step does not reveal it.
-    /// With 512, one channel in a hundred does; with 1024, none of those tried.
+    /// With 256 sweeps, velocities of random chains of three dyads keep a first-order error.
+    /// A finer step does not reveal this error.
+    /// With 512 sweeps, one channel in a hundred keeps it; with 1024, no tested channel does.
     pub const SWEEPS: usize = 1024;
-    /// Sweeps of the impulse build, whose errors propagate along the chain joint by joint.
-    /// With 1024, `crank_rocker` keeps a first-order error in its velocities; with 4096, it does not.
+    /// Sweeps of the impulse build, where errors propagate along the chain joint by joint.
+    /// With 1024 sweeps, `crank_rocker` keeps a first-order error in its velocities; with 4096, it does not.
     pub const IMPULSE_SWEEPS: usize = 4096;
 
     /// The engine with the time step `step` (s) and otherwise its default settings.
@@ -67,7 +67,7 @@ impl Rapier {
         Rapier { build, precision, settings: Settings { resolution: step, sweeps, substeps, route, extrapolated: 0 } }
     }
 
-    /// The same build and precision with other settings, not extrapolated.
+    /// The engine with the same build and precision but other settings, not extrapolated.
     #[must_use]
     pub fn set(&self, settings: Settings) -> Self {
         Rapier { settings: Settings { extrapolated: 0, ..settings }, ..*self }
@@ -89,8 +89,8 @@ impl Rapier {
     }
 
     /// The bare world of a case in its start pose, at rest, with the given tree.
-    /// `read` says whether its reactions will be read.
-    /// Use it to study Rapier itself; for a run use [`Solver::sweep`](linkage::solver::Solver::sweep).
+    /// `read` must be true if the caller reads reactions.
+    /// Use this world to study Rapier itself; for a run use [`Solver::sweep`](linkage::solver::Solver::sweep).
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if Rapier refuses a joint.
@@ -98,7 +98,7 @@ impl Rapier {
         self.world_for(case, tree, if read { Loading::Bare } else { Loading::Moving })
     }
 
-    /// The world of a case for a run.
+    /// The world that a run of a case uses.
     pub(super) fn world_for(&self, case: &Case, tree: SpanningTree, loading: Loading) -> Result<Box<dyn World>> {
         Ok(match self.precision {
             Precision::Double => Box::new(crate::double::twins::Twin::new(case, tree, &self.settings, loading)?),

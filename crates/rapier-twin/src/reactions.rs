@@ -1,4 +1,4 @@
-//! Where a run takes reactions and moments from.
+//! Source of reactions and moments in a run.
 
 use super::guard::{Guard, guards};
 use super::masses::Loading;
@@ -25,9 +25,9 @@ pub(super) enum Reactions<'a> {
 }
 
 impl<'a> Reactions<'a> {
-    /// The source that the engine's settings name, and the worlds of the run.
+    /// The source of reactions in the engine's settings, and the worlds of the run.
     /// The first world moves the mechanism.
-    /// The others only report joints that the first does not report.
+    /// The other worlds only report the joints that the first world does not report.
     /// Reports begin with step `from`.
     ///
     /// # Errors
@@ -62,7 +62,7 @@ impl<'a> Reactions<'a> {
                 // A world placed in a pose has no gap to correct in its first substep.
                 // In the second substep it corrects the gap of the first, and the impulses would contain all of that
                 // correction.
-                // So a tiny step is not divided.
+                // A tiny step therefore has a single substep.
                 let undivided = engine.set(Settings { substeps: 1, ..engine.settings });
                 let probe = Probe::new(case, reporting(&undivided)?, probe_turn(engine.precision));
                 Ok((Reactions::Probe(probe), moving()?))
@@ -70,18 +70,18 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// Stores the reports of the worlds after a step. `direct` is the moment (N m) that the crank's motor had as a
-    /// load.
+    /// Stores the reports of the worlds after a step.
+    /// `direct` is the moment of the crank's motor (N m) that was applied as a load.
     pub(super) fn keep(&mut self, worlds: &[Guard], direct: f64) {
         if let Reactions::Native(native) = self {
             native.push(worlds, direct);
         }
     }
 
-    /// Fills in the reactions and moments of a state whose motion is that of the window at `t` (s).
+    /// Fills in the reactions and moments of a state with the window's motion at `t` (s).
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] where the equations do not determine them, or if a probe fails.
+    /// [`ErrorKind::Numeric`] where the equations do not determine the reactions, or if a probe fails.
     pub(super) fn solve(&mut self, case: &Case, window: &Window, state: &mut State, t: f64) -> Result<()> {
         match self {
             Reactions::Unwanted => Ok(()),

@@ -4,14 +4,15 @@ use std::ops::Range;
 
 use linkage::math::interpolate::{POINTS, lagrange_weights};
 
-/// Steps kept: six for the interpolation and one more on either side for second differences.
-/// There is also room for readings that are dated up to two steps late, and for the first steps of a free motion.
+/// Number of stored steps: six for the interpolation, and one more on either side for second differences.
+/// The rest is for readings that are dated up to two steps late, and for the first steps of a free motion.
 pub(super) const NODES: usize = POINTS + 8;
 
-/// An instant within this share of a step from a step counts as that step: grids and steps are computed differently.
+/// An instant closer to a step than this fraction of the step counts as that step.
+/// Rounding makes instants of the grid differ slightly from instants of steps.
 const ON_A_STEP: f64 = 1e-9;
 
-/// An instant between steps: the step at or before it, and the share of a step since then (0 to 1).
+/// An instant between steps: the step at or before it, and the fraction of a step since then (0 to 1).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) before: i64,
@@ -26,12 +27,12 @@ impl Place {
         Place { before: before as i64, share: if share < ON_A_STEP { 0.0 } else { share } }
     }
 
-    /// First of the steps that [`Place::weights`] weights.
+    /// First of the six steps of [`Place::weights`].
     pub(super) fn first(self) -> i64 {
         self.before - 2
     }
 
-    /// The same instant, counted from step `lowest` or a later one. The share may then be negative.
+    /// The same instant, counted from step `lowest` or a later step. The fraction may then be negative.
     pub(super) fn from(self, lowest: i64) -> Self {
         let before = self.before.max(lowest);
         Place { before, share: self.share + (self.before - before) as f64 }
@@ -62,7 +63,7 @@ impl Ring {
         self.newest
     }
 
-    /// Makes room for the next step, and returns its row.
+    /// Advances to the next step and returns its row for writing.
     pub(super) fn push(&mut self) -> &mut [f64] {
         self.newest += 1;
         self.row_mut(self.newest)

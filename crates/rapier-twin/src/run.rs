@@ -1,4 +1,4 @@
-//! One run: worlds in parallel in simulated time, and what is read from them.
+//! One run: worlds that run in parallel in simulated time, and the values sampled from them.
 
 use super::branch::Branches;
 use super::free::{self, Acting};
@@ -13,9 +13,10 @@ use linkage::error::{Advice, Error, ErrorKind, Result, RunReached};
 use linkage::math::KeepNan;
 use linkage::solver::{Progress, State, Visit, check_instants};
 
-/// Steps until the transient of a start or of a reversal falls below rounding (one is enough; the rest is margin).
+/// Number of steps after which the transient of a start or of a reversal is below rounding error.
+/// One step is enough; the rest is margin.
 const SETTLING_STEPS: i64 = 3;
-/// More steps than this are refused: they would take minutes, and most likely a unit is wrong.
+/// Upper limit of the number of steps. More steps would take minutes, and most likely a unit is wrong.
 const MAX_STEPS: f64 = 2e7;
 
 /// Solves a case: see [`Solver::sweep`](linkage::solver::Solver::sweep).
@@ -85,7 +86,7 @@ fn check(settings: &Settings, steps: f64) -> Result<()> {
     Ok(())
 }
 
-/// Steps of a prescribed motion before the first instant. Fewer steps follow the last instant.
+/// Number of steps of a prescribed motion before the first instant. Fewer steps follow the last instant.
 pub(super) fn overrun(settings: &Settings) -> i64 {
     Window::BEHIND + SETTLING_STEPS + Window::extra(settings.substeps)
 }
@@ -93,9 +94,9 @@ pub(super) fn overrun(settings: &Settings) -> i64 {
 struct Run<'a> {
     case: &'a Case,
     settings: Settings,
-    /// Whether all drives turn with constant speeds, which are set only once.
+    /// Whether all drives turn with constant speeds, which need to be set only once.
     steady: bool,
-    /// The first world moves the mechanism. The others only report joints that the first does not report.
+    /// The first world moves the mechanism. The others only report joints that the first world does not report.
     worlds: Vec<Guard<'a>>,
     window: Window,
     /// First step that the window needs for the next sample.
@@ -116,7 +117,7 @@ impl<'a> Run<'a> {
         Ok(Run { case, settings, steady, worlds, window, needed: i64::MIN, reactions, acting })
     }
 
-    /// Prepares for a sample at `t` (s), and returns the last step that it needs.
+    /// Prepares for a sample at `t` (s), and returns the number of the last step that the sample needs.
     fn aim(&mut self, t: f64) -> i64 {
         let [first, last] = self.window.needs(t);
         // In a free motion every step is needed to find motor and loads.
@@ -124,8 +125,8 @@ impl<'a> Run<'a> {
         last
     }
 
-    /// Gives all worlds of a free motion their start velocities. Other worlds are driven backwards from t = 0 to step
-    /// `start`, where they reverse.
+    /// Gives all worlds of a free motion their start velocities.
+    /// In a prescribed motion, drives all worlds backwards from t = 0 to step `start`, where the motion reverses.
     fn begin(&mut self, start: i64) -> Result<()> {
         if let Some(acting) = &mut self.acting {
             self.window = free::begin(self.case, acting, &mut self.worlds, &self.settings)?;
@@ -184,7 +185,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Adds to the error how far the run got; the rows visited so far are valid.
+/// Adds to an error how far the run got. The rows visited so far are valid.
 fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
     let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
     let until = match case.is_free() {

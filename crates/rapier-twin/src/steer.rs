@@ -1,20 +1,21 @@
 //! Directions of the rows that close a loop, chosen so that few sweeps are enough.
 //!
 //! A pin that the tree cuts has two rows.
-//! Gauss-Seidel solves them one after the other, and their coupling decides how fast it converges.
-//! A link that turns about its own pin moves the cut pin across the line between the two pins, and not along it.
-//! The rows therefore lie along and across that line, on the more mobile of the two links.
+//! Gauss-Seidel solves them one after the other, and their coupling determines the rate of convergence.
+//! Consider the line from a link's pin in the tree to its cut pin.
+//! Rotation of the link moves the cut pin across this line, not along it.
+//! The rows therefore lie along and across this line, on the more mobile of the two links.
 //! Then each sweep leaves at most half of the error.
-//! With mobilities a and b >= a of the two links and an angle mu between their lines, the share is
-//! a cos^2 mu / (a cos^2 mu + b).
+//! With mobilities a and b >= a of the two links and an angle mu between their lines, the remaining fraction is a cos^2
+//! mu / (a cos^2 mu + b).
 //! In other directions it may come close to 1.
 
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, Mechanism};
 use linkage::mechanism::{LinkId, spanning_tree::SpanningTree};
 
-/// The links of a cut pin, the more mobile one first, and the direction of its first row in that link's frame.
-/// `masses` are mass (kg) and moment of inertia (kg m^2) of every link. `None` where there is nothing to choose.
+/// The links of a cut pin, the more mobile link first, and the direction of its first row in that link's frame.
+/// `masses` are mass (kg) and moment of inertia (kg m^2) of every link. `None` if there is no choice.
 pub(super) fn steered(
     tree: &SpanningTree,
     mechanism: &Mechanism,

@@ -11,16 +11,16 @@ use linkage::mechanism::{LinkId, LinkPose};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Numbers for each link: position of the mass centre and angle, or their rates.
+/// Number of values per link: position of the mass centre and angle, or their rates.
 /// A row has the positions and angles of all links, then the rates of all links.
 const WIDTH: usize = 3;
 
-/// Number of steps at the beginning of a free motion whose accelerations are not those of the motion.
-/// Separate bodies (`plain`) close the gaps of the first step in the second.
-/// Sweeps over the loops of a multibody begin without impulses; in later steps they begin with those of the step
-/// before.
-/// Links with an initial speed have only a straight line as the step before the first.
-/// The first step also ignores how the transfer functions change.
+/// Number of steps at the beginning of a free motion whose accelerations are not those of the motion. Causes:
+/// - Separate bodies (`plain`) close the gaps of the first step in the second step.
+/// - In a multibody with loops, the first sweeps start without impulses. Later sweeps start from those of the last
+///   step.
+/// - For links with an initial speed, the step before the first step is only a straight line.
+/// - The first step ignores the change of the transfer functions.
 pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
     let moving = case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
     let has_loops = case.mechanism.joints().len() >= case.mechanism.links().len();
@@ -35,18 +35,19 @@ pub(super) struct Window {
     /// Whether the engine's velocities are those at the start of a step.
     /// This holds if drives turn with constant speeds.
     steady: bool,
-    /// The deepest stage that is requested; later stages are not computed.
+    /// The deepest requested stage; later stages are not computed.
     deepest: Stage,
     /// Whether the engine's velocities are read.
     rated: bool,
     ring: Ring,
     /// Velocity and angular velocity of every link while they are propagated along the tree.
     rates: Vec<(Vec2, f64)>,
-    /// Lowest steps about which interpolation may be centred, for positions and for their second differences.
-    /// The interpolation reaches two and three steps farther back.
+    /// Smallest steps that may be the centre of an interpolation: for positions, and for their second differences.
+    /// The interpolation uses steps up to two (positions) or three (second differences) before its centre.
     lowest: i64,
     settled: i64,
-    /// Mass centre and angle of every link at the instant that the velocities belong to, and directions of the tree's links.
+    /// Mass centre and angle of every link at the instant of the engine's velocities, and directions of the tree's
+    /// links.
     poses: Vec<[f64; WIDTH]>,
     directions: Vec<Vec2>,
     /// Positions, rates and accelerations of a sample, one row for each link.
@@ -54,7 +55,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Number of steps needed before the last step at or before an instant.
+    /// Number of steps that a sample needs before the step at or before its instant.
     pub(super) const BEHIND: i64 = 3;
     /// Steps needed after it.
     pub(super) const AHEAD: i64 = 4;
@@ -81,7 +82,7 @@ impl Window {
     }
 
     /// A window of a free motion. It begins at step 0 with the pose and the velocities of a world.
-    /// One step lies before it and leads to this pose without acceleration.
+    /// An artificial step before it leads to this pose without acceleration.
     pub(super) fn beginning(case: &Case, settings: &Settings, guard: &Guard) -> Self {
         // Before the beginning there is nothing to interpolate.
         // To first order it does not matter to which instant of the step the velocities belong.
@@ -99,7 +100,7 @@ impl Window {
         window
     }
 
-    /// Additional steps before the start: with several substeps, every step needs poses between steps.
+    /// Additional steps before the start. With several substeps, every step needs poses between steps.
     pub(super) fn extra(substeps: usize) -> i64 {
         if substeps > 1 { POINTS as i64 - 2 } else { 0 }
     }
@@ -120,8 +121,8 @@ impl Window {
     }
 
     /// Stores the state after a step.
-    /// Poses belong to this step, and the engine's velocities to the start of its last substep.
-    /// Without substeps that is the step before.
+    /// The poses are those of this step.
+    /// The engine's velocities are those at the start of its last substep; without substeps, those of the step before.
     pub(super) fn push(&mut self, guard: &Guard, case: &Case) {
         let (row, _) = self.ring.push().as_chunks_mut();
         for (own, (centre, frame)) in row.iter_mut().zip(guard.centres().iter().zip(guard.frames())).skip(1) {
@@ -132,12 +133,12 @@ impl Window {
         }
     }
 
-    /// Passes over a step that no sample needs.
+    /// Skips a step that no sample needs.
     pub(super) fn skip(&mut self) {
         self.ring.skip();
     }
 
-    /// Finds the poses of all links at the instant that the engine's velocities belong to.
+    /// Computes the poses of all links at the instant of the engine's velocities.
     fn place_rates(&mut self) {
         let (newest, part) = (self.ring.newest(), 0..self.poses.len() * WIDTH);
         let poses = self.poses.as_flattened_mut();
@@ -149,7 +150,7 @@ impl Window {
         self.ring.weigh(newest + 1 - POINTS as i64, &weights, part, poses);
     }
 
-    /// Propagates the joints' speeds from the ground along the tree, with the poses of the instant they belong to.
+    /// Propagates the joints' speeds from the ground along the tree, with the poses at the instant of these speeds.
     fn carry_rates(&mut self, world: &dyn World, case: &Case) {
         let branches = &world.tree().branches;
         if !branches.is_empty() {
@@ -188,7 +189,7 @@ impl Window {
         }
     }
 
-    /// The newest pose, with the velocities that led there: differences of positions over one step.
+    /// The newest pose, with the mean velocities of the last step: differences of positions.
     pub(super) fn newest_motion(&self, case: &Case, state: &mut State) {
         let (now, before) = (self.ring.row(self.newest()), self.ring.row(self.newest() - 1));
         for (link, body) in case.mechanism.links().entries().skip(1) {
@@ -239,9 +240,9 @@ impl Window {
 
     /// The motion of all links at `t` (s), up to the requested stage.
     /// Positions and rates are interpolated between steps.
-    /// Accelerations come from centred second differences of the positions.
+    /// Accelerations are centred second differences of the positions.
     /// If drive speeds change, rates are centred first differences of the positions.
-    /// The engine then drives through a step with the step's mean speed, but from the pose at its start.
+    /// In this case the engine drives with the step's mean speed, but from the pose at the step's start.
     pub(super) fn sample(&mut self, case: &Case, t: f64, state: &mut State) {
         let place = self.place(t);
         let weights = place.weights(0.0);
@@ -262,7 +263,7 @@ impl Window {
             self.ring.weigh(place.before - Self::BEHIND, &first.map(|first| first / self.step), part.clone(), rates);
         }
         if self.deepest >= Stage::Accelerations {
-            // The second differences leave out the first steps of a free motion, because these steps close gaps.
+            // The first steps of a free motion are left out of the second differences, because they close gaps.
             let settled = place.from(self.settled);
             let weights = if settled.before == place.before { weights } else { settled.weights(0.0) };
             let mut second = [0.0; POINTS + 2];

@@ -1,4 +1,4 @@
-//! A mechanism as a Rapier world, independent of build and precision.
+//! A mechanism as a Rapier world; the interface is independent of build and precision.
 //! See docs/numerics/twins.md.
 
 use std::f64::consts::TAU;
@@ -8,11 +8,11 @@ use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
 use linkage::mechanism::{Joint, JointId, JointSide, LinkId, LinkPose};
 
-/// What the engine knows of a link's angle (rad, counter-clockwise positive).
+/// A link's angle as far as the engine knows it (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinkAngle {
-    /// The angle itself, including full turns. For a link of the tree it is the sum of the coordinates from the ground
-    /// to it.
+    /// The angle itself, including full turns.
+    /// For a link of the tree, it is the sum of the joint coordinates from the ground to the link.
     Whole(f64),
     /// Full turns (rad), to be added to the angle of the link's direction between -pi and pi.
     /// A separate body has a direction only; the arc tangent is computed on demand.
@@ -35,8 +35,8 @@ impl LinkFrame {
     pub const GROUND: LinkFrame =
         LinkFrame { origin: Vec2::new(0.0, 0.0), direction: Vec2::new(1.0, 0.0), angle: LinkAngle::Whole(0.0) };
 
-    /// Chord of a rotation (rad) below which the chord approximates the rotation.
-    /// Relative to the rotation, the chord is too small by the square of the rotation over 24.
+    /// Upper limit of a chord (rad) that is used in place of the rotation.
+    /// The relative error of the chord is the square of the rotation divided by 24.
     const SMALL: f64 = 0.1;
 
     /// Angle of the frame's x axis (rad), including full turns.
@@ -56,7 +56,7 @@ impl LinkFrame {
     }
 
     /// Rotation of the link since the frame `before` (rad, without sign), to within 4 parts in ten thousand.
-    /// If the frames hold only turns and a direction, it is at most half a turn.
+    /// The result is at most half a turn if the frames hold only full turns and a direction.
     #[inline]
     #[must_use]
     pub fn turn_since(&self, before: &LinkFrame) -> f64 {
@@ -70,7 +70,7 @@ impl LinkFrame {
         cross(before.direction, self.direction).atan2(before.direction.dot(&self.direction)).abs()
     }
 
-    /// Takes the position of a separate body after a step in which it has turned by less than half a turn.
+    /// Stores the position of a separate body after a step in which it has turned by less than half a turn.
     #[inline]
     pub(super) fn follow(&mut self, origin: Vec2, direction: Vec2) {
         if let LinkAngle::Turns(turns) = &mut self.angle
@@ -87,7 +87,7 @@ impl LinkFrame {
         (self.origin, self.direction) = (origin, direction);
     }
 
-    /// Takes a position whose angle is `angle` (rad) up to rounding.
+    /// Stores a position whose angle is `angle` (rad) up to rounding.
     pub(super) fn put(&mut self, origin: Vec2, direction: Vec2, angle: f64) {
         (self.origin, self.direction) = (origin, direction);
         self.angle = match self.angle {
@@ -103,17 +103,17 @@ fn own_angle(direction: Vec2) -> f64 {
 }
 
 /// The Rapier world of a case.
-/// All links form one multibody: those in its tree are joined to each other, the others float.
-/// In large free motions each link on the ground starts a separate multibody with all links beyond it.
-/// Without branches every link is a separate body.
+/// All links form one multibody: links in the tree are joined to each other, the other links float.
+/// In large free motions, each link on the ground starts a separate multibody with all links beyond it.
+/// If the tree has no branches, every link is a separate body.
 /// Joints that the tree cuts are impulse joints.
-/// Every drive has its own motor so that its impulse can be read.
+/// Every drive has a separate motor so that its impulse can be read.
 /// All numbers are f64, SI, world axes.
 pub trait World {
-    /// The spanning tree; without branches every link is a separate body.
+    /// The spanning tree. If it has no branches, every link is a separate body.
     fn tree(&self) -> &SpanningTree;
 
-    /// One time step of Rapier, after which frames can be read. It may fail to close loops, and may panic.
+    /// Does one time step of Rapier; frames can be read afterwards. The step may fail to close loops, and may panic.
     fn step(&mut self);
 
     /// Rapier's step alone: frames are not updated.
@@ -124,11 +124,11 @@ pub trait World {
 
     /// Sets whether the velocities after a step exclude the correction of loop gaps.
     ///
-    /// If so, Rapier solves all constraints a second time, and continues with velocities along the constraints at the
-    /// START
-    /// of the step.
-    /// These are not the velocities that moved the bodies: in a free motion each step loses momentum across the
-    /// constraints of one pose and regains it across those of the next one.
+    /// If so, Rapier solves all constraints a second time after the step.
+    /// It continues with velocities along the constraints at the START of the step.
+    /// These are not the velocities that moved the bodies.
+    /// In a free motion, each step loses momentum across the constraints of one pose.
+    /// The next step regains it across the constraints of the next pose.
     fn set_stabilised(&mut self, stabilised: bool);
 
     /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive gives its link.
@@ -137,12 +137,10 @@ pub trait World {
 
     /// Replaces a prescribed speed by a motor.
     /// The moment on the link (N m) is `damping` (N m s/rad, not negative) times the difference of `target` (rad/s) and
-    /// the
-    /// speed.
-    /// The speed is that at the END of the step.
+    /// the speed at the END of the step.
     fn set_motor(&mut self, drive: usize, target: f64, damping: f64);
 
-    /// Sets the loads on a link. They stay until they are set again.
+    /// Sets the loads on a link. They act until they are set again.
     fn set_load(&mut self, link: LinkId, load: Wrench);
 
     /// Moves all links into the given poses; velocities stay as they are.
@@ -161,18 +159,18 @@ pub trait World {
         self.frames()[side.link].point(side.local)
     }
 
-    /// Speed of the joint of branch `index` of the tree, as it was at the START of the last step.
+    /// Speed of the joint of branch `index` of the tree at the START of the last step.
     /// (Rapier reports velocities one step late.)
-    /// It is the angular velocity of the child minus that of its parent (rad/s).
+    /// For a revolute joint it is the angular velocity of the child minus that of its parent (rad/s).
     /// For a prismatic joint it is the speed of the child along the parent's axis (m/s).
     fn relative_speed(&self, index: usize) -> f64;
 
     /// Velocity of the mass centre (m/s) and angular velocity (rad/s) of a link outside the tree.
-    /// They too are one step late. `None` for links of the tree.
+    /// These velocities are also one step late. `None` for links of the tree.
     fn velocity(&self, link: LinkId) -> Option<(Vec2, f64)>;
 
     /// Reaction in a joint that the tree cuts, from the impulses of the last step.
-    /// It is the force of the first link on the second (N) and the moment about the point on the second (N m).
+    /// The force is that of the first link on the second (N); the moment is about the point on the second link (N m).
     /// `None` for joints of the tree, which report no reaction.
     /// The world must have been built for reading reactions.
     fn reaction(&self, joint: JointId) -> Option<(Vec2, f64)>;
@@ -201,7 +199,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// From any angle, in steps of any size below half a turn, in both senses.
+        /// Rotations start at any angle, in steps of any size below half a turn, in both senses.
         #[test]
         fn turns_are_counted(start in -20.0f64..20.0, steps in prop::collection::vec(-3.1f64..3.1, 1..40)) {
             let mut frame = LinkFrame { angle: LinkAngle::Turns(0.0), ..LinkFrame::GROUND };
@@ -219,7 +217,7 @@ mod tests {
         }
     }
 
-    /// The direction moves onto the axis from either side, with a zero of either sign, and off it again.
+    /// The direction moves onto the x axis from either side, with a zero of either sign, and off the axis again.
     #[test]
     fn turns_are_counted_on_the_axis() {
         let back = |y: f64| Vec2::new(-1.0, y);

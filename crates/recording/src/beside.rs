@@ -1,5 +1,5 @@
-//! File of a recording: it replaces an older recording of the same run, else it gets another name in the same
-//! directory.
+//! Path of a recording's file.
+//! A recording replaces an older recording of the same run; otherwise it gets another name in the same directory.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -14,12 +14,12 @@ use mcap::records::op;
 /// Beginning of the library's name in the header of a recording.
 pub(super) const LIBRARY: &str = "linkproof ";
 
-/// Largest number of recordings of one name in a directory.
+/// Largest number of recordings with the same base name in a directory.
 const MOST: usize = 1000;
 
-/// Prefixes of the metadata keys of requests beyond the scenario's text.
+/// Prefixes of the metadata keys of everything that the user requests in addition to the scenario's text.
 const ASKED: [&str; 7] = ["modes", "parameters", "start_crank_deg", "grid_", "only", "reference", "record_hz"];
-/// Prefix of the metadata keys of the engine's settings, which a proof may have found.
+/// Prefix of the metadata keys of the engine's settings. A proof may have found these settings.
 const ENGINE: &str = "engine";
 
 /// Where a recording goes.
@@ -27,12 +27,12 @@ const ENGINE: &str = "engine";
 pub struct RecordingPlace {
     /// Its file.
     pub path: PathBuf,
-    /// Difference from the recording that keeps the usual name; `None` if this recording has the usual name.
+    /// Difference from the recording that has the usual name; `None` if this recording has the usual name.
     pub other: Option<String>,
 }
 
-/// File of a run's recording: `NAME.mcap` in the directory, or `NAME-2.mcap`, ... if the name belongs to another run.
-/// `text` is the scenario's, and `metadata` as in [`Recording`](super::Recording).
+/// Path of a run's recording: `NAME.mcap` in the directory, or `NAME-2.mcap`, ... if the name belongs to another run.
+/// `text` is the scenario's text; for `metadata` see [`Recording`](super::Recording).
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if there are a thousand recordings of other runs.
@@ -52,7 +52,7 @@ pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<Strin
     Err(Error::new(ErrorKind::Io, message).help(sentences::REMOVE_THOSE_THAT_ARE_NOT_NEEDED))
 }
 
-/// Difference between the recording at `path` and that of a run.
+/// Difference between the file at `path` and the recording of a run, in words.
 /// `None` if they do not differ or the file does not exist.
 fn difference(path: &Path, text: &str, metadata: &BTreeMap<String, String>) -> Option<String> {
     match fs::symlink_metadata(path) {
@@ -95,7 +95,7 @@ pub(super) fn described(bytes: &[u8]) -> Option<Described> {
             op::METADATA => {
                 metadata = metadata.or_else(|| raw::metadata(content).filter(|own| own.name == "linkproof"))
             }
-            // Both are at the beginning of the file.
+            // The scenario text and the metadata are at the beginning of the file.
             op::CHUNK | op::DATA_END => break,
             _ => {}
         }

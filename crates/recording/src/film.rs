@@ -1,4 +1,4 @@
-//! A recording read back for viewers that do not know its messages: as a moving picture, or as numbers alone.
+//! Reads a recording for viewers that do not know its messages: as a moving picture, or as numbers alone.
 
 use super::extent::{corners, placed};
 use super::recording::RecordedSide;
@@ -18,7 +18,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Largest message of a picture that is read (bytes), and largest number of parts in all messages.
-/// Both are far more than a viewer can show. Parts take up to a hundred times their bytes in memory.
+/// Both limits are far beyond what a viewer can show.
+/// In memory, a part takes up to a hundred times its size in the file.
 const LONGEST: usize = 1 << 22;
 const PARTS: usize = 2_000_000;
 
@@ -31,11 +32,11 @@ pub struct Film {
     pub parts: Vec<DrawnLink>,
     /// Times of the poses.
     pub times: Vec<f64>,
-    /// For every frame its position (m) and angle (rad) at these times.
+    /// For every frame: positions (m) and angles (rad) at the times of the film.
     pub poses: BTreeMap<String, Vec<[f64; 3]>>,
-    /// For every arrow its time, its foot (m) and the vector from foot to tip (m).
+    /// For every arrow: time, foot (m), and vector from foot to tip (m).
     pub arrows: BTreeMap<String, Vec<[f64; 5]>>,
-    /// For every line of every plot its times and values.
+    /// Times and values, for every line of every plot.
     pub values: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
@@ -68,7 +69,7 @@ struct Found {
 /// Reads a recording as a moving picture.
 ///
 /// # Errors
-/// Those of [`load`](super::load); [`ErrorKind::Input`](linkage::ErrorKind::Input) if it has no picture.
+/// Those of [`load`](super::load); [`ErrorKind::Input`](linkage::ErrorKind::Input) if the recording has no picture.
 pub fn film(path: &Path) -> Result<Film> {
     let bytes = read::bytes(path)?;
     let sides = read::read_bytes(&bytes, path)?;
@@ -121,7 +122,7 @@ impl Found {
         if !self.topics.contains(topic) {
             self.topics.insert(topic.into());
         }
-        // Messages that cannot be read are not shown.
+        // Messages that cannot be decoded are skipped.
         match topic {
             _ if message.data.len() > LONGEST || self.parts > PARTS => {}
             "/mechanism/links" => self.links = SceneUpdate::decode(&*message.data).ok(),

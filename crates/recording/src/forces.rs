@@ -1,4 +1,4 @@
-//! Reactions as arrows: the force of each joint's first link on its second, at the joint.
+//! Reactions as arrows: the force of each joint's first link on its second link, drawn at the joint.
 
 use super::scene::{PlacedSide, ViewerScene, column};
 use super::shapes::{colour, pose, short, stamp};
@@ -6,9 +6,9 @@ use crate::viewers::{ArrowPrimitive, SceneEntity, SceneUpdate};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Joint;
 
-/// Length of the longest arrow, as a share of the mechanism's size.
+/// Length of the longest arrow divided by the mechanism's size.
 const LONGEST: f64 = 0.4;
-/// Length of the shortest arrow, as a share of the mechanism's size; viewers fail on arrows of zero length.
+/// Length of the shortest arrow divided by the mechanism's size. Viewers fail on arrows of zero length.
 const SHORTEST: f64 = 0.01;
 
 /// The arrows of all sides that have reactions.
@@ -37,7 +37,7 @@ impl<'a> Forces<'a> {
         (!sides.is_empty()).then_some(Forces { scene, sides, scale })
     }
 
-    /// Every arrow at one time; the identifiers are always the same.
+    /// All arrows at one time. Their identifiers are the same at all times.
     pub fn arrows(&self, time: f64, nanoseconds: u64) -> SceneUpdate {
         let mechanism = self.scene.mechanism;
         let mut entities = Vec::new();

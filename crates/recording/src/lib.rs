@@ -3,8 +3,9 @@
 //! | topic | schema | when |
 //! |---|---|---|
 //! | `/<side>/grid` | `linkproof.Grid` | every sample |
-//! | `/<side>/link/<name>`, `/<side>/point/<name>`, `/<side>/joint/<name>`, `/<side>/frame`, `/<side>/drive` |
-//! `linkproof.Link`, ...; `linkproof.Slider` of a prismatic joint | every sample |
+//! | `/<side>/link/<name>`, `/<side>/point/<name>` | `linkproof.Link`, `linkproof.Point` | every sample |
+//! | `/<side>/frame`, `/<side>/drive` | `linkproof.Frame`, `linkproof.Drive` | every sample |
+//! | `/<side>/joint/<name>` | `linkproof.Joint`; `linkproof.Slider` of a prismatic joint | every sample |
 //! | `/error/link/<name>`, ... | `linkproof.LinkError`, ...: um, urad, mN | every sample |
 //! | `/mechanism/links` | `foxglove.SceneUpdate` | once |
 //! | `/robot_description` | `std_msgs/msg/String`: the links as URDF, for viewers without scenes | once |
@@ -13,19 +14,20 @@
 //! | `/log` | `foxglove.Log` | verdicts and warnings |
 //!
 //! A message declares only the fields that are computed.
-//! If fields of its subject are missing, its name contains the numbers of its fields, such as `linkproof.Point_1_2`.
+//! If fields of a subject are missing, the message's name contains the numbers of its fields, such as
+//! `linkproof.Point_1_2`.
 //!
 //! Log times are nanoseconds from the first instant of the recording.
 //! They are the simulated times multiplied by [`Show::slow`]; the grid has the simulated times themselves.
 //! Nothing depends on a clock, so equal runs give equal files.
-//! The sequence number of a message is that of its sample in ascending order of time.
-//! It connects the topics of one side.
+//! The sequence number of a message is the number of its sample in ascending order of time.
+//! It relates the topics of one side to each other.
 //! The scenario is attached as `scenario.toml`.
-//! Versions, settings and the scales of time and of force arrows are in the metadata record `linkproof`.
+//! The metadata record `linkproof` contains versions, settings and the scales of time and of force arrows.
 //!
-//! A recording of another program can be read too.
+//! A recording of another program can also be read.
 //! It needs `/<side>/grid` and the topics above in protobuf.
-//! Its fields must be named like the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS).
+//! The names of its fields must be the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS).
 //! The field numbers are looked up in the file.
 
 mod beside;

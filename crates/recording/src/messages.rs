@@ -1,9 +1,9 @@
-//! The messages of an MCAP file from an untrusted source.
+//! Reads the messages of an MCAP file from an untrusted source.
 //!
 //! The readers of the MCAP library trust the record lengths in a file.
-//! With damaged lengths they request more memory than exists, or index beyond a record.
-//! Here a record is at most as long as the file, or as [`SMALL`].
-//! Only the kinds of records that messages need are parsed.
+//! If these lengths are damaged, they request more memory than exists, or index beyond a record.
+//! This reader limits the length of a record to the length of the file, or to [`SMALL`] if the file is shorter.
+//! It parses only the kinds of records that messages need.
 
 use crate::sentences;
 use std::borrow::Cow;
@@ -17,10 +17,10 @@ use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{McapError, McapResult, Message, parse_record};
 use prost::DecodeError;
 
-/// Length allowed for a record in any file: a decompressed record may be longer than its file.
+/// Record length that is allowed in any file. A decompressed record may be longer than its file.
 const SMALL: usize = 1 << 20;
 
-/// Calls `visit` with every message, in the order of the file. Error messages call the file `path`.
+/// Calls `visit` for every message, in the order of the file. Error messages call the file `path`.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] for a file that is cut off or damaged, and for a message that `visit` cannot read.
@@ -56,7 +56,7 @@ fn walk(
             // The summary section repeats earlier records.
             LinearReadEvent::Record { opcode: op::DATA_END, .. } => is_data = false,
             LinearReadEvent::Record { opcode, data } => {
-                // The records cannot be longer in total than the expanded size that the file states.
+                // The total length of the records cannot exceed the decompressed size stated in the file.
                 seen += 9 + data.len() as u64;
                 if seen > told {
                     return Err(McapError::ChunkTooLarge(seen).into());

@@ -30,16 +30,16 @@ impl RecordingOutput {
             .profile("")
             .library([LIBRARY, env!("CARGO_PKG_VERSION")].concat())
             .chunk_size(Some(CHUNK))
-            // Several threads would cut chunks depending on the number of cores.
+            // With several threads, the division into chunks would depend on the number of cores.
             .compression_threads(0)
-            // A seeking writer corrects the chunk's length afterwards. If it were killed before that, no program could
-            // open the file.
+            // A seeking writer corrects the chunk's length afterwards.
+            // If it were killed before the correction, no program could open the file.
             .disable_seeking(true)
             .create(NoSeek::new(BufWriter::new(file)))?;
         Ok(RecordingOutput { writer, flushed: 0, pending: 0 })
     }
 
-    /// Writes the metadata record and the scenario first, so that a truncated file has them too.
+    /// Writes the metadata record and the scenario first, so that a truncated file also contains them.
     pub fn describe(&mut self, recording: &Recording, start: f64, force_scale: Option<f64>) -> McapResult<()> {
         let mut metadata = recording.metadata.clone();
         metadata.entry("scenario".into()).or_insert_with(|| recording.name.into());
@@ -75,7 +75,7 @@ impl Sink for RecordingOutput {
     }
 
     fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()> {
-        // A chunk per second limits the loss of a killed run. Chunks of a few samples would not compress.
+        // One chunk per second limits the loss if a run is killed. Chunks of only a few samples would not compress.
         if time / SECOND > self.flushed && self.pending > CHUNK as usize / 8 {
             self.writer.flush()?;
             (self.flushed, self.pending) = (time / SECOND, 0);

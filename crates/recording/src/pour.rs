@@ -1,4 +1,4 @@
-//! From trajectories to messages in order of time.
+//! Converts trajectories to messages in order of time.
 
 use super::forces::Forces;
 use super::recording::{Level, LogEntry, Recording};
@@ -16,7 +16,7 @@ use prost::Message;
 /// Nanoseconds in a second.
 pub const SECOND: u64 = 1_000_000_000;
 
-/// An event to be written at its time.
+/// Something to be written at a given time.
 enum Event<'a> {
     Frame(f64),
     Sample { table: usize, row: usize, sequence: u32 },
@@ -31,7 +31,7 @@ pub struct DrawnRecording<'a> {
     pub forces: &'a Option<Forces<'a>>,
 }
 
-/// Hands all messages of a recording to a sink, in order of time.
+/// Passes all messages of a recording to a sink, in order of time.
 pub fn pour(recording: &Recording, drawn: &DrawnRecording, sink: &mut impl Sink) -> McapResult<()> {
     let &DrawnRecording { scene, forces } = drawn;
     let start = start(recording);
@@ -90,7 +90,7 @@ pub fn pour(recording: &Recording, drawn: &DrawnRecording, sink: &mut impl Sink)
     Ok(())
 }
 
-/// Smallest time of the recording (s), where log times start.
+/// Smallest time in the recording (s); the log time there is zero.
 pub fn start(recording: &Recording) -> f64 {
     let first = times(recording).fold(f64::INFINITY, f64::smaller);
     if first.is_finite() { first } else { 0.0 }

@@ -1,11 +1,11 @@
-//! The raw records of an MCAP file, found by checked lengths: they describe a file before it is read.
+//! Finds the raw records of an MCAP file, with checked lengths. They describe a file before it is read.
 
 use mcap::parse_record;
 use mcap::records::{Metadata, Record, op};
 
-/// Number of decompressed bytes that any file may have.
+/// A file of any size may have this number of decompressed bytes.
 const ANY: u64 = 128 << 20;
-/// Allowed ratio of decompressed bytes to file bytes; recordings have a ratio of three.
+/// Largest allowed ratio of decompressed bytes to file bytes. The ratio of recordings is three.
 const EACH: u64 = 16;
 
 /// Codes and contents of the outermost records. Reading ends at the first truncated or damaged record.
@@ -20,8 +20,8 @@ pub(super) fn records(bytes: &[u8]) -> impl Iterator<Item = (u8, &[u8])> {
     })
 }
 
-/// Size of a file with its chunks decompressed, as the chunks state it, and the largest size that is read from such a
-/// file.
+/// Size of a file after decompression, as stated in its chunks, and the largest size that is read from a file of this
+/// length.
 pub(super) fn expanded(bytes: &[u8]) -> [u64; 2] {
     let chunks = records(bytes).filter(|(code, _)| *code == op::CHUNK);
     // The times of the first and the last message precede the length.
@@ -41,7 +41,7 @@ pub(super) fn is_by(bytes: &[u8], library: &str) -> bool {
     header().unwrap_or(false)
 }
 
-/// Content of the attachment called `name`.
+/// Content of the record if it is the attachment called `name`.
 pub(super) fn attachment<'a>(content: &'a [u8], name: &str) -> Option<&'a [u8]> {
     // Two times precede the name.
     let mut left = content.get(16..)?;
@@ -59,7 +59,7 @@ pub(super) fn metadata(content: &[u8]) -> Option<Metadata> {
     }
 }
 
-/// Bytes preceded by their number, which is stored in `N` bytes.
+/// Reads bytes that are preceded by their number; the number takes `N` bytes.
 fn part<'a, const N: usize>(left: &mut &'a [u8]) -> Option<&'a [u8]> {
     let (length, rest) = left.split_first_chunk::<N>()?;
     let length = length.iter().rev().fold(0, |number: u64, &byte| number << 8 | u64::from(byte));

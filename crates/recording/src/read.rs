@@ -1,4 +1,4 @@
-//! From an MCAP file back to trajectories.
+//! Reads trajectories from an MCAP file.
 
 use super::{messages, raw, schema};
 use crate::sentences;
@@ -17,7 +17,7 @@ use std::path::Path;
 /// Values with the sequence numbers of their samples.
 type Numbered = Vec<(u32, f64)>;
 
-/// Use of the messages of one MCAP channel of a side: the meaning of the fields, by their numbers.
+/// Use of one MCAP channel: its side, and the meaning of the message fields, by their numbers.
 struct Topic {
     side: String,
     is_grid: bool,
@@ -31,7 +31,7 @@ enum Field {
     Value(Channel),
 }
 
-/// Data found of one side. The keys keep sides and columns in the order of recording: MCAP channel, then field.
+/// Data of one side. The order of the keys is the order of recording: MCAP channel, then field.
 #[derive(Default)]
 struct Found {
     grid: BTreeMap<String, Numbered>,
@@ -41,8 +41,9 @@ struct Found {
 
 /// Reads every side of a recording, in the order in which they were recorded.
 ///
-/// Times, crank angles and values are read back bit for bit, with the rows in the solver's order. Columns are in the
-/// order of subjects in the recording, and of [`CHANNELS`](linkage::trajectory::CHANNELS) within a subject.
+/// Times, crank angles and values are read back bit for bit, with the rows in the solver's order.
+/// Columns are in the order of subjects in the recording, and within a subject in the order of
+/// [`CHANNELS`](linkage::trajectory::CHANNELS).
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
@@ -65,7 +66,7 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
     })
 }
 
-/// Refuses a file whose chunks expand far more than those of any recording of its size, before they are decompressed.
+/// Refuses a file before decompression if its chunks expand far more than those of any recording of its size.
 fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
     let [told, most] = raw::expanded(bytes);
     if told <= most {
@@ -76,7 +77,7 @@ fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
     Err(Error::new(ErrorKind::Io, message).help(sentences::RECORD_IT_AGAIN_RECORDINGS_OF_THIS_PROGRAM))
 }
 
-/// The same from the bytes of a recording; error messages call it `path`.
+/// Reads every side from the bytes of a recording. Error messages call the recording `path`.
 ///
 /// # Errors
 /// Those of [`load`], except that the file cannot be read.
@@ -106,7 +107,8 @@ pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>
     sides.into_iter().map(|(name, found)| assemble(&name, found, path).map(|trajectory| (name, trajectory))).collect()
 }
 
-/// Content of a message's topic, from its name and from the descriptor in the file; `None` if it is not of this format.
+/// Content of a message's topic, from the topic's name and from the descriptor in the file.
+/// `None` if the topic does not have this format.
 fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Option<Topic>, DecodeError> {
     let channel = &message.channel;
     let parts = channel.topic.strip_prefix('/').and_then(|rest| rest.split_once('/'));
@@ -114,8 +116,8 @@ fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Op
     if channel.message_encoding != "protobuf" || schema.encoding != "protobuf" {
         return Ok(None);
     }
-    // `link/crank` and the field `x_m` are the channel `link.crank.x_m`.
-    // Errors have small units, so none of their fields is a channel.
+    // The field `x_m` of `link/crank` is the channel `link.crank.x_m`.
+    // Fields of errors have small units in their names, so they match no channel.
     let (is_grid, subject) = (subject == "grid", subject.replacen('/', ".", 1));
     let field = |name: &String| match is_grid {
         true => Some(Field::Grid(name.clone())),
@@ -167,7 +169,7 @@ fn assemble(name: &str, mut found: Found, path: &Path) -> Result<Trajectory> {
     if times.is_empty() || !same(&cranks) {
         return Err(incomplete(&"its grid"));
     }
-    // Other programs do not write row numbers; without them the order of the samples applies.
+    // Other programs do not write row numbers. The order of the samples then determines the rows.
     let mut order: Vec<usize> = (0..times.len()).collect();
     if same(&rows) {
         order.sort_by(|&a, &b| rows[a].1.total_cmp(&rows[b].1));

@@ -12,7 +12,7 @@ pub struct Recording<'a> {
     pub name: &'a str,
     /// Text of the scenario file, attached as `scenario.toml`.
     pub scenario_text: &'a str,
-    /// Versions, settings, verdict: the origin of the numbers.
+    /// Origin of the numbers: versions, settings, verdict.
     pub metadata: &'a BTreeMap<String, String>,
     /// The mechanism that is drawn.
     pub mechanism: &'a Mechanism,
@@ -31,14 +31,14 @@ pub struct Recording<'a> {
 pub struct Show {
     /// Playback is slower than the simulation by this factor: seconds of log time per simulated second.
     pub slow: f64,
-    /// Largest number of samples per simulated second, besides the first and the last; `None` keeps all.
+    /// Largest number of samples per simulated second; the first and the last sample are always kept. `None` keeps all.
     pub hz: Option<f64>,
     /// Whether reactions are drawn as arrows.
     pub forces: bool,
 }
 
 impl Default for Show {
-    /// At the speed of the simulation, every sample, no arrows.
+    /// The default: at the speed of the simulation, with every sample, without arrows.
     fn default() -> Self {
         Show { slow: 1.0, hz: None, forces: false }
     }

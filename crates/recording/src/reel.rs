@@ -14,9 +14,9 @@ use mcap::{McapError, McapResult};
 pub struct Reel {
     /// Names of the topics, and the kinds of their messages.
     pub topics: Vec<(String, MessageKind)>,
-    /// Factor by which log times run slower than the simulation.
+    /// Factor by which the log time is slower than the simulation.
     pub slow: f64,
-    /// Log time of one revolution of the crank, or of the whole recording if that is shorter (s).
+    /// Log time of one revolution of the crank (s), or duration of the whole recording if it is shorter.
     pub turn: f64,
     entries: Vec<Entry>,
     /// Indices of the messages of every topic, in ascending order.
@@ -43,7 +43,7 @@ struct Entry {
     end: usize,
 }
 
-/// Everything that the recording's file would contain for viewers, in memory, for playback.
+/// Makes a reel: everything that the recording's file would contain for viewers.
 ///
 /// # Errors
 /// Those of [`write`](super::write()), except that no file is written.

@@ -10,9 +10,9 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, LinkId, LinkPose, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Largest number of frames in a recording. A long recording has more, to keep [`FRAMES_PER_SECOND`].
+/// Usual upper limit of the number of frames. A long recording has more frames, to keep [`FRAMES_PER_SECOND`].
 const FRAMES: f64 = 400.0;
-/// Smallest number of frames per second of log time, if there are enough samples.
+/// Lower limit of the number of frames per second of log time, if there are enough samples.
 const FRAMES_PER_SECOND: f64 = 50.0;
 
 /// Everything that can be drawn of a recording.
@@ -28,7 +28,7 @@ pub struct ViewerScene<'a> {
 }
 
 impl<'a> ViewerScene<'a> {
-    /// The scene of the sides that have samples and all positions; `None` without such a side.
+    /// The scene of all sides that have samples and all positions; `None` if no side has them.
     pub fn new(mechanism: &'a Mechanism, sides: &[RecordedSide<'a>]) -> Option<Self> {
         let placed = |(number, side): (usize, &RecordedSide<'a>)| {
             let column = |link: &Link, suffix| column(side.trajectory, &format!("link.{}.{suffix}", link.name));
@@ -59,13 +59,13 @@ impl<'a> ViewerScene<'a> {
     }
 
     /// Height between the sides in the drawing (m).
-    /// It is enough for a viewer's depth test but invisible: a visible gap would look like a disagreement.
+    /// It is enough for a viewer's depth test but too small to be seen: a visible gap would look like a disagreement.
     pub fn layer(&self) -> f64 {
         0.002 * self.size
     }
 
-    /// Times at which the scene is drawn (s), ascending.
-    /// They are selected from the times of the first side, for viewers that play it `slow` times slower.
+    /// Times of the frames (s), ascending.
+    /// They are selected from the times of the first side, for playback `slow` times slower than the simulation.
     pub fn times(&self, slow: f64) -> Vec<f64> {
         let side = &self.sides[0];
         let time = |&row: &usize| side.trajectory.times()[row];
@@ -81,7 +81,8 @@ impl<'a> ViewerScene<'a> {
         times
     }
 
-    /// Frames of all links at a time, all sides in one message: viewers that jump in time use only the last message.
+    /// Frames of all links at a time, with all sides in one message.
+    /// A viewer that jumps in time uses only the last message.
     pub fn frames(&self, time: f64, nanoseconds: u64) -> FrameTransforms {
         let mut transforms = Vec::new();
         for side in &self.sides {
@@ -131,7 +132,7 @@ impl<'a> ViewerScene<'a> {
         entity
     }
 
-    /// The same with the names of the link's points.
+    /// The entity with the names of the link's points.
     fn lettered(&self, mut entity: SceneEntity, link: LinkId) -> SceneEntity {
         // The names of ground points are written below them, where no link passes.
         let aside = if link == GROUND { Vec2::new(0.03, -0.05) * self.size } else { Vec2::zeros() };

@@ -15,7 +15,7 @@ use prost_types::{
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 
-/// Fields of the grid message: time (s), input (in its SI unit), number of the row in the solver's order.
+/// Fields of the grid message: time (s), input (in its SI unit), and row number in the solver's order.
 pub const fn grid_fields(input: Input) -> [&'static str; 3] {
     ["t_s", input.key(), "row"]
 }
@@ -25,7 +25,7 @@ pub const fn grid_fields(input: Input) -> [&'static str; 3] {
 pub enum MessageContent {
     /// Values in SI units.
     Values,
-    /// Errors in small units. Single precision is enough: people read three digits.
+    /// Errors in small units, in single precision: people read three digits.
     Errors,
 }
 
@@ -52,18 +52,18 @@ pub fn small_unit(kind: &ChannelKind) -> (String, f64) {
     (format!("{stem}{prefix}{unit}"), factor)
 }
 
-/// Appends a double field, also if it is zero.
+/// Appends a field in double precision, even if its value is zero.
 pub fn put(buffer: &mut Vec<u8>, tag: u32, value: f64) {
     double::encode(tag, &value, buffer);
 }
 
-/// Appends a single precision field, also if it is zero.
+/// Appends a field in single precision, even if its value is zero.
 pub fn put_small(buffer: &mut Vec<u8>, tag: u32, value: f32) {
     encode_key(tag, WireType::ThirtyTwoBit, buffer);
     buffer.extend(value.to_le_bytes());
 }
 
-/// The numbers of a message, of double or single precision, in the order of the wire; other fields are skipped.
+/// The numbers in a message, in double or single precision, in the order of the bytes. Other fields are skipped.
 pub fn numbers(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
     let mut fields = Vec::new();
     while !data.is_empty() {
@@ -83,8 +83,8 @@ pub fn numbers(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
     Ok(fields)
 }
 
-/// Longest message description that is parsed (bytes), hundreds of times the length of linkproof's.
-/// Its parts take up to a hundred times their bytes in memory.
+/// Longest message description that is parsed (bytes), hundreds of times as long as those of linkproof.
+/// In memory, its parts take up to a hundred times their size in the file.
 const LONGEST: usize = 1 << 20;
 
 /// Names of the number fields of schemas. Each schema is parsed once.
@@ -115,15 +115,16 @@ pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, S
     Ok(numbers.map(|field| (field.number() as u32, field.name().to_string())).collect())
 }
 
-/// Channels in the message of a subject. The message of a sliding joint has those of any joint, and additional ones.
+/// Channels in the message of a subject.
+/// The message of a sliding joint has the channels of any joint, and additional channels.
 fn kinds(subject: ChannelSubject) -> impl Iterator<Item = &'static ChannelKind> {
     let joint = subject == ChannelSubject::Slider;
     CHANNELS.iter().filter(move |kind| kind.subject == subject || joint && kind.subject == ChannelSubject::Joint)
 }
 
-/// The message of a subject that has these channels, named after it.
-/// If channels are missing, the name also contains the numbers of its fields.
-/// Viewers confuse messages that have the same name but different fields.
+/// The message of a subject with these channels, named after the subject.
+/// If channels are missing, the name also contains the numbers of the present fields.
+/// Otherwise viewers would confuse messages with the same name but different fields.
 pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&ChannelKind]) -> MessageKind {
     let word = if subject == ChannelSubject::Slider { "slider" } else { subject.word() };
     let (suffix, number) = match told {
@@ -157,7 +158,7 @@ fn message(name: &str, fields: impl Iterator<Item = (u32, String)>, kind: Type) 
             ..Default::default()
         })
         .collect();
-    // In proto3, presence is written as a oneof of a single field, as protoc does.
+    // In proto3, presence is declared as a oneof with a single field, as protoc does.
     let oneof_decl =
         field.iter().map(|f| OneofDescriptorProto { name: Some(format!("_{}", f.name())), options: None }).collect();
     let message = DescriptorProto { name: Some(name.into()), field, oneof_decl, ..Default::default() };
@@ -176,7 +177,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_channel_has_a_field_of_its_own_name() {
+    fn every_channel_has_a_field_with_its_name() {
         for kind in &CHANNELS {
             let all: Vec<&ChannelKind> = kinds(kind.subject).collect();
             let kind_of_all = of_subject(kind.subject, MessageContent::Values, &all);
@@ -185,9 +186,10 @@ mod tests {
         }
     }
 
+    /// Only present channels are declared, and message names are unique.
     /// Otherwise viewers would show missing values as zero, and confuse messages of the same name.
     #[test]
-    fn only_what_is_there_is_declared() {
+    fn only_recorded_channels_are_declared() {
         let some: Vec<&ChannelKind> = kinds(ChannelSubject::Slider).filter(|kind| kind.unit == Unit::Metre).collect();
         for own in
             [MessageContent::Values, MessageContent::Errors].map(|told| of_subject(ChannelSubject::Slider, told, &some))

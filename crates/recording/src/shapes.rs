@@ -6,9 +6,9 @@ use prost_types::Timestamp;
 use linkage::math::Vec2;
 
 /// Paint of one side.
-/// Sides lie on top of each other.
-/// The first is broad and pale; each later one is thinner and in front of it.
-/// Two sides that agree therefore show both colours, and two that differ separate.
+/// The sides are drawn on top of each other.
+/// The first side is broad and pale; each later side is thinner and in front of it.
+/// Where two sides agree, both colours are visible; where they differ, they separate.
 #[derive(Clone, Copy)]
 pub struct SidePaint {
     /// Red, green, blue, opacity, each 0 to 255.
@@ -49,7 +49,7 @@ pub fn stamp(nanoseconds: u64) -> Option<Timestamp> {
     Some(Timestamp { seconds: seconds.into(), nanos: (nanoseconds % 1_000_000_000) as i32 })
 }
 
-/// Rounds to single precision, which is enough for pictures. Numbers with a zero tail compress to half the size.
+/// Rounds to single precision, which is enough for pictures. The trailing zeros let numbers compress to half the size.
 pub fn short(value: f64) -> f64 {
     f64::from(value as f32)
 }

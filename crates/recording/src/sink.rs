@@ -3,12 +3,12 @@
 use crate::viewers::ViewerMessage;
 use mcap::McapResult;
 
-/// Takes topics and their messages.
+/// Accepts topics and their messages.
 pub trait Sink {
-    /// Number of a topic with this name and kind of message.
+    /// Registers a topic with this name and kind of message, and returns its number.
     fn topic(&mut self, name: &str, kind: &MessageKind) -> McapResult<u16>;
 
-    /// Takes one message at a time (ns).
+    /// Accepts one message at a time (ns).
     fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()>;
 }
 
@@ -36,12 +36,12 @@ impl MessageKind {
         }
     }
 
-    /// One of the viewers' messages.
+    /// Kind of a message that viewers know.
     pub fn viewers<M: ViewerMessage>() -> MessageKind {
         MessageKind::protobuf(M::SCHEMA, M::DESCRIPTOR)
     }
 
-    /// A text in the form of robot programs.
+    /// Kind of a text message of robot programs.
     pub fn text() -> MessageKind {
         let [schema, encoding, data, message] = ["std_msgs/msg/String", "ros2msg", "string data", "cdr"];
         MessageKind { schema: schema.into(), encoding: encoding.into(), data: data.into(), message: message.into() }

@@ -22,14 +22,14 @@ pub struct Topic<'a> {
 
 enum Field<'a> {
     Value(u32, &'a [f64]),
-    /// Column and the number of small units in its SI unit.
+    /// Column, and the number of small units in its SI unit.
     Scaled(u32, &'a [f64], f64),
     /// The number of the row itself.
     Row(u32),
 }
 
 impl Topic<'_> {
-    /// Puts the message of a row into `buffer`.
+    /// Writes the message of a row to `buffer`.
     pub fn encode(&self, row: usize, buffer: &mut Vec<u8>) {
         buffer.clear();
         for field in &self.fields {
@@ -86,7 +86,7 @@ pub fn topic_name(side: &str, subject: ChannelSubject, of: &str) -> String {
 
 type Columns<'a> = Vec<(&'static ChannelKind, &'a [f64])>;
 
-/// The columns of each link, point and joint, and of frame and drive, in the order of their first column.
+/// The columns of each subject (link, point, joint, frame, drive), in the order of their first column.
 /// All columns of a sliding joint are together.
 fn by_subject(trajectory: &Trajectory) -> Vec<(ChannelSubject, &str, Columns<'_>)> {
     let mut subjects: Vec<(ChannelSubject, &str, Columns)> = Vec::new();

@@ -1,15 +1,15 @@
-//! The links as a robot's description (URDF), for viewers that draw no scenes.
-//! It contains boxes and cylinders that `/tf` moves.
+//! The links as a robot's description (URDF), for viewers that cannot draw scenes.
+//! It contains boxes and cylinders that move with `/tf`.
 
 use super::shapes::rgba;
 use crate::viewers::{Color, LinePrimitive, LineType, Pose, SceneEntity, SceneUpdate, Vector3};
 use linkage::math::Vec2;
 use std::fmt::Write;
 
-/// Height of all parts, as a share of their thickness: seen from above, they are flat.
+/// Height of all parts divided by their thickness. The parts are flat when seen from above.
 const FLAT: f64 = 0.1;
 
-/// The description of the links of a scene. The ground is the root.
+/// The description of the links of a scene, with the ground as the root.
 pub fn text(name: &str, links: &SceneUpdate) -> String {
     let mut text = format!("<robot name=\"{}\">", escaped(name));
     let (ground, moving): (Vec<_>, Vec<_>) = links.entities.iter().partition(|entity| entity.frame_id == "world");
@@ -25,7 +25,7 @@ pub fn text(name: &str, links: &SceneUpdate) -> String {
     text + "</robot>"
 }
 
-/// The same as a message: a text in CDR, little endian, with its length and a closing zero.
+/// The description as a message: a text in CDR, little endian, with its length and a closing zero.
 pub fn message(text: &str) -> Vec<u8> {
     let mut data = vec![0, 1, 0, 0];
     data.extend((text.len() as u32 + 1).to_le_bytes());
@@ -67,7 +67,7 @@ fn at(pose: Option<Pose>) -> String {
     format!("xyz=\"{} {} {}\" rpy=\"0 0 0\"", at.x, at.y, at.z)
 }
 
-/// One part. Materials of the same colour share a name, so that a name never has two colours.
+/// Writes one part. Parts of the same colour share a material name, so a name never has two colours.
 fn write_visual(text: &mut String, origin: &str, shape: &str, colour: Option<Color>) {
     let [r, g, b, a] = rgba(colour);
     let rgba = [r, g, b, a].map(|part| (f64::from(part) / 255.0).to_string()).join(" ");

@@ -28,7 +28,7 @@ pub struct View {
     pub forces: bool,
     /// Factor by which playback is slower than the simulation.
     pub slow: f64,
-    /// Log time of one revolution of the crank, or of the whole recording if that is shorter (s).
+    /// Log time of one revolution of the crank (s), or duration of the whole recording if it is shorter.
     pub turn: f64,
     /// Plots, the most interesting first: the values of all sides, then their errors.
     pub plots: Vec<Plot>,
@@ -85,7 +85,7 @@ pub(super) fn turn(lasts: f64, trajectory: &Trajectory) -> f64 {
     if turns >= 1.0 { lasts / turns } else { lasts }
 }
 
-/// Plots of the two most informative channels, and of their errors where these are recorded.
+/// Plots of the two most informative channels, and of their errors if they are recorded.
 pub(super) fn plots(sides: &[RecordedSide], errors: &[Channel]) -> Vec<Plot> {
     let mut plots = Vec::new();
     let Some(first) = sides.first() else { return plots };
@@ -110,8 +110,8 @@ pub(super) fn plots(sides: &[RecordedSide], errors: &[Channel]) -> Vec<Plot> {
     plots
 }
 
-/// The two most informative channels: the moment of a drive, the largest reaction, then accelerations, velocities,
-/// positions. They differ in subject or unit.
+/// The two most informative channels, which differ in subject or unit.
+/// The order of preference is: moment of a drive, largest reaction, accelerations, velocities, positions.
 fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
     let place = |unit: Unit| match unit {
         Unit::NewtonMetre => 0,
@@ -126,7 +126,7 @@ fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
     let mut units: Vec<Unit> = trajectory.channels().iter().map(|channel| channel.kind.unit).collect();
     units.sort_by_key(|&unit| place(unit));
     units.dedup();
-    // People look first for a drive's numbers; the shaking force on the frame is a sum.
+    // People look first at the numbers of a drive. The shaking force on the frame is only a sum.
     let rank = |kind: &ChannelKind| match (kind.subject.is_drive(), kind.subject.is_whole()) {
         (true, _) => 0,
         (false, false) => 1,
@@ -136,7 +136,7 @@ fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
         let own = || trajectory.iter().filter(|(channel, column)| channel.kind.unit == unit && range(column) > 0.0);
         let least = own().map(|(channel, _)| rank(channel.kind)).min()?;
         let best = own().filter(|(channel, _)| rank(channel.kind) == least);
-        // The first of several equal ones, so that the choice does not depend on rounding alone.
+        // If several are equal, the first is used, so that the choice does not depend on rounding.
         best.reduce(|best, next| if range(next.1) > range(best.1) { next } else { best }).map(|(channel, _)| channel)
     };
     units.into_iter().filter_map(of).take(2).collect()

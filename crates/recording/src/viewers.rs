@@ -1,8 +1,8 @@
-//! Messages that viewers of the Foxglove family draw by themselves: scenes, frames and log lines.
-//! They have only the fields used here.
-//! Names and numbers are those of Foxglove's schemas (foxglove/schemas, Protobuf).
+//! Messages that viewers of the Foxglove family can draw: scenes, frames and log lines.
+//! The messages have only the fields used here.
+//! Names and numbers of the fields are those of Foxglove's schemas (foxglove/schemas, Protobuf).
 //! The descriptors beside this file are Foxglove's.
-//! Tests compare both with Foxglove's SDK.
+//! Tests compare messages and descriptors with Foxglove's SDK.
 
 use prost::{Enumeration, Message};
 use prost_types::Timestamp;
@@ -196,7 +196,7 @@ mod tests {
     use foxglove::Encode;
     use foxglove::messages as sdk;
 
-    /// Every field used here, filled with different numbers, read by the SDK and written again.
+    /// All fields used here are filled with different numbers, read by the SDK and written again.
     #[test]
     fn the_sdk_reads_and_writes_the_same_bytes() {
         let pose = Some(Pose {

@@ -15,13 +15,13 @@ use mcap::{McapError, McapResult};
 use std::fs::File;
 use std::path::Path;
 
-/// Longest log time (s), a third of what 64 bits hold in nanoseconds.
+/// Longest log time (s). In nanoseconds, it is a third of the largest signed 64-bit number.
 const LONGEST: f64 = 3e9;
 
-/// Share of the sample spacing by which a sample may come too early: grids are rounded.
+/// A sample may come too early by this fraction of the sample spacing, because grids are rounded.
 const EARLY: f64 = 1e-6;
 
-/// Writes a recording to `path` through a temporary file, so that only a complete recording replaces an older one.
+/// Writes a recording to `path`. An older recording is replaced only by a complete one, through a temporary file.
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if a file cannot be written;
@@ -91,7 +91,7 @@ pub(super) fn as_shown<T>(recording: &Recording, visit: impl FnOnce(&Recording, 
     visit(&shown, &DrawnRecording { scene: &scene, forces: &forces })
 }
 
-/// The trajectory with at most `hz` samples per second, besides its first and its last.
+/// The trajectory with at most `hz` samples per second; the first and the last sample are always kept.
 fn thinned(trajectory: &Trajectory, hz: f64) -> Trajectory {
     let times = trajectory.times();
     let order = ascending(times);
@@ -120,12 +120,12 @@ mod tests {
     }
 
     #[test]
-    fn the_first_the_last_and_what_is_due_stay_in_the_solvers_order() {
+    fn thinning_keeps_both_ends_and_the_order_of_the_solver() {
         let grid: Vec<f64> = (0..=10).map(|k| f64::from(k) * 0.1).collect();
         assert_eq!(kept(&grid, 5.0), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]);
         assert_eq!(kept(&grid, 1000.0), grid);
         assert_eq!(kept(&grid, 0.1), [0.0, 1.0]);
-        // Gaps do not shift later samples.
+        // A gap does not shift later samples.
         assert_eq!(kept(&[0.0, 0.05, 0.95, 1.0, 1.05, 2.0], 1.0), [0.0, 1.0, 2.0]);
         assert_eq!(kept(&[2.0, 1.0, 0.0, 0.5], 1.0), [2.0, 1.0, 0.0]);
         assert_eq!(kept(&[], 1.0), [0.0; 0]);

@@ -18,11 +18,11 @@ use linkage::error::{Error, ErrorKind, Result};
 pub struct Accepted {
     /// Name of the scenario.
     pub scenario: String,
-    /// Word of the proof's verdict.
+    /// The proof's verdict, as a word.
     pub verdict: String,
     /// Number of instants of the grid.
     pub instants: usize,
-    /// The instants at which values are kept (s), in the order of the grid.
+    /// The instants whose values are kept (s), in the order of the grid.
     pub times: Vec<f64>,
     /// Channels, in the order of columns.
     pub channels: Vec<AcceptedChannel>,
@@ -35,7 +35,7 @@ pub struct AcceptedChannel {
     pub name: String,
     /// Bound on the error of every figure.
     pub bound: f64,
-    /// Values at the instants kept.
+    /// Values at these instants.
     pub at: Vec<f64>,
     /// Smallest value over the run.
     pub least: f64,
@@ -54,11 +54,11 @@ pub fn beside(scenario: &Path) -> PathBuf {
     scenario.with_extension(ENDING)
 }
 
-/// The accepted figures in the file at `path`, which must be those of the scenario called `name`; `None` if there is no
-/// file.
+/// Reads the accepted figures in the file at `path`. They must be those of the scenario called `name`.
+/// `None` if the file does not exist.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the place.
+/// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the position.
 pub fn load(path: &Path, name: &str) -> Result<Option<Accepted>> {
     let text = files::text(path).map_err(|error| {
         Error::new(ErrorKind::Io, sentences::the_accepted_figures_cannot_be_read(&path.display(), &error))
@@ -139,14 +139,14 @@ fn twice(root: &TomlTable, channels: &[AcceptedChannel]) -> Result<()> {
     }
 }
 
-/// The text of a file of accepted figures. Numbers have one digit more than their bound.
+/// The text of a file of accepted figures. Every number has one digit more than its bound.
 #[must_use]
 pub fn text(accepted: &Accepted) -> String {
     let quoted = |text: &str| Value::from(text).to_string();
     let Accepted { scenario, verdict, instants, times, channels } = accepted;
     let mut text = format!(
-        "# Accepted figures of {scenario}: the reference's, each known within `bound`, in the units of the names.\n\
-         # How later runs are judged by them: docs/testing.md in the repository of linkproof.\n\
+        "# Accepted figures of {scenario}: reference values, each known to within `bound`, in the units of the names.\n\
+         # How later runs are judged by these figures: docs/testing.md in the repository of linkproof.\n\
          format = {}\nscenario = {}\nverdict = {}\ninstants = {instants}\ntimes_s = {}\n",
         super::header::FORMAT,
         quoted(scenario),
@@ -173,23 +173,24 @@ fn list(values: &[f64], bound: f64) -> String {
     format!("[{}]", values.join(", "))
 }
 
-/// Numbers below this have an exponent.
+/// Numbers below this limit are written with an exponent.
 const SMALL: f64 = 1e-4;
-/// Numbers from this on have an exponent.
+/// Numbers from this limit on are written with an exponent.
 const LARGE: f64 = 1e9;
 /// Number of significant digits of a double. Further digits carry no information.
 const MOST_DIGITS: f64 = 17.0;
 
-/// A number, rounded so that the rounding error is at most a twentieth of its bound.
+/// Formats a number. The rounding error is at most a twentieth of the number's bound.
 /// If the bound is zero, all digits are written.
-/// A number that is read back is written again with the same digits.
+/// If the text is read and written again, it does not change.
 fn number(value: f64, bound: f64) -> String {
     if bound == 0.0 {
         return format!("{value:?}");
     }
     let decimals = -(bound / 10.0).log10().floor();
     let magnitude = |value: f64| value.abs().log10().floor();
-    // Rounding may carry over into one more digit. The second rounding does not carry over again.
+    // Rounding may carry over into a further digit. The number is therefore rounded a second time, which cannot carry
+    // over.
     let rounded = digits(value, magnitude(value) + decimals).parse().unwrap_or(value);
     if rounded == 0.0 {
         return "0.0".into();
@@ -214,7 +215,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_number_is_rounded_by_a_twentieth_of_its_bound_at_most() {
+    fn rounding_is_at_most_a_twentieth_of_the_bound() {
         for (value, bound, written) in [
             (1.234_567_89, 1e-3, "1.2346"),
             (1.234_567_89, 9.9e-4, "1.23457"),
@@ -245,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read_back() {
+    fn accepted_figures_are_read_back_as_written() {
         let kept = |name: &str, rms| AcceptedChannel {
             name: name.into(),
             bound: 1e-9,

@@ -1,6 +1,6 @@
 //! The requested start, which replaces that of the file: assembly modes, and the crank angle at t = 0.
 
-use super::start;
+use super::start::{self, Lists};
 use crate::sentences;
 use linkage::drive::Drives;
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -10,30 +10,27 @@ use linkage::mechanism::assembly::{ConfigurationChoice, blame, blamed, first_cho
 use linkage::mechanism::pose::SidePoint;
 use linkage::mechanism::{Group, GroupId, GroupKind, JointSide, LinkId, Mechanism, Pose, StartGroup, Structure};
 
-/// A start other than that of the scenario file. The default asks for nothing.
+/// A start that replaces that of the scenario file. The default replaces nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartRequest {
-    /// Groups and their modes, each `LINK,LINK=MODE` or `LINK,LINK=NUMBER`.
+    /// Groups and their modes, each as `LINK,LINK=MODE` or `LINK,LINK=NUMBER`.
     /// Links and modes have the names of the file. If the links are in another order, left and right are exchanged.
     /// NUMBER is the position in the list of [`configurations`](linkage::mechanism::assembly::configurations) at the
-    /// start,
-    /// counted from 1.
+    /// start, counted from 1.
     pub modes: Vec<String>,
     /// Crank angle at t = 0 (rad), in place of `crank` in `[start]`.
     /// Modes of the file also hold at the requested angle.
     /// Approximate positions (`near`) hold at the file's angle only. The configuration that they choose there is
-    /// followed to
-    /// the requested angle.
+    /// followed to the requested angle.
     pub crank: Option<f64>,
-    /// Whether the caller defines its own grid. The case then has no instants, and the drive need not reach the
-    /// instants of
-    /// the file's grid.
+    /// Whether the caller defines another grid.
+    /// The case then has no instants, and the drive need not reach those of the file's grid.
     pub without_grid: bool,
     /// Parameters of formulas by their keys, in place of the file's own.
     pub set: Vec<(String, f64)>,
     /// Limit on the memory for the numbers of the file's tables (bytes); `None` for the default limit of a proof.
     pub memory: Option<f64>,
-    /// Whether parameters that the file does not have are added. Otherwise they are refused.
+    /// Whether parameters that are missing in the file are added. Otherwise they are refused.
     pub adds_parameters: bool,
 }
 
@@ -68,17 +65,11 @@ pub(super) struct Start<'a> {
     pub lists: Lists,
 }
 
-/// Whether groups that the file leaves undecided are placed anyway and listed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Lists {
-    No,
-    Undecided,
-}
-
-/// Largest crank step when a configuration is followed (rad).
+/// Upper limit of a crank step when a configuration is followed (rad).
 const STEP: f64 = std::f64::consts::PI / 180.0;
 
-/// Largest difference between a link's unit direction vectors in two poses that count as the same.
+/// If a link's unit direction vectors in two poses differ by at most this, the link has the same direction in both
+/// poses.
 const SAME: f64 = 1e-9;
 
 impl StartRequest {
@@ -139,8 +130,9 @@ impl Start<'_> {
     }
 
     /// Places all groups by these starts.
-    /// If undecided groups are to be listed, each of them gets a number.
-    /// If no group is undecided, the branch counts as the file's.
+    /// If undecided groups are to be listed, each undecided group starts in a configuration that is chosen by its
+    /// number.
+    /// If no group is undecided, the pose counts as lying on the file's branch.
     fn settled(&self, crank: f64, mut starts: Vec<StartGroup>) -> Result<Placed> {
         let angles = self.angles(crank);
         let mut undecided: Vec<Undecided> = Vec::new();
@@ -162,7 +154,7 @@ impl Start<'_> {
             match group {
                 Some(group)
                     if self.lists == Lists::Undecided
-                        && why.kind() == ErrorKind::Geometry
+                        && (why.kind() == ErrorKind::Geometry || starts[group] == StartGroup::default())
                         && undecided.iter().all(|before| before.group != group) =>
                 {
                     starts[group] = StartGroup { rank: Some(rank), ..StartGroup::default() };
@@ -180,8 +172,8 @@ impl Start<'_> {
         }
     }
 
-    /// The pose of the file's own configuration, followed until the crank is at `crank` (rad).
-    /// The direct path comes first; if it fails, the crank turns the opposite way to the same angle.
+    /// The pose of the file's configuration, followed until the crank is at `crank` (rad).
+    /// The direct path is tried first. If it fails, the crank turns the opposite way to the same angle.
     /// A dyad keeps its mode; a higher group is followed step by step.
     fn followed(&self, own: &(Pose, Vec<ConfigurationChoice>), crank: f64) -> Option<Pose> {
         let other = crank - std::f64::consts::TAU.copysign(crank - self.crank);

@@ -1,4 +1,4 @@
-//! The claim of a formula: what it is said to equal.
+//! The claim of a formula: the channel, figure or expression that the formula is said to equal.
 
 use super::figure::MechanismFigure;
 use super::printed::PrintedChannel;
@@ -34,7 +34,7 @@ impl Claim {
         Claim::read(text, &case.all_channels(), Some(case))
     }
 
-    /// Reads a claim about the given channels, whatever case they belong to.
+    /// Reads a claim about the given channels, without a case.
     ///
     /// # Errors
     /// The mistake, with its position in the text.
@@ -122,7 +122,7 @@ impl Claim {
     }
 }
 
-/// The message for an unknown name, and help with the nearest known name.
+/// The message for an unknown name, and a help text with the nearest known name.
 fn unknown(name: &str, all: &[Channel]) -> (String, String) {
     let known: Vec<String> = all.iter().map(Channel::to_string).collect();
     let reduced = QUANTITIES.iter().map(|own| own.name);

@@ -17,27 +17,28 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, LinkId, Mechanism, Point};
 use question::pairs;
 
-const RADIUS: FileKey =
-    optional("radius", ValueKind::LENGTHS.of(Sign::NotNegative), "that of the section; of a polygon 0")
-        .means("radius of the rounding: positive of a line, not negative of a polygon or of a part of the housing");
+const RADIUS: FileKey = optional(
+    "radius",
+    ValueKind::LENGTHS.of(Sign::NotNegative),
+    "`radius` of `[clearance]`; 0 for a polygon or the housing",
+)
+.means("rounding radius: positive for a line, not negative for a polygon or a part of the housing");
 const CORNERS: FileKey = optional("corners", ValueKind::Tables, "a line")
-    .means("places, three or more: a polygon with its interior, convex or not, in either sense");
-const LINE: FileKey = optional("line", ValueKind::Tables, "through the link's points, if there are no corners")
-    .means("places: capsules from place to place; a single one is a disc");
+    .means("three or more positions: the corners of a filled polygon, convex or not, in either sense");
+const LINE: FileKey = optional("line", ValueKind::Tables, "through the points of the link, if `corners` is missing")
+    .means("positions joined by capsules; a single position is a disc");
 
 /// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("clearance").with(&[
-        optional("radius", ValueKind::LENGTHS.of(Sign::Positive), "every link needs an outline of its own").means(
-            "radius, positive, of the capsules between the points of every link that has no outline of \
-             its own",
-        ),
-        optional("wanted", ValueKind::LENGTHS.of(Sign::NotNegative), "only collisions count")
-            .means("distance that no pair may fall to"),
+        optional("radius", ValueKind::LENGTHS.of(Sign::Positive), "every link needs an entry in `outlines`")
+            .means("radius, positive, of the capsules between the points of every link without an entry in `outlines`"),
+        optional("wanted", ValueKind::LENGTHS.of(Sign::NotNegative), "none: only collisions count")
+            .means("required clearance: every pair must stay farther apart"),
         optional("tolerance", ValueKind::LENGTHS.of(Sign::Positive), "a millionth of the mechanism's size")
-            .means("error that a smallest distance may have"),
+            .means("largest allowed error of a smallest distance"),
         optional("area_rel", ValueKind::Number, "5e-3")
-            .means("error that a swept area may have, as a share of it; from 1e-5 to 1"),
+            .means("largest allowed error of a swept area, as a fraction of the area; from 1e-5 to 1"),
         optional("outlines", ValueKind::Table, "capsules between the points").means("outlines of links by name"),
         optional("housing", ValueKind::Tables, "none").means("parts of the housing"),
         optional("ignore", ValueKind::Tables, "none")
@@ -47,7 +48,7 @@ pub const SECTIONS: &[Section] = &[
     Section::at("clearance.outlines.*.corners").with(PLACE),
     Section::at("clearance.outlines.*.line").with(PLACE),
     Section::at("clearance.housing").with(&[
-        needed("name", ValueKind::Text).means("name, unique, not that of a link"),
+        needed("name", ValueKind::Text).means("unique name, different from those of all links"),
         CORNERS,
         LINE,
         RADIUS,
@@ -56,18 +57,20 @@ pub const SECTIONS: &[Section] = &[
     Section::at("clearance.housing.line").with(PLACE),
     Section::at("clearance.ignore")
         .with(&[needed("bodies", ValueKind::Texts)
-            .means("the two that cannot meet; `\"housing\"` stands for all its parts")]),
+            .means("the two bodies that cannot meet; `\"housing\"` means all its parts")]),
 ];
 
-/// Default tolerance of a swept area, as a share of the area.
+/// Default tolerance of a swept area, divided by the area.
 const AREA: f64 = 5e-3;
-/// Smallest tolerance of a swept area, as a share: the number of squares grows with its inverse.
+/// Lower limit of the tolerance of a swept area, divided by the area.
+/// The number of squares grows with the inverse of the tolerance.
 const SMALLEST_AREA: f64 = 1e-5;
-/// Smallest tolerance and largest extent of an outline, as multiples of the mechanism's size.
-/// Beyond these limits rounding errors decide.
+/// Lower limit of a tolerance, divided by the mechanism's size.
+/// The second constant is the upper limit of an outline's extent, divided by the mechanism's size.
+/// Beyond these limits the results would be rounding errors.
 const FINEST: f64 = 1e-10;
 const FARTHEST: f64 = 1e6;
-/// Most parts of a housing.
+/// Upper limit of the number of parts of a housing.
 const MOST_PARTS: usize = 200;
 /// Name that denotes all parts of the housing.
 const HOUSING: &str = "housing";
@@ -168,7 +171,7 @@ fn default(table: &TomlTable, points: &[Point], radius: f64) -> Result<Outline> 
     Outline::of_points(&places, radius).map_err(|flaw| flawed(table, "radius", flaw))
 }
 
-/// The outline that a link states: corners, a line, or the radius of its capsules alone.
+/// The outline that a link states: corners, a line, or only the radius of its capsules.
 fn of_link(mut table: TomlTable, default_radius: Option<f64>, link: &Link) -> Result<Outline> {
     let drawn = drawn(&mut table, &link.points)?;
     let solid = matches!(drawn, Some(("corners", _)));
@@ -185,7 +188,7 @@ fn of_link(mut table: TomlTable, default_radius: Option<f64>, link: &Link) -> Re
     }
 }
 
-/// The outline that [`drawn`] has read: a polygon from its `corners`, or a line.
+/// The outline from the positions that [`drawn`] has read: a polygon from `corners`, otherwise a line.
 fn rounded(table: &TomlTable, (key, places): (&'static str, Vec<Vec2>), radius: f64) -> Result<Outline> {
     let outline = if key == "corners" { Outline::polygon(&places, radius) } else { Outline::line(&places, radius) };
     outline.map_err(|flaw| flawed(table, key, flaw))
@@ -230,7 +233,7 @@ fn drawn(table: &mut TomlTable, known: &[Point]) -> Result<Option<(&'static str,
     Ok(found)
 }
 
-/// The error of a flawed outline.
+/// The error for positions that do not form an outline.
 fn flawed(table: &TomlTable, key: &str, flaw: Flaw) -> Error {
     let (message, help) = match flaw {
         Flaw::Few(0) if key == "line" => {
@@ -252,7 +255,7 @@ fn flawed(table: &TomlTable, key: &str, flaw: Flaw) -> Error {
     table.wrong(ErrorKind::Input, key, message).help(help)
 }
 
-/// The pairs of bodies that one entry of `ignore` names.
+/// The pairs of bodies that are named by one entry of `ignore`.
 fn ignore(mut table: TomlTable, bodies: &[ClearanceBody]) -> Result<Vec<[usize; 2]>> {
     let names = table.strings("bodies")?;
     table.finish()?;

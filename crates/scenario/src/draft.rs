@@ -1,4 +1,4 @@
-//! The content of a scenario file for a picture: the mechanism may have mistakes, or may be impossible to assemble.
+//! The content of a scenario file for a picture. The mechanism may have mistakes, or may be impossible to assemble.
 
 use std::path::Path;
 
@@ -6,6 +6,7 @@ use super::asked::StartRequest;
 use super::links::is_somewhere;
 use super::reader::TomlTable;
 use super::source::{Source, text_of};
+use super::start::Lists;
 use super::stated::FileSections;
 use super::{keys, parameter_table, start};
 use linkage::drive::{Drive, Load, MotionLaw};
@@ -13,21 +14,21 @@ use linkage::error::{Error, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, JointId, Mechanism, StartGroup, Structure};
 
-/// The mechanism of a scenario file, without the parts that have mistakes. It need not be possible to assemble it.
+/// The mechanism of a scenario file, without the parts that have mistakes. It may be impossible to assemble.
 #[derive(Clone, Debug)]
 pub struct Draft {
-    /// Short name; that of the file if it states none.
+    /// Short name. If the file does not state a name, it is the file name without its ending.
     pub name: String,
     /// One line for people.
     pub title: String,
-    /// Links and joints; possibly inconsistent if the file has mistakes.
+    /// Links and joints. They may be inconsistent if the file has mistakes.
     pub mechanism: Mechanism,
-    /// Its groups, or why it has none.
+    /// The groups of the mechanism, or the reason why they cannot be determined.
     pub structure: Result<Structure>,
     /// What moves it.
     pub drives: Vec<Drive>,
     /// Whether the file states no drive that could be read.
-    /// The first link hinged to the ground that gives a valid structure then serves as the crank, if there is one.
+    /// The crank is then the first link hinged to the ground that gives a valid structure, if there is such a link.
     pub is_driven_by_guess: bool,
     /// What loads it.
     pub loads: Vec<Load>,
@@ -35,7 +36,7 @@ pub struct Draft {
     pub gravity: Vec2,
     /// Crank angle at t = 0 (rad).
     pub crank: f64,
-    /// The start of each group, in the order of the structure, as far as the file states a valid one.
+    /// The start of each group, in the order of the structure. It is the default if the file states no valid start.
     pub starts: Vec<StartGroup>,
     /// The mistakes of the file, if there are any.
     pub mistakes: Option<Error>,
@@ -45,12 +46,12 @@ impl Draft {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// The file cannot be read, is not TOML or has another version, or the request `asked` is wrong.
+    /// If the file cannot be read, is not TOML or has another version, or if the request `asked` is wrong.
     pub fn load(path: &Path, asked: &StartRequest) -> Result<Draft> {
         Draft::parse(&text_of(path)?, path, asked)
     }
 
-    /// The same from the text of the file.
+    /// Reads the same from the text of the file.
     ///
     /// # Errors
     /// Those of [`Draft::load`], except that the file cannot be read.
@@ -83,7 +84,8 @@ fn read(root: &mut TomlTable, asked: &StartRequest) -> Result<Draft> {
         |structure| {
             let wanted = asked.groups(&mechanism, structure).unwrap_or_default();
             let none = vec![StartGroup::default(); structure.groups.len()];
-            let given = start.and_then(|start| start::groups(&start, groups, &mechanism, structure, &wanted).ok());
+            let given =
+                start.and_then(|start| start::groups(&start, groups, &mechanism, structure, &wanted, Lists::No).ok());
             let mut starts = given.unwrap_or(none);
             for (index, group) in wanted {
                 starts[index] = group;
@@ -113,7 +115,7 @@ fn read(root: &mut TomlTable, asked: &StartRequest) -> Result<Draft> {
     })
 }
 
-/// A drive of the first link hinged to the ground whose motion determines the motion of all links.
+/// A drive of the first link hinged to the ground that determines the motion of all links.
 fn guessed(mechanism: &Mechanism, crank: f64) -> Option<Drive> {
     let joints = mechanism.joints();
     let is_hinge = |&index: &JointId| joints[index].is_pin() && joints[index].on(GROUND).is_some();
@@ -121,7 +123,7 @@ fn guessed(mechanism: &Mechanism, crank: f64) -> Option<Drive> {
     Some(Drive::prescribed(index, joints[index].other(GROUND).link, 0.0, crank, MotionLaw::ConstantSpeed(1.0)))
 }
 
-/// The mechanism without the points whose position could not be read. No joint lies at such a point.
+/// The mechanism without the points whose position could not be read. Joints lie only at the remaining points.
 fn with_places(mechanism: &Mechanism) -> Mechanism {
     let mut links = mechanism.links().to_vec();
     for link in &mut links {

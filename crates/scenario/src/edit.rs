@@ -1,4 +1,4 @@
-//! Changes a scenario file without touching what people wrote in it.
+//! Changes a scenario file without changing comments, order or other text.
 
 use crate::sentences;
 use toml_edit::{DocumentMut, Item, Table, value};
@@ -6,7 +6,8 @@ use toml_edit::{DocumentMut, Item, Table, value};
 use super::engine::{EngineSettings, ROWS, SECTIONS, Slot};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// The text of a scenario, with the given settings as its `[engine]` section. Comments, order and everything else stay.
+/// The text of a scenario, with the given settings as its `[engine]` section. Everything else stays, with comments and
+/// order.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the text is not TOML, or if `engine` in it is not a section.
@@ -26,7 +27,7 @@ pub fn with_engine(text: &str, engine: EngineSettings) -> Result<String> {
     Ok(document.to_string())
 }
 
-/// The `[engine]` section alone, to paste.
+/// The text of the `[engine]` section alone, ready to paste.
 #[must_use]
 pub fn engine_section(engine: EngineSettings) -> String {
     let mut table = Table::new();

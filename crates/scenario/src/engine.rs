@@ -1,6 +1,6 @@
-//! `[engine]`: engines by name, and their settings, given or free. Files and arguments pass them to the proof.
+//! `[engine]`: engines by name, and their settings, given or free. Files and arguments pass the settings to the proof.
 //!
-//! [`ROWS`] is the only definition of a setting. Reader, writer and argument follow from its row.
+//! [`ROWS`] is the only definition of a setting. Reader, writer and argument follow from a setting's row.
 //! Schema and documents follow from its key in [`SECTIONS`].
 
 use crate::sentences;
@@ -30,7 +30,7 @@ pub enum EngineName {
 }
 
 impl EngineName {
-    /// All engines, the default first, including those that this build does not have.
+    /// All engines, the default first. The list includes engines that this build does not have.
     pub const ALL: [EngineName; 5] =
         [EngineName::Rapier, EngineName::RapierF32, EngineName::Impulse, EngineName::ImpulseF32, EngineName::Simbody];
 
@@ -52,7 +52,7 @@ impl EngineName {
         EngineName::ALL.into_iter().find(|engine| engine.name() == name)
     }
 
-    /// Cargo feature that a build needs to have the engine; `None` if it always has it.
+    /// Cargo feature that a build needs to contain the engine. `None` if every build contains it.
     #[must_use]
     pub fn feature(self) -> Option<&'static str> {
         match self {
@@ -78,7 +78,7 @@ macro_rules! settings {
         }
 
         impl EngineSettings {
-            /// These settings; where one is free, that of `other`.
+            /// These settings. A free setting is replaced by that of `other`.
             #[must_use]
             pub fn or(&self, other: &EngineSettings) -> Self {
                 EngineSettings { $($name: self.$name.or(&other.$name).clone(),)* }
@@ -94,13 +94,13 @@ settings! {
     step: f64,
     /// Relative accuracy of engines that control their error.
     accuracy: f64,
-    /// Sweeps of the iteration in a step.
+    /// Number of sweeps of the iteration in a step.
     sweeps: usize,
     /// Number of parts into which an engine divides a step.
     substeps: usize,
     /// Route by which reactions and balancing moment are computed.
     route: Route,
-    /// How often the state is extrapolated to step zero: 1 combines runs at the step and at half of it.
+    /// How often the state is extrapolated to step zero. 1 combines runs at the step and at half the step.
     extrapolated: usize,
 }
 
@@ -119,22 +119,23 @@ pub enum Slot<'a> {
     Times(&'a mut EngineSetting<usize>),
 }
 
-/// What a setting is called and means.
+/// Names and meaning of a setting.
 #[derive(Debug)]
 pub struct SettingRow {
-    /// Its key in [`SECTIONS`]: the first one if two keys can state it, `None` if no file can state it.
+    /// Key of the setting in [`SECTIONS`]. If two keys can state the setting, it is the first; `None` if no file can
+    /// state it.
     pub key: Option<&'static str>,
     /// Its argument.
     pub argument: &'static str,
-    /// What help calls the value of the argument.
+    /// Name of the argument's value in the help.
     pub value: &'static str,
-    /// What help says of the argument.
+    /// Description of the argument in the help.
     pub help: &'static str,
     /// Its place.
     pub slot: fn(&mut EngineSettings) -> Slot<'_>,
 }
 
-/// More extrapolations than this need steps too fine to run.
+/// Upper limit of the number of extrapolations. More extrapolations need steps that are too fine to run.
 pub const MOST_TIMES: usize = 8;
 
 /// All settings.
@@ -195,20 +196,20 @@ pub const SECTIONS: &[Section] = &[Section::at("engine").with(&[
     optional("dt", ValueKind::TIMES.of(Sign::Positive), "found by `run`")
         .means("time step of engines with a fixed step; at most one of `dt` and `step`"),
     optional("step", ValueKind::ANGLES.of(Sign::NotZero), "found by `run`")
-        .means("the same as the angle that the crank turns through in a step"),
-    optional("name", ValueKind::Text, "the first").means("engine that judges unless another is asked for"),
+        .means("the time step, given as the crank rotation in one step"),
+    optional("name", ValueKind::Text, "the first engine").means("engine to use unless another is requested"),
     optional("sweeps", ValueKind::Integer, "found by `run`").means("sweeps of the engine's iteration in a step"),
-    optional("substeps", ValueKind::Integer, "the engine's")
+    optional("substeps", ValueKind::Integer, "the engine's default")
         .means("number of parts into which the engine itself divides a step"),
     optional(
         "route",
         ValueKind::Choice(|| Route::ALL.map(Route::name).to_vec()),
-        "the engine's, and its own forces beside it",
+        "the engine's default; the forces that the engine itself exerts are judged too",
     )
     .means("how reactions and balancing moment are obtained"),
-    optional("extrapolated", ValueKind::IntegerOrBoolean, "found by `run`; 0 where the step is given").means(
-        "a number N from 0 to 8: runs at the step, at half of it, ..., at its 2^N-th part are combined, \
-         so that the N leading errors drop out; `true` is 1, `false` is 0",
+    optional("extrapolated", ValueKind::IntegerOrBoolean, "found by `run`; 0 if the step is given").means(
+        "a number N from 0 to 8: runs at the step, at half the step, ..., at the step divided by 2^N are \
+         combined, so that the N leading errors cancel; `true` is 1, `false` is 0",
     ),
 ])];
 
@@ -229,8 +230,8 @@ impl EngineSettings {
         }
     }
 
-    /// These settings, as the search for the settings of a motion uses them.
-    /// Extrapolation would use finer steps than a given one, so it is off by default if the step is given.
+    /// These settings, in the form that the search for the settings of a motion uses.
+    /// Extrapolation would use steps finer than a given step, so it is off by default if the step is given.
     #[must_use]
     pub fn of_motion(mut self) -> Self {
         if !self.step.is_free() && self.extrapolated.is_free() {
@@ -239,7 +240,7 @@ impl EngineSettings {
         self
     }
 
-    /// Whether a setting is free that a search could choose.
+    /// Whether a setting that a search could choose is free.
     #[must_use]
     pub fn leaves_a_choice(&self) -> bool {
         self.step.is_free() || self.sweeps.is_free() || self.extrapolated.is_free()
@@ -299,7 +300,7 @@ pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     }
 }
 
-/// A whole number within `range`. A range up to `usize::MAX` means any number from one.
+/// A whole number within `range`. If the range ends at `usize::MAX`, any number from 1 on is allowed.
 fn whole(table: &mut TomlTable, key: &str, range: RangeInclusive<usize>) -> Result<EngineSetting<usize>> {
     let Some(number) = table.optional_integer(key)? else { return Ok(EngineSetting::Free) };
     if let Some(count) = usize::try_from(number).ok().filter(|count| range.contains(count)) {
@@ -324,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn a_setting_knows_the_line_that_gives_it() {
+    fn a_setting_keeps_the_line_of_its_key() {
         let given = with("substeps = 2\nroute = \"native\"").unwrap().engine;
         let EngineSetting::Given(Route::Native, SettingOrigin::Key(key, place)) = &given.route else {
             panic!("{given:?}")
@@ -334,7 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn a_misspelt_engine_or_route_is_refused_at_its_line_with_the_nearest_and_all_others() {
+    fn a_misspelt_engine_or_route_is_refused_with_suggestions() {
         for (section, key, near) in
             [("name = \"rapir\"", "engine.name", "rapier"), ("route = \"natve\"", "engine.route", "native")]
         {
@@ -350,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_given_twice_counts_where_it_is_asked_for_last() {
+    fn requested_settings_override_those_of_the_file() {
         let file = EngineSettings {
             sweeps: EngineSetting::of(7),
             substeps: EngineSetting::of(2),
@@ -362,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_that_is_given_is_kept_to() {
+    fn a_given_step_fixes_the_extrapolation() {
         let given = EngineSettings { step: EngineSetting::of(1e-3), ..EngineSettings::default() }.of_motion();
         assert!(!given.extrapolated.is_free() && given.leaves_a_choice());
         assert!(EngineSettings::default().of_motion().extrapolated.is_free());

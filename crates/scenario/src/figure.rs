@@ -1,4 +1,4 @@
-//! Figures of a mechanism: lengths as solved, and quantities over a turn.
+//! Figures of a mechanism: lengths between points, and quantities over a turn.
 
 use super::printed::{Correction, Printed, number};
 use super::reader::TomlTable;
@@ -14,11 +14,11 @@ use linkage::mechanism::{JointSide, LinkId};
 pub struct OracleFigure {
     /// Which figure.
     pub figure: MechanismFigure,
-    /// Its name in reports: the name in scenario files, and the subject of the figure.
+    /// Name in reports: the figure's name in scenario files, and its points or subject.
     pub name: String,
     /// The number as printed.
     pub printed: FigureValue,
-    /// For a number known to be wrong: the finding that says so, and the correct number.
+    /// For a number known to be wrong: the finding that explains it, and the correct number.
     pub wrong: Option<(String, FigureValue)>,
 }
 
@@ -42,7 +42,7 @@ pub enum MechanismFigure {
     ReducedResistanceMean,
     /// Speed of the crank (rad/s) at which the motor's moment on it equals the mean resistance.
     SteadyCrankSpeed,
-    /// Speed of the motor (rad/s) at that speed of the crank.
+    /// Speed of the motor (rad/s) that belongs to this steady crank speed.
     SteadyMotorSpeed,
     /// Distance between two points at t = 0 (m).
     Distance([JointSide; 2]),
@@ -81,7 +81,7 @@ impl MechanismFigure {
         OF_MECHANISM.iter().map(|(name, _)| format!("{CLAIMED}{name}"))
     }
 
-    /// The figure that a claim names; `None` if it names none.
+    /// The figure that a claim names; `None` if the name is not that of a figure.
     ///
     /// # Errors
     /// Message and help, if the case lacks what the figure needs.
@@ -91,7 +91,7 @@ impl MechanismFigure {
         Some(figure.lacks(case).map_or(Ok(*figure), |(message, help)| Err((message.into(), help.into()))))
     }
 
-    /// Message and help, if the case lacks what the figure needs.
+    /// Message and help, if the figure needs something that the case lacks.
     fn lacks(self, case: &Case) -> Option<(&'static str, &'static str)> {
         match self {
             MechanismFigure::SteadyCrankSpeed | MechanismFigure::SteadyMotorSpeed if case.crank().motor().is_none() => {
@@ -157,8 +157,8 @@ fn distance(entry: &mut TomlTable, case: &Case) -> Result<(MechanismFigure, Stri
         return entry.refuse("points", message, "write `points = [\"A\", \"B\"]`");
     };
     let places = [places(entry, case, first)?, places(entry, case, second)?];
-    // On a single link, a distance is only what the file states.
-    // So it is measured between two links, where it depends on how the solver assembles them.
+    // A distance between two points of one link is only what the file states.
+    // The distance is therefore measured between two links, where it depends on how the solver assembles them.
     let has = |link: LinkId, of: &[JointSide]| of.iter().any(|side| side.link == link);
     let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
     let (Some(first), Some(second)) = (measured(0), measured(1)) else {

@@ -17,20 +17,20 @@ use linkage::math::KeepNan;
 
 /// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
-    needed("name", ValueKind::Text).means("letters, digits and `_`; formulas after it may use it"),
+    needed("name", ValueKind::Text).means("letters, digits and `_`; later formulas may use this name"),
     needed("expression", ValueKind::Text).means(
         "arithmetic of numbers, `phi`, `t`, `pi`, parameters (in SI, or by their keys as plain numbers) \
-         and formulas before it",
+         and earlier formulas",
     ),
     optional("channel", ValueKind::Text, "none: a step of a derivation").means(
-        "what it claims: a channel, with the unit of its name (`link.rocker.angle_deg`, `point.B.x_mm`, \
-         `joint.B.f_N`), or an arithmetic of channels; also what is reduced to the crank",
+        "claimed quantity: a channel, in the unit of its name (`link.rocker.angle_deg`, `point.B.x_mm`, \
+         `joint.B.f_N`), an expression of channels, or a quantity reduced to the crank",
     ),
-    optional("source", ValueKind::Text, "none").means("where it comes from"),
-    optional("from", ValueKind::INPUTS, "the whole run").means("first crank angle for which it is claimed"),
-    optional("to", ValueKind::INPUTS, "the whole run").means("last crank angle for which it is claimed"),
-    optional("error", ValueKind::Number, "none: it is exact")
-        .means("error that it is claimed to have, in the unit of the channel: for series and approximations"),
+    optional("source", ValueKind::Text, "none").means("source of the formula"),
+    optional("from", ValueKind::INPUTS, "the whole run").means("first crank angle for which the formula is claimed"),
+    optional("to", ValueKind::INPUTS, "the whole run").means("last crank angle for which the formula is claimed"),
+    optional("error", ValueKind::Number, "none: the formula is exact")
+        .means("claimed error, in the unit of the channel: for series and approximations"),
 ])];
 
 /// The crank's angular velocity, as a diagnosis names it.
@@ -41,7 +41,7 @@ pub const OMEGA: &str = "omega_crank";
 pub struct Formulas {
     /// Numbers with names.
     pub parameters: Vec<Parameter>,
-    /// The formulas, in the order of the file: each may use those before it.
+    /// The formulas, in the order of the file. Each formula may use those before it.
     pub list: Vec<Formula>,
     /// Graph of all formulas. Its inputs are the crank angle (rad, as the scenario states it) and the time (s).
     /// Two more inputs have no names: the crank's angular velocity (rad/s) and angular acceleration (rad/s^2).
@@ -51,26 +51,27 @@ pub struct Formulas {
 /// A formula.
 #[derive(Clone, Debug)]
 pub struct Formula {
-    /// Its name, which formulas after it may use.
+    /// Name of the formula. Later formulas may use it.
     pub name: String,
     /// Its text.
     pub text: String,
     /// The text as it was read.
     pub tree: FormulaTree,
-    /// Its node in the graph.
+    /// Node of the formula in the graph.
     pub id: NodeId,
-    /// Its claim; `None` for a step of a derivation.
+    /// Claim of the formula; `None` for a step of a derivation.
     pub claim: Option<Claim>,
     /// Where it comes from.
     pub source: Option<String>,
-    /// First and last crank angle at which it is claimed to hold (rad).
+    /// First and last crank angle at which the formula is claimed to hold (rad).
     pub valid: [Option<f64>; 2],
-    /// The error that it is claimed to have, in the unit of the claim; `None` for an exact one.
+    /// Claimed error of the formula, in the unit of the claim; `None` for an exact formula.
     pub error: Option<f64>,
 }
 
 impl Formula {
-    /// Whether it is claimed to hold at a crank angle (rad). The ends belong to the range, rounding included.
+    /// Whether the formula is claimed to hold at a crank angle (rad).
+    /// An angle that exceeds an end of the range only by rounding belongs to the range.
     #[must_use]
     pub fn holds_at(&self, crank: f64) -> bool {
         let slack = 1e-9 * crank.abs().larger(1.0);
@@ -116,7 +117,7 @@ impl Formulas {
     /// Checks that a formula may have this name.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if not.
+    /// [`ErrorKind::Input`] if the name is not allowed.
     pub fn check_name(&self, name: &str) -> Result<()> {
         if let Some((message, help)) = fault_of_name(name) {
             return Err(Error::new(ErrorKind::Input, message).help(help));
@@ -138,13 +139,14 @@ impl Formulas {
         FormulaFault { message: sentences::there_is_no(&name), at, help }
     }
 
-    /// The indices of the formulas up to `of`, by their names.
+    /// The indices of the formulas up to and including `of`, by their names.
     fn places(&self, of: usize) -> BTreeMap<&str, usize> {
         self.list[..=of].iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect()
     }
 
-    /// The first operation outside its domain, if the formula `of` has no value at `inputs`.
-    /// The index is that of the formula with this operation: `of`, or a formula that `of` uses.
+    /// If the formula `of` has no value at `inputs`: the first operation outside its domain, and the index of its
+    /// formula.
+    /// This formula is `of` or a formula that `of` uses.
     /// `inputs` are the crank angle (rad) and the time (s).
     #[must_use]
     pub fn undefined(&self, of: usize, inputs: [Rounded; 2]) -> Option<(usize, FormulaFault)> {
@@ -170,9 +172,9 @@ impl Formulas {
         None
     }
 
-    /// The result of `then` for the formula `of`, while the formulas in `changed` (by index) have other trees.
-    /// Formulas that use a changed formula change with it. The trees may use [`OMEGA`].
-    /// Afterwards the graph is as before. `None` if a name is unknown.
+    /// Calls `then` for the formula `of`, while the formulas in `changed` (by index) have other trees.
+    /// Formulas that use a changed formula change too. The trees may use [`OMEGA`].
+    /// Afterwards the graph is as before. Returns `None` if a name is unknown.
     pub fn with_trees<T>(
         &mut self,
         changed: &[(usize, FormulaTree)],
@@ -185,7 +187,7 @@ impl Formulas {
             if !graph.knows(OMEGA) {
                 graph.name(OMEGA, graph.input(2));
             }
-            // A name refers to an earlier formula, as when the file was read.
+            // As in the file, a name refers to an earlier formula.
             let mut last = None;
             for (own, formula) in list.iter().enumerate().take(of + 1).skip(first) {
                 let other = changed.iter().find(|(index, _)| *index == own).map(|(_, tree)| tree);
@@ -197,9 +199,9 @@ impl Formulas {
         })
     }
 
-    /// The formulas that a search for a mistake in the formula `of` works with, and the index of `of` among them.
-    /// These are `of` and the `beside` formulas before it, with all formulas that these use.
-    /// At most `beside` unused parameters are kept. The rest of the file is left out, however long it is.
+    /// The formulas in which a search for a mistake in the formula `of` works, and the index of `of` among them.
+    /// They are `of`, the `beside` formulas before it, and all formulas that these use.
+    /// At most `beside` unused parameters are kept. The rest of the file is left out, so its length does not matter.
     #[must_use]
     pub fn derivation(&self, of: usize, beside: usize) -> (Formulas, usize) {
         let places = self.places(of);
@@ -229,8 +231,8 @@ impl Formulas {
         (formulas, kept.len() - 1)
     }
 
-    /// These formulas with another tree in the formula `of`. Formulas that use it change with it.
-    /// The tree may use [`OMEGA`]. `None` if it uses an unknown name.
+    /// These formulas with another tree in the formula `of`. Formulas that use `of` change too.
+    /// The tree may use [`OMEGA`]. `None` if the tree uses an unknown name.
     #[must_use]
     pub fn with_tree(&self, of: usize, tree: FormulaTree) -> Option<Formulas> {
         let mut formulas = Formulas::over(self.parameters.clone());
@@ -261,7 +263,7 @@ impl Formulas {
     }
 }
 
-/// The fault in the range (rad) or in the error of a claim: the key `to` or `error`, a message and help.
+/// A mistake in the range (rad) or in the error of a claim: the key `to` or `error`, with message and help.
 #[must_use]
 pub fn fault_of_claim(
     valid: [Option<f64>; 2],
@@ -283,12 +285,12 @@ pub fn refused(what: &str, text: &str, fault: &FormulaFault) -> Error {
     Error::new(ErrorKind::Input, fault.message.clone()).at(place).help(fault.help.clone())
 }
 
-/// The formulas of a scenario, without those that have mistakes.
+/// Reads the formulas of a scenario. Formulas with mistakes are left out.
 pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<TomlTable>, case: &Case, faults: &mut Faults) -> Formulas {
     let mut formulas = Formulas::over(parameters);
     for mut table in tables {
         let read = faults.read(&mut table, |table| formula(table, &mut formulas, case));
-        // Later formulas may use the one that is left out.
+        // Later formulas may use a formula that is left out.
         faults.whole &= read.is_some();
     }
     formulas

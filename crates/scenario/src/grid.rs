@@ -14,8 +14,10 @@ use linkage::error::Result;
 pub const SECTIONS: &[Section] = &[Section::at("grid").with(&[
     optional("from", ValueKind::INPUTS_OR_TIMES, "given with `to` and `step`")
         .means("first crank angle, or first time from the start"),
-    optional("to", ValueKind::INPUTS_OR_TIMES, "given with `from`").means("last one, in the same kind of unit"),
-    optional("step", ValueKind::INPUTS_OR_TIMES, "given with `from`").means("distance of instants; may be negative"),
+    optional("to", ValueKind::INPUTS_OR_TIMES, "given with `from`")
+        .means("last crank angle or time, in the same kind of unit"),
+    optional("step", ValueKind::INPUTS_OR_TIMES, "given with `from`")
+        .means("distance between instants; may be negative"),
     optional("angles", ValueKind::LIST_OF_ANGLES, "a range")
         .means("crank angles, one by one, in any order; not for a free motion"),
     optional("times", ValueKind::LIST_OF_TIMES, "a range").means("times, one by one, in any order"),
@@ -24,8 +26,8 @@ pub const SECTIONS: &[Section] = &[Section::at("grid").with(&[
 /// Largest number of points of a range.
 pub const MOST: usize = 1_000_000;
 
-/// Points `from + k * step` (k = 0, 1, ...) up to `to`. `to` itself is included if it lies within 1e-9 of a step of a
-/// point. The step may be negative.
+/// Points `from + k * step` (k = 0, 1, ...) up to `to`. The step may be negative.
+/// `to` is included if it lies within 1e-9 of a step of a point.
 ///
 /// # Errors
 /// A message if a number is not finite, if the step is zero or leads away from `to`, or if there would be more than a
@@ -70,7 +72,7 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
 }
 
 /// The grid of a scenario, by crank angle or by time: a range or a list.
-/// If `is_replaced`, the grid is read but not checked against the drive, and the result is empty.
+/// If `is_replaced`, the grid is read but not checked against the drive, and the returned grid is empty.
 pub fn read(table: &mut TomlTable, drive: &Drive, is_replaced: bool) -> Result<Grid> {
     let mut lists = Vec::new();
     for key in ["angles", "times"] {
@@ -119,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn points_are_not_accumulated_and_the_end_is_included() {
+    fn grid_points_accumulate_no_rounding_and_include_the_end() {
         let points = range(0.0, 1.0, 0.1).unwrap();
         assert_eq!((points.len(), points[3]), (11, 3.0 * 0.1));
         assert_eq!(range(0.0, 0.95, 0.1).unwrap().len(), 10);
@@ -134,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn lists_keep_their_order_and_have_every_value_once() {
+    fn lists_keep_their_order_and_refuse_duplicates() {
         assert_eq!(listed(vec![0.3, 0.0, 0.1]), Ok(vec![0.3, 0.0, 0.1]));
         assert!(listed(Vec::new()).unwrap_err().contains("empty"));
         assert!(listed(vec![0.1, 0.2, 0.1]).unwrap_err().contains("values 1 and 3"));
@@ -142,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn senseless_ranges_are_refused() {
+    fn invalid_ranges_are_refused() {
         assert!(range(0.0, 1.0, 0.0).unwrap_err().contains("zero"));
         assert!(range(0.0, 1.0, -0.1).unwrap_err().contains("negative step"));
         assert!(range(1.0, 0.0, 0.1).unwrap_err().contains("positive step"));

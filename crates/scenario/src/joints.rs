@@ -11,7 +11,7 @@ use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Guise, Joint, JointKind, JointSide, Link, LinkId};
 
-/// Reads what a type of joints needs: the kind, and how it is drawn.
+/// Reads the keys of a type of joint. Returns the kind of the joint and how it is drawn.
 type ReadJoint = fn(&mut TomlTable) -> Result<(JointKind, Option<Guise>)>;
 
 /// Types of joints, each with its reader.
@@ -19,19 +19,19 @@ const TYPES: Words<ReadJoint> = &[("revolute", revolute), ("prismatic", prismati
 
 /// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
-    needed("name", ValueKind::Text).means("name, unique"),
+    needed("name", ValueKind::Text).means("unique name"),
     needed("type", ValueKind::Choice(|| names(TYPES))).means("kind of joint"),
     needed("links", ValueKind::Texts).means(
-        "first and second link; `\"ground\"` is the frame. The reaction of the joint is what the first \
-         exerts on the second",
+        "first and second link; `\"ground\"` is the frame. The reaction of the joint is that of the first \
+         link on the second",
     ),
     optional("point", ValueKind::Text, "the joint's name")
         .means("revolute: the joint is at the point of this name, on both links"),
-    optional("points", ValueKind::Texts, "required of a prismatic joint").means(
+    optional("points", ValueKind::Texts, "required for a prismatic joint").means(
         "prismatic: `[\"G\", \"B\"]`, a point of the first link and one of the second; the line through \
          the first point along the axis passes through the second point",
     ),
-    optional("axis", ValueKind::ANGLES, "required of a prismatic joint")
+    optional("axis", ValueKind::ANGLES, "required for a prismatic joint")
         .means("prismatic: direction of sliding in the frame of the first link"),
     optional("second_axis", ValueKind::ANGLES, "0: along its x axis").means(
         "prismatic: the same direction in the frame of the second link; it fixes the angle of the second \
@@ -40,11 +40,11 @@ pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
     optional(
         "drawn",
         ValueKind::Choice(|| Guise::ALL.map(Guise::name).to_vec()),
-        "guessed from names and places: docs/draw.md",
+        "guessed from names and positions: docs/draw.md",
     )
     .means(
-        "prismatic: what pictures show, a piston in a cylinder, or a block on rails or in a slot; nothing \
-         is calculated from it",
+        "prismatic: how pictures show it, as a piston in a cylinder, or as a block on rails or in a slot; \
+         it does not affect any result",
     ),
 ])];
 
@@ -57,7 +57,7 @@ pub fn read(tables: Vec<TomlTable>, links: &[Link], faults: &mut Faults) -> Vec<
         let read = faults.read(&mut table, |table| joint(table, links, &joints));
         joints.extend(read.filter(|joint| [joint.first, joint.second].iter().all(|side| is_somewhere(side.local))));
     }
-    // Drives and the mechanism may need the joint that is left out.
+    // Drives and the mechanism may need a joint that is left out.
     faults.whole &= joints.len() == count;
     joints
 }
@@ -100,10 +100,10 @@ fn joint(table: &mut TomlTable, links: &[Link], before: &[Joint]) -> Result<Join
     Ok(Joint { name, kind, first, second, drawn })
 }
 
-/// Names of the points that a joint lies at, on its first and its second link.
+/// Names of the points at which a joint lies, on its first and its second link.
 struct Places {
     names: [String; 2],
-    /// Key in the file that states them.
+    /// Key in the file that states these names.
     key: &'static str,
     rule: &'static str,
 }
@@ -151,7 +151,7 @@ fn prismatic(table: &mut TomlTable) -> Result<(JointKind, Option<Guise>)> {
 }
 
 /// Unit vector at `angle` (rad). Along the axes of the frame it is exact, without the rounding error of pi.
-/// So a vertical guide is exactly vertical.
+/// A vertical guide is therefore exactly vertical.
 fn direction(angle: f64) -> Vec2 {
     let quarters = angle / FRAC_PI_2;
     if (quarters - quarters.round()).abs() > 4.0 * f64::EPSILON * quarters.abs() {

@@ -1,4 +1,5 @@
-//! Scenario files: TOML in, a [`Case`] out. Only this module converts units; docs/scenario.md describes the format.
+//! Scenario files: reads TOML and returns a [`Case`]. docs/scenario.md describes the format.
+//! Only this module converts units.
 //! Every error names file, line and key, what was found, and how to correct it.
 
 pub mod accepted;
@@ -55,11 +56,11 @@ pub use setting::{EngineSetting, SettingOrigin};
 
 use std::path::{Path, PathBuf};
 
-use self::asked::Lists;
 use self::clearance::ClearanceQuestion;
 use self::header::{NAME_HELP, is_name};
 use self::reader::{Faults, TomlTable};
 use self::source::{Source, text_of};
+use self::start::Lists;
 use self::stated::FileSections;
 use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::drive::Drives;
@@ -92,15 +93,16 @@ pub struct Scenario {
     pub text: String,
     /// The problem, in SI.
     pub case: Case,
-    /// Engines and their settings, as far as the scenario gives them.
+    /// Engines and the settings that the scenario gives.
     pub engine: EngineSettings,
-    /// Largest discretisation error of the engine at which agreement is still a proof, as a share of a channel's scale.
+    /// Upper limit of the engine's discretisation error at which agreement is still a proof, divided by a channel's
+    /// scale.
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
-    /// Formulas over parameters, and what they claim.
+    /// Formulas over parameters, and their claims.
     pub formulas: Formulas,
-    /// Outlines and the question about their distances, if the scenario has one.
+    /// Outlines and the question about distances between them, if the scenario asks this question.
     pub clearance: Option<ClearanceQuestion>,
     /// The start that the file requests for each group, in the order of the structure.
     pub starts: Vec<StartGroup>,
@@ -108,7 +110,7 @@ pub struct Scenario {
     pub choices: Vec<ConfigurationChoice>,
 }
 
-/// The scenario files (`*.toml`) of a directory, by name.
+/// The scenario files (`*.toml`) of a directory, sorted by name.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] if the directory cannot be read.
@@ -124,10 +126,10 @@ pub fn files_in(directory: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// The scenario of a file of the repository, by its path from the top.
+/// The scenario of a file of the repository. The path starts at the top of the repository.
 ///
 /// # Panics
-/// If it cannot be read.
+/// If the file cannot be read.
 #[cfg(any(test, feature = "fixtures"))]
 #[must_use]
 pub fn of_repository(file: &str) -> Scenario {
@@ -136,10 +138,10 @@ pub fn of_repository(file: &str) -> Scenario {
 }
 
 impl Scenario {
-    /// Reads the scenario file at `path` and the tables it names.
+    /// Reads the scenario file at `path` and the tables that the file names.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] if a file cannot be read, else as [`Scenario::parse`].
+    /// [`ErrorKind::Io`] if a file cannot be read, otherwise as [`Scenario::parse`].
     pub fn load(path: impl AsRef<Path>) -> Result<Scenario> {
         Scenario::load_as(path, &StartRequest::default())
     }
@@ -149,7 +151,7 @@ impl Scenario {
     /// # Errors
     /// [`ErrorKind::Input`] for a mistake in the text.
     /// [`ErrorKind::Geometry`] if the mechanism cannot take its first pose.
-    /// [`ErrorKind::Unsupported`] for what this version does not solve.
+    /// [`ErrorKind::Unsupported`] for a problem that this version cannot solve.
     /// [`ErrorKind::Io`] for a table that cannot be read.
     /// All errors carry the position in the file and the key.
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Scenario> {
@@ -158,11 +160,11 @@ impl Scenario {
 
     /// Reads the scenario file at `path` with another start.
     ///
-    /// Published numbers belong to the file's own branch. On another branch they are left out.
+    /// Published numbers belong to the file's branch. On another branch they are left out.
     /// Another crank angle at t = 0 also leaves out numbers that depend on this angle.
-    /// These are distances at t = 0, and in three cases values over the crank angle: the crank's speed changes, there
-    /// are
-    /// further drives, or a torsional spring counts turns from the start.
+    /// These are distances at t = 0 and values at times.
+    /// In three cases they are also the values over the crank angle:
+    /// the crank's speed changes, there are further drives, or a torsional spring counts turns from the start.
     ///
     /// # Errors
     /// Those of [`Scenario::load`].
@@ -171,7 +173,7 @@ impl Scenario {
         Scenario::parse_as(&text_of(path.as_ref())?, path, asked)
     }
 
-    /// The same from the text of the file.
+    /// Reads the same from the text of the file.
     ///
     /// # Errors
     /// Those of [`Scenario::load_as`], except that the file cannot be read.
@@ -180,8 +182,8 @@ impl Scenario {
     }
 
     /// As [`Scenario::load_as`], for a list of configurations.
-    /// Groups that the file leaves undecided are placed in one of their configurations.
-    /// They are returned with the reason, in the order of the structure.
+    /// A group that the file leaves undecided is placed in one of its configurations.
+    /// Undecided groups are returned with the reason, in the order of the structure.
     ///
     /// # Errors
     /// Those of [`Scenario::load_as`], except that an undecided group is no error.
@@ -189,7 +191,7 @@ impl Scenario {
         Scenario::parse_to_list(&text_of(path.as_ref())?, path, asked)
     }
 
-    /// The same from the text of the file.
+    /// Reads the same from the text of the file.
     ///
     /// # Errors
     /// Those of [`Scenario::load_to_list`], except that the file cannot be read.
@@ -234,8 +236,9 @@ impl Scenario {
         })
     }
 
-    /// The same scenario, restricted to the channels that `words` request, in the syntax of `want` in `[channels]`.
-    /// Published numbers of other channels are left out, and so are figures of the whole mechanism.
+    /// The same scenario, restricted to the channels that `words` request. The words have the syntax of `want` in
+    /// `[channels]`.
+    /// Published numbers of other channels and figures of the whole mechanism are left out.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a word that requests nothing.
@@ -280,7 +283,9 @@ fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<
     let in_file = |error| source.located(tree.get_ref(), error);
     let stated = TomlTable::root(&source, &tree).read(|root| {
         let stated = FileSections::read(root, asked)?;
-        root.sound_so_far()?;
+        root.sound_so_far().map_err(|mistakes| {
+            Error::all([Some(mistakes), stated.missing_modes(asked)].into_iter().flatten()).expect("there are mistakes")
+        })?;
         Ok(stated)
     });
     let mut stated = stated.map_err(in_file)?;
@@ -288,10 +293,10 @@ fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<
         unreachable!("what is missing has ended the reading");
     };
     let structure = structure(&stated.mechanism, drives).map_err(in_file)?;
-    // A requested start has no position in the file.
+    // A start that the caller requests has no position in the file.
     let groups = asked.groups(&stated.mechanism, &structure)?;
     let mechanism = &stated.mechanism;
-    let starts = start::groups(start, stated.groups, mechanism, &structure, &groups).map_err(in_file)?;
+    let starts = start::groups(start, stated.groups, mechanism, &structure, &groups, lists).map_err(in_file)?;
     let placing =
         asked::Start { mechanism, structure: &structure, drives, crank: stated.crank, starts: &starts, lists };
     let placed = placing.placed(asked.crank.unwrap_or(stated.crank), &groups).map_err(|error| {
@@ -302,7 +307,7 @@ fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<
     finished(stated, structure, placed, &source, asked).map_err(in_file)
 }
 
-/// The structure of a stated mechanism, after a check that its masses and speeds make sense.
+/// The structure of a stated mechanism. Its masses and speeds are checked first.
 fn structure(mechanism: &Mechanism, drives: &Drives) -> Result<Structure> {
     masses::check(mechanism, drives)?;
     masses::check_speeds(mechanism, drives)?;

@@ -14,8 +14,7 @@ use linkage::mechanism::{Link, Point, is_sound_name};
 pub const PLACE: &[FileKey] = &[
     optional("x", ValueKind::LENGTHS, "given with `y`, in place of `from`").means("coordinate along x"),
     optional("y", ValueKind::LENGTHS, "given with `x`").means("coordinate along y"),
-    optional("from", ValueKind::Text, "given in place of `x` and `y`")
-        .means("point that stands earlier in the same table"),
+    optional("from", ValueKind::Text, "given in place of `x` and `y`").means("earlier point of the same table"),
     optional("length", ValueKind::LENGTHS.of(Sign::NotNegative), "given with `from`").means("distance from that point"),
     optional("angle", ValueKind::ANGLES, "given with `from`").means(
         "direction from that point, counted from the x axis of the link; for ground points, from the x axis \
@@ -28,10 +27,10 @@ pub const SECTIONS: &[Section] = &[
     Section::at("ground").with(&[needed("points", ValueKind::Table).means("fixed points by name")]),
     Section::at("ground.points.*").with(PLACE),
     Section::at("links.*").with(&[
-        needed("points", ValueKind::Table).means("points in the link's own frame by name, at least one"),
+        needed("points", ValueKind::Table).means("points by name, in the link's frame, at least one"),
         optional("mass", ValueKind::MASSES.of(Sign::NotNegative), "none: a massless link").means("mass, not negative"),
-        optional("mass_centre", ValueKind::Table, "required with a mass, refused without")
-            .means("place of the mass centre in the link's frame; may refer to any point of the link"),
+        optional("mass_centre", ValueKind::Table, "required with a mass, not allowed without")
+            .means("position of the mass centre in the link's frame; may refer to any point of the link"),
         optional("inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("moment of inertia about the mass centre, not negative; needs a mass"),
     ]),
@@ -131,7 +130,7 @@ fn named_points(link: &mut TomlTable) -> Result<Vec<Point>> {
     Ok(points)
 }
 
-/// A position: coordinates, or a distance and an angle from one of the points read before.
+/// A position: coordinates, or a distance and an angle from a point that was read before.
 pub fn place(mut table: TomlTable, known: &[Point]) -> Result<Vec2> {
     table.read(|table| place_of(table, known))
 }

@@ -14,10 +14,10 @@ use std::f64::consts::TAU;
 const ACTS: Words<Acts> =
     &[("always", Acts::Always), ("counter-clockwise", Acts::CounterClockwise), ("clockwise", Acts::Clockwise)];
 
-/// Whether the axes of a force turn with its link.
+/// Words for the axes of a force, and whether these axes turn with the link.
 const FRAMES: Words<bool> = &[("world", false), ("link", true)];
 
-/// Whether a table is a curve without kinks.
+/// Words for the interpolation of a table, and whether its curve has no kinks.
 const INTERPOLATIONS: Words<bool> = &[("linear", false), ("smooth", true)];
 
 /// Descriptions of the keys that this module reads.
@@ -28,41 +28,41 @@ pub const SECTIONS: &[Section] = &[
         optional("point", ValueKind::Text, "required by the type").means("the loaded point of that link"),
         optional("links", ValueKind::Texts, "required by the type")
             .means("the two links that a spring or damper joins; one may be `\"ground\"`"),
-        optional("points", ValueKind::Texts, "required by the type").means("a point of each of them"),
+        optional("points", ValueKind::Texts, "required by the type").means("one point of each of these two links"),
         optional("moment", ValueKind::MOMENTS, "required by the type, or a table")
-            .means("moment, counter-clockwise positive; of a resistance its size, not negative"),
+            .means("moment, counter-clockwise positive; for a resistance its magnitude, not negative"),
         optional("acts", ValueKind::Choice(|| names(ACTS)), "`\"always\"`")
-            .means("of a moment: the sense of rotation of the link in which it acts"),
+            .means("for a moment: the sense of rotation of the link in which the moment acts"),
         optional("x", ValueKind::FORCES, "required by the type, or a table").means("force along x"),
         optional("y", ValueKind::FORCES, "required by the type, or a table").means("force along y"),
         optional("frame", ValueKind::Choice(|| names(FRAMES)), "`\"world\"`")
-            .means("axes of a force: those of the world, or of the link, turning with it"),
+            .means("for a force: world axes, or link axes, which rotate with the link"),
         optional("force", ValueKind::FORCES.of(Sign::NotNegative), "required by the type")
-            .means("size of a force against the motion of the point, not negative"),
+            .means("magnitude of a force against the motion of the point, not negative"),
         optional("stiffness", ValueKind::STIFFNESSES_OR_TORSIONAL, "required by the type")
             .means("stiffness of a spring, not negative"),
         optional("free_length", ValueKind::LENGTHS.of(Sign::NotNegative), "required by the type")
-            .means("length of the spring without force, not negative"),
-        optional("free_angle", ValueKind::ANGLES, "required by the type").means("twist of the spring without moment"),
+            .means("unloaded length of the spring, not negative"),
+        optional("free_angle", ValueKind::ANGLES, "required by the type").means("unloaded twist of the spring"),
         optional("damping", ValueKind::DAMPINGS_OR_SLOPES, "required by the type").means("damping, not negative"),
-        optional("table", ValueKind::Tables, "the constants")
-            .means("the load over the crank angle: crank angles ascending, within one period"),
+        optional("table", ValueKind::Tables, "constant values")
+            .means("load as a function of the crank angle: crank angles ascending, within one period"),
         optional("interpolation", ValueKind::Choice(|| names(INTERPOLATIONS)), "`\"linear\"`").means(
-            "of the table: straight lines, which do not overshoot, or a periodic cubic spline with \
-             continuous second derivatives",
+            "interpolation of the table: straight lines, which do not overshoot, or a periodic cubic spline \
+             with continuous second derivatives",
         ),
         optional("turns", ValueKind::Integer, "1")
             .means("turns of the crank after which the table repeats; 2 for a four-stroke engine"),
     ]),
     Section::at("loads.table").with(&[
         needed("crank", ValueKind::INPUTS).means("crank angle"),
-        optional("moment", ValueKind::MOMENTS, "of a moment").means("moment there"),
-        optional("x", ValueKind::FORCES, "of a force").means("force along x there"),
-        optional("y", ValueKind::FORCES, "of a force").means("force along y there"),
+        optional("moment", ValueKind::MOMENTS, "required for a moment").means("moment at that angle"),
+        optional("x", ValueKind::FORCES, "required for a force").means("force along x at that angle"),
+        optional("y", ValueKind::FORCES, "required for a force").means("force along y at that angle"),
     ]),
 ];
 
-/// Types of loads, each with its reader. The name is that of [`Load::sort`].
+/// Types of loads, each with its reader. The name of a type is that of [`Load::sort`].
 const SORTS: Words<fn(&mut TomlTable, &Mechanism) -> Result<Load>> = &[
     ("resistance", resistance),
     ("moment", moment),
@@ -74,10 +74,10 @@ const SORTS: Words<fn(&mut TomlTable, &Mechanism) -> Result<Load>> = &[
     ("torsion_damper", torsion_damper),
 ];
 
-/// Largest number of crank turns after which a table may repeat.
+/// Upper limit of the number of crank turns after which a table repeats.
 const MOST_TURNS: i64 = 1000;
 
-/// The loads, without those that have mistakes.
+/// Reads the loads. Loads with mistakes are left out.
 pub fn read(tables: Vec<TomlTable>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Load> {
     tables.into_iter().filter_map(|mut table| faults.read(&mut table, |table| load(table, mechanism))).collect()
 }
@@ -155,7 +155,7 @@ fn torsion_damper(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> 
     Ok(Load::TorsionDamper { links: pair(table, mechanism, &names)?, damping })
 }
 
-/// Quantities: constants, or columns of a table over the crank angle.
+/// Quantities that are constants, or columns of a table over the crank angle.
 fn courses<const N: usize>(table: &mut TomlTable, names: [&str; N]) -> Result<[Course; N]> {
     let rows = table.tables("table")?;
     let constants = names.map(|name| table.optional_si(name));
@@ -202,7 +202,7 @@ fn courses<const N: usize>(table: &mut TomlTable, names: [&str; N]) -> Result<[C
     Ok(points.map(|points| Course::table(&points, turns, smooth)))
 }
 
-/// Checks that the last point is after the one before it, and within the table's period.
+/// Checks that the last point lies after the point before it and within the period of the table.
 fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: u32) -> Result<()> {
     let (&[(first, _), ..], &[.., (last, _)]) = (points, points) else { return Ok(()) };
     let before = points.len().checked_sub(2).map(|index| points[index].0);
@@ -210,7 +210,8 @@ fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: u32) -> Result<()>
         let message = sentences::THE_CRANK_ANGLES_OF_THE_TABLE;
         return Err(row.fault(message).help(sentences::WRITE_THE_POINTS_IN_ASCENDING));
     }
-    // The rounding of degrees into radians must not move a point at the end of the period into the next period.
+    // Degrees are rounded when they are converted to radians.
+    // This must not move a point at the end of the period into the next period.
     if last - first > TAU * f64::from(turns) * (1.0 - 1e-12) {
         let message = sentences::the_table_is_longer_than_its_period(&(360 * u64::from(turns)));
         return Err(row.fault(message).help(sentences::A_TABLE_REPEATS_AFTER_A_TURN));
@@ -218,7 +219,7 @@ fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: u32) -> Result<()>
     Ok(())
 }
 
-/// Turns of the crank after which a table repeats.
+/// Number of crank turns after which a table repeats.
 fn period(table: &TomlTable, turns: Option<i64>) -> Result<u32> {
     match turns {
         None => Ok(1),

@@ -7,10 +7,10 @@ use toml::de::DeTable;
 
 use linkage::error::{Error, ErrorKind, Place};
 
-/// Most bytes that are parsed in the search for the first occurrence of a duplicate key.
+/// Upper limit of the number of bytes that are parsed in the search for the first occurrence of a duplicate key.
 const MOST: usize = 10_000_000;
 
-/// Gives the position in the file of a range of bytes.
+/// Function that converts a range of bytes to a position in the file.
 type Places<'a> = &'a dyn Fn(Range<usize>) -> Place;
 
 /// The error of a file that is not valid TOML.
@@ -46,7 +46,7 @@ fn duplicate(text: &str, place: Places, span: Range<usize>) -> Error {
 }
 
 /// Position of the first occurrence of the duplicate key at `span`.
-/// It is the earlier key whose renaming removes the error: only that one is in the same table.
+/// If an earlier key is renamed and the error disappears, this key is the first occurrence: it is in the same table.
 fn first_of(text: &str, span: &Range<usize>) -> Option<usize> {
     const OTHER: &str = "another-key";
     let key = &text[span.clone()];
@@ -61,7 +61,7 @@ fn first_of(text: &str, span: &Range<usize>) -> Option<usize> {
     })
 }
 
-/// The number with a decimal comma that is the value of a key. Byte `at` lies in it or at its end.
+/// The number with a decimal comma that is the value of a key. Byte `at` lies within this number or at its end.
 fn decimal_comma(text: &str, at: usize) -> Option<Range<usize>> {
     let line = text[..at].rfind('\n').map_or(0, |before| before + 1);
     let end = text[at..].find('\n').map_or(text.len(), |length| at + length);
@@ -78,7 +78,7 @@ fn decimal_comma(text: &str, at: usize) -> Option<Range<usize>> {
         .find(|number| (number.start..=number.end + 1).contains(&at))
 }
 
-/// Whether a text is a number except for its decimal comma.
+/// Whether a text is a number if its decimal comma is replaced by a point.
 pub(super) fn has_decimal_comma(text: &str) -> bool {
     let is_sound = |(whole, part): (&str, &str)| {
         let whole = whole.trim_start_matches(['+', '-']);
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn duplicates_name_both_places() {
+    fn duplicate_keys_name_both_lines() {
         for (text, second, first) in [
             ("a = 1\n[x]\na = 2\nb = 3\na = 4\n", 5, 3),
             ("a = 1\na = 4\n", 2, 1),
@@ -115,13 +115,13 @@ mod tests {
     }
 
     #[test]
-    fn decimal_commas_are_told() {
+    fn decimal_commas_are_reported() {
         for text in
             ["x = 30,5\n", "p = { x = 30,5, y = 4 }\n", "p = { y = 4, x = 30,5 }\n", "x = 30,5", "x = 30,5 # mm\n"]
         {
             let (_, told) = told(text);
             assert_eq!(
-                told, "the file is not valid TOML: `30,5` has a decimal comma; decimals take a point: write 30.5",
+                told, "the file is not valid TOML: `30,5` has a decimal comma; write decimals with a point: 30.5",
                 "{text}"
             );
         }

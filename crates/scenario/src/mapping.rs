@@ -16,11 +16,11 @@ pub struct Mapping {
     pub at: Vec<Mapped>,
     /// Channels, or arithmetic expressions of channels.
     pub channels: Vec<Mapped>,
-    /// The differences that are allowed to the table.
+    /// Differences from the table that are allowed.
     pub allowed: Vec<Allowed>,
 }
 
-/// A channel, and its expression in the columns of the table.
+/// A channel, and the arithmetic expression of table columns that gives it.
 #[derive(Clone, Debug)]
 pub struct Mapped {
     /// The channel in its unit, such as `link.rocker.angle_deg`; or a name of [`INSTANTS`].
@@ -45,9 +45,9 @@ pub struct Allowed {
 pub enum Size {
     /// In the channel's unit.
     Absolute(f64),
-    /// As a share of the channel's scale.
+    /// As a fraction of the channel's scale.
     Relative(f64),
-    /// As a share of each value.
+    /// As a fraction of each value.
     OfValue(f64),
 }
 
@@ -58,7 +58,7 @@ type Sized = (&'static str, fn(f64) -> Size);
 const SIZES: [Sized; 3] = [("abs", Size::Absolute), ("rel", Size::Relative), ("rel_value", Size::OfValue)];
 
 impl Size {
-    /// Index of its kind, from 0: in units, as a share of the scale, as a share of each value.
+    /// Index of the kind, from 0: in units, as a fraction of the scale, as a fraction of each value.
     #[must_use]
     pub fn kind(self) -> usize {
         self.parts().0
@@ -73,7 +73,7 @@ impl Size {
     }
 }
 
-/// Names for the instants of rows, each with its factor to SI, and whether it is a crank angle.
+/// Names for the instants of rows. Each has its factor to SI, and whether it is a crank angle.
 pub const INSTANTS: [(&str, f64, bool); 4] = [
     ("time_s", 1.0, false),
     ("time_ms", 1e-3, false),
@@ -100,14 +100,14 @@ impl Mapped {
         }
     }
 
-    /// A column that already has the name of a channel.
+    /// Maps a column that already has the name of a channel to this channel.
     #[must_use]
     pub fn same(name: &str, text: &str) -> Self {
         let place = Place { file: "the header".into(), text: text.into(), span: 0..text.len() };
         Mapped { name: name.into(), text: text.into(), place, start: 0 }
     }
 
-    /// If the name is one of [`INSTANTS`]: its factor to SI, and whether it is a crank angle.
+    /// If the name is one of [`INSTANTS`]: its factor to SI, and whether it is a crank angle. Otherwise `None`.
     #[must_use]
     pub fn instant(&self) -> Option<(f64, bool)> {
         INSTANTS.iter().find(|(name, ..)| *name == self.name).map(|&(_, factor, is_crank)| (factor, is_crank))
@@ -121,7 +121,7 @@ impl Mapped {
         Error::new(ErrorKind::Input, fault.message.clone()).at(place).help(fault.help.clone())
     }
 
-    /// An error about the channel that it names.
+    /// An error about the channel that this entry names.
     #[must_use]
     pub fn wrong(&self, message: &str, help: &str) -> Error {
         Error::new(ErrorKind::Input, message).at(self.place.clone()).help(help)
@@ -132,7 +132,7 @@ impl Mapping {
     /// Reads a mapping file.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the place.
+    /// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the position.
     pub fn load(path: &Path) -> Result<Self> {
         let text = files::read_text(path).map_err(|error| {
             Error::new(ErrorKind::Io, sentences::the_mapping_cannot_be_read(&path.display(), &error))

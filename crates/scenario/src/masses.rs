@@ -1,7 +1,8 @@
 //! Masses that do not fit their mechanism. The usual cause is a wrong unit.
 //!
-//! A double has sixteen digits. A mass that is too far away, or too heavy, leaves too few digits for everything else.
-//! The rounding error of that one number would then hide the rest of the mechanism from the solvers and the engines.
+//! A double has sixteen digits.
+//! A mass that is too far away or too heavy leaves too few digits for the other quantities.
+//! Its rounding error would then hide the rest of the mechanism from the solvers and the engines.
 
 use crate::sentences;
 use linkage::drive::{Drive, Drives};
@@ -9,16 +10,16 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::mechanism::{Link, Mechanism};
 
-/// Largest distance of a mass centre from the nearest point of its link, as a multiple of the largest link's size.
+/// Upper limit of the distance of a mass centre from the nearest point of its link, divided by the largest link's size.
 const FARTHEST: f64 = 1e3;
-/// Largest moment of inertia of a link, as a multiple of the sum over all others.
-/// It includes the link's mass at a distance of the mechanism's size.
+/// Upper limit of the moment of inertia of a link, divided by the sum over all other links and the motors.
+/// The moment of inertia includes the link's mass at a distance of the mechanism's size.
 const HEAVIEST: f64 = 1e12;
 
 /// Speed of light (m/s).
 const LIGHT: f64 = 299_792_458.0;
 
-/// Checks that no point of a crank is faster than light, by the law of motion or at the start.
+/// Checks that no point of a driving link is faster than light, neither under the law of motion nor at the start.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for such a speed.
@@ -66,7 +67,7 @@ pub fn check(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
     }
     let inertia = |link: &Link| link.inertia + link.mass * size * size;
     let motors: f64 = drives.iter().map(Drive::moving_inertia).sum();
-    // Summed separately for every link: a difference of two sums would lose all significant digits here.
+    // The sum is formed anew for every link. A difference of two sums would lose all significant digits here.
     let others = |link: &Link| moving().filter(|other| other.name != link.name).map(inertia).sum::<f64>() + motors;
     let Some(link) = moving().max_by(|a, b| inertia(a).total_cmp(&inertia(b))) else { return Ok(()) };
     let (own, others) = (inertia(link), others(link));

@@ -17,30 +17,31 @@ use linkage::mechanism::{GROUND, JointKind, JointSide, Mechanism};
 pub const SECTIONS: &[Section] = &[
     Section::at("drive").with(&[
         needed("joint", ValueKind::Text).means("revolute joint between the ground and the driving link"),
-        optional("law", ValueKind::Choice(|| names(LAWS)), "`\"constant\"`").means("crank angle over time; below"),
+        optional("law", ValueKind::Choice(|| names(LAWS)), "`\"constant\"`")
+            .means("law of the crank angle over time, see below"),
         optional("zero", ValueKind::INPUTS, "0").means("world direction from which the crank angle is measured"),
         optional("motion", ValueKind::Choice(|| vec!["prescribed", "free"]), "`\"prescribed\"`")
             .means("`\"free\"`: forces determine the motion, see below"),
-        optional("initial_speed", ValueKind::SPEEDS, "0").means("of a free link: its angular velocity at t = 0"),
+        optional("initial_speed", ValueKind::SPEEDS, "0").means("angular velocity of a free driving link at t = 0"),
         optional(
             "through",
             ValueKind::Choice(|| vec!["smooth"]),
             "a change point is an error; a free motion passes it",
         )
-        .means("the mechanism passes change points on the branch on which velocities go on; see below"),
-        optional("start", ValueKind::ANGLES, "required there, refused on the first")
-            .means("of every drive but the first: its angle at t = 0"),
+        .means("the mechanism passes change points on the branch with continuous velocities; see below"),
+        optional("start", ValueKind::ANGLES, "required for these drives, not allowed for the first")
+            .means("for every drive but the first: angle at t = 0"),
         optional(
             "speed",
             ValueKind::SPEEDS.of(Sign::NotZero),
-            "required but of the laws `\"cycloidal\"` and `\"table\"`",
+            "required, except for the laws `\"cycloidal\"` and `\"table\"`",
         )
         .means("angular velocity, counter-clockwise positive, not zero"),
-        optional("time", ValueKind::TIMES.of(Sign::Positive), "required of these laws")
+        optional("time", ValueKind::TIMES.of(Sign::Positive), "required for these laws")
             .means("duration of a ramp, or of a cycloidal law"),
-        optional("to", ValueKind::INPUTS, "required of this law").means("last crank angle of a cycloidal law"),
-        optional("points", ValueKind::Tables, "required of the law `\"table\"`")
-            .means("points of a table, two or more: times ascending from 0, the first angle that of the start"),
+        optional("to", ValueKind::INPUTS, "required for this law").means("last crank angle of a cycloidal law"),
+        optional("points", ValueKind::Tables, "required for the law `\"table\"`")
+            .means("points of a table, two or more: times ascending from 0; the first angle is the start angle"),
     ]),
     Section::at("drive.points").with(&[
         needed("time", ValueKind::TIMES.of(Sign::NotNegative)).means("time"),
@@ -52,8 +53,8 @@ pub const SECTIONS: &[Section] = &[
     ]),
 ];
 
-/// The drives of the mechanism: the crank first, then further drives, which state their own start.
-/// The crank has `start` as its angle at t = 0 (rad), and the motor. `None` after a mistake.
+/// The drives of the mechanism: the crank first, then further drives, each with the start that it states.
+/// The crank has the angle `start` at t = 0 (rad), and the motor. `None` after a mistake.
 pub fn drives(
     tables: Vec<TomlTable>,
     motor: Option<TomlTable>,
@@ -62,16 +63,16 @@ pub fn drives(
     faults: &mut Faults,
 ) -> Option<Drives> {
     let mut drives: Vec<Drive> = Vec::new();
-    let count = tables.len();
+    let (count, whole) = (tables.len(), faults.whole);
     for (index, mut table) in tables.into_iter().enumerate() {
         let own = |table: &mut TomlTable| {
             let start = if index == 0 { start } else { table.si("start")? };
-            let drive = drive(table, mechanism, &drives, start)?;
+            let drive = drive(table, mechanism, &drives, start, whole)?;
             check_beside(table, &drive, &drives)?;
             Ok(drive)
         };
         drives.extend(faults.read(&mut table, own));
-        // A drive may be carried by a link that an earlier drive moves.
+        // An earlier drive may move the link that carries a later drive.
         faults.whole &= drives.len() > index;
     }
     let motor = motor.map(|mut motor| faults.read(&mut motor, motor::read));
@@ -100,20 +101,33 @@ fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()
     Ok(())
 }
 
-/// A drive; `before` are the drives already read.
-fn drive(table: &mut TomlTable, mechanism: &Mechanism, before: &[Drive], start: f64) -> Result<Drive> {
+/// Reads a drive. `before` are the drives already read.
+/// If the mechanism is `whole`, all its joints are known.
+fn drive(table: &mut TomlTable, mechanism: &Mechanism, before: &[Drive], start: f64, whole: bool) -> Result<Drive> {
     let name = table.string("joint")?;
     let known = mechanism.joint_named(&name);
     let kind = known.map(|index| mechanism.joints()[index].kind);
     let input = kind.and_then(JointKind::input).unwrap_or_default();
-    let law = law(table, input.at(start))?;
+    let unknown = |table: &TomlTable| -> Result<Drive> {
+        let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
+        table.refuse("joint", sentences::there_is_no_joint(&name), suggestion(&name, names, "\""))
+    };
+    let law = match law(table, input.at(start)) {
+        Ok(law) => law,
+        Err(error) => {
+            if whole && known.is_none() {
+                let unknown = unknown(table);
+                table.part(unknown.map(|_| ()));
+            }
+            return Err(error);
+        }
+    };
     let zero = table.optional_si("zero")?.unwrap_or(0.0);
     let motion = motion(table, law)?;
     let through = through(table)?;
     table.finish()?;
     let Some(index) = known else {
-        let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
-        return table.refuse("joint", sentences::there_is_no_joint(&name), suggestion(&name, names, "\""));
+        return unknown(table);
     };
     if before.iter().any(|other| other.joint == index) {
         return table.refuse("joint", sentences::THIS_JOINT_IS_DRIVEN_ALREADY, sentences::GIVE_EVERY_DRIVE_A_JOINT);
@@ -145,7 +159,7 @@ fn drive(table: &mut TomlTable, mechanism: &Mechanism, before: &[Drive], start: 
     Ok(drive)
 }
 
-/// Whether the link follows `law`, or is free from t = 0 on with `law` as its nominal motion.
+/// The motion of a drive: its link follows `law`, or is free from t = 0 on with `law` as its nominal motion.
 fn motion(table: &mut TomlTable, law: MotionLaw) -> Result<DriveMotion> {
     let initial = table.optional_si("initial_speed")?;
     match table.optional_string("motion")?.as_deref() {
@@ -169,7 +183,7 @@ fn motion(table: &mut TomlTable, law: MotionLaw) -> Result<DriveMotion> {
     }
 }
 
-/// Whether change points are passed.
+/// Whether the motion passes change points.
 fn through(table: &mut TomlTable) -> Result<bool> {
     match table.optional_string("through")?.as_deref() {
         None => Ok(false),
@@ -186,7 +200,7 @@ fn through(table: &mut TomlTable) -> Result<bool> {
     }
 }
 
-/// Laws, each with its reader, which gets the input at t = 0.
+/// Laws of motion, each with its reader. The reader gets the input at t = 0.
 const LAWS: Words<fn(&mut TomlTable, InputValue) -> Result<MotionLaw>> =
     &[("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
 
@@ -217,7 +231,7 @@ fn cycloidal(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
     Ok(MotionLaw::Cycloidal { rise, time })
 }
 
-/// A law from a table: from rest at the start (t = 0) to rest at the last point.
+/// A law of motion from a table. The motion starts from rest at t = 0 and ends at rest at the last point.
 fn points(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
     let InputValue { input, value: start } = start;
     let mut points: Vec<(f64, f64)> = Vec::new();

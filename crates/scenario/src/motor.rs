@@ -10,40 +10,42 @@ use linkage::error::{ErrorKind, Result};
 /// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("motor").with(&[
-        needed("law", ValueKind::Choice(|| names(LAWS))).means("torque over the motor's own speed"),
-        needed("ratio", ValueKind::Number).means("speed of the motor over that of the crank; 1 without a reducer"),
+        needed("law", ValueKind::Choice(|| names(LAWS))).means("torque as a function of the motor speed"),
+        needed("ratio", ValueKind::Number).means("ratio of motor speed to crank speed; 1 without a reducer"),
         optional("efficiency", ValueKind::Number, "1").means(
-            "share of the power that the reducer transmits, above 0 and at most 1, the same in both \
+            "fraction of the power that the reducer transmits, above 0 and at most 1, the same in both \
              directions",
         ),
-        optional("torque", ValueKind::MOMENTS.of(Sign::Positive), "required of this law")
+        optional("torque", ValueKind::MOMENTS.of(Sign::Positive), "required for this law")
             .means("constant law: the torque, positive"),
-        optional("torque_at_rest", ValueKind::MOMENTS.of(Sign::Positive), "required of this law")
+        optional("torque_at_rest", ValueKind::MOMENTS.of(Sign::Positive), "required for this law")
             .means("linear law: torque at rest, positive"),
-        optional("slope", ValueKind::SLOPES.of(Sign::Negative), "required of this law")
+        optional("slope", ValueKind::SLOPES.of(Sign::Negative), "required for this law")
             .means("linear law: change with the speed, negative"),
-        optional("breakdown_torque", ValueKind::MOMENTS.of(Sign::Positive), "required of this law")
+        optional("breakdown_torque", ValueKind::MOMENTS.of(Sign::Positive), "required for this law")
             .means("Kloss: largest torque"),
-        optional("synchronous_speed", ValueKind::SPEEDS.of(Sign::Positive), "required of this law")
+        optional("synchronous_speed", ValueKind::SPEEDS.of(Sign::Positive), "required for this law")
             .means("Kloss: synchronous speed"),
-        optional("breakdown_slip", ValueKind::Number, "the speed is given").means("Kloss: slip at breakdown, or"),
-        optional("breakdown_speed", ValueKind::SPEEDS.of(Sign::NotNegative), "the slip is given")
+        optional("breakdown_slip", ValueKind::Number, "given by the speed")
+            .means("Kloss: slip at breakdown; give this or `breakdown_speed`"),
+        optional("breakdown_speed", ValueKind::SPEEDS.of(Sign::NotNegative), "given by the slip")
             .means("Kloss: speed at breakdown"),
-        optional("points", ValueKind::Tables, "required of this law").means("table: two or more, speeds ascending"),
+        optional("points", ValueKind::Tables, "required for this law")
+            .means("table: two or more points, speeds ascending"),
         optional("rotor_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("moment of inertia of the rotor about its shaft"),
         optional("input_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
-            .means("of the reducer's input shaft, which turns with the motor"),
+            .means("moment of inertia of the reducer's input shaft, which rotates with the motor"),
         optional("intermediate_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
-            .means("of its intermediate shaft"),
-        optional("intermediate_ratio", ValueKind::Number, "required with its inertia")
-            .means("speed of the intermediate shaft over that of the crank"),
+            .means("moment of inertia of the reducer's intermediate shaft"),
+        optional("intermediate_ratio", ValueKind::Number, "required with `intermediate_inertia`")
+            .means("ratio of intermediate-shaft speed to crank speed"),
         optional("output_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
-            .means("of its output shaft, which turns with the crank"),
+            .means("moment of inertia of the reducer's output shaft, which rotates with the crank"),
     ]),
     Section::at("motor.points").with(&[
         needed("speed", ValueKind::SPEEDS).means("speed of the motor"),
-        needed("torque", ValueKind::MOMENTS).means("its torque"),
+        needed("torque", ValueKind::MOMENTS).means("torque at that speed"),
     ]),
 ];
 
@@ -79,7 +81,7 @@ fn linear(table: &mut TomlTable) -> Result<MotorLaw> {
     Ok(MotorLaw::Linear { at_rest, slope: table.si("slope")? })
 }
 
-/// The breakdown point is given by its slip or by its speed, depending on the catalogue.
+/// The breakdown point is given by its slip or by its speed. Catalogues differ in this.
 fn kloss(table: &mut TomlTable) -> Result<MotorLaw> {
     let breakdown_torque = table.si("breakdown_torque")?;
     let synchronous_speed = table.si("synchronous_speed")?;

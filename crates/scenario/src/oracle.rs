@@ -1,4 +1,4 @@
-//! `[[oracle]]`: numbers that the mechanism must reproduce, each with the bound that follows from its digits.
+//! `[[oracle]]`: numbers that the mechanism must reproduce. The digits of a number determine its bound.
 
 use super::figure::MechanismFigure;
 use super::figure::{self, OracleFigure};
@@ -16,10 +16,10 @@ const NUMBER: &[FileKey] = &[
     needed("digits", ValueKind::Integer).means("number of printed decimals"),
 ];
 
-const FINDING: FileKey = optional("finding", ValueKind::Text, "the number is right")
+const FINDING: FileKey = optional("finding", ValueKind::Text, "none: the number is right")
     .means("anchor of the section of `docs/findings.md` that says why the number is wrong");
 const RIGHT: FileKey =
-    optional("right", ValueKind::Table, "required with `finding`").means("what is right instead, in the printed unit");
+    optional("right", ValueKind::Table, "required with `finding`").means("the correct number, in the printed unit");
 const VALUE: FileKey = needed("value", ValueKind::Number).means("the number, in the unit of the name");
 const DIGITS: FileKey = needed("digits", ValueKind::Integer).means("number of printed decimals");
 const CRANK: FileKey = optional("crank", ValueKind::INPUTS, "a time is given").means("crank angle");
@@ -32,7 +32,7 @@ pub const SECTIONS: &[Section] = &[
         optional("name", ValueKind::Text, "none").means("name for reports"),
         optional("basis", ValueKind::Choice(|| OracleBasis::ALL.map(OracleBasis::word).to_vec()), "`\"published\"`")
             .means(
-                "how the numbers are known: printed in the source, computed anew from what it gives, or a \
+                "how the numbers were obtained: printed in the source, computed anew from its data, or a \
              formula from given data",
             ),
         optional("values", ValueKind::Tables, "one of `file`, `values` and `figures`").means("numbers at one instant"),
@@ -49,12 +49,12 @@ pub const SECTIONS: &[Section] = &[
         optional("time", ValueKind::Text, "with `file`: the other column is given")
             .means("column of the times of the file (ends in `_s` or `_ms`)"),
         optional("columns", ValueKind::Table, "required with `file`")
-            .means("what the columns of the table are, by name"),
-        optional("digits", ValueKind::Integer, "the printed ones")
-            .means("number of decimals of the table, where trailing zeros are not printed"),
+            .means("meaning of the columns of the table, by name"),
+        optional("digits", ValueKind::Integer, "counted in the table")
+            .means("number of decimals of the table, if trailing zeros are not printed"),
         optional("slack", ValueKind::Number, "0")
             .means("known error of the published numbers, in their printed unit, added to their bounds"),
-        optional("why", ValueKind::Text, "required with `slack`").means("the reason for it"),
+        optional("why", ValueKind::Text, "required with `slack`").means("reason for `slack`"),
     ]),
     Section::at("oracle.values").with(&[
         needed("channel", ValueKind::Text).means("channel, with the printed unit as its ending"),
@@ -65,8 +65,8 @@ pub const SECTIONS: &[Section] = &[
     ]),
     Section::at("oracle.values.right").with(NUMBER),
     Section::at("oracle.figures").with(&[
-        needed("figure", ValueKind::Text).means("which figure"),
-        optional("points", ValueKind::Texts, "required of a distance").means("the two points of a distance"),
+        needed("figure", ValueKind::Text).means("name of the figure"),
+        optional("points", ValueKind::Texts, "required for a distance").means("the two points of a distance"),
         VALUE,
         DIGITS,
         FINDING,
@@ -78,14 +78,14 @@ pub const SECTIONS: &[Section] = &[
         optional("offset", ValueKind::LENGTHS_OR_ANGLES, "0")
             .means("printed = channel + offset; for coordinates and angles"),
         optional("expect", ValueKind::Tables, "none")
-            .means("cells known to be wrong, by crank angle or time as the table"),
+            .means("cells known to be wrong, at crank angles or times, as in the table"),
         FINDING,
         RIGHT,
     ]),
     Section::at("oracle.columns.*.expect").with(&[CRANK, AT_TIME, FINDING, RIGHT]),
     Section::at("oracle.columns.*.expect.right").with(NUMBER),
     Section::at("oracle.columns.*.right").with(&[
-        needed("values", ValueKind::Numbers).means("one for every row"),
+        needed("values", ValueKind::Numbers).means("one value for each row"),
         needed("digits", ValueKind::Integer).means("number of printed decimals"),
     ]),
 ];
@@ -118,16 +118,15 @@ pub enum OracleBasis {
 }
 
 impl Oracle {
-    /// The part of the oracle that still holds if the case starts at another crank angle of the same branch; `None` if
-    /// no
-    /// part holds.
+    /// The part of the oracle that still holds if the case starts at another crank angle of the same branch.
+    /// `None` if nothing holds.
     pub(super) fn at_another_start(mut self, case: &Case) -> Option<Oracle> {
         self.figures.retain(|figure| !matches!(figure.figure, MechanismFigure::Distance(_)));
-        // From another start angle, the motion is a different function of time.
+        // With another start angle, the motion is a different function of time.
         self.series.retain(|series| series.instants().all(|at| at.time().is_none()));
-        // A further drive or a changing speed couples the crank angle to time. A torsional spring couples it to the
-        // turns since
-        // the start.
+        // Three things make values depend on more than the crank angle.
+        // A further drive or a changing speed couples the crank angle to the time.
+        // A torsional spring couples it to the turns since the start.
         let winds = |load: &linkage::drive::Load| load.nature().twist.is_some();
         if !case.is_steady() || !case.drives.further().is_empty() || case.loads.iter().any(winds) {
             self.series.clear();
@@ -156,7 +155,7 @@ impl OracleBasis {
     }
 }
 
-/// The oracles of a case, without those that have mistakes.
+/// Reads the oracles of a case. Oracles with mistakes are left out.
 pub(super) fn read(tables: Vec<TomlTable>, case: &Case, memory: Option<f64>, faults: &mut Faults) -> Vec<Oracle> {
     let (wanted, all) = (case.channels(), case.all_channels());
     let known = Known { channels: &all, wanted: &wanted, digits: None, slack: 0.0, memory };
@@ -165,7 +164,7 @@ pub(super) fn read(tables: Vec<TomlTable>, case: &Case, memory: Option<f64>, fau
     tables.into_iter().filter_map(one).collect()
 }
 
-/// One oracle; `inline` counts those with numbers in the scenario itself.
+/// Reads one oracle. `inline` counts the oracles with numbers in the scenario itself.
 fn oracle(table: &mut TomlTable, known: &Known, case: &Case, inline: &mut usize) -> Result<Oracle> {
     let source = table.string("source")?;
     let own_name = table.optional_string("name")?;

@@ -6,9 +6,10 @@ use super::words::suggestion;
 use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Reads the section. Numbers in `set` replace the file's own.
+/// Reads the section. Numbers in `set` replace those of the file.
 /// Keys that the file does not have are added if the caller allows it.
-/// A parameter with a mistake is left out. Only the first such mistake is returned, because it may cause the others.
+/// A parameter with a mistake is left out. Only the first such mistake is returned, because it may cause later
+/// mistakes.
 ///
 /// # Errors
 /// Mistakes in `set`.
@@ -51,7 +52,7 @@ pub(super) fn read(
     Ok((parameters, first))
 }
 
-/// The parameter of a key; `before` are the parameters read already.
+/// The parameter of a key. `before` are the parameters that have been read already.
 fn own(table: &mut TomlTable, key: &str, before: &Parameters) -> Result<Parameter> {
     let parameter = Parameter::new(key, table.number_with(key, before)?);
     let faulty = parameter.names().find_map(|(name, _)| fault_of_name(name));
@@ -61,7 +62,7 @@ fn own(table: &mut TomlTable, key: &str, before: &Parameters) -> Result<Paramete
     }
 }
 
-/// Message and help, if a name of the parameter is also a name of another one.
+/// Message and help, if another parameter already has one of the parameter's names.
 fn twice(others: &Parameters, parameter: &Parameter) -> Option<(String, &'static str)> {
     let (name, other) = parameter.names().find_map(|(name, _)| Some((name, others.called(name)?)))?;
     let message = sentences::would_stand_for_and_for(&name, &other.key, &parameter.key);

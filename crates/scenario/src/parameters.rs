@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// A number with a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// The key with its unit, such as `a_mm`. As a name it denotes the plain number.
+    /// The key with its unit, such as `a_mm`. In formulas, this name denotes the number without conversion.
     pub key: String,
     /// The number as it was given, in the unit of the key.
     pub given: f64,
@@ -21,31 +21,32 @@ impl Parameter {
         Parameter { key: key.into(), given, unit: unit::ending(key).map(|(_, unit)| unit) }
     }
 
-    /// The key without its unit, such as `a`. As a name it denotes the number in SI. `None` for a key without a unit.
+    /// The key without its unit, such as `a`. In formulas, this name denotes the number in SI. `None` for a key without
+    /// a unit.
     #[must_use]
     pub fn short(&self) -> Option<&str> {
         self.unit.map(|unit| &self.key[..self.key.len() - unit.suffix.len() - 1])
     }
 
-    /// Its unit, from the ending of its key.
+    /// Unit of the parameter, from the ending of its key.
     #[must_use]
     pub fn unit(&self) -> Option<&'static str> {
         self.unit.map(|unit| unit.suffix)
     }
 
-    /// Whether it is an angle, by its unit.
+    /// Whether the parameter is an angle, by its unit.
     #[must_use]
     pub fn is_angle(&self) -> bool {
         self.unit.is_some_and(|unit| unit::ANGLE.units.contains(unit))
     }
 
-    /// The name of its value in SI: the short name, or the key if that has no unit.
+    /// The name of the parameter's value in SI: the short name, or the key if the key has no unit.
     #[must_use]
     pub fn quantity(&self) -> &str {
         self.short().unwrap_or(&self.key)
     }
 
-    /// Its names, each with the number that it denotes.
+    /// The names of the parameter, each with the number that it denotes.
     pub fn names(&self) -> impl Iterator<Item = (&str, Rounded)> {
         let plain = Rounded::decimal(self.given);
         let si = self.unit.map(|unit| match unit.to_si(1.0) {
@@ -76,7 +77,7 @@ impl Parameters {
         self.places.get(name).map(|&place| &self.list[place])
     }
 
-    /// Adds a parameter whose names are not taken yet.
+    /// Adds a parameter. Its names must not be in use.
     pub(super) fn push(&mut self, parameter: Parameter) {
         for (name, _) in parameter.names() {
             self.places.insert(name.into(), self.list.len());
@@ -91,9 +92,9 @@ impl Parameters {
     }
 }
 
-/// The number that `text` gives for a key: an arithmetic expression of numbers and parameters.
-/// If a short name of a parameter measures the same quantity as the key, it counts in the key's unit
-/// (`length_mm = "2 * a"`). Otherwise it counts in SI.
+/// The number that `text` gives for a key. The text is an arithmetic expression of numbers and parameters.
+/// A parameter's short name stands for its value in the key's unit, if both measure the same quantity (`length_mm = "2
+/// * a"`). Otherwise it stands for its value in SI.
 ///
 /// # Errors
 /// The mistake in the text, with its position.
@@ -105,7 +106,7 @@ pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std:
         let (_, number) = own.names().find(|(own, _)| *own == name)?;
         let is_short = own.short() == Some(name);
         let of_key = wanted.filter(|wanted| is_short && own.unit.is_some_and(|unit| unit::alike(unit, wanted)));
-        // The plain number, if it is given in the key's unit.
+        // The number without conversion, if it is given in the key's unit.
         Some(Rounded::exact(match of_key {
             Some(unit) if Some(unit) == own.unit => own.given,
             Some(unit) => number.value / unit.to_si(1.0),

@@ -1,4 +1,4 @@
-//! Printed numbers: their value, their uncertainty, and the correction of those that are known to be wrong.
+//! Printed numbers: value, uncertainty, and the correction of a number that is known to be wrong.
 
 use super::reader::TomlTable;
 use super::unit::{ANGLE, LENGTH, NamedUnit, UnitFamily};
@@ -13,17 +13,17 @@ use linkage::trajectory::{self, CHANNELS, Channel, ChannelKind};
 pub struct Printed {
     /// The number, in the printed unit.
     pub value: f64,
-    /// Decimals printed; negative if digits before the decimal point are missing (1.5e3 has -2).
+    /// Number of printed decimals. It is negative if digits before the decimal point are missing (1.5e3 has -2).
     pub digits: i32,
     /// Largest distance of the true number from the printed one, in the printed unit.
     half_unit: f64,
 }
 
 impl Printed {
-    /// A number with a given count of decimals, independent of its text.
+    /// A number with a given count of decimals. Its text does not matter.
     #[must_use]
     pub fn with_digits(value: f64, digits: i32) -> Printed {
-        // The printed decimal is rounded once more to binary; the excess covers only that rounding.
+        // The printed decimal number is also rounded to binary. The factor (1 + 1e-9) covers only that rounding.
         Printed { value, digits, half_unit: 0.5 * 10f64.powi(-digits) * (1.0 + 1e-9) }
     }
 
@@ -34,7 +34,7 @@ impl Printed {
         Printed { value, digits: -(2.0 * error).log10().round() as i32, half_unit: error }
     }
 
-    /// Reads a decimal number with an optional exponent. Any other text is refused, and so is a cell without a number.
+    /// Reads a decimal number with an optional exponent. Any other text is refused, also an empty cell.
     #[must_use]
     pub fn cell(text: &str) -> Option<TableCell> {
         let begins = text.strip_prefix(['+', '-']).unwrap_or(text);
@@ -48,16 +48,16 @@ impl Printed {
     }
 }
 
-/// Largest count of decimals that makes sense in double precision.
+/// Upper limit of the count of decimals that makes sense in double precision.
 pub const MOST_DIGITS: i32 = 20;
 
-/// Ending after a joint's name that denotes the magnitude of the reaction.
+/// Ending of a name that denotes the magnitude of a joint's reaction.
 const MAGNITUDE: &str = "f_N";
 
-/// Ending of the channel of the x component, which represents the magnitude.
+/// Ending of the channel of the x component. This channel represents the magnitude.
 const X_OF_MAGNITUDE: &str = "fx_N";
 
-/// The units that a channel is printed in; `None` if only the SI unit is printed.
+/// The units in which a channel may be printed. `None` if it is printed only in its SI unit.
 fn family(unit: trajectory::Unit) -> Option<&'static UnitFamily> {
     match unit {
         trajectory::Unit::Radian => Some(&ANGLE),
@@ -68,7 +68,7 @@ fn family(unit: trajectory::Unit) -> Option<&'static UnitFamily> {
     }
 }
 
-/// The endings that names of channels of a kind may have, one per printed unit.
+/// The endings of channel names of a kind, one for every printed unit.
 #[must_use]
 pub fn endings(kind: &ChannelKind) -> Vec<String> {
     let si = format!("_{}", kind.unit.suffix());
@@ -82,12 +82,12 @@ pub fn endings(kind: &ChannelKind) -> Vec<String> {
     endings
 }
 
-/// A channel with the unit its values are printed in.
+/// A channel with the unit in which its values are printed.
 #[derive(Clone, Debug)]
 pub struct PrintedChannel {
     /// The channel, in SI.
     pub channel: Channel,
-    /// Family of the printed unit, if the family has units other than SI; `None` if the numbers are in SI.
+    /// Family of units to which the printed unit belongs; `None` if the numbers are always in SI.
     pub family: Option<&'static UnitFamily>,
     /// Whether the printed number is the magnitude of a vector; `channel` is then the x component of the vector.
     pub magnitude: bool,
@@ -95,8 +95,9 @@ pub struct PrintedChannel {
 }
 
 impl PrintedChannel {
-    /// Channel called `name`. Its ending may be a printed unit: `x_mm` for `x_m`, `angle_deg` for `angle_rad`.
-    /// Otherwise it is the name in SI.
+    /// The channel called `name`. The ending of the name may be a printed unit: `x_mm` for `x_m`, `angle_deg` for
+    /// `angle_rad`.
+    /// Otherwise the name is that of the channel in SI.
     #[must_use]
     pub fn named(name: &str) -> Option<PrintedChannel> {
         if let Some(base) = name.strip_suffix(&format!(".{MAGNITUDE}")) {
@@ -150,14 +151,14 @@ pub(super) fn number(entry: &mut TomlTable) -> Result<Printed> {
     Ok(Printed::with_digits(value, digits))
 }
 
-/// Why a printed number is wrong, and the correct number, in the printed unit.
+/// Reason why a printed number is wrong, and the correct number, in the printed unit.
 pub(super) struct Correction {
     pub finding: String,
     pub right: Printed,
 }
 
 impl Correction {
-    /// Reads the keys `finding` and `right`, which belong together; `None` without them.
+    /// Reads the keys `finding` and `right`, which belong together. `None` if both are missing.
     pub fn read(entry: &mut TomlTable, printed: &Printed) -> Result<Option<Self>> {
         let Some(finding) = finding(entry)? else { return Ok(None) };
         let mut table = entry.table("right")?;
@@ -183,7 +184,7 @@ pub(super) fn finding(entry: &mut TomlTable) -> Result<Option<String>> {
     }
 }
 
-/// Refuses a correct number that is so close to the printed one that a single number could agree with both.
+/// Refuses a correct number that is too close to the printed number. A single number could then agree with both.
 pub(super) fn check_apart(entry: &TomlTable, printed: &Printed, right: &Printed) -> Result<()> {
     if (printed.value - right.value).abs() > printed.half_unit() + right.half_unit() {
         return Ok(());

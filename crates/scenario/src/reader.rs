@@ -1,5 +1,5 @@
 //! Typed reading of a spanned TOML table. A reader knows its dotted path and returns typed values.
-//! It remembers the requested keys, and at the end it refuses all other keys.
+//! It remembers the requested keys. At the end it refuses all keys that were not requested.
 //!
 //! A table that is read by [`TomlTable::read`] reports all mistakes of its keys and values at once.
 
@@ -46,13 +46,13 @@ pub struct TomlTable<'a> {
     /// Whether reading goes on after a mistake.
     goes_on: bool,
     faults: Vec<Error>,
-    /// Errors about names that no other table defines.
+    /// Errors about names that are not defined in any other table.
     unknown_names: Vec<Error>,
-    /// All spellings of the keys of which one spelling is present.
+    /// If one spelling of a key is present, this list contains all spellings of that key.
     settled: Vec<String>,
     /// Spellings of each missing key, and the help for it.
     missing: Vec<(Vec<String>, Option<&'static str>)>,
-    /// Keys that lead to this table, with `*` for names: its section in the table of keys.
+    /// Keys that lead to this table, with `*` for names. They are the path of its section in the table of keys.
     section: String,
     /// The rows of that section.
     rows: &'static [FileKey],
@@ -69,7 +69,7 @@ impl<'a> TomlTable<'a> {
             .iter()
             .map(|(key, value)| Entry { key: key.get_ref().as_ref(), key_span: key.span(), value })
             .collect();
-        // The parser moves a table if its header comes after one of its children.
+        // If the header of a table comes after one of its children, the parser moves the table.
         entries.sort_by_key(|entry| entry.key_span.start);
         let places = entries.iter().enumerate().map(|(place, entry)| (entry.key, place)).collect();
         TomlTable {
@@ -91,7 +91,7 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// The table's own key, for entries of a table of tables.
+    /// Key of this table, if it is an entry of a table of tables.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -101,7 +101,7 @@ impl<'a> TomlTable<'a> {
         self.source
     }
 
-    /// Whether `key` is there, with exactly this spelling.
+    /// Whether `key` is present, with exactly this spelling.
     pub fn has(&self, key: &str) -> bool {
         self.places.contains_key(key)
     }
@@ -132,23 +132,24 @@ impl<'a> TomlTable<'a> {
         if self.path.is_empty() { error } else { error.key(self.path.clone()) }
     }
 
-    /// An error of a kind about the value of `key`. `key` is the exact spelling, or a quantity's name without the unit.
+    /// An error of a kind about the value of `key`.
+    /// `key` is the exact spelling, or the name of a quantity without the unit.
     pub fn wrong(&self, kind: ErrorKind, key: &str, message: impl Into<String>) -> Error {
         let (key, place) = self.spot(key);
         Error::new(kind, message).key(key).at(place)
     }
 
-    /// Refuses the value of `key`, as [`TomlTable::wrong`], with help.
+    /// Refuses the value of `key`. The error is that of [`TomlTable::wrong`], with a help text.
     pub fn refuse<T>(&self, key: &str, message: impl Into<String>, help: impl Into<Advice>) -> Result<T> {
         Err(self.wrong(ErrorKind::Input, key, message).help(help))
     }
 
-    /// The same, for a value that this version does not support.
+    /// Refuses a value that this version does not support.
     pub fn unsupported<T>(&self, key: &str, message: impl Into<String>, help: impl Into<Advice>) -> Result<T> {
         Err(self.wrong(ErrorKind::Unsupported, key, message).help(help))
     }
 
-    /// A setting with the value that was read from `key`; free without a value.
+    /// A setting with the value that was read from `key`. The setting is free if there is no value.
     pub fn given<T>(&self, key: &str, value: Option<T>) -> EngineSetting<T> {
         value.map_or(EngineSetting::Free, |value| {
             let (key, place) = self.spot(key);
@@ -176,7 +177,7 @@ impl<'a> TomlTable<'a> {
 
     fn fault_at(&self, key: &str, value: &Spanned<DeValue>, fault: &FormulaFault) -> Error {
         let (mut span, text) = (value.span(), value.get_ref().as_str().unwrap_or_default());
-        // The file contains the text literally, unless it has escapes.
+        // The text stands literally in the file, unless it contains escapes.
         if let Some(offset) = self.source.text[span.clone()].find(text) {
             let start = span.start + offset;
             // A fault beyond the end of the text is shown at its last character.
@@ -211,8 +212,8 @@ impl<'a> TomlTable<'a> {
         value.ok_or_else(|| self.missing(vec![key.to_string()]))
     }
 
-    /// What `read` makes of the value of `key`, if the key is present.
-    /// If `read` refuses the value, `stand_in` replaces it. Without `stand_in` the reading ends.
+    /// The result of `read` for the value of `key`, if the key is present.
+    /// If `read` refuses the value, `stand_in` replaces the result. Without `stand_in` the reading ends.
     fn scalar<T>(
         &mut self,
         key: &str,
@@ -228,12 +229,12 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// Text, if the key is there.
+    /// Text, if the key is present.
     pub fn optional_string(&mut self, key: &str) -> Result<Option<String>> {
         self.scalar(key, Needed::Text, None, |value| value.as_str().map(ToString::to_string))
     }
 
-    /// The meaning of the word of a key, if the key is present; `wrong` is the message for an unknown word.
+    /// The meaning of the word under a key, if the key is present. `wrong` is the message for an unknown word.
     pub fn optional_choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<Option<T>> {
         let Some(word) = self.optional_string(key)? else { return Ok(None) };
         let found = words.iter().find(|(own, _)| *own == word).map(|(_, meant)| *meant);
@@ -245,7 +246,7 @@ impl<'a> TomlTable<'a> {
         Ok(found)
     }
 
-    /// The meaning of the word of a key.
+    /// The meaning of the word under a key.
     pub fn choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<T> {
         let found = self.optional_choice(key, wrong, words)?;
         match self.faults.last() {
@@ -260,7 +261,7 @@ impl<'a> TomlTable<'a> {
         self.required(key, value)
     }
 
-    /// Whole number, if the key is there.
+    /// Whole number, if the key is present.
     pub fn optional_integer(&mut self, key: &str) -> Result<Option<i64>> {
         self.scalar(key, Needed::WholeNumber, Some(Some(1)), |value| {
             value.as_integer().and_then(|number| i64::from_str_radix(number.as_str(), number.radix()).ok())
@@ -273,17 +274,17 @@ impl<'a> TomlTable<'a> {
         self.required(key, value)
     }
 
-    /// Whether a key is there with `true` or `false`.
+    /// Whether a key is present with `true` or `false`.
     pub fn is_boolean(&self, key: &str) -> bool {
         self.entry(key).is_some_and(|entry| entry.value.get_ref().as_bool().is_some())
     }
 
-    /// `true` or `false`, if the key is there.
+    /// `true` or `false`, if the key is present.
     pub fn optional_boolean(&mut self, key: &str) -> Result<Option<bool>> {
         self.scalar(key, Needed::Boolean, Some(None), DeValue::as_bool)
     }
 
-    /// Finite number without a unit, if the key is there.
+    /// Finite number without a unit, if the key is present.
     pub fn optional_number(&mut self, key: &str) -> Result<Option<f64>> {
         let Some(value) = self.take(key) else { return Ok(None) };
         self.finite(key, value).map(Some).or_else(|error| self.instead(None, error))
@@ -305,7 +306,7 @@ impl<'a> TomlTable<'a> {
         self.finite(key, value).or_else(|error| self.instead(1.0, error))
     }
 
-    /// What `read` makes of the elements of an array.
+    /// The results of `read` for the elements of an array.
     fn elements<T>(
         &mut self,
         key: &str,
@@ -335,7 +336,7 @@ impl<'a> TomlTable<'a> {
         })
     }
 
-    /// Table, if the key is there.
+    /// Table, if the key is present.
     pub fn optional_table(&mut self, key: &str) -> Result<Option<TomlTable<'a>>> {
         let Some(value) = self.take(key) else { return Ok(None) };
         self.child(key, self.path_of(key), value).map(Some).or_else(|error| self.instead(None, error))
@@ -375,13 +376,13 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// As [`TomlTable::table_or_tables`], with at least one table.
+    /// As [`TomlTable::table_or_tables`], but at least one table is required.
     pub fn needed_tables(&mut self, key: &str) -> Result<Vec<TomlTable<'a>>> {
         let tables = self.table_or_tables(key)?;
         if tables.is_empty() { Ok(vec![self.table(key)?]) } else { Ok(tables) }
     }
 
-    /// All entries, each of which must be a table, in the order of the file.
+    /// All entries, in the order of the file. Each entry must be a table.
     pub fn all_tables(&mut self) -> Result<Vec<TomlTable<'a>>> {
         self.used = self.entries.iter().map(|entry| entry.key).collect();
         let child = |entry: &Entry<'a>| self.child(entry.key, self.path_of(entry.key), entry.value);
@@ -393,7 +394,7 @@ impl<'a> TomlTable<'a> {
     fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<TomlTable<'a>> {
         match value.get_ref() {
             DeValue::Table(table) => {
-                // A key that no reader requested literally is a name.
+                // A key that no reader requested literally is a user-defined name.
                 let own = if self.asked.iter().any(|own| own == key) { key } else { "*" };
                 let section = if self.section.is_empty() { own.into() } else { format!("{}.{own}", self.section) };
                 Ok(TomlTable { name: key.into(), path, ..TomlTable::new(self.source, section, value.span(), table) })
@@ -452,7 +453,7 @@ impl Needed {
         }
     }
 
-    /// How to correct the value that was found at a dotted path.
+    /// Help text: how to correct the value that was found at a dotted path.
     fn help(self, path: &str, found: &DeValue) -> String {
         let help = match (self, found) {
             (Needed::Text, DeValue::Integer(_) | DeValue::Float(_)) => sentences::PUT_THE_TEXT_IN_QUOTES,

@@ -1,7 +1,8 @@
-//! Quantities reduced to the crank, as arithmetic expressions of channels. A claim may name them too.
+//! Quantities reduced to the crank, as arithmetic expressions of channels. A claim may also name these quantities.
 //!
-//! They are twice the kinetic energy, and the balance of powers, of the motion that a solver or engine has found.
-//! Each of these finds velocities, accelerations and the drive's moment by its own equations.
+//! They follow from twice the kinetic energy and from the balance of powers of a motion that a solver or engine has
+//! found.
+//! Each solver or engine finds velocities, accelerations and the drive's moment by its own equations.
 
 use crate::sentences;
 use formula::{FormulaTree, Operator};
@@ -20,7 +21,7 @@ pub(super) struct Quantity {
 /// The arithmetic expression, or a message and help.
 type Found = Result<FormulaTree, (String, String)>;
 
-/// All reduced quantities. Motor, reducer and flywheel are not counted.
+/// All reduced quantities. They do not include motor, reducer and flywheel.
 pub(super) const QUANTITIES: [Quantity; 2] = [
     // I* = sum of m (v / omega)^2 + J (omega_link / omega)^2.
     Quantity { name: "drive.reduced_inertia_kg_m2", unit: "kg m^2", tree: inertia },
@@ -74,7 +75,7 @@ fn moment(case: &Case) -> Found {
     let gained = sum(powers).map_or(FormulaTree::number(0.0), |sum| {
         FormulaTree::pair(Operator::Over, sum, of_link(crank(case), "omega_rad_s"))
     });
-    // A crank without a driving torque has no moment of a drive to subtract.
+    // If the crank has no driving torque, there is no drive moment to subtract.
     Ok(match case.drives.with_moment().next() {
         Some(_) => FormulaTree::pair(Operator::Minus, gained, FormulaTree::name("drive.torque_N_m")),
         None => gained,
@@ -91,7 +92,7 @@ fn crank(case: &Case) -> &Link {
     &case.mechanism.links()[case.crank().link]
 }
 
-/// The link's mass times `of_mass` plus its moment of inertia times `of_inertia`, without terms that are zero.
+/// The link's mass times `of_mass` plus its moment of inertia times `of_inertia`. Terms that are zero are left out.
 fn of_inertias(link: &Link, of_mass: FormulaTree, of_inertia: FormulaTree) -> FormulaTree {
     let parts = [(link.mass, of_mass), (link.inertia, of_inertia)];
     let parts = parts.into_iter().filter(|(factor, _)| *factor > 0.0);

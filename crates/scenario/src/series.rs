@@ -1,5 +1,5 @@
 //! Values of one channel from an oracle, and the channels that an oracle may name.
-//! Its numbers hold at a crank angle or at a time.
+//! Every value holds at a crank angle or at a time.
 
 use crate::sentences;
 use std::fmt;
@@ -27,9 +27,10 @@ pub struct OracleSeries {
     pub magnitude: bool,
     /// Values that must be reproduced, in the order of the table.
     pub points: Vec<OraclePoint>,
-    /// Values known to be wrong, each with its own finding.
+    /// Values known to be wrong, each with a separate finding.
     pub expected: Vec<ExpectedCell>,
-    /// Finding that says why all values are wrong. The values are then listed here and not in the two lists above.
+    /// If all values are wrong: the finding that explains it, and the values.
+    /// The values are then listed here and not in the two lists above.
     pub wrong: Option<(String, Vec<ExpectedCell>)>,
 }
 
@@ -38,7 +39,8 @@ pub struct OracleSeries {
 pub struct OraclePoint {
     /// Where the value holds.
     pub at: When,
-    /// Largest error of the instant because the table has rounded it (rad or s); 0 if the instant was chosen.
+    /// Largest error of the instant (rad or s) that arises because the table prints it rounded. 0 if the instant was
+    /// chosen.
     pub at_error: f64,
     /// Value in the channel's SI unit.
     pub value: f64,
@@ -51,21 +53,21 @@ pub struct OraclePoint {
 /// Where a value holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum When {
-    /// At a crank angle (rad, as the scenario measures it). If forces decide the motion, it is that of the nominal
-    /// motion.
+    /// At a crank angle (rad, as the scenario measures it).
+    /// If forces determine the motion, the value holds for the nominal motion.
     Crank(f64),
-    /// At a time (s) of the scenario's own motion.
+    /// At a time (s) of the motion of the scenario.
     Time(f64),
 }
 
 impl When {
-    /// The crank angle (rad), if the value holds at one.
+    /// The crank angle (rad), if the value holds at a crank angle.
     #[must_use]
     pub fn crank(self) -> Option<f64> {
         if let When::Crank(crank) = self { Some(crank) } else { None }
     }
 
-    /// The time (s), if the value holds at one.
+    /// The time (s), if the value holds at a time.
     #[must_use]
     pub fn time(self) -> Option<f64> {
         if let When::Time(time) = self { Some(time) } else { None }
@@ -92,7 +94,7 @@ pub struct ExpectedCell {
     pub finding: String,
 }
 
-/// The channels an oracle may name.
+/// The channels that an oracle may name.
 #[derive(Clone, Copy)]
 pub(super) struct Known<'a> {
     pub channels: &'a [Channel],
@@ -101,7 +103,7 @@ pub(super) struct Known<'a> {
     pub digits: Option<i32>,
     /// Known error of the published numbers, in the printed unit.
     pub slack: f64,
-    /// Memory that the numbers of tables may take (bytes).
+    /// Upper limit of the memory for the numbers of tables (bytes).
     pub memory: Option<f64>,
 }
 
@@ -113,7 +115,7 @@ impl OracleSeries {
         self.magnitude.then(named)
     }
 
-    /// All its values as printed, those known to be wrong included.
+    /// All values of the series as printed, including those known to be wrong.
     pub fn all(&self) -> impl Iterator<Item = &OraclePoint> {
         let wrong = self.wrong.iter().flat_map(|(_, cells)| cells);
         let cells = self.expected.iter().chain(wrong).map(|cell| &cell.point);
@@ -127,8 +129,8 @@ impl OracleSeries {
 }
 
 impl Known<'_> {
-    /// The same, for a table with this known error. `digits` is its number of decimals if it does not print trailing
-    /// zeros.
+    /// The same channels, for a table with this known error.
+    /// `digits` is the table's number of decimals if the table does not print trailing zeros.
     pub fn of_table(self, digits: Option<i32>, slack: f64) -> Self {
         Known { digits, slack, ..self }
     }
@@ -169,12 +171,12 @@ impl Known<'_> {
     }
 }
 
-/// Share of the last instant by which a time may exceed it: the rounding error of a conversion between units.
+/// A time may exceed the last instant by this fraction: the rounding error of a conversion between units.
 const ROUNDING: f64 = 1e-12;
 
 const HELP: &str = sentences::A_NUMBER_HOLDS_AT_A_CRANK;
 
-/// The instant of a table under `crank` or `time` with a unit.
+/// Reads an instant under `crank` or `time`, with a unit.
 pub(super) fn instant(table: &mut TomlTable, case: &Case) -> Result<When> {
     let crank = table.optional_si("crank")?;
     let time = table.optional_si("time")?;
@@ -191,18 +193,18 @@ pub(super) fn instant(table: &mut TomlTable, case: &Case) -> Result<When> {
     }
 }
 
-/// The column of a file with the instants of its rows.
+/// The column of a file that states the instants of the rows.
 pub(super) struct Rows {
     /// Name of the column.
     pub column: String,
-    /// The key that names it.
+    /// The key under which the scenario names this column.
     pub key: &'static str,
     unit: &'static NamedUnit,
     is_time: bool,
 }
 
 impl Rows {
-    /// The column under `crank` or `time`, with its unit as ending.
+    /// Reads the column that `crank` or `time` names. The column's name ends in its unit.
     pub fn read(table: &mut TomlTable) -> Result<Self> {
         let (crank, time) = (table.optional_string("crank")?, table.optional_string("time")?);
         let (key, column, is_time) = match (crank, time) {
@@ -224,13 +226,13 @@ impl Rows {
         }
     }
 
-    /// Whether the column is of crank angles in degrees.
+    /// Whether the column contains crank angles in degrees.
     pub fn are_degrees(&self) -> bool {
         !self.is_time && self.unit.suffix == "deg"
     }
 
-    /// The instant of a row in a motion with this [`end`], and its largest error (rad or s).
-    /// A rounded time may lie slightly beyond the motion.
+    /// The instant of a row in a motion with this [`end`], and the largest error of the instant (rad or s).
+    /// A rounded time may lie slightly beyond the motion. It is then moved to the end of the motion.
     ///
     /// # Errors
     /// A message for a time outside the motion.
@@ -245,7 +247,7 @@ impl Rows {
     }
 }
 
-/// A time limited to the motion of a drive: from zero to the end of its law.
+/// Limits a time to the motion of a drive: from zero to the end of its law.
 #[must_use]
 pub fn within(drive: &Drive, time: f64) -> f64 {
     match drive.constant_speed() {
@@ -259,15 +261,15 @@ const COLUMN_HELP: &str = sentences::NAME_THE_COLUMN_OF_CRANK;
 /// The help for a time outside the motion.
 pub(super) const TIME_HELP: &str = sentences::GIVE_A_TIME_WITHIN_THE_RUN;
 
-/// The last instant (s) of a motion that forces decide; `None` for another motion, or if another grid replaces its
-/// grid.
+/// The last instant (s) of a motion that forces determine.
+/// `None` for any other motion, or if another grid replaces the file's grid.
 pub(super) fn end(case: &Case) -> Option<f64> {
     let is_solved = case.is_free() && !case.grid.is_empty();
     is_solved.then(|| case.grid.ascending().last().map_or(0.0, |&row| case.grid.times[row]))
 }
 
-/// Checks that the case's own motion is solved at this time (s): within its run up to `end`, and where its law is
-/// defined.
+/// Checks that the motion of the case is solved at this time (s).
+/// The time must be within the run up to `end`, and the law of motion must be defined there.
 fn checked(case: &Case, end: Option<f64>, time: f64) -> std::result::Result<(), String> {
     Grid::of_times(case.crank(), vec![time]).check(case.crank())?;
     let Some(end) = end else { return Ok(()) };

@@ -1,11 +1,11 @@
-//! A setting: free, or given together with its origin.
+//! A setting: either free, or given together with its origin.
 
 use linkage::error::{Error, Place};
 
 /// Where a setting was given.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SettingOrigin {
-    /// In a scenario file: the dotted key, and its place.
+    /// In a scenario file: the dotted key, and its position.
     Key(String, Place),
     /// As this argument of a command.
     Argument(&'static str),
@@ -29,17 +29,17 @@ impl<T> EngineSetting<T> {
         EngineSetting::Given(value, SettingOrigin::Code)
     }
 
-    /// This setting, or the other one if this is free.
+    /// This setting. If it is free, `other` is returned.
     pub fn or<'a>(&'a self, other: &'a EngineSetting<T>) -> &'a EngineSetting<T> {
         if self.is_free() { other } else { self }
     }
 
-    /// The value, if it is given.
+    /// The value, if the setting is given.
     pub fn value(&self) -> Option<&T> {
         if let EngineSetting::Given(value, _) = self { Some(value) } else { None }
     }
 
-    /// Whether it is not given.
+    /// Whether the setting is not given.
     pub fn is_free(&self) -> bool {
         self.value().is_none()
     }
@@ -61,7 +61,7 @@ impl<T> From<Option<T>> for EngineSetting<T> {
 }
 
 impl<T: Copy> EngineSetting<T> {
-    /// The value, if it is given.
+    /// The value, if the setting is given.
     pub fn get(&self) -> Option<T> {
         self.value().copied()
     }

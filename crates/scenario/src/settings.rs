@@ -10,11 +10,10 @@ use linkage::trajectory::{Channel, Stage};
 
 /// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
-    Section::at("channels")
-        .with(&[needed("want", ValueKind::Texts).means("stages, subjects or channels that are wanted")]),
+    Section::at("channels").with(&[needed("want", ValueKind::Texts).means("requested stages, subjects or channels")]),
     Section::at("tolerances").with(&[optional("engine_rel", ValueKind::Number, "1e-2").means(
-        "largest bound on the engine's error, as a share of a channel's scale, at which agreement still \
-         proves something; between 0 and 1",
+        "largest bound on the engine's error, as a fraction of a channel's scale, at which agreement is \
+         conclusive; between 0 and 1",
     )]),
 ];
 
@@ -64,10 +63,10 @@ pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>
     Ok(channels)
 }
 
-/// Default share for [`engine_rel`]: chosen, not derived.
+/// Default of [`engine_rel`]. It is chosen, not derived.
 pub const ENGINE_REL: f64 = 1e-2;
 
-/// Largest bound on the engine's error at which agreement is still a proof, as a share of a channel's scale.
+/// Upper limit of the engine's error bound at which agreement is still a proof, divided by a channel's scale.
 pub fn engine_rel(table: &mut TomlTable) -> Result<f64> {
     let share = table.optional_number("engine_rel")?.unwrap_or(ENGINE_REL);
     table.finish()?;

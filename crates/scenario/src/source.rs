@@ -18,13 +18,13 @@ use linkage::mechanism::{LONGEST_NAME, is_unseen};
 /// Longest text (characters).
 const LONGEST_TEXT: usize = 10_000;
 
-/// Most characters that begin a value or a table, including decimal points.
-/// A value that is read takes some 200 bytes, whatever its length in the file. So the memory is known before it is
-/// used.
+/// Upper limit of the number of characters that begin a value or a table, including decimal points.
+/// Every value takes some 200 bytes of memory, whatever its length in the file.
+/// The memory is therefore known before it is used.
 const MOST_VALUES: usize = 2_000_000;
 
-/// Most parts of a file: tables, such as points, links, joints, loads and formulas.
-/// In several places the cost grows with the square of their number; at this limit it is a matter of seconds.
+/// Upper limit of the number of parts of a file: tables, such as points, links, joints, loads and formulas.
+/// Some computations take a time that grows with the square of this number. At the limit they take seconds.
 /// Published numbers do not count.
 const MOST_PARTS: usize = 30_000;
 const UNCOUNTED: &str = "oracle";
@@ -45,11 +45,11 @@ pub struct Source<'a> {
     pub path: &'a Path,
     /// Whole text.
     pub text: &'a str,
-    /// Parameters that its numbers may use.
+    /// Parameters that the numbers of the file may use.
     pub parameters: Parameters,
     /// The rows of the table of keys for a section, by its path; empty for files that are not scenarios.
     pub rows: fn(&str) -> &'static [key::FileKey],
-    /// The text once more, shared by all positions.
+    /// A second copy of the text, which all positions share.
     shared: Arc<str>,
 }
 
@@ -81,8 +81,8 @@ impl<'a> Source<'a> {
         Ok(tree)
     }
 
-    /// `error` and the errors that were found with it. Each gets the position of its key, if it has a key but no
-    /// position.
+    /// `error` and the errors that were found with it.
+    /// If an error has a key but no position, it gets the position of the key.
     pub fn located(&self, tree: &DeTable, error: Error) -> Error {
         error.each_in_order(|error| {
             if error.place().is_some() {
@@ -93,7 +93,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// Checks that the text can be read without exhausting the memory: it limits the number of values.
+    /// Limits the number of values, so that the memory is sufficient to read the text.
     fn check_size(&self) -> Result<()> {
         let mut signs = self.text.bytes().enumerate().filter(|(_, byte)| b",=[{.".contains(byte));
         let Some((at, _)) = signs.nth(MOST_VALUES) else { return Ok(()) };
@@ -154,9 +154,8 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Position of a key, or of its nearest existing parent. Elements of an array are found by their name (`joints.A`),
-/// Assur
-/// groups by their links.
+/// Position of a key. If the key does not exist, it is the position of the nearest existing parent.
+/// Elements of an array are found by their name (`joints.A`), Assur groups by their links.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 fn locate(tree: &DeTable, key: &KeyPath) -> Range<usize> {
     let mut segments = key.path().split('.');

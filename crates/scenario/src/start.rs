@@ -1,4 +1,4 @@
-//! `[[start.groups]]`: the assembly mode in which each Assur group starts. The command line can state it too.
+//! `[[start.groups]]`: the assembly mode in which each Assur group starts. The command line can state the mode too.
 
 use super::joints::link;
 use super::keys::key::{Section, ValueKind, needed, optional};
@@ -7,7 +7,9 @@ use super::words::{Words, names, suggestion};
 use crate::sentences;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, Group, GroupId, GroupKind, JointSide, Mechanism, StartGroup, Structure};
+use linkage::mechanism::{
+    AssemblyMode, Group, GroupId, GroupKind, JointId, JointSide, Mechanism, StartGroup, Structure,
+};
 use linkage::mechanism::{LinkId, pose::SidePoint};
 
 const MODES: Words<AssemblyMode> = &[
@@ -26,9 +28,9 @@ pub const SECTIONS: &[Section] = &[
     ]),
     Section::at("start.groups").with(&[
         needed("links", ValueKind::Texts).means("all links of the group"),
-        optional("mode", ValueKind::Choice(|| names(MODES)), "by `near`")
-            .means("which of a dyad's two configurations; below. RPP and PRP dyads have one, and need no table"),
-        optional("near", ValueKind::TableOrTables, "by `mode`").means(
+        optional("mode", ValueKind::Choice(|| names(MODES)), "chosen by `near`")
+            .means("one of a dyad's two configurations, see below. RPP and PRP dyads have only one, and need no table"),
+        optional("near", ValueKind::TableOrTables, "chosen by `mode`").means(
             "approximate position in the world of one point of the group; or an array of several such \
              tables",
         ),
@@ -40,6 +42,13 @@ pub const SECTIONS: &[Section] = &[
     ]),
 ];
 
+/// Whether groups that the file leaves undecided are placed anyway and listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lists {
+    No,
+    Undecided,
+}
+
 /// A table of `[[start.groups]]` as the file states it.
 pub struct StatedGroup<'a> {
     table: TomlTable<'a>,
@@ -48,7 +57,7 @@ pub struct StatedGroup<'a> {
     near: Vec<(TomlTable<'a>, String, Vec2)>,
 }
 
-/// The tables of `[[start.groups]]`, without those that have mistakes.
+/// Reads the tables of `[[start.groups]]`. Tables with mistakes are left out.
 pub fn stated<'a>(tables: Vec<TomlTable<'a>>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<StatedGroup<'a>> {
     let one = |mut table: TomlTable<'a>| {
         let (links, mode, near) = faults.read(&mut table, |table| {
@@ -66,14 +75,15 @@ pub fn stated<'a>(tables: Vec<TomlTable<'a>>, mechanism: &Mechanism, faults: &mu
 }
 
 /// The start that the file requests for each group, in the order of the structure.
-/// `start` is the table that contains the groups. Groups in `asked` may be missing, because they are requested
-/// elsewhere.
+/// `start` is the table that contains the groups.
+/// Groups in `asked` may be missing, because their start is requested elsewhere.
 pub fn groups(
     start: &TomlTable,
     stated: Vec<StatedGroup>,
     mechanism: &Mechanism,
     structure: &Structure,
     asked: &[(GroupId, StartGroup)],
+    lists: Lists,
 ) -> Result<Vec<StartGroup>> {
     let mut wanted: Vec<Option<StartGroup>> = vec![None; structure.groups.len()];
     let mut faults = Faults::none();
@@ -83,18 +93,57 @@ pub fn groups(
         }
     }
     faults.end()?;
-    let is_asked = |index: GroupId| asked.iter().any(|(other, _)| *other == index);
-    let groups = structure.groups.entries();
-    let missing: Vec<&Group> =
-        groups.filter(|&(index, _)| wanted[index].is_none() && !is_asked(index)).map(|(_, group)| group).collect();
-    // A group without named modes is left to the search for the first pose, which reports it.
-    match missing.iter().find(|group| !modes_of(group.kind).is_empty()) {
-        None => Ok(wanted.into_iter().map(Option::unwrap_or_default).collect()),
-        Some(first) => Err(start
-            .fault(sentences::the_assembly_mode_of_the_group(&first.names(mechanism)))
-            .help(sentences::add_with_the_right_mode(&ready_to_paste(&missing, mechanism)))
-            .key("start.groups")),
+    let given: Vec<bool> = wanted.iter().map(Option::is_some).collect();
+    // A list of configurations does not require a choice of configurations.
+    if lists == Lists::No {
+        missing(start, &given, mechanism, structure, asked)?;
     }
+    Ok(wanted.into_iter().map(Option::unwrap_or_default).collect())
+}
+
+/// Refuses a start that lacks assembly modes. `given` marks the groups whose start the file states.
+fn missing(
+    start: &TomlTable,
+    given: &[bool],
+    mechanism: &Mechanism,
+    structure: &Structure,
+    asked: &[(GroupId, StartGroup)],
+) -> Result<()> {
+    let is_asked = |index: GroupId| asked.iter().any(|(other, _)| *other == index);
+    let open = structure.groups.entries().zip(given).filter(|((index, _), given)| !**given && !is_asked(*index));
+    let missing: Vec<&Group> = open.map(|((_, group), _)| group).collect();
+    // A group without named modes is not reported here. The search for the first pose reports it.
+    let named = |group: &&&Group| !modes_of(group.kind).is_empty();
+    let names: Vec<String> =
+        missing.iter().filter(named).map(|group| format!("({})", group.names(mechanism))).collect();
+    let message = match names.as_slice() {
+        [] => return Ok(()),
+        [one] => sentences::the_assembly_mode_of_the_group(one),
+        several => sentences::the_assembly_modes_of_groups(&several.join(", ")),
+    };
+    let help = sentences::add_with_the_right_mode(&ready_to_paste(&missing, mechanism));
+    Err(start.fault(message).help(help).key("start.groups"))
+}
+
+/// The error for missing assembly modes in a file that also has other mistakes.
+/// `None` if it cannot be known whether modes are missing.
+pub fn also_missing(
+    start: &TomlTable,
+    stated: &[StatedGroup],
+    mechanism: &Mechanism,
+    drives: &[JointId],
+    asked: impl FnOnce(&Structure) -> Vec<(GroupId, StartGroup)>,
+) -> Option<Error> {
+    let structure = Structure::of(mechanism, drives).ok()?;
+    let is_given = |group: &Group| {
+        stated.iter().any(|own| {
+            let mut links = own.links.clone();
+            links.sort_unstable();
+            links == group.links
+        })
+    };
+    let given: Vec<bool> = structure.groups.iter().map(is_given).collect();
+    missing(start, &given, mechanism, &structure, &asked(&structure)).err()
 }
 
 fn group(
@@ -130,7 +179,7 @@ fn group_of(links: &[LinkId], structure: &Structure) -> Option<GroupId> {
 /// The group and the start that `LINK,LINK=MODE` or `LINK,LINK=NUMBER` requests.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if there is no such group, or if the group does not have the mode.
+/// [`ErrorKind::Input`] if the group does not exist or does not have the mode.
 pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result<(GroupId, StartGroup)> {
     let examples = || {
         let example = |group: &Group| {
@@ -184,7 +233,7 @@ fn foreign_mode(table: &TomlTable, asked: AssemblyMode, group: &Group) -> Error 
     table.wrong(ErrorKind::Input, "mode", message).help(help)
 }
 
-/// An approximate position: the table that states it, the name of the point, and the coordinates (m).
+/// Reads an approximate position. Returns its table, the name of the point, and the coordinates (m).
 fn rough_place(mut table: TomlTable) -> Result<(TomlTable, String, Vec2)> {
     let (name, place) = table.read(|table| {
         let name = table.string("point")?;

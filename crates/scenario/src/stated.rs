@@ -10,44 +10,44 @@ use super::settings::{self, ENGINE_REL};
 use super::{clearance, grid, joints, links, loads, motion, start};
 use linkage::case::Grid;
 use linkage::drive::{Drive, Drives, Load, MotionLaw};
-use linkage::error::Result;
+use linkage::error::{Error, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism};
+use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism, Structure};
 
 /// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[Section::at("").with(&[
     needed("format", ValueKind::Integer).means("version of this format: 1"),
     needed("name", ValueKind::Text).means("short name for file names: `a`-`z`, `0`-`9`, `_`"),
-    needed("title", ValueKind::Text).means("one line for the reader"),
+    needed("title", ValueKind::Text).means("title, one line"),
     optional("source", ValueKind::Text, "none").means("where the dimensions come from"),
-    optional("parameters", ValueKind::Table, "none").means("numbers with names, for other numbers and for formulas"),
+    optional("parameters", ValueKind::Table, "none").means("named numbers, for use in other numbers and in formulas"),
     needed("ground", ValueKind::Table).means("the frame"),
     needed("links", ValueKind::Table).means("moving links by name"),
     needed("joints", ValueKind::Tables).means("joints"),
-    needed("drive", ValueKind::TableOrTables).means("what moves the driving links; the first is the crank"),
-    optional("motor", ValueKind::Table, "none").means("the motor behind the crank"),
+    needed("drive", ValueKind::TableOrTables).means("drives of the driving links; the first one drives the crank"),
+    optional("motor", ValueKind::Table, "none").means("motor of the crank"),
     optional("gravity", ValueKind::Table, "none").means("acceleration of gravity"),
     optional("loads", ValueKind::Tables, "none").means("forces, moments, springs and dampers"),
     needed("start", ValueKind::Table).means("pose at t = 0"),
-    needed("grid", ValueKind::Table).means("the instants of results"),
-    optional("channels", ValueKind::Table, "all").means("the results that are wanted"),
+    needed("grid", ValueKind::Table).means("instants of the results"),
+    optional("channels", ValueKind::Table, "all").means("requested results"),
     optional("engine", ValueKind::Table, "found by `run`").means("settings of the engine"),
-    optional("tolerances", ValueKind::Table, "its defaults").means("at what bound agreement still proves something"),
+    optional("tolerances", ValueKind::Table, "its defaults").means("largest bound at which agreement is conclusive"),
     optional("oracle", ValueKind::Tables, "none").means("numbers that the mechanism must reproduce"),
     optional("clearance", ValueKind::Table, "none")
-        .means("outlines of links and a housing: do they meet, and how near are they?"),
-    optional("formula", ValueKind::Tables, "none").means("formulas as they were derived, and what they claim to be"),
+        .means("outlines of links and a housing, for contacts and smallest distances"),
+    optional("formula", ValueKind::Tables, "none").means("derived formulas, and the quantities that they claim to be"),
 ])];
 
-/// The sections of a file. Sections that need the whole case are still tables.
+/// The sections of a file. Sections that can only be read with the whole case are still tables.
 /// A part with a mistake is left out or replaced by an empty default.
 pub struct FileSections<'a> {
     pub name: String,
     pub title: String,
     pub source: Option<String>,
-    /// Links and joints; after a mistake only fit for display.
+    /// Links and joints. After a mistake they are only fit for display.
     pub mechanism: Mechanism,
-    /// What moves it; `None` after a mistake.
+    /// Drives of the mechanism; `None` after a mistake.
     pub drives: Option<Drives>,
     /// Crank angle at t = 0 (rad).
     pub crank: f64,
@@ -56,6 +56,8 @@ pub struct FileSections<'a> {
     /// The section `[start]`; `None` if it is missing.
     pub start: Option<TomlTable<'a>>,
     pub groups: Vec<start::StatedGroup<'a>>,
+    /// Whether all tables of `[[start.groups]]` could be read.
+    pub has_all_groups: bool,
     pub grid: Grid,
     /// The section `[channels]` with its words.
     pub channels: Option<(TomlTable<'a>, Vec<String>)>,
@@ -74,7 +76,7 @@ impl<'a> FileSections<'a> {
     pub fn read(root: &mut TomlTable<'a>, asked: &StartRequest) -> Result<FileSections<'a>> {
         check_format(root)?;
         let (name, title, source) = (name(root), root.string("title"), root.optional_string("source"));
-        // All sections are fetched before any is read, because a misspelt section causes other errors.
+        // All sections are fetched before they are read. A misspelt section name would otherwise cause further errors.
         let (ground, links, joints) = (root.table("ground"), root.table("links"), root.tables("joints")?);
         let (drives, motor) = (root.needed_tables("drive"), root.optional_table("motor")?);
         let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
@@ -107,12 +109,13 @@ impl<'a> FileSections<'a> {
             };
             crank = faults.read(start, own).unwrap_or_default();
         }
+        let group_count = groups.len();
         let groups = start::stated(groups, &mechanism, &mut faults);
         let loads = loads::read(loads, &mechanism, &mut faults);
         let drives = drives
             .ok()
             .and_then(|drives| motion::drives(drives, motor, &mechanism, asked.crank.unwrap_or(crank), &mut faults));
-        // The sections below depend on numbers of the mechanism and of the drive.
+        // The remaining sections depend on numbers of the mechanism and of the drive.
         faults.whole &= faults.is_empty();
         let clearance =
             clearance.and_then(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));
@@ -135,6 +138,7 @@ impl<'a> FileSections<'a> {
             loads,
             gravity: gravity.unwrap_or_else(Vec2::zeros),
             start,
+            has_all_groups: groups.len() == group_count,
             groups,
             grid: grid.unwrap_or_default(),
             channels: channels.map(|(words, table)| (table, words)),
@@ -147,7 +151,18 @@ impl<'a> FileSections<'a> {
     }
 }
 
-/// The mechanism; after a mistake only its names are usable.
+impl FileSections<'_> {
+    /// The error for missing assembly modes in a file that also has other mistakes.
+    /// `None` if the other mistakes may be the reason.
+    pub fn missing_modes(&self, asked: &StartRequest) -> Option<Error> {
+        let (start, drives) = (self.start.as_ref()?, self.drives.as_ref()?);
+        let asked = |structure: &Structure| asked.groups(&self.mechanism, structure).unwrap_or_default();
+        let found = || start::also_missing(start, &self.groups, &self.mechanism, &drives.joints(), asked);
+        self.has_all_groups.then(found).flatten()
+    }
+}
+
+/// Builds the mechanism. After a mistake, only its names are usable.
 fn mechanism(links: Vec<Link>, joints: Vec<Joint>, faults: &mut Faults) -> Mechanism {
     if !(faults.is_empty() && faults.whole) {
         return Mechanism::unchecked(links, joints);

@@ -1,4 +1,4 @@
-//! Tables of published numbers: CSV files with a header, read as text because the printed digits matter.
+//! Tables of published numbers: CSV files with a header. They are read as text, because the printed digits matter.
 
 use crate::sentences;
 use std::ops::Range;
@@ -19,15 +19,15 @@ use linkage::mechanism::is_unseen;
 /// Crank angles (rad), or times (s), that differ by less than this belong to the same row.
 const SAME: f64 = 1e-9;
 
-/// Memory of a row of a table while it is read (bytes): its position in the text, and its instant.
+/// Memory for a row of a table during reading (bytes): the row's position in the text, and its instant.
 const OF_ROW: f64 = (size_of::<u32>() + size_of::<(When, f64)>()) as f64;
-/// Memory of a number (bytes): as a cell, as a printed number, and as a point of the oracle.
+/// Memory for a number of a table (bytes): as a cell, as a printed number, and as a point of the oracle.
 const OF_NUMBER: f64 =
     (size_of::<columns::TableCell>() + size_of::<Rounded>() + size_of::<Printed>() + size_of::<OraclePoint>()) as f64;
-/// Default limit on the memory (bytes), the same as for a proof.
+/// Default of the memory limit (bytes). The proof has the same limit.
 const MOST: f64 = 4e9;
 
-/// Name and series of the table that an oracle with the key `file` describes.
+/// Reads the table that an oracle names under the key `file`. Returns the name and the series of the table.
 pub fn read(oracle: &mut TomlTable, known: &Known, case: &Case) -> Result<(String, Vec<OracleSeries>)> {
     let file = oracle.string("file")?;
     let path: PathBuf = oracle.source().path.parent().unwrap_or(Path::new("")).join(&file);
@@ -118,7 +118,7 @@ fn series(
     Ok(OracleSeries { name, channel, magnitude, points, expected, wrong })
 }
 
-/// The cells under `expect`: their rows, and the correct values there.
+/// The cells under `expect`: their rows, and the correct values in these rows.
 fn single_cells(
     table: &mut TomlTable,
     instants: &[(When, f64)],
@@ -151,7 +151,7 @@ fn single_cells(
     Ok(cells)
 }
 
-/// The finding for a whole column and the correct value in every row: under the keys `finding` and `right`.
+/// If a whole column is wrong: the finding under `finding`, and the correct values of all rows under `right`.
 fn whole_column(table: &mut TomlTable, printed: &[Printed]) -> Result<Option<(String, Vec<Printed>)>> {
     let Some(finding) = finding(table)? else { return Ok(None) };
     let mut right = table.table("right")?;
@@ -167,7 +167,7 @@ fn whole_column(table: &mut TomlTable, printed: &[Printed]) -> Result<Option<(St
     Ok(Some((finding, right)))
 }
 
-/// Known error of the published numbers, in the printed unit; the file must explain it.
+/// Known error of the published numbers, in the printed unit. The file must explain the error.
 fn slack(oracle: &mut TomlTable) -> Result<f64> {
     let Some(slack) = oracle.optional_number("slack")? else {
         return match oracle.has("why") {
@@ -241,7 +241,7 @@ impl<'a> Rows<'a> {
         (0..self.records.len()).map(|row| self.number(row, column)).collect()
     }
 
-    /// The numbers of a column, with at least `digits` decimals if given, otherwise with those that the column shows.
+    /// The numbers of a column. They have at least `digits` decimals, if given, otherwise as many as the column shows.
     fn printed(&self, column: usize, digits: Option<i32>) -> Result<Vec<Printed>> {
         let cells = self.numbers(column)?;
         Ok(match digits {
@@ -261,7 +261,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// The instants of the rows, and the largest error of each from rounding.
+    /// The instants of the rows, and the largest rounding error of each instant.
     fn instants(&self, column: usize, from: &series::Rows, case: &Case) -> Result<Vec<(When, f64)>> {
         let numbers = columns::numbers(&self.numbers(column)?);
         let chosen = if from.are_degrees() { columns::degrees_chosen } else { columns::chosen };
@@ -286,7 +286,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// The span of a cell in its line; the whole line if quotes hide where the cells end.
+    /// The span of a cell in its line. If quotes hide where the cells end, it is the whole line.
     fn place(&self, row: usize, column: usize) -> Place {
         let mut span = self.records.line(row);
         let parts: Vec<&str> = self.source.text.get(span.clone()).unwrap_or("").split(',').collect();

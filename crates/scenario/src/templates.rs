@@ -20,7 +20,7 @@ macro_rules! templates {
     };
 }
 
-/// All templates, in the order of lists. To add one, add a file in `templates/` and its name here.
+/// All templates, in the order of lists. A new template is a file in `templates/` and a name here.
 pub static TEMPLATES: &[Template] = templates![
     "four-bar",
     "slider-crank",
@@ -36,17 +36,17 @@ pub static TEMPLATES: &[Template] = templates![
     "class-iv",
 ];
 
-/// The template with a name, which may have `_` for `-`.
+/// The template with a name, in which `_` may replace `-`.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if there is none.
+/// [`ErrorKind::Input`] if no template has the name.
 pub fn named(name: &str) -> Result<&'static Template> {
     let wanted = name.to_ascii_lowercase().replace(['_', ' '], "-");
     let names = || TEMPLATES.iter().map(|template| template.name);
     TEMPLATES.iter().find(|template| template.name == wanted).ok_or_else(|| {
         let near = nearest(&wanted, names()).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
         Error::new(ErrorKind::Input, format!("there is no template \"{name}\""))
-            .help(format!("{near}There are: {}", names().collect::<Vec<_>>().join(", ")))
+            .help(format!("{near}The templates are: {}", names().collect::<Vec<_>>().join(", ")))
     })
 }
 
@@ -67,7 +67,7 @@ fn written(number: f64) -> Value {
     }
 }
 
-/// Keys and numbers of the parameters, as they are written.
+/// Keys and numbers of the parameters, as the template writes them.
 fn parameters(document: &DocumentMut) -> Vec<(String, String)> {
     let plain = |item: &Item| item.as_value().map(|value| value.clone().decorated("", "").to_string());
     let table = document["parameters"].as_table();
@@ -79,13 +79,13 @@ impl Template {
         self.text.parse().expect("tests read every template")
     }
 
-    /// One line that describes it.
+    /// Description of the template, in one line.
     #[must_use]
     pub fn title(&self) -> String {
         self.document()["title"].as_str().unwrap_or_default().into()
     }
 
-    /// Its name as a scenario.
+    /// Name of the template as a scenario.
     #[must_use]
     pub fn scenario_name(&self) -> String {
         self.name.replace('-', "_")
@@ -98,7 +98,8 @@ impl Template {
         all.iter().map(|(key, number)| format!("{key} = {number}")).collect::<Vec<_>>().join(", ")
     }
 
-    /// The text of a scenario: the template with other dimensions, and with `name` if a scenario can have that name.
+    /// The text of a scenario: the template with other dimensions.
+    /// Its name is `name` if a scenario may have that name.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a dimension that the template does not have.
@@ -135,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_dimension_and_the_name_change_and_nothing_else() {
+    fn only_the_given_dimensions_and_the_name_change() {
         let template = named("four_bar").unwrap();
         assert_eq!(template.scenario("four_bar", &[]).unwrap(), template.text);
         let changed = template.scenario("mine", &[("crank_mm".into(), 30.0), ("density".into(), 0.25)]).unwrap();
@@ -143,12 +144,12 @@ mod tests {
         let new: Vec<&str> = lines.map(|(_, new)| new.split(" #").next().unwrap()).collect();
         assert_eq!(new, ["name = \"mine\"", "crank_mm = 30", "density = 0.25"]);
         assert_eq!(changed.matches(" # ").count(), template.text.matches(" # ").count());
-        // A name that a scenario cannot have is not set.
+        // If a scenario cannot have the name, the template's name is kept.
         assert!(template.scenario("Mine!", &[]).unwrap().contains("name = \"four_bar\""));
     }
 
     #[test]
-    fn what_is_not_there_is_answered_with_what_is() {
+    fn unknown_names_are_refused_with_the_known_ones() {
         let error = named("fourbar").unwrap_err().to_string();
         assert!(error.contains("did you mean \"four-bar\"?") && error.contains("class-iv"), "{error}");
         let error = named("four-bar").unwrap().scenario("a", &[("crank".into(), 1.0)]).unwrap_err().to_string();
@@ -156,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn the_list_has_every_file() {
+    fn every_template_file_is_listed() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/templates");
         let mut files: Vec<String> = std::fs::read_dir(folder)
             .unwrap()

@@ -48,7 +48,7 @@ fn val_ov7_base_first_pose() {
 }
 
 #[test]
-fn ov7_base_is_read_whole() {
+fn ov7_base_is_read_completely() {
     let scenario = load("ov7_base.toml");
     let case = &scenario.case;
     let formula = "I(ground, crank) -> II.2 RRR(rod_23, rocker_43) -> II.2 RRR(rod_35, rocker_65) \
@@ -58,7 +58,7 @@ fn ov7_base_is_read_whole() {
     assert!(case.grid.times.iter().all(|&time| time >= 0.0));
     assert_eq!(scenario.engine, EngineSettings::default());
     let columns: Vec<usize> = scenario.oracles.iter().map(|oracle| oracle.series.len()).collect();
-    // The last two come from a separate program: a distance at the start, and one pose.
+    // The last two oracles come from a separate program: a distance at the start, and one pose.
     assert_eq!(columns, [10, 10, 10, 7, 7, 7, 0, 84]);
     let rows = scenario.oracles[..6].iter().flat_map(|oracle| &oracle.series).map(|series| series.points.len());
     assert!(rows.into_iter().all(|rows| rows == 13));
@@ -103,8 +103,8 @@ fn crank_rocker_starts_where_two_circles_meet() {
     let (finding, right) = printed[0].wrong.as_ref().unwrap();
     assert!(finding.starts_with("crank_rocker") && right.digits == 12 && right.value == 0.025_995_627_740);
     assert!(printed[2].wrong.is_none());
-    // O is on the ground and the crank, A on the crank and the coupler: the distance is measured from the ground to the
-    // coupler.
+    // O is on the ground and the crank, A on the crank and the coupler.
+    // The distance is measured from the ground to the coupler.
     let [ground, coupler] = [0, 2].map(|link| JointSide {
         link: LinkId(link),
         local: scenario.case.mechanism.links()[LinkId(link)].points[0].local,
@@ -136,7 +136,7 @@ fn edited(edits: &[(&str, &str)]) -> Scenario {
 }
 
 #[test]
-fn a_group_named_in_the_other_order_has_the_other_side() {
+fn naming_a_group_in_reverse_order_swaps_its_mode() {
     let plain = edited(&[]);
     let turned = edited(&[
         ("links = [\"coupler\", \"rocker\"]\nmode", "links = [\"rocker\", \"coupler\"]\nmode"),
@@ -148,7 +148,7 @@ fn a_group_named_in_the_other_order_has_the_other_side() {
 }
 
 #[test]
-fn units_change_nothing_but_the_text() {
+fn units_do_not_affect_the_case() {
     let plain = edited(&[]);
     let other = edited(&[
         ("C = { x_mm = 150, y_mm = 15 }", "C = { x_m = 0.15, y_m = 0.015 }"),
@@ -171,7 +171,7 @@ fn links_keep_the_order_of_the_file_when_their_points_come_first() {
     let tree = source.tree().unwrap();
     let links = TomlTable::root(&source, &tree).table("links").unwrap().all_tables().unwrap();
     let names: Vec<&str> = links.iter().map(TomlTable::name).collect();
-    // The order of the section headers counts, as for a reader of the file.
+    // The order is that of the headers of the links, not of the headers of their points.
     assert_eq!(names, ["a", "b", "c"]);
 }
 
@@ -196,11 +196,11 @@ fn cells_known_to_be_wrong_keep_their_finding() {
     assert!((points[0].value - 10f64.to_radians()).abs() < 1e-15);
     // Trailing zeros were not printed: 7 has the digits of 9.25, and 12.5 has three.
     assert!((points[1].bound / 0.005f64.to_radians() - 1.0).abs() < 2e-9);
-    // 0, 0.5 and 1e0 may have been rounded, the last to one digit.
+    // 0, 0.5 and 1e0 may have been rounded. 1e0 may have been rounded to one digit.
     assert!((points[0].at_error - 0.05).abs() < 1e-9 && (points[1].at_error - 0.5).abs() < 1e-8);
 }
 
-/// One random damage to a scenario's lines.
+/// One random change that damages the lines of a scenario.
 #[derive(Clone, Debug)]
 enum Damage {
     Delete(usize),
@@ -270,14 +270,14 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_damaged_scenario_is_read_or_refused_with_a_place(damages in prop::collection::vec(damage(), 1..6)) {
+    fn a_damaged_scenario_is_read_or_refused_with_a_position(damages in prop::collection::vec(damage(), 1..6)) {
         for text in [include_str!("../../../scenarios/crank_rocker.toml"), include_str!("../../../scenarios/ov7_base.toml")] {
             check(&damaged(text, &damages))?;
         }
     }
 
     #[test]
-    fn any_text_is_read_or_refused_with_a_place(text in "[\\PC\\n]{0,200}") {
+    fn any_text_is_read_or_refused_with_a_position(text in "[\\PC\\n]{0,200}") {
         check(&text)?;
     }
 }

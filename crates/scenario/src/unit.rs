@@ -1,4 +1,4 @@
-//! Units of scenario files. Every key of a physical quantity ends in its unit; inside the program everything is SI.
+//! Units of scenario files. Every key of a physical quantity ends in its unit. The program itself uses only SI.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -9,7 +9,7 @@ pub struct NamedUnit {
     /// Ending of keys in this unit, without the underscore that joins it.
     pub suffix: &'static str,
     factor: f64,
-    // Kept separate from the factor: 150 / 1000 is the double nearest to 0.15, but 150 * 0.001 need not be.
+    // Divisor, kept separate from the factor. 150 / 1000 is the double nearest to 0.15, but 150 * 0.001 need not be.
     divisor: f64,
 }
 
@@ -32,8 +32,8 @@ pub struct UnitFamily {
     pub noun: &'static str,
     /// Units, the SI unit first.
     pub units: &'static [NamedUnit],
-    /// Largest size in SI, far beyond anything that is built. A larger number is a mistake in the unit.
-    /// Up to this size, solvers and engines can still handle products with other quantities.
+    /// Upper limit of the magnitude in SI, far beyond any real machine. A larger number is a mistake in the unit.
+    /// Up to this limit, solvers and engines can still handle products with other quantities.
     pub most: f64,
 }
 
@@ -48,7 +48,7 @@ impl UnitFamily {
         self.units.iter().map(|unit| format!("{base}_{}", unit.suffix)).collect()
     }
 
-    /// The unit that `key` ends in, if `key` is `base` and a unit of this family.
+    /// The unit at the end of `key`, if `key` consists of `base` and a unit of this family.
     #[must_use]
     pub fn unit_of(&self, base: &str, key: &str) -> Option<&'static NamedUnit> {
         let suffix = key.strip_prefix(base)?.strip_prefix('_')?;
@@ -93,10 +93,38 @@ pub static MASS_PER_LENGTH: UnitFamily = UnitFamily::of(sentences::A_MASS_PER_LE
 /// Powers.
 pub static POWER: UnitFamily = UnitFamily::of("a power", &[si("W"), unit("kW", 1e3, 1.0)], 1e20);
 
-/// The units in which inputs are written, for every kind of input.
+/// The units in which inputs are written, for all kinds of input.
 pub static INPUTS: [&UnitFamily; 1] = [&ANGLE];
 /// The same, or times.
 pub static INPUTS_OR_TIMES: [&UnitFamily; 2] = [&ANGLE, &TIME];
+
+/// Units that scenario files do not support: ending of the key, name, and size in a supported unit.
+static UNSUPPORTED: [(&str, &str, &str); 17] = [
+    ("cm", "centimetres", "1 cm = 10 mm"),
+    ("in", "inches", "1 in = 25.4 mm"),
+    ("inch", "inches", "1 in = 25.4 mm"),
+    ("ft", "feet", "1 ft = 304.8 mm"),
+    ("um", "micrometres", "1 um = 1e-3 mm"),
+    ("lb", "pounds", "1 lb = 0.45359237 kg"),
+    ("t", "tonnes", "1 t = 1000 kg"),
+    ("lbf", "pounds-force", "1 lbf = 4.4482216152605 N"),
+    ("kgf", "kilograms-force", "1 kgf = 9.80665 N"),
+    ("kp", "kiloponds", "1 kp = 9.80665 N"),
+    ("grad", "gradians", "1 grad = 0.9 deg"),
+    ("turns", "turns", "1 turn = 360 deg"),
+    ("deg_s", "degrees per second", "1 deg/s = 0.0174532925199433 rad/s"),
+    ("rps", "turns per second", "1 turn/s = 60 rpm"),
+    ("hz", "hertz", "1 turn/s = 60 rpm"),
+    ("min", "minutes", "1 min = 60 s"),
+    ("N_mm", "newton millimetres", "1 N·mm = 1e-3 N·m"),
+];
+
+/// Name and size of an unsupported unit that a key ends in.
+#[must_use]
+pub fn unsupported(suffix: &str) -> Option<(&'static str, &'static str)> {
+    let named = |(own, ..): &&(&str, &str, &str)| own.eq_ignore_ascii_case(suffix);
+    UNSUPPORTED.iter().find(named).map(|(_, name, size)| (*name, *size))
+}
 
 /// All families.
 pub static ALL: [&UnitFamily; 15] = [
@@ -117,7 +145,7 @@ pub static ALL: [&UnitFamily; 15] = [
     &POWER,
 ];
 
-/// The longest unit that a key ends in, with the first family that has this unit.
+/// The longest unit at the end of a key, with the first family that has this unit.
 #[must_use]
 pub fn ending(key: &str) -> Option<(&'static UnitFamily, &'static NamedUnit)> {
     let all = ALL.iter().flat_map(|family| family.units.iter().map(move |unit| (*family, unit)));
@@ -127,7 +155,7 @@ pub fn ending(key: &str) -> Option<(&'static UnitFamily, &'static NamedUnit)> {
     all.filter(|(_, unit)| ends(unit)).rev().max_by_key(|(_, unit)| unit.suffix.len())
 }
 
-/// Whether two units measure one quantity.
+/// Whether two units measure the same quantity.
 #[must_use]
 pub fn alike(one: &NamedUnit, other: &NamedUnit) -> bool {
     let has = |family: &UnitFamily, unit: &NamedUnit| family.units.iter().any(|own| own.suffix == unit.suffix);

@@ -3,12 +3,13 @@
 use crate::sentences;
 use strsim::osa_distance;
 
-/// Longest word that is checked for misspelling (characters): the work grows with the product of both lengths.
+/// Upper limit of the length of a word that is checked for misspelling (characters).
+/// The cost grows with the product of both lengths.
 const LONGEST: usize = 100;
-/// Most candidates that are searched for the nearest one and shown: every wrong word is compared with each candidate.
+/// Upper limit of the number of candidates that are compared with a wrong word and shown.
 const MOST: usize = 1000;
 
-/// The candidate nearest to `word`, if one is near enough.
+/// The candidate nearest to `word`, if its distance is small enough.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // In a name of one or two letters, a different letter is a different name, not a misspelling.
@@ -60,7 +61,7 @@ pub fn names<T>(words: Words<T>) -> Vec<&'static str> {
     words.iter().map(|(word, _)| *word).collect()
 }
 
-/// The nearest of a few words, if one is near, and all of them.
+/// The nearest of a few words, if it is near enough, and the list of all words.
 #[must_use]
 pub fn suggested(word: &str, words: &[&str]) -> String {
     let near = nearest(word, words.iter().copied()).map(|near| sentences::did_you_mean_3(&near));
@@ -71,9 +72,9 @@ pub fn suggested(word: &str, words: &[&str]) -> String {
 mod tests {
     use super::*;
 
-    /// One letter missing, one extra, one wrong, or two swapped: each is one slip.
+    /// Four kinds of slip are tolerated: a missing letter, an extra letter, a wrong letter, and two swapped letters.
     #[test]
-    fn single_slips_are_known() {
+    fn single_typing_errors_are_recognised() {
         for slip in ["mas_kg", "masss_kg", "mess_kg", "amss_kg"] {
             assert_eq!(nearest(slip, ["length_mm", "mass_kg"]), Some("mass_kg"), "{slip}");
         }

@@ -1,4 +1,4 @@
-//! A free motion: motor and loads as forces that Simbody requests at every evaluation.
+//! A free motion: motor and loads act as forces. Simbody requests them at every evaluation.
 //! See docs/numerics/twins.md.
 
 use std::cell::RefCell;
@@ -17,10 +17,10 @@ use linkage::solver::State;
 /// Starts the run of a free motion at t = 0.
 ///
 /// # Errors
-/// Those of [`check_inertias`], and the failures with which Simbody does not start.
+/// Those of [`check_inertias`], and failures of Simbody at the start.
 pub(super) fn start(case: &Case, settings: IntegrationSettings) -> Result<(Linkage, LinkageRun)> {
     check_inertias(case, "Simbody")?;
-    // A model driven at the initial speeds gives the rates of all other links.
+    // A model driven at the initial speeds gives the initial rates of all other links.
     let driven = Linkage::new(case, 1.0, None)?;
     let told = |failure| driven.stopped(case, &failure);
     let rates: Vec<f64> = {
@@ -39,7 +39,7 @@ pub(super) fn start(case: &Case, settings: IntegrationSettings) -> Result<(Linka
     if !case.loads.iter().any(|load| load.sensed_link().is_some()) {
         return Ok((linkage, run));
     }
-    // A link at rest starts in the direction in which it accelerates without the loads that depend on its sense of
+    // A link at rest starts in the direction of its acceleration without the loads that depend on its sense of
     // rotation.
     let mut state = State::at_rest(case);
     let found = run.read(false).map_err(|failure| linkage.stopped(case, &failure))?;
@@ -52,8 +52,8 @@ pub(super) fn start(case: &Case, settings: IntegrationSettings) -> Result<(Linka
     Ok((linkage, run))
 }
 
-/// Moments of the motor and the loads, at positions and velocities from Simbody.
-/// On a link at rest, loads that depend on its sense of rotation use the sense in which it will start.
+/// Moments of the motor and the loads, for positions and velocities from Simbody.
+/// For a link at rest, loads that depend on its sense of rotation use the sense in which the link will start.
 fn acting(case: &Case, linkage: &Linkage, setting_off: Rc<RefCell<Vec<f64>>>) -> Act {
     let (case, linkage) = (case.clone(), linkage.clone());
     let mut state = State::at_rest(&case);

@@ -1,5 +1,5 @@
 //! Simbody as an engine: bodies on mobilizers, loops closed by constraints, an integrator that controls its error.
-//! It shares no code with the other engines, and takes from the case only geometry, masses, drive and the pose at t = 0.
+//! It shares no code with the other engines. From the case it uses only geometry, masses, drive and the pose at t = 0.
 //! See docs/numerics/twins.md.
 
 mod free;
@@ -19,11 +19,11 @@ use linkage::trajectory::{Channel, ChannelKind, Stage};
 use linkage::work::{Count, WorkTally};
 use model::Linkage;
 
-/// Largest opening of the start pose, as a fraction of the mechanism's size.
+/// Upper limit of the opening of a joint in the start pose, as a fraction of the mechanism's size.
 /// It is far above rounding error and too small to matter.
 const LARGEST_GAP: f64 = 1e-9;
-/// Internal steps allowed per radian of crank angle, or between two closer instants, at the default accuracy.
-/// `ov7_base` takes 200 of them, and 14 000 at 1e-14.
+/// Number of internal steps allowed at the default accuracy, per radian of crank angle or between two closer instants.
+/// `ov7_base` takes 200 steps, and 14 000 at an accuracy of 1e-14.
 /// Without a limit the integrator would take hours in tiny steps near a dead point.
 const MAX_STEPS: f64 = 2000.0;
 
@@ -34,15 +34,16 @@ pub struct Simbody {
 }
 
 impl Simbody {
-    /// Default accuracy. Steps are then about a degree of the crank, so projections start close to their assembly mode.
+    /// Default accuracy. It gives steps of about a degree of the crank, so projections start close to their assembly
+    /// mode.
     pub const ACCURACY: f64 = 1e-8;
     /// Constraint tolerance as a fraction of the mechanism's extent from the origin.
     /// Under prescribed motion the pose follows from the constraints alone, so a looser tolerance has no benefit.
-    /// Projections aim at a tenth of it, and rounding errors prevent a smaller value: on `fourth_class` they fail at
-    /// 1e-14.
+    /// Projections aim at a tenth of the tolerance, and rounding errors prevent a smaller value.
+    /// On `fourth_class` projections fail at 1e-14.
     pub const TOLERANCE: f64 = 1e-12;
 
-    /// The engine with the given accuracy of its integrator, relative to the usual coordinates (1 rad or 1 m).
+    /// The engine with the given accuracy of its integrator, relative to a coordinate of 1 rad or 1 m.
     #[must_use]
     pub fn new(accuracy: f64) -> Self {
         Simbody { accuracy }
@@ -72,7 +73,7 @@ impl Simbody {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
             time_scale: 1.0 / case.drives.top_speed(),
-            // The error of a step is of fourth order.
+            // The local error is of fourth order in the step.
             steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).larger(1.0).powf(0.25)) as usize,
         }
     }
@@ -89,7 +90,7 @@ impl Engine for Simbody {
     }
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
-        // Simbody has no sweeps and no substeps, one route, and nothing to extrapolate.
+        // Simbody has no sweeps, no substeps and no extrapolation, and only one method for reactions.
         let Settings { resolution: accuracy, sweeps: _, substeps: _, route: _, extrapolated: _ } = settings;
         Box::new(Simbody { accuracy })
     }
@@ -103,7 +104,7 @@ impl Engine for Simbody {
     }
 
     fn own_routes(&self, _: &Case) -> &'static [Route] {
-        // The only route already reports the forces that the engine applies.
+        // The only method already reports the forces that the engine applies.
         &[]
     }
 
@@ -163,7 +164,7 @@ impl Solver for Simbody {
         let (total, mut done) = (ends[0] + ends[1], 0.0);
         let backwards: Vec<usize> = before.iter().rev().copied().collect();
         let mut state = State::at_rest(case);
-        // Resistances are forces inside Simbody; the other loads are set wherever reactions are read.
+        // Resistances are forces inside Simbody. The other loads are applied when reactions are read.
         let others = case.with(|parts| parts.loads = other_loads(case))?;
         let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
         let mut tally = WorkTally::default();
@@ -187,7 +188,7 @@ impl Solver for Simbody {
                     run.load(&loads).map_err(stopped)?;
                 }
                 let found = run.read(reactions).map_err(stopped)?;
-                // Written so that NaN also stops the run.
+                // This form also stops the run for NaN.
                 if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
                     let gaps: Vec<f64> = found.loops.iter().map(|closed| closed.gap).collect();
                     let widest = gaps.iter().copied().fold(0.0, f64::larger);
@@ -215,7 +216,7 @@ impl Solver for Simbody {
 /// Loads that are not forces inside Simbody.
 fn other_loads(case: &Case) -> Vec<Load> {
     match case.is_free() {
-        // In a free motion all loads act all the time.
+        // In a free motion all loads act inside Simbody all the time.
         true => Vec::new(),
         false => case.loads.iter().filter(|load| load.resistance().is_none()).cloned().collect(),
     }
@@ -227,7 +228,7 @@ fn tolerance(case: &Case) -> f64 {
     Simbody::TOLERANCE * case.start.0.iter().fold(size, |most: f64, pose| most.larger(pose.origin.norm()))
 }
 
-/// Checks that the start pose is closed. Simbody would silently assemble another one nearby.
+/// Checks that the start pose is closed. Otherwise Simbody would assemble a nearby pose without a message.
 fn check_start(case: &Case) -> Result<()> {
     let closure = case.start.closure(&case.mechanism);
     if closure <= LARGEST_GAP * case.mechanism.size() {

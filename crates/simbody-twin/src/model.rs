@@ -17,7 +17,7 @@ use linkage::mechanism::{
 };
 use linkage::solver::State;
 
-/// The model of a case, and the mapping from its numbers to the mechanism's.
+/// The model of a case, and the mapping from its numbers to those of the mechanism.
 #[derive(Clone, Debug)]
 pub(super) struct Linkage {
     /// Simbody's model: bodies in the order of the tree's branches, loops in the order of its cuts.
@@ -26,20 +26,20 @@ pub(super) struct Linkage {
     pub(super) tree: SpanningTree,
     /// Direction of time: +1 forwards, -1 backwards.
     sense: f64,
-    /// Angle of the child minus that of its parent (rad), for every branch whose joint keeps it constant.
+    /// For every branch whose joint keeps the angle constant: angle of the child minus that of its parent (rad).
     twists: Vec<Option<f64>>,
 }
 
 impl Linkage {
     /// The case's mechanism in its start pose.
-    /// With `sense` -1 time runs backwards.
+    /// If `sense` is -1, time runs backwards.
     /// Drives then turn in the opposite direction and resistance acts with the motion; everything else is the same.
     ///
-    /// # Errors
-    /// [`ErrorKind::Input`] for a number that Simbody cannot take.
-    ///
     /// In a free motion, `rates` are those of all bodies' coordinates at t = 0.
-    /// Without them, free links turn with their initial speeds, like prescribed ones.
+    /// Without `rates`, free links turn with their initial speeds, like prescribed links.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a number that Simbody cannot use.
     pub(super) fn new(case: &Case, sense: f64, rates: Option<&[f64]>) -> Result<Self> {
         let wrong = |failure: Failure| {
             Error::new(ErrorKind::Input, sentences::simbody_cannot_take_the_mechanism(&failure.message))
@@ -48,7 +48,7 @@ impl Linkage {
         let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
         let tree = SpanningTree::with(mechanism, &driven);
         let mut model = SimbodyModel::new(case.gravity.into());
-        // Bodies are numbered in the order of the branches; the ground is 0 on both sides.
+        // Bodies are numbered in the order of the branches. The ground is 0 in Simbody and in the mechanism.
         let mut numbers = vec![0; mechanism.links().len()];
         let mut twists = Vec::new();
         for (index, branch) in tree.branches.iter().enumerate() {
@@ -59,7 +59,7 @@ impl Linkage {
                 parent: numbers[branch.parent],
                 joint: joint(found, branch),
                 inertia: inertia(case, branch.link),
-                // In a free motion all loads act together: see `acting`.
+                // In a free motion all loads are applied together: see `acting`.
                 resistance: if case.is_free() { 0.0 } else { sense * resistance(case, branch.link) },
                 coordinate: coordinate(found, branch, &case.start.0),
                 rate: rates.map_or(0.0, |rates| rates[index]),
@@ -83,7 +83,7 @@ impl Linkage {
         Ok(Linkage { model, tree, sense, twists })
     }
 
-    /// Fills a state with the motion read from Simbody. Velocities follow the direction of the case's time.
+    /// Fills a state with the motion that Simbody reports. Velocities refer to the direction of the case's time.
     pub(super) fn motion(&self, bodies: &[BodyState], state: &mut State) {
         for ((branch, body), twist) in self.tree.branches.iter().zip(bodies).zip(&self.twists) {
             let motion = &mut state.motions[branch.link];
@@ -105,13 +105,13 @@ impl Linkage {
         })
     }
 
-    /// Fills in the reactions, after [`Linkage::motion`]. Forces do not depend on the direction of time.
+    /// Adds the reactions to a state after [`Linkage::motion`]. Forces do not depend on the direction of time.
     pub(super) fn reactions(&self, case: &Case, bodies: &[BodyState], loops: &[LoopState], state: &mut State) {
         for (branch, body) in self.tree.branches.iter().zip(bodies) {
             let joint = &case.mechanism.joints()[branch.joint];
             let force = Vec2::from(body.force);
             let places = [joint.first, joint.second].map(|side| state.motions[side.link].point(side.local));
-            // Simbody reports force and moment on the child, at the joint's point there.
+            // Simbody reports force and moment on the child, at the joint's point on the child.
             let (force, moment) = if joint.second.link == branch.link {
                 (force, body.moment)
             } else {
@@ -133,11 +133,11 @@ impl Linkage {
         }
     }
 
-    /// The failure of a run as an error with the case's time, crank angle and joint.
+    /// Converts the failure of a run to an error with the case's time, crank angle and joint.
     pub(super) fn stopped(&self, case: &Case, failure: &Failure) -> Error {
         let t = failure.time.unwrap_or(0.0) * self.sense;
         let at = case.told(case.crank().at(t).value);
-        // Written so that NaN counts as the largest.
+        // In this form NaN counts as the largest gap.
         let widest = failure.gaps.iter().zip(&self.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
         let gap = widest.map_or(String::new(), |(gap, &joint)| {
             sentences::joint_open_by(&case.mechanism.joints()[joint].name, &format_args!("{gap:.3e}"))
@@ -156,7 +156,7 @@ fn law(case: &Case, branch: &TreeBranch, drive: &Drive, moving: bool) -> Option<
     if moving && drive.is_free() {
         return None;
     }
-    // Drives define rotation in the world, coordinates relative to the parent.
+    // A drive prescribes the rotation in the world, a coordinate the rotation relative to the parent.
     let parent = case.drives.iter().find(|other| other.link == branch.parent);
     Some(drive.initial_speed() - parent.map_or(0.0, Drive::initial_speed))
 }
@@ -178,7 +178,7 @@ fn joint(found: &mechanism::Joint, branch: &TreeBranch) -> SimbodyJoint {
     }
 }
 
-/// Mass and inertia of a link. Simbody cannot accelerate a free body without them.
+/// Mass and moment of inertia of a link. Simbody cannot accelerate a free body without them.
 /// A link that lacks them gets substitutes, which do not affect its reactions.
 pub(super) fn inertia(case: &Case, link: LinkId) -> Inertia {
     let body = &case.mechanism.links()[link];

@@ -9,7 +9,8 @@ use linkage::case::Case;
 use linkage::math::KeepNan;
 use linkage::trajectory::{ChannelKind, ChannelSubject, Unit};
 
-/// Amplification of a constraint error by the pose: 1 / sin of the angle between two links, which is 10 at 6 degrees.
+/// Factor by which the pose amplifies a constraint error: 1 / sin of the angle between two links, which is 10 at 6
+/// degrees.
 const POSE: f64 = 10.0;
 /// Rounding errors in the tree and in the projection, in units in the last place.
 const ULPS: f64 = 20.0;
@@ -17,13 +18,14 @@ const ULPS: f64 = 20.0;
 /// Bound on the error of a channel, in the channel's unit.
 /// It depends on the constraint tolerance `tolerance` (m) and the integrator's accuracy.
 ///
-/// In a free motion the integrator contributes too: each step may have an error of the accuracy, in rad.
-/// Every output time ends a step, so with dense output times the errors hardly fall with the accuracy.
-/// On the shipped run-ups they are 5e-9 to 5e-7 of the scale at an accuracy of 1e-8.
+/// In a free motion the integrator contributes too: each step may have an error (rad) equal to the accuracy.
+/// Every output time ends a step. With dense output times a smaller accuracy therefore hardly reduces the errors.
+/// On the shipped run-ups the errors are 5e-9 to 5e-7 of the scale at an accuracy of 1e-8.
 ///
-/// A constraint error rotates a link by that error divided by its length, so the shortest link is the worst.
+/// A constraint error rotates a link by that error divided by the link's length, so the shortest link is the worst.
 /// The pose amplifies an error of the angles once more in the velocities, and again in accelerations and forces.
-/// Rates of constraints are kept below the tolerance times the drive's speed; accelerations follow from both.
+/// Rates of constraints are kept below the tolerance times the drive's speed. Accelerations follow from positions and
+/// velocities.
 pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &ChannelKind) -> f64 {
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
     let speed = case.drives.top_speed();
@@ -33,7 +35,8 @@ pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &Chan
     let mass: f64 =
         case.mechanism.links().ids().skip(1).map(|link| inertia(case, link)).map(|own| own.mass + own.extra_mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
-    // Positions are world coordinates: far from the origin their rounding errors exceed those at the mechanism's size.
+    // Positions are world coordinates. Far from the origin their rounding errors exceed those of lengths in the
+    // mechanism.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));
 
     let place = POSE * tolerance + ULPS * f64::EPSILON * reach;

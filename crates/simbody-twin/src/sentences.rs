@@ -1,4 +1,4 @@
-//! Every sentence that this crate can show, in one place, to be read as a list.
+//! All messages that this crate can show, in one file, so that they can be read as a list.
 
 linkage::sentences! {
     // lib.rs
@@ -10,8 +10,8 @@ linkage::sentences! {
     RUNGE_KUTTA_MERSON_EVERY_STEP = "Runge-Kutta-Merson, every step projected";
     PRESCRIBED_COORDINATES_UNDER_FORCES_MOTOR = "prescribed coordinates; under forces, motor and loads at every evaluation";
     SPANNING_TREE_OF_PINS_AND_SLIDERS = "spanning tree of pins and sliders, loops closed by two point-in-plane constraints each";
-    a_drive_with_the_law_is_not_handed(drive) = "a drive with the law \"{drive}\" is not handed to Simbody by this version";
-    GIVE_AN_ACCURACY_BETWEEN_AND_FOR_ONE = "give an accuracy between 0 and 1, 1e-8 for one";
+    a_drive_with_the_law_is_not_handed(drive) = "a drive with the law \"{drive}\" is not supported with Simbody in this version";
+    GIVE_AN_ACCURACY_BETWEEN_AND_FOR_ONE = "give an accuracy between 0 and 1, such as 1e-8";
     the_engine_accuracy_is(accuracy) = "the engine's accuracy is {accuracy}";
     // model.rs
     SHORTEN_THE_GRID_TO_THE_CRANK = "shorten the grid to the crank angles before the dead point";

@@ -1,4 +1,4 @@
-//! The boundary to C++: the only unsafe code. Every declaration repeats one of `shim.h`.
+//! The boundary to C++, with the only unsafe code. Every declaration repeats a declaration of `shim.h`.
 
 use crate::sentences;
 use std::ffi::{c_char, c_int, c_void};
@@ -75,7 +75,7 @@ struct RawRun {
 /// `linkproof_act`.
 type Callback = unsafe extern "C" fn(*mut c_void, *const BodyState, *mut f64);
 
-// The `safe` functions cannot be misused with the given types.
+// The functions marked `safe` cannot be misused with the given types.
 unsafe extern "C" {
     fn linkproof_simbody_new(
         bodies: *const RawBody,
@@ -124,7 +124,7 @@ pub fn version() -> String {
     version.map(|part| part.to_string()).join(".")
 }
 
-/// Calls the shim with a buffer for its text.
+/// Calls the shim with a buffer for its error message.
 fn told(call: impl FnOnce(*mut c_char, usize) -> c_int) -> Result<(), Failure> {
     let mut text = [0_u8; 1024];
     if call(text.as_mut_ptr().cast(), text.len()) == 0 {
@@ -142,10 +142,11 @@ fn plain(words: &str) -> String {
     parts.fold(first, |told, part| told + part.split_once(": ").map_or(part, |(_, rest)| rest))
 }
 
-/// Forces and moments on the bodies besides gravity during the run.
+/// Gives the forces and moments on the bodies besides gravity during the run.
 /// The first argument has positions and velocities of all bodies; accelerations and forces are 0.
-/// The second argument takes the force at the mass centre (N, world axes) and the moment about it (N m) of every body.
-/// These are 0 on entry.
+/// The second argument receives the force at the mass centre (N, world axes) and the moment about it (N m) of every
+/// body.
+/// Forces and moments are 0 on entry.
 pub type Act = Box<dyn FnMut(&[BodyState], &mut [[f64; 3]])>;
 
 /// The data for Simbody's callback.
@@ -156,7 +157,7 @@ struct Acting {
 
 /// Passes a call from Simbody on to Rust. A panic becomes NaN loads, which end the run.
 unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: *mut f64) {
-    // SAFETY: `user` is the box that the run keeps for its whole life, and Simbody calls from one thread at a time.
+    // SAFETY: `user` is the box that the run keeps as long as it exists, and Simbody calls from one thread at a time.
     // The numbers of bodies and of loads (three per body) are those with which the run was built.
     let (acting, bodies, loads) = unsafe {
         let acting = &mut *user.cast::<Acting>();
@@ -172,7 +173,7 @@ unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: 
 /// A run of a linkage, forwards in time.
 pub struct LinkageRun {
     raw: NonNull<RawRun>,
-    /// Kept at a fixed address for Simbody.
+    /// Stays at a fixed address, because Simbody points to it.
     _acting: Option<Box<Acting>>,
     state: SimbodyState,
     time: f64,
@@ -227,17 +228,17 @@ impl LinkageRun {
         Ok(run)
     }
 
-    /// Integrates to exactly `time` (s). After a failure the run cannot be used any more.
+    /// Integrates to exactly `time` (s). After a failure the run can no longer be used.
     ///
     /// # Errors
-    /// A time before the one reached; any failure in Simbody, with its message, the time reached and all gaps at that
-    /// time.
+    /// A time before the time already reached; any failure in Simbody. The error has Simbody's message, the time
+    /// reached and all gaps at that time.
     pub fn advance(&mut self, time: f64) -> Result<(), Failure> {
         if !(time >= self.time && time.is_finite()) {
             return Err(Failure::of(sentences::is_asked_for_after(&time, &self.time)));
         }
         let (raw, (steps, time_scale)) = (self.raw.as_ptr(), self.pace);
-        // A cast saturates: a number that is too large gives the largest integer.
+        // The cast saturates: a number that is too large gives the largest integer.
         let intervals = (time - self.time) / time_scale;
         let steps = (steps as f64 * if intervals < 1.0 { 1.0 } else { intervals }) as usize;
         // SAFETY: the run is alive and has no other user. The shim writes at most `size` bytes of text.
@@ -248,8 +249,9 @@ impl LinkageRun {
     }
 
     /// Sets the loads on every body that the next readings of reactions include.
-    /// They are the force at the mass centre (N, world axes) and the moment about it (N m); all are zero at first.
-    /// They do not move anything: every degree of freedom is prescribed.
+    /// A load is the force at the mass centre (N, world axes) and the moment about it (N m). All loads are zero at
+    /// first.
+    /// Loads do not affect the motion, because every degree of freedom is prescribed.
     ///
     /// # Errors
     /// A number of loads that differs from that of the bodies, or a number that is not finite.
@@ -266,10 +268,11 @@ impl LinkageRun {
         Ok(())
     }
 
-    /// Reads the state; without `reactions`, no forces.
+    /// Reads the state. Without `reactions`, forces are not read.
     ///
     /// # Errors
-    /// Simbody's own, as in [`LinkageRun::advance`]: loops that cannot take any force, or a number that is not finite.
+    /// Those of Simbody, as in [`LinkageRun::advance`]; loops that cannot transmit any force; a number that is not
+    /// finite.
     pub fn read(&mut self, reactions: bool) -> Result<&SimbodyState, Failure> {
         let SimbodyState { bodies, loops } = &mut self.state;
         let raw = self.raw.as_ptr();
@@ -286,7 +289,7 @@ impl LinkageRun {
         Ok(&self.state)
     }
 
-    /// Steps that the integrator has attempted.
+    /// Number of steps that the integrator has attempted.
     #[must_use]
     pub fn steps(&self) -> usize {
         // SAFETY: the run is alive, and the shim only reads.
@@ -324,14 +327,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn messages_are_told_without_places_in_the_source() {
+    fn messages_omit_source_positions() {
         let thrown = "SimTK Exception thrown at Integrator.cpp:431:\n  Initialization failed because:\nSimTK Exception thrown at A.cpp:4:\n  no.";
         assert_eq!(plain(thrown), "Initialization failed because: no.");
         assert_eq!(plain("bad alloc"), "bad alloc");
     }
 
     #[test]
-    fn both_sides_of_the_boundary_have_the_same_structures() {
+    fn rust_and_cpp_structures_have_equal_sizes() {
         let mut sizes = [0; 4];
         linkproof_simbody_sizes(&mut sizes);
         let own = [size_of::<RawBody>(), size_of::<LoopClosure>(), size_of::<BodyState>(), size_of::<LoopState>()];

@@ -1,4 +1,4 @@
-//! The description of a linkage, checked before any part of it reaches C++.
+//! The description of a linkage. It is checked before any part of it reaches C++.
 
 use crate::ffi::{Act, LinkageRun, RawBody};
 use crate::parts::{Failure, Inertia, IntegrationSettings, LoopClosure, SimbodyBody, SimbodyJoint};
@@ -13,7 +13,7 @@ pub struct SimbodyModel {
 }
 
 impl SimbodyModel {
-    /// A model with the ground only, under the acceleration of gravity `gravity` (m/s^2).
+    /// A model that contains only the ground, with the acceleration of gravity `gravity` (m/s^2).
     #[must_use]
     pub fn new(gravity: [f64; 2]) -> Self {
         SimbodyModel { gravity, bodies: Vec::new(), loops: Vec::new() }
@@ -67,13 +67,13 @@ impl SimbodyModel {
     /// Assembles the linkage at time 0 and starts its run.
     ///
     /// # Errors
-    /// Settings out of their ranges, and Simbody's own errors.
-    /// The model may not assemble from the given coordinates, or a free mobilizer may carry no inertia.
+    /// Settings out of their ranges, and errors of Simbody.
+    /// For example, the model may not assemble from the given coordinates, or a free mobilizer may carry no inertia.
     pub fn run(&self, settings: IntegrationSettings) -> Result<LinkageRun, Failure> {
         self.run_under(settings, None)
     }
 
-    /// Like [`SimbodyModel::run`], with `act` acting on the bodies.
+    /// The same as [`SimbodyModel::run`], with forces from `act` on the bodies.
     ///
     /// # Errors
     /// Those of [`SimbodyModel::run`].

@@ -39,11 +39,11 @@ pub struct Inertia {
     /// Moment of inertia about the mass centre (kg m^2).
     pub inertia: f64,
     /// Mass at the same centre that the body carries only for the integrator (kg).
-    /// Gravity does not act on it, and applied forces balance its inertia wherever reactions are read.
-    /// This is exact while every degree of freedom is prescribed, since accelerations then do not depend on masses.
+    /// Gravity does not act on this mass. When reactions are read, applied forces balance its inertia.
+    /// This is exact if every degree of freedom is prescribed, because accelerations then do not depend on masses.
     /// Simbody cannot move a free mobilizer that carries no inertia.
     pub extra_mass: f64,
-    /// Moment of inertia added for the same reason (kg m^2).
+    /// Moment of inertia that the body carries only for the integrator, as for the mass (kg m^2).
     pub extra_inertia: f64,
 }
 
@@ -57,17 +57,17 @@ pub struct Law {
 /// A body of the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimbodyBody {
-    /// The parent body, added before, or [`GROUND`].
+    /// The parent body, which was added before, or [`GROUND`].
     pub parent: usize,
     /// The joint to the parent.
     pub joint: SimbodyJoint,
     /// Its inertia.
     pub inertia: Inertia,
-    /// Constant moment against the body's rotation (N m); zero while it is at rest.
+    /// Constant moment that opposes the body's rotation (N m); zero while the body is at rest.
     pub resistance: f64,
     /// Coordinate of the body's joint at time 0 (rad or m).
     pub coordinate: f64,
-    /// Rate of the coordinate at time 0, where it is not prescribed (rad/s or m/s).
+    /// Rate of the coordinate at time 0, if the coordinate is not prescribed (rad/s or m/s).
     /// Inconsistent rates are projected onto the loops.
     pub rate: f64,
     /// Prescribed motion of the coordinate, if any.
@@ -91,9 +91,9 @@ pub struct IntegrationSettings {
     pub accuracy: f64,
     /// Largest constraint error that projections leave (m).
     pub tolerance: f64,
-    /// Characteristic time of the motion (s). Rates of constraint errors are kept below `tolerance` divided by it.
+    /// Characteristic time of the motion (s). Rates of constraint errors are kept below `tolerance` / `time_scale`.
     pub time_scale: f64,
-    /// Internal steps allowed per time scale, or between two closer instants.
+    /// Number of internal steps allowed per time scale, or between two instants that are closer together.
     /// Without a limit the integrator would take hours in tiny steps near a dead point.
     pub steps: usize,
 }
@@ -107,9 +107,9 @@ impl Default for IntegrationSettings {
 /// The failure that stopped Simbody.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// What is wrong with the model, or Simbody's own message.
+    /// The fault of the model, or the message of Simbody.
     pub message: String,
-    /// Time reached (s), if there was a run.
+    /// Time reached (s), if a run had started.
     pub time: Option<f64>,
     /// Gap of every loop at that time (m).
     pub gaps: Vec<f64>,

@@ -1,9 +1,9 @@
 //! Simbody's results at one instant. The memory layout is that of C.
 
-/// Results at one instant: bodies from 1 on, and loops, in the order in which they were added.
+/// Results at one instant. Bodies start with number 1; bodies and loops are in the order in which they were added.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct SimbodyState {
-    /// Every body but the ground.
+    /// All bodies except the ground.
     pub bodies: Vec<BodyState>,
     /// Every loop.
     pub loops: Vec<LoopState>,

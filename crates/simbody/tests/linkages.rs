@@ -44,7 +44,7 @@ fn the_library_is_a_simbody_3() {
 fn forces_in_a_parallelogram_are_those_of_statics() {
     // The coupler of 3 kg only translates, on a circle of radius 1 at 4 rad/s: a = -16 e.
     // Its joints together carry m (a - g).
-    // Their shares follow from the moments about the coupler's middle and about the second pivot.
+    // The part of each joint follows from the moments about the coupler's middle and about the second pivot.
     // The second crank turns uniformly, and its weight acts at half its length.
     let (start, rate, t) = (0.7, 4.0, 0.2);
     let mut run = parallelogram(rod(3.0, 2.0), start, rate, 1e-4).run(IntegrationSettings::default()).unwrap();
@@ -60,7 +60,7 @@ fn forces_in_a_parallelogram_are_those_of_statics() {
     close_to(state.loops[0].force, on_second, 1e-9);
     close_to(state.bodies[1].force, [total[0] + on_second[0], half], 1e-9);
     assert!(state.bodies[1].moment.abs() < 1e-9 && state.bodies[2].moment.abs() < 1e-9);
-    // Power of the drive: only the weights contribute, since all kinetic energy is constant.
+    // Power of the drive: only the weights contribute, because the kinetic energy is constant.
     let drive = G * cos * (0.5 + 3.0 + 0.5);
     assert!((state.bodies[0].drive - drive).abs() < 1e-9, "{} instead of {drive}", state.bodies[0].drive);
     assert!((state.bodies[0].moment - drive).abs() < 1e-9, "the drive is part of the moment in its pin");
@@ -70,7 +70,7 @@ fn forces_in_a_parallelogram_are_those_of_statics() {
 }
 
 #[test]
-fn a_massless_coupler_needs_extra_mass_and_its_reactions_do_not_see_it() {
+fn extra_mass_of_a_massless_coupler_is_not_in_its_reactions() {
     let failure = parallelogram(Inertia::default(), 0.7, 4.0, 0.0).run(IntegrationSettings::default()).unwrap_err();
     assert!(failure.message.contains("not finite"), "{failure}");
 
@@ -78,7 +78,8 @@ fn a_massless_coupler_needs_extra_mass_and_its_reactions_do_not_see_it() {
     let mut run = parallelogram(coupler, 0.7, 4.0, 0.0).run(IntegrationSettings::default()).unwrap();
     run.advance(0.2).unwrap();
     let state = run.read(true).unwrap();
-    // A massless rod between two joints: one force along it, which supports the weight of the second crank.
+    // A massless rod between two joints transmits a force only along its length. The force supports the weight of the
+    // second crank.
     let angle: f64 = 1.5;
     let along = G * angle.cos() / 2.0 / angle.sin();
     close_to(state.loops[0].force, [-along, 0.0], 1e-9);
@@ -86,7 +87,7 @@ fn a_massless_coupler_needs_extra_mass_and_its_reactions_do_not_see_it() {
 }
 
 #[test]
-fn no_link_needs_a_mass() {
+fn all_links_may_be_massless() {
     let extra = Inertia { extra_mass: 1.0, extra_inertia: 0.1, ..Inertia::default() };
     let mut model = SimbodyModel::new([0.0, -G]);
     let law = Some(Law { rate: 4.0 });
@@ -98,14 +99,14 @@ fn no_link_needs_a_mass() {
     let mut run = model.run(IntegrationSettings::default()).unwrap();
     run.advance(0.1).unwrap();
     let state = run.read(true).unwrap();
-    // The coupler turns the loaded crank against 6 N m with its axial force, and the drive bears the same moment.
+    // The loaded crank needs 6 N m, which the coupler's axial force exerts. The drive bears the same moment.
     close_to(state.loops[0].force, [-6.0 / 1.1_f64.sin(), 0.0], 1e-11);
     assert!((state.bodies[0].drive - 6.0).abs() < 1e-11);
 }
 
 #[test]
 fn a_slider_carries_force_and_moment_across_its_axis() {
-    // A block of 2 kg on a guide inclined by 0.3, pushed at 1.5 m/s, with its mass centre away from the joint's point.
+    // A block of 2 kg on a guide inclined by 0.3 rad moves at 1.5 m/s. Its mass centre is away from the joint's point.
     let (angle, axis) = (0.3_f64, [0.3_f64.cos(), 0.3_f64.sin()]);
     let joint =
         SimbodyJoint::Slider { on_parent: [0.1, 0.2], on_child: [0.0, 0.1], axis_parent: axis, axis_child: [1.0, 0.0] };
@@ -148,9 +149,9 @@ fn a_linkage_that_cannot_be_closed_is_refused() {
 }
 
 #[test]
-fn a_dead_point_ends_the_run_where_it_is() {
+fn the_run_ends_at_the_dead_point() {
     // Crank 1, coupler 1.5, rocker 1, base 3.
-    // It cannot be assembled once crank pin and pivot are more than 2.5 apart, at cos = 0.625.
+    // The linkage cannot be assembled if crank pin and pivot are more than 2.5 apart, at cos = 0.625.
     let start = 0.2_f64;
     let crank_pin = [start.cos(), start.sin()];
     let reach: f64 = (3.0 - crank_pin[0]).hypot(crank_pin[1]);
@@ -202,6 +203,6 @@ fn wrong_models_are_refused_before_simbody_sees_them() {
     }
     let mut run = model.run(IntegrationSettings::default()).unwrap();
     run.advance(0.5).unwrap();
-    assert!(run.advance(0.4).unwrap_err().message.contains("asked for after"));
+    assert!(run.advance(0.4).unwrap_err().message.contains("requested after"));
     assert!(run.advance(f64::NAN).is_err());
 }

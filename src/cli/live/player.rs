@@ -1,4 +1,4 @@
-//! Where a viewer is in a reel.
+//! Position of a viewer in a reel.
 
 use std::ops::Range;
 
@@ -6,12 +6,12 @@ use crate::report::live::State;
 use linkage::math::KeepNan;
 use recording::Reel;
 
-/// Where a viewer is in a reel, and how it goes on.
+/// Position of a viewer in a reel, and how playback continues.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Player {
     /// Log time (ns).
     position: f64,
-    /// Number of messages that have been told.
+    /// Number of messages already sent.
     pub told: usize,
     /// Whether it moves.
     pub plays: bool,
@@ -19,7 +19,7 @@ pub(super) struct Player {
     pub speed: f64,
 }
 
-/// What is to be told now.
+/// Messages to send now.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Due {
     /// Whether it begins anew.
@@ -29,7 +29,7 @@ pub(super) struct Due {
 }
 
 impl Player {
-    /// At the start of a reel.
+    /// A player at the start of a reel.
     pub(super) fn new(speed: f64) -> Player {
         Player { position: 0.0, told: 0, plays: true, speed }
     }
@@ -39,8 +39,9 @@ impl Player {
         self.position as u64
     }
 
-    /// Goes on by seconds of the clock. What is due at the end of a reel is due before the next turn begins, and a reel
-    /// of one instant has no next turn.
+    /// Advances the position by `seconds` of the clock.
+    /// Messages at the end of a reel are sent before the reel starts again.
+    /// A reel of one instant does not repeat.
     pub(super) fn pass(&mut self, seconds: f64, reel: &Reel) -> Due {
         let again = self.plays && self.told == reel.len() && reel.lasts() > 0;
         if again {
@@ -54,13 +55,13 @@ impl Player {
         Due { again, messages }
     }
 
-    /// Goes to a log time (ns), or to the end.
+    /// Moves to a log time (ns), at most to the end.
     pub(super) fn seek(&mut self, time: u64, reel: &Reel) {
         let time = time.min(reel.lasts());
         (self.position, self.told) = (time as f64, reel.until(time));
     }
 
-    /// What viewers are told of it.
+    /// The playback state that viewers receive.
     pub(super) fn state(&self, jumped: bool) -> State {
         State { plays: self.plays, time: self.time(), speed: self.speed as f32, jumped }
     }

@@ -1,4 +1,4 @@
-//! The server: it listens from the start of a proof on, and shows what there is so far.
+//! The server: it listens from the start of a proof, and shows the results that exist so far.
 
 use crate::sentences;
 use std::net::{SocketAddr, TcpListener, TcpStream};
@@ -15,9 +15,9 @@ use linkage::error::{Error, ErrorKind, Result};
 use prover::run::{Proof, Reference};
 use scenario::Scenario;
 
-/// Most viewers at a time.
+/// Largest number of simultaneous viewers.
 const MOST: usize = 32;
-/// What is waited after a viewer could not be let in.
+/// Waiting time after the server could not accept a viewer.
 const REST: Duration = Duration::from_millis(100);
 
 /// The server of viewers.
@@ -27,10 +27,10 @@ pub(in crate::cli) struct Live {
 }
 
 impl Live {
-    /// Listens at an address, and lets viewers in from now on.
+    /// Listens at an address, and accepts viewers from now on.
     ///
     /// # Errors
-    /// If nobody can listen there.
+    /// If the program cannot listen there.
     pub(super) fn at(address: &str) -> Result<Live> {
         let wrong = |found: &std::io::Error| {
             Error::new(ErrorKind::Io, sentences::viewers_cannot_be_served_at(&address, &found))
@@ -46,7 +46,8 @@ impl Live {
         Ok(Live { stage, address })
     }
 
-    /// Shows the reference alone, before there is a proof. Where it fails, the proof says why.
+    /// Shows the reference alone, before the proof is finished.
+    /// If this fails, the proof gives the reason.
     pub(in crate::cli) fn show_reference(&self, record: &RecordArgs, scenario: &Scenario, reference: Reference) {
         let reel = || {
             let case = scenario.case.scene()?.case;
@@ -58,7 +59,7 @@ impl Live {
         }
     }
 
-    /// Shows what a recording of a proof would hold.
+    /// Shows the contents that a recording of the proof would have.
     ///
     /// # Errors
     /// Those of a recording.
@@ -76,7 +77,7 @@ impl Live {
         }
     }
 
-    /// Where it is shown, how slowly, and how to look on, with the layout beside the recording.
+    /// Message for the user: the address, the speed, how to watch, and the layout beside the recording.
     pub(in crate::cli) fn told(&self, layout: Option<&Path>) -> String {
         let address = self.address();
         let pace = self.stage.shown().reel.map_or(String::new(), |reel| format!(", {}", pace_told(&reel)));
@@ -87,39 +88,40 @@ impl Live {
         sentences::live_lichtblick_or_foxglove_open(&address, &pace, &layout)
     }
 
-    /// Serves until the user, or the system, ends it; `begin` is called when they can.
+    /// Serves viewers until the user or the system ends the server.
+    /// `begin` is called when the server reacts to signals.
     ///
     /// # Errors
     /// If signals cannot be waited for.
     pub(in crate::cli) fn serve(&self, begin: impl FnOnce()) -> Result<()> {
         let (tell, told) = mpsc::channel();
         ctrlc::set_handler(move || {
-            // Whoever waits is told once; nobody is left to be told again.
+            // The waiting thread needs only the first signal; later ones have no receiver.
             let _ = tell.send(());
         })
         .map_err(|found| Error::new(ErrorKind::Io, sentences::ctrl_cannot_be_waited_for(&found)))?;
         begin();
-        // The handler has the other end for good.
+        // The handler never drops the other end of the channel.
         let _ = told.recv();
         Ok(())
     }
 }
 
-/// Lets viewers in, each on a thread of its own.
+/// Accepts viewers, each on a separate thread.
 fn let_in(listener: &TcpListener, stage: &Arc<Stage>) {
     for stream in listener.incoming() {
-        // The server has two copies of the stage, every viewer one.
+        // The server holds two references to the stage, and every viewer holds one.
         let is_full = Arc::strong_count(stage) >= MOST + 2;
         match stream {
             Ok(stream) if !is_full => serve_one(stream, Arc::clone(stage)),
-            // Too many viewers, or too many open files: both pass.
+            // Too many viewers or too many open files: both conditions end after some time, so the server waits.
             Ok(_) | Err(_) => thread::sleep(REST),
         }
     }
 }
 
 fn serve_one(stream: TcpStream, stage: Arc<Stage>) {
-    // A viewer that no thread can be had for is turned away.
+    // If no thread is available, the viewer is refused.
     let _ = thread::Builder::new().spawn(move || {
         if let Some(viewer) = Viewer::greeted(stream, &stage) {
             viewer.attend();

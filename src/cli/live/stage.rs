@@ -1,27 +1,27 @@
-//! What is shown to all viewers.
+//! The content that all viewers share.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use recording::Reel;
 
-/// What is shown to all viewers.
+/// The content that all viewers share.
 pub(super) struct Stage {
-    /// What viewers call the server.
+    /// Name of the server in viewers.
     pub name: String,
     shown: Mutex<Shown>,
 }
 
-/// What is shown, and how often that has changed.
+/// The content, and how often it has changed.
 #[derive(Clone, Default)]
 pub(super) struct Shown {
     /// Number of changes.
     pub changes: u64,
-    /// What is shown; nothing yet at the start.
+    /// The content; `None` at the start.
     pub reel: Option<Arc<Reel>>,
 }
 
 impl Stage {
-    /// A stage on which nothing is shown.
+    /// A stage without content.
     pub(super) fn of(name: String) -> Stage {
         Stage { name, shown: Mutex::default() }
     }
@@ -31,7 +31,7 @@ impl Stage {
         self.lock().clone()
     }
 
-    /// Shows this from now on.
+    /// Replaces the content.
     pub(super) fn show(&self, reel: Reel) {
         let mut shown = self.lock();
         *shown = Shown { changes: shown.changes + 1, reel: Some(Arc::new(reel)) };

@@ -1,5 +1,7 @@
-//! One viewer: what it asks for, and where it is. Each has a clock of its own, so that one that pauses, seeks or is slow
-//! disturbs no other, and one that comes late misses nothing.
+//! One viewer: its requests and its position.
+//! Each viewer has a separate clock.
+//! A viewer that pauses, seeks or is slow therefore does not disturb other viewers.
+//! A viewer that connects late still sees the content from its start.
 
 use crate::sentences;
 use std::io::ErrorKind;
@@ -17,19 +19,21 @@ use super::wants::Wants;
 use crate::report::live::{self, Control, Dialect, Request};
 use recording::Reel;
 
-/// What is waited for a request between two looks at the clock.
+/// How long a viewer's thread waits for a request before it reads the clock again.
 const TICK: Duration = Duration::from_millis(10);
-/// What a viewer may take to introduce itself.
+/// Time limit for the handshake with a viewer.
 const GREETING: Duration = Duration::from_secs(5);
-/// What a viewer may take to receive anything.
+/// Time limit for sending data to a viewer.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// Most that passes between two looks at the clock: a viewer that is slower is not told all it has missed at once.
+/// Upper limit of the time counted between two readings of the clock.
+/// A slow viewer therefore does not receive all missed messages at once.
 const MOST: Duration = Duration::from_millis(100);
 /// Largest request (bytes).
 const LARGEST: usize = 1 << 20;
-/// Most requests between two looks at the clock.
+/// Largest number of requests between two readings of the clock.
 const REQUESTS: usize = 64;
-/// Numbers of channels of what is shown begin at this multiple of the number of changes: none is used twice.
+/// Channel numbers of a content begin at this constant times the number of content changes.
+/// No channel number is therefore used twice.
 const CHANNELS: u64 = 1 << 16;
 
 /// One viewer.
@@ -45,7 +49,7 @@ pub(super) struct Viewer<'a> {
 type Spoken = tungstenite::Result<()>;
 
 impl<'a> Viewer<'a> {
-    /// Agrees on a protocol with whoever calls; `None` with whoever knows none of ours.
+    /// Agrees on a protocol with a viewer; `None` if the viewer supports none of the server's protocols.
     pub(super) fn greeted(stream: TcpStream, stage: &'a Stage) -> Option<Viewer<'a>> {
         stream.set_nodelay(true).ok()?;
         stream.set_read_timeout(Some(GREETING)).ok()?;
@@ -60,9 +64,9 @@ impl<'a> Viewer<'a> {
         Some(Viewer { socket, dialect: dialect?, stage, shown: Shown::default(), player, wants: Wants::default() })
     }
 
-    /// Attends to the viewer until it leaves.
+    /// Serves the viewer until it leaves.
     pub(super) fn attend(mut self) {
-        // Whoever leaves without a word is gone all the same.
+        // An abrupt disconnection counts as a normal end.
         let _ = self.converse();
     }
 
@@ -80,7 +84,7 @@ impl<'a> Viewer<'a> {
         }
     }
 
-    /// Says who serves, and what there is.
+    /// Sends the name of the server, and the channels.
     fn introduce(&mut self) -> Spoken {
         let session = format!("{}-{}", std::process::id(), self.shown.changes);
         let reel = self.shown.reel.clone();
@@ -90,7 +94,7 @@ impl<'a> Viewer<'a> {
         self.tell_state(reel.is_some(), "")
     }
 
-    /// Takes notice of what is shown now instead.
+    /// Switches to new content, if there is any.
     fn look_at_the_stage(&mut self) -> Spoken {
         let shown = self.stage.shown();
         if shown.changes == self.shown.changes {
@@ -114,7 +118,7 @@ impl<'a> Viewer<'a> {
         }
         let mut clock = None;
         for told in due.messages.map(|index| reel.message(index)) {
-            // Viewers date messages by the clock, not by their own times.
+            // Viewers date messages by the server's clock, not by the messages' log times.
             if clock != Some(told.time) {
                 self.send(live::time(told.time))?;
                 clock = Some(told.time);
@@ -129,7 +133,7 @@ impl<'a> Viewer<'a> {
         Ok(())
     }
 
-    /// Hears what is asked for, as long as there is something.
+    /// Reads the requests that have arrived.
     fn listen(&mut self) -> Spoken {
         for _ in 0..REQUESTS {
             let heard = match self.socket.read() {
@@ -190,7 +194,7 @@ impl<'a> Viewer<'a> {
         Ok(())
     }
 
-    /// What the topic has said last, so that nobody waits for what is said once.
+    /// Sends the latest message of the topic, because some messages are sent only once.
     fn tell_latest(&mut self, number: u32, topic: u16, reel: &Reel) -> Spoken {
         match reel.latest(topic, self.player.told) {
             Some(told) => self.send(live::message(number, &told)),
@@ -198,7 +202,7 @@ impl<'a> Viewer<'a> {
         }
     }
 
-    /// How it is played, to viewers that know of that.
+    /// Sends the playback state to viewers that support it.
     fn tell_state(&mut self, jumped: bool, id: &str) -> Spoken {
         match (self.dialect, &self.shown.reel) {
             (Dialect::Sdk, Some(_)) => self.send(live::state(&self.player.state(jumped), id)),
@@ -219,7 +223,7 @@ impl<'a> Viewer<'a> {
     }
 }
 
-/// Answers a call: with the protocol taken, or with those that there are.
+/// Answers the handshake: with the selected protocol, or with a list of the supported protocols.
 #[expect(clippy::result_large_err, reason = "a type of the library")]
 fn agreed(
     asking: &Asking,

@@ -1,11 +1,12 @@
-//! What a viewer has asked for.
+//! Requests of a viewer.
 
 use std::collections::BTreeMap;
 
-/// Most subscriptions of one viewer to one topic: a viewer needs one, and every one more is sent again.
+/// Largest number of subscriptions of one viewer to one topic.
+/// A viewer needs one subscription; each additional subscription repeats every message.
 const EACH: usize = 4;
 
-/// What a viewer has asked for, found by its own number and by the topic's.
+/// Subscriptions of a viewer, indexed by the viewer's number and by the topic's number.
 #[derive(Default)]
 pub(super) struct Wants {
     topics: BTreeMap<u32, u16>,
@@ -13,7 +14,8 @@ pub(super) struct Wants {
 }
 
 impl Wants {
-    /// Adds a topic under a number of the viewer's; whether that is new. One more than [`EACH`] is not.
+    /// Adds a topic under a number that the viewer chose; returns whether it was added.
+    /// A subscription to a topic is refused if the viewer already has [`EACH`] to it.
     pub(super) fn add(&mut self, number: u32, topic: u16) -> bool {
         let numbers = self.numbers.entry(topic).or_default();
         let is_new = numbers.len() < EACH && !self.topics.contains_key(&number);
@@ -39,12 +41,12 @@ impl Wants {
         *self = Wants::default();
     }
 
-    /// The viewer's numbers of a topic.
+    /// The numbers under which the viewer subscribes to a topic.
     pub(super) fn of(&self, topic: u16) -> Vec<u32> {
         self.numbers.get(&topic).cloned().unwrap_or_default()
     }
 
-    /// All numbers with their topics.
+    /// All subscription numbers with their topics.
     pub(super) fn all(&self) -> Vec<(u32, u16)> {
         self.topics.iter().map(|(&number, &topic)| (number, topic)).collect()
     }
@@ -55,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_viewer_has_as_many_subscriptions_as_there_are_topics_times_four_and_no_more() {
+    fn a_viewer_has_at_most_four_subscriptions_per_topic() {
         let mut wants = Wants::default();
         let added = (0..100_000).filter(|&number| wants.add(number, (number % 3) as u16)).count();
         assert_eq!((added, wants.all().len()), (3 * EACH, 3 * EACH));

@@ -18,7 +18,7 @@ pub(in crate::cli) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Analytic solver that the engine is compared with; the other one checks it
+    /// Analytic solver that the engine is compared with; the other analytic solver checks it
     #[arg(long, default_value = "assur", value_parser = side())]
     pub reference: Reference,
     #[command(flatten)]
@@ -27,21 +27,21 @@ pub(in crate::cli) struct Args {
     pub grid: GridArgs,
     #[command(flatten)]
     pub start: StartArgs,
-    /// Multiply every bound by this factor, to see how close a proof is to its bounds; 0 judges as usual and prints
+    /// Multiply every bound by this factor, to see how close a proof is to its bounds; 0 keeps the verdicts and prints
     /// every residual beside its bound
     #[arg(long, hide = true, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::not_negative)]
     pub tolerance_scale: Option<f64>,
-    /// Write the settings that the proof has found to the `[engine]` section of the scenario file. They are those of the
-    /// file's own mechanism, so that none of its numbers and modes may be given otherwise
+    /// Write the settings that the proof has found to the `[engine]` section of the scenario file. They hold for the
+    /// mechanism of the file, so options that change parameters, modes or the start are not allowed
     #[arg(long, conflicts_with_all = ["set", "mode", "start_crank_deg"])]
     pub write: bool,
     #[command(flatten)]
     pub record: RecordArgs,
     #[command(flatten)]
     pub live: LiveArgs,
-    /// Ask for these channels only: a stage (positions), a subject (point.P, joint.B, drive), a subject's stage
-    /// (point.P.positions) or a channel (joint.B.fx_N). What they do not depend on is not computed; published numbers of
-    /// other channels are left out. May be given several times
+    /// Request only these channels: a stage (positions), a subject (point.P, joint.B, drive), a subject's stage
+    /// (point.P.positions) or a channel (joint.B.fx_N). Quantities that they do not depend on are not computed;
+    /// published numbers of other channels are left out. May be given several times
     #[arg(long, value_name = "WORD")]
     pub only: Vec<String>,
     /// Show everything: structure, settings, every quantity, every check
@@ -50,10 +50,10 @@ pub(in crate::cli) struct Args {
     /// Show only the verdict, in one line for each file
     #[arg(short, long)]
     pub quiet: bool,
-    /// Number of files that are proven side by side; the output is the same for any number [default: all cores]
+    /// Number of files that are proven in parallel; the output is the same for any number [default: all cores]
     #[arg(long, value_name = "N")]
     pub jobs: Option<NonZeroUsize>,
-    /// Show what ran, how often and why, and what was skipped
+    /// Show what ran, how often and why, and what was omitted
     #[arg(long)]
     pub explain: bool,
     #[command(flatten)]
@@ -62,7 +62,7 @@ pub(in crate::cli) struct Args {
 
 results! { RunResults {
     Json = "the results",
-    Junit = "JUnit: a suite a scenario, a case a channel and check",
+    Junit = "JUnit: one suite per scenario, one case per channel and check",
     Markdown = "a comment for a pull request",
     Html = "a page with the moving mechanism, all channels, errors and bounds (`DIR/` for several scenarios)",
 } }

@@ -1,4 +1,4 @@
-//! What `linkproof run` shows and writes.
+//! Output of `linkproof run`: the report and the files.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -25,12 +25,13 @@ use linkage::work::Work;
 use prover::run::{EngineProof, LedgerEntry, Proof};
 use scenario::Scenario;
 
-/// What the command has shown and written so far. It takes the proofs in the order of the files.
+/// Everything that the command has shown and written so far.
+/// The session receives the proofs in the order of the files.
 pub(super) struct Session<'a> {
     args: &'a Args,
     pages: Option<Pages>,
     live: Option<&'a Live>,
-    /// What is said of the live server once all is written; `None` if there is no proof to show.
+    /// Message about the live server at the end; `None` if no proof is shown.
     live_told: Option<String>,
     document: json::Document,
     outcomes: Outcomes,
@@ -52,7 +53,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Whether standard output has the report; it is JSON otherwise.
+    /// Whether standard output carries the report; otherwise it carries JSON.
     fn reports(&self) -> bool {
         !self.args.outputs.take_standard()
     }
@@ -65,7 +66,7 @@ impl<'a> Session<'a> {
         self.worst = exit_code::BAD_INPUT;
     }
 
-    /// Shows a proof, writes its settings and its recording.
+    /// Shows a proof, and writes its settings and its recording.
     pub(super) fn take(&mut self, file: &Path, proven: Result<(Scenario, Proof)>) {
         let shown = proven.and_then(|(scenario, proof)| {
             if self.args.write {
@@ -82,7 +83,7 @@ impl<'a> Session<'a> {
                 return;
             }
         };
-        // A proof is valid whether or not it can be recorded.
+        // A failed recording does not affect the proof.
         let recording = self.record(&scenario, &proof).unwrap_or_else(|error| {
             self.failed(file, &error);
             None
@@ -94,7 +95,8 @@ impl<'a> Session<'a> {
             self.print("\n");
         }
         self.worst = graver(self.worst, exit_code::of(&proof.verdict));
-        // With several engines, the report states the failure of one. With a single engine, its failure is the outcome.
+        // With several engines, the report states the failure of each engine.
+        // With only one engine, the engine's failure is the outcome.
         if let [EngineProof { failure: Some(error), .. }] = proof.engines.as_slice() {
             output::show(error);
             self.worst = exit_code::BAD_INPUT;
@@ -104,7 +106,7 @@ impl<'a> Session<'a> {
         self.document.add(&proof, recording.map(|recorded| recorded.path.display().to_string()));
     }
 
-    /// The report of one proof: a line, what is needed to act, or everything.
+    /// Shows the report of one proof: one line, everything needed to act, or all details.
     fn show(&self, proof: &Proof) -> Result<()> {
         let args = self.args;
         if !self.reports() {
@@ -124,17 +126,18 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Whether more than the verdicts goes to the terminal.
+    /// Whether the terminal shows more than verdicts.
     fn tells(&self) -> bool {
         self.reports() && !self.args.quiet
     }
 
-    /// Prints what stands between and below the reports.
+    /// Prints text between and below the reports.
     fn print(&mut self, text: &str) {
         self.worst = graver(self.worst, output::report(text).code());
     }
 
-    /// Records a proof, unless recording is off. A recording of another run is left alone.
+    /// Records a proof, unless recording is off.
+    /// A recording of a different run is not replaced.
     fn record(&self, scenario: &Scenario, proof: &Proof) -> Result<Option<Recorded>> {
         let recorded = self.args.record.record(scenario, proof, metadata(self.args, proof))?;
         if let Some(recorded) = &recorded
@@ -145,7 +148,7 @@ impl<'a> Session<'a> {
         Ok(recorded)
     }
 
-    /// Shows a proof to viewers, if they are served.
+    /// Shows a proof to viewers, if a server is running.
     fn show_live(&mut self, scenario: &Scenario, proof: &Proof, layout: Option<&Path>) -> Result<()> {
         let Some(live) = self.live else { return Ok(()) };
         live.show_proof(&self.args.record, scenario, proof)?;
@@ -153,7 +156,7 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Writes the page of a proof, if pages are asked for.
+    /// Writes the page of a proof, if requested.
     fn page(&mut self, scenario: &Scenario, proof: &Proof) -> Result<()> {
         let Some(pages) = &mut self.pages else { return Ok(()) };
         let path = pages.write(scenario, proof, &metadata(self.args, proof))?;
@@ -164,8 +167,8 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// The table over all files, and the results for other programs; then viewers are served, if they are. Returns the
-    /// exit code.
+    /// Shows the table of all files, and writes the results for other programs.
+    /// Then serves live viewers, if requested, and returns the exit code.
     pub(super) fn end(mut self) -> u8 {
         if self.tells()
             && let Some(table) = self.closing.text(output::columns())
@@ -189,7 +192,7 @@ impl<'a> Session<'a> {
     }
 }
 
-/// What the command does about the recording.
+/// Entry about the recording.
 fn recording_told(args: &Args) -> LedgerEntry {
     let why = if args.record.is_off() { sentences::NOT_ASKED_FOR } else { "written below" };
     let work = (!args.record.is_off()).then_some(Work::NONE);
@@ -205,7 +208,7 @@ fn write_settings(file: &Path, scenario: &Scenario, proof: &Proof) -> Result<()>
     }
 }
 
-/// Versions, settings and verdict, and what the command asks for beyond the scenario's text.
+/// Versions, settings, verdict, and the requests that the command adds to the scenario's text.
 fn metadata(args: &Args, proof: &Proof) -> BTreeMap<String, String> {
     let mut metadata = recorded::metadata(proof);
     if !args.start.mode.is_empty() {

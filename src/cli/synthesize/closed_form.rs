@@ -14,7 +14,7 @@ use linkage::error::Result;
 use linkage::math::Vec2;
 use scenario::Scenario;
 
-/// Where results are written, and what a scenario needs besides dimensions.
+/// Where results are written, and the scenario's data besides dimensions.
 #[derive(Debug, clap::Args)]
 struct Target {
     #[command(flatten)]
@@ -35,14 +35,14 @@ impl Target {
         DraftContents { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m }
     }
 
-    /// Writes the results. An invalid name of a scenario is found here, not first when the scenario is run.
+    /// Writes the results. An invalid scenario name is reported here, before the scenario is run.
     fn deliver(&self, scenario: &str, told: &Told) -> Result<()> {
         self.outputs.of(ClosedForms::Scenario).try_for_each(|to| Scenario::parse(scenario, to).map(|_| ()))?;
         let result = |form| match form {
             ClosedForms::Scenario => scenario.to_string(),
             ClosedForms::Json => told.json.clone(),
         };
-        self.outputs.deliver(|form| Ok(result(form)), || told.text.clone())
+        self.outputs.deliver(|form| Ok(result(form)), |_| told.text.clone())
     }
 }
 
@@ -115,7 +115,7 @@ pub(super) struct SliderCrankArgs {
     /// Length of the rod
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number::positive)]
     rod_mm: Option<f64>,
-    /// Duration of the slower stroke over that of the faster one
+    /// Time ratio: duration of the slower stroke divided by that of the faster stroke
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = number::finite)]
     time_ratio: Option<f64>,
     #[command(flatten)]

@@ -19,12 +19,12 @@ use scenario::Scenario;
 results! { SearchResults {
     Scenario = "the scenario found",
     Json = "the result",
-    Svg = "wanted and achieved motion",
+    Svg = "required and achieved motion",
 } }
 
 results! { CheckResults {
     Json = "the result",
-    Svg = "wanted and achieved motion",
+    Svg = "required and achieved motion",
 } }
 
 #[derive(Debug, clap::Args)]
@@ -44,7 +44,7 @@ pub(super) struct Args {
     /// Evaluations of each refinement [default: the file's]
     #[arg(long, value_name = "N")]
     evaluations: Option<usize>,
-    /// Threads; the result does not depend on them [default: as many as the machine has]
+    /// Threads; the result does not depend on them [default: the number of cores]
     #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
     threads: usize,
     #[command(flatten)]
@@ -75,7 +75,7 @@ pub(super) fn search(args: &Args) -> Result<()> {
     let found = synthesize::search(&task, args.threads, &mut |part| bar.at(part))?;
     drop(bar);
     let values = redraw::round_values(&task, &found.values);
-    // The reported figures are measured on the scenario as it is written and read back.
+    // The scenario is written and read back first; the reported figures are measured on the scenario as read.
     let place = drawing.path.with_file_name(format!("{}.toml", task.name));
     let bare = Scenario::parse(&redraw::redrawn(&task, &drawing.text, &values, "")?, &place)?;
     let own = Task { case: bare.case, ..task.clone() };
@@ -88,10 +88,10 @@ pub(super) fn search(args: &Args) -> Result<()> {
         SearchResults::Json => report::json(&story),
         SearchResults::Svg => svg(&story),
     };
-    args.outputs.deliver(|form| Ok(result(form)), || report::text(&story))
+    args.outputs.deliver(|form| Ok(result(form)), |_| report::text(&story))
 }
 
-/// How the scenario was found, and how good it is.
+/// Comment on the origin of the scenario and its quality.
 fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
     let effort = &task.effort;
     let command = sentences::linkproof_synthesize_search_seed_candidates(
@@ -120,7 +120,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<()> {
         CheckResults::Json => report::json(&story),
         CheckResults::Svg => svg(&story),
     };
-    args.outputs.deliver(|form| Ok(result(form)), || report::text(&story))
+    args.outputs.deliver(|form| Ok(result(form)), |_| report::text(&story))
 }
 
 fn svg(story: &Story) -> String {

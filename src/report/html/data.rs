@@ -1,4 +1,4 @@
-//! What the script of a page reads: columns of all channels, errors, bounds, and what moves.
+//! Data for the script of a page: columns of all channels, errors, bounds, and moving parts.
 
 use serde_json::{Map, Value, json};
 
@@ -62,7 +62,7 @@ fn judgement(own: &ChannelProof, tell: Tell) -> Value {
     })
 }
 
-/// What moves, in units of the picture; columns are told by their place among the channels.
+/// The moving parts, in picture units; a column is given by its index among the channels.
 pub(super) fn motion(proof: &Proof, sketch: &Sketch, view: [f64; 4]) -> Value {
     let (mechanism, unit) = (&proof.scene.case.mechanism, sketch.unit);
     let channels = proof.reference_trajectory.channels();
@@ -118,7 +118,7 @@ pub(super) fn pair(at: Vec2) -> Value {
     json!([at.x, at.y])
 }
 
-/// The number of a link, and a place in its frame (m).
+/// The number of a link, and a point in its frame (m).
 pub(super) fn side(side: JointSide) -> Value {
     json!([side.link.index(), side.local.x, side.local.y])
 }

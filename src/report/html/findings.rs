@@ -1,4 +1,4 @@
-//! Findings of a page in words: why the verdict is what it is, and what else was found.
+//! Findings of a page in words: the reasons of the verdict, and everything else that was found.
 
 use super::markup::escaped;
 use crate::plain::judged::{Grade, grade, unproven};
@@ -8,19 +8,20 @@ use linkage::trajectory::Channel;
 use prover::bounds::Verdict;
 use prover::run::Proof;
 
-/// Reasons at the head of the page; the others stand among the findings.
+/// Number of reasons at the top of the page; the findings list the other reasons.
 const FIRST: usize = 3;
-/// Reasons that are written out at most; the others are in the tables of the page.
+/// Largest number of reasons written in full; the tables of the page have the other reasons.
 const MOST: usize = 12;
 
-/// Why something disagrees or is open, and how many verdicts have that reason.
+/// The reason why something disagrees or is open, and the number of verdicts with that reason.
 struct Reason {
     key: String,
     told: String,
     count: usize,
 }
 
-/// Why the verdict is no agreement, for the head of the page: the diagnosis and the first reasons. Empty if all agree.
+/// Why the verdict is not an agreement, for the top of the page: the diagnosis and the first reasons.
+/// Empty if everything agrees.
 pub(super) fn why(proof: &Proof, tell: Tell) -> String {
     if agrees(proof) {
         return String::new();
@@ -32,13 +33,13 @@ pub(super) fn why(proof: &Proof, tell: Tell) -> String {
     format!("<div id=\"why\">\n{}</div>", paragraphs(&told))
 }
 
-/// Everything else that is found; empty where there is nothing to say.
+/// All other findings; empty if there are none.
 pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     let mut told = String::new();
     if proof.engines.len() > 1 {
         say!(told, sentences::engines_and_reference_against_each(&engines::disputes(proof)));
     }
-    // What does not decide the verdict may be open beside an agreement.
+    // In an agreement, only points that do not decide the verdict may be open.
     if agrees(proof) {
         faults(proof, &mut told);
     }
@@ -56,7 +57,7 @@ fn agrees(proof: &Proof) -> bool {
     grade(&proof.verdict) == Grade::Agree
 }
 
-/// What became of an engine that failed, or whose own forces are wrong.
+/// Reports engines that failed, and engines with wrong exerted forces.
 fn faults(proof: &Proof, told: &mut String) {
     for engine in &proof.engines {
         if let (Some(error), 1) = (&engine.failure, proof.engines.len()) {
@@ -78,7 +79,7 @@ fn write(all: &[Reason], which: std::ops::Range<usize>, told: &mut String) {
     }
 }
 
-/// The reasons of all verdicts, those that say the same once; what disagrees first.
+/// The distinct reasons of all verdicts, disagreements first.
 fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
     let mut all: Vec<Reason> = Vec::new();
     for (name, verdict) in unproven(proof) {
@@ -92,7 +93,8 @@ fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
     all
 }
 
-/// What reasons that say the same have in common: the cause, the words without their numbers, or the name without its side.
+/// Key under which equivalent reasons are counted once.
+/// It is the cause, or the reason's words without numbers, or the name without its side.
 fn key(name: &str, verdict: &Verdict, reason: &str) -> String {
     let bare = name.replace(" (assur)", "").replace(" (newton)", "");
     let channel = bare.split([' ', '(']).next().unwrap_or_default();
@@ -108,7 +110,7 @@ fn key(name: &str, verdict: &Verdict, reason: &str) -> String {
     }
 }
 
-/// Blocks between empty lines as paragraphs, their lines as lines, formulas between backticks as code.
+/// Converts blocks between empty lines to paragraphs, keeps line breaks, and converts text in backticks to code.
 fn paragraphs(told: &str) -> String {
     let blocks = told.split("\n\n").map(str::trim).filter(|block| !block.is_empty());
     blocks.map(|block| format!("<p>{}</p>\n", coded(&escaped(block)).replace('\n', "<br>\n"))).collect()
@@ -131,7 +133,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reasons_that_say_the_same_have_the_same_key() {
+    fn equivalent_reasons_have_the_same_key() {
         let open = Verdict::Inconclusive { reason: String::new(), advice: Vec::new() };
         let wrong = Verdict::Disagree { place: String::new() };
         let keys = [("a", "may reach 2.4 %"), ("b", "may reach 46 %")].map(|(name, why)| key(name, &open, why));
@@ -147,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn formulas_are_code() {
+    fn backquoted_formulas_are_rendered_as_code() {
         assert_eq!(paragraphs("a `x<1` b\n\nc `d"), "<p>a <code>x&lt;1</code> b</p>\n<p>c `d</p>\n");
     }
 }

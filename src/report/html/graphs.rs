@@ -13,7 +13,7 @@ use linkage::trajectory::{Channel, Trajectory};
 
 /// Points of the motor's curve.
 const POINTS: u32 = 240;
-/// What a motor's curve shows beyond the speeds of the run, as a share of them.
+/// Upper limit of the speed axis of the motor's curve / the larger of the run's largest speed and the no-load speed.
 const BEYOND: f64 = 1.15;
 
 /// Graphs over the crank angle.
@@ -29,7 +29,7 @@ pub(super) fn over_crank(graphs: &Graphs) -> Value {
     json!({ "period": graphs.period, "graphs": each, "note": graphs.notes.last() })
 }
 
-/// The moment of the crank's motor on the crank over the crank's speed, in the motor's sense; `null` without a motor.
+/// The moment of the motor on the crank over the crank's speed, in the motor's direction; `null` without a motor.
 pub(super) fn motor(case: &Case, trajectory: &Trajectory) -> Value {
     let Some(motor) = case.crank().motor() else { return Value::Null };
     let sense = case.crank().sense();

@@ -1,4 +1,4 @@
-//! What acts on the mechanism besides the reactions, row by row: loads, springs and dampers, drives, weights.
+//! Everything except reactions that acts on the mechanism, row by row: loads, springs and dampers, drives, weights.
 
 use crate::sentences;
 use serde_json::{Value, json};
@@ -13,12 +13,13 @@ use linkage::drive::{Load, Senses};
 use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Numbers in single precision that a row takes.
+/// Number of single-precision values in a row.
 pub(super) fn width(case: &Case) -> usize {
     2 * case.loads.len()
 }
 
-/// Everything that acts, for the script of a page. Loads that depend on velocities are left out where none are known.
+/// Everything that acts on the mechanism, for the script of a page.
+/// Loads that depend on velocities are omitted if the velocities are unknown.
 pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], reference: &Trajectory) -> Value {
     let is_known = |load: &Load| {
         let nature = load.nature();
@@ -50,7 +51,7 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
     let drives = case.drives.with_moment().filter_map(|(number, drive)| {
         let joint = &mechanism.joints()[drive.joint];
         let is_its_moment = |channel: &Channel| seats.of(channel) == Some(Seat::Drive(number));
-        // A scenario may want no moments.
+        // The channels may include no moments.
         let torque = reference.channels().iter().position(is_its_moment)?;
         let what = if drive.is_free() { sentences::MOMENT_OF_THE_MOTOR } else { "balancing moment" };
         let at = JointSide { link: drive.link, local: joint.on(drive.link).expect("a drive's joint is on its link") };
@@ -90,7 +91,7 @@ fn name(mechanism: &Mechanism, load: &Load) -> String {
     }
 }
 
-/// The point or joint in this place of a link.
+/// The point or joint at this position of a link.
 fn point(mechanism: &Mechanism, at: JointSide) -> Option<&str> {
     let points = mechanism.links()[at.link].points.iter();
     let named = points.filter(|own| own.local == at.local).map(|own| own.name.as_str()).next();

@@ -1,10 +1,10 @@
-//! Text and numbers in the form in which a page holds them.
+//! Text and numbers in the form used on a page.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
-/// Text that stands in a page, or in other XML, as it is, between tags and in attributes.
+/// Text for a page or other XML, valid between tags and in attributes.
 pub(in crate::report) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -14,7 +14,7 @@ pub(in crate::report) fn escaped(text: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            // No page may hold them, not even as entities.
+            // HTML does not allow these characters, not even as entities.
             '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' => out.push('\u{fffd}'),
             _ => out.push(letter),
         }
@@ -22,12 +22,13 @@ pub(in crate::report) fn escaped(text: &str) -> String {
     out
 }
 
-/// JSON that stands in a script element: nothing in it can end the element.
+/// JSON for a script element: nothing in it can end the element.
 pub(super) fn contained(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 
-/// A template with its `{{slots}}` filled. What is filled in is not looked at again.
+/// A template with its `{{slots}}` filled.
+/// The inserted text is not searched for slots.
 pub(in crate::report) fn filled(template: &str, slots: &[(&str, &str)]) -> String {
     let mut parts = template.split("{{");
     let mut out = parts.next().unwrap_or_default().to_string();
@@ -44,12 +45,12 @@ pub(super) fn doubles(values: impl Iterator<Item = f64>) -> String {
     STANDARD.encode(values.flat_map(f64::to_le_bytes).collect::<Vec<u8>>())
 }
 
-/// The same in single precision.
+/// Numbers in single precision, little-endian, in base64.
 pub(super) fn singles(values: impl Iterator<Item = f64>) -> String {
     STANDARD.encode(values.flat_map(|value| (value as f32).to_le_bytes()).collect::<Vec<u8>>())
 }
 
-/// A column of numbers in single precision; one number where all are the same.
+/// A column of numbers in single precision; a single number if all are equal.
 pub(super) fn column(mut values: impl Iterator<Item = f64> + Clone) -> Value {
     let all = values.clone();
     match values.next() {
@@ -63,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_that_is_filled_in_is_markup() {
+    fn inserted_text_is_escaped() {
         let name = "</script><b a=\"1\" b='2'>&\u{1}{{x}}";
         assert_eq!(
             filled("<i>{{x}}</i>{{y}}", &[("x", &escaped(name)), ("y", "")]),

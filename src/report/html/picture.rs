@@ -7,20 +7,20 @@ use drawing::{Fill, Ink, Layer, Mark, MarkShape, Sketch};
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkId, LinkPose};
 
-/// Room around the motion, in units: for arrows and names.
+/// Margin around the motion for arrows and names, in picture units.
 const MARGIN: f64 = 15.0;
-/// Radius of an engine's pin over that of the reference.
+/// Ratio of an engine's pin radius to that of the reference.
 const RING: f64 = 1.5;
 
-/// The view of a room (m) in units: x, y (downwards), width, height.
+/// The view of an area (m), in picture units: x, y (downwards), width, height.
 pub(super) fn view([x, y]: [[f64; 2]; 2], unit: f64) -> [f64; 4] {
     let [wide, height] = [x, y].map(|ends| (ends[1] - ends[0]) / unit + 2.0 * MARGIN);
-    // No higher than wide: the controls below stay in sight.
+    // The picture is at most as high as wide, so that the controls below stay visible.
     let width = wide.larger(height);
     [x[0] / unit - MARGIN - (width - wide) / 2.0, -y[1] / unit - MARGIN, width, height]
 }
 
-/// The ground, the reference and, dashed with hollow pins, an engine, at this row.
+/// The ground, the reference and an engine (dashed, with hollow pins) at this row.
 pub(super) fn drawn(sketch: &Sketch, placed: &Placed, view: [f64; 4], row: usize) -> String {
     let [x, y, width, height] = view.map(number);
     let mut out = format!(
@@ -45,7 +45,7 @@ pub(super) fn drawn(sketch: &Sketch, placed: &Placed, view: [f64; 4], row: usize
     out
 }
 
-/// Marks in their order, those of one link that follow each other in one element.
+/// Marks in their order; consecutive marks of one link share an element.
 fn group(
     order: &[(LinkId, &Mark)],
     sketch: &Sketch,
@@ -73,7 +73,8 @@ fn group(
     out
 }
 
-/// Places a link: its coordinates are units, y upwards; those of the picture are units, y downwards.
+/// The SVG transform of a link: link coordinates have y upwards, picture coordinates have y downwards; both are in
+/// picture units.
 fn transform(pose: LinkPose, unit: f64) -> String {
     let (sine, cosine) = pose.angle.sin_cos();
     let at = pose.origin / unit;
@@ -107,30 +108,30 @@ fn element(mark: &Mark, unit: f64) -> String {
     }
 }
 
-/// The way through some points, in units.
+/// The path through some points, in units.
 pub(super) fn path(points: impl Iterator<Item = [f64; 2]>, closed: bool) -> String {
     let points: Vec<String> = points.map(|[x, y]| format!("{} {}", number(x), number(y))).collect();
     format!("M{}{}", points.join("L"), if closed { "Z" } else { "" })
 }
 
-/// A length in units, to a tenth of a thousandth of one.
+/// A length in units, to four decimals.
 fn number(value: f64) -> String {
     let text = format!("{value:.4}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
     if short == "-0" { "0".into() } else { short.into() }
 }
 
-/// Name of a property of the page's own in its style.
+/// Name of a custom property in the style of the page.
 fn property(name: &str) -> String {
     format!("--{name}")
 }
 
-/// Name of the colour of a link; that of its elements' class too.
+/// Name of the colour of a link, and of the class of its elements.
 fn of_link(link: LinkId) -> String {
     format!("k{link}")
 }
 
-/// Rules for the colours of all links and of what else is drawn: on light paper, or on dark.
+/// Rules for the colours of all links and other marks, on a light or dark background.
 pub(super) fn colours(links: usize, dark: bool) -> String {
     let rule = |name: &str, paint: palette::PaletteColour| {
         format!("{}:{}", property(name), if dark { paint.dark } else { paint.light })

@@ -1,4 +1,4 @@
-//! Where the links of a mechanism are and how they move, row by row, and the room that the motion takes.
+//! Positions and motions of the links of a mechanism, row by row, and the area that the motion covers.
 
 use super::thinned::ends;
 use linkage::case::Case;
@@ -7,12 +7,12 @@ use linkage::mechanism::{GROUND, LinkId, LinkPose, Mechanism};
 use linkage::solver::State;
 use linkage::trajectory::{Channel, Trajectory};
 
-/// A mechanism with the places of all its links.
+/// A mechanism with the positions of all its links.
 pub(super) struct Placed<'a> {
     pub(super) mechanism: &'a Mechanism,
     /// Columns of each moving link: angle and coordinates of the mass centre.
     links: Vec<[&'a [f64]; 3]>,
-    /// Their rates, and the rates of these, as far as all links have them.
+    /// First and second derivatives of these columns; a derivative is present only if all links have it.
     rates: Vec<Vec<[&'a [f64]; 3]>>,
 }
 
@@ -21,7 +21,7 @@ const SUFFIXES: [[&str; 3]; 3] =
     [["angle_rad", "x_m", "y_m"], ["omega_rad_s", "vx_m_s", "vy_m_s"], ["alpha_rad_s2", "ax_m_s2", "ay_m_s2"]];
 
 impl<'a> Placed<'a> {
-    /// `None` if the position of a link is not among the channels, or if there is no instant.
+    /// `None` if the channels lack the position of a link, or if the grid has no instant.
     pub(super) fn of(mechanism: &'a Mechanism, trajectory: &'a Trajectory) -> Option<Self> {
         let columns = |suffixes: [&str; 3]| -> Option<Vec<[&'a [f64]; 3]>> {
             let of_link = |name: &str| {
@@ -36,12 +36,12 @@ impl<'a> Placed<'a> {
         (!trajectory.times().is_empty()).then_some(Placed { mechanism, links, rates })
     }
 
-    /// Whether velocities of all links are known; with accelerations, up to these.
+    /// Whether the velocities of all links are known, and with `accelerations` the accelerations too.
     pub(super) fn knows(&self, accelerations: bool) -> bool {
         self.rates.len() > usize::from(accelerations)
     }
 
-    /// The state in a row: places, and velocities and accelerations as far as they are known, 0 where they are not.
+    /// The state in a row: positions, velocities and accelerations; unknown rates are 0.
     pub(super) fn state(&self, case: &Case, row: usize) -> State {
         let mut state = State::at_rest(case);
         for (number, link) in self.mechanism.links().entries().skip(1) {
@@ -56,7 +56,7 @@ impl<'a> Placed<'a> {
         state
     }
 
-    /// World place (m) of a point of a link.
+    /// World position (m) of a point of a link.
     pub(super) fn point(&self, row: usize, link: LinkId, local: Vec2) -> Vec2 {
         self.pose(row, link).point(local)
     }
@@ -70,7 +70,7 @@ impl<'a> Placed<'a> {
         LinkPose::through(self.mechanism.links()[link].mass_centre, Vec2::new(x, y), angle)
     }
 
-    /// Least and greatest coordinates (m) of all points and joints over these rows: along x, along y.
+    /// Smallest and largest coordinates (m) of all points and joints over these rows: along x, along y.
     pub(super) fn room(&self, rows: &[usize]) -> [[f64; 2]; 2] {
         let links = self.mechanism.links().entries();
         let points = links.flat_map(|(link, own)| own.points.iter().map(move |point| (link, point.local)));
@@ -81,7 +81,7 @@ impl<'a> Placed<'a> {
     }
 }
 
-/// The length (m) of a unit in a picture of this room: it is at most 120 units wide and 84 high.
+/// The length (m) of a unit in a picture of this area: the picture is at most 120 units wide and 84 high.
 pub(super) fn unit(mechanism: &Mechanism, [x, y]: [[f64; 2]; 2]) -> f64 {
     let unit = ((x[1] - x[0]) / 120.0).larger((y[1] - y[0]) / 84.0);
     if unit > 0.0 { unit } else { drawing::unit(mechanism) }

@@ -9,7 +9,7 @@ use design::plan::{Planner, Quantity, VectorPlan};
 use linkage::case::Case;
 use linkage::solver::State;
 
-/// Numbers in single precision that a row takes, about.
+/// Approximate number of single-precision values in a row.
 pub(super) fn width(case: &Case, placed: &Placed, row: usize) -> usize {
     let (planner, state) = (Planner::of(&case.mechanism), placed.state(case, row));
     quantities(placed).map(|quantity| 2 * planner.plan(quantity, &state).tips.len()).sum()
@@ -31,7 +31,8 @@ pub(super) fn of(case: &Case, placed: &Placed, rows: &[usize]) -> Value {
     })
 }
 
-/// The plan of one quantity. Where a part vanishes, a plan has fewer vectors: every row tells its layout.
+/// The plan of one quantity at all rows.
+/// A plan has fewer vectors if a component vanishes, so every row states which vectors it has.
 fn course(quantity: Quantity, planner: &Planner, states: &[State]) -> Value {
     let plans: Vec<VectorPlan> = states.iter().map(|state| planner.plan(quantity, state)).collect();
     let mut layouts: Vec<&VectorPlan> = Vec::new();

@@ -8,23 +8,24 @@ use linkage::trajectory::{Channel, Stage, Trajectory};
 
 use prover::run::Proof;
 
-/// Bytes of base64 that all columns may take. A page then stays below 3 MB.
+/// Limit for all columns, in bytes of base64; the page then stays below 3 MB.
 const BYTES: usize = 1_900_000;
 
-/// Errors of an engine, channel by channel of the reference; NaN where it has no value.
+/// Errors of an engine for each channel of the reference; NaN if the engine has no value.
 pub(super) type Errors = Vec<Option<Vec<f64>>>;
 
-/// What a page shows of all instants.
+/// The part of all instants that a page shows.
 pub(super) struct Thinned {
     /// Rows of the reference's grid, in ascending order of time.
     pub(super) rows: Vec<usize>,
-    /// How many instants there are.
+    /// Number of all instants.
     pub(super) all: usize,
 }
 
 impl Thinned {
-    /// All instants, or as many as a page holds: evenly chosen, and the extremes of values and errors. A row has so many
-    /// numbers in single precision `beside` channels and errors.
+    /// The instants of a page: all, or as many as fit.
+    /// If not all fit, they are evenly chosen instants, and the extremes of values and errors.
+    /// `beside` is the number of single-precision values in a row in addition to channels and errors.
     pub(super) fn of(proof: &Proof, errors: &[Errors], beside: usize) -> Thinned {
         let reference = &proof.reference_trajectory;
         let times = reference.times();
@@ -44,7 +45,7 @@ impl Thinned {
     }
 }
 
-/// Whether a page holds a channel in doubles: places must meet, whatever their distance from the origin.
+/// Whether a page stores a channel in double precision, so that joined parts meet even far from the origin.
 pub(super) fn is_wide(channel: &Channel) -> bool {
     channel.kind.stage == Stage::Positions
 }
@@ -53,11 +54,11 @@ pub(super) fn is_wide(channel: &Channel) -> bool {
 fn bytes_of_row(reference: &Trajectory, errors: &[Errors], beside: usize) -> usize {
     let values: usize = reference.channels().iter().map(|own| if is_wide(own) { 8 } else { 4 }).sum();
     let errors: usize = errors.iter().flatten().map(|own| if own.is_some() { 4 } else { 0 }).sum();
-    // Time and crank angle are doubles; base64 takes four letters for three bytes.
+    // Time and crank angle are doubles; base64 uses four characters for three bytes.
     (16 + values + errors + 4 * beside) * 4 / 3
 }
 
-/// Rows with the largest error, the least or the greatest value of any channel; errors first.
+/// Rows at which a channel has its largest error, its smallest or its largest value; rows of errors come first.
 fn extremes(reference: &Trajectory, errors: &[Errors]) -> Vec<usize> {
     let place = |values: &[f64], better: fn(f64, f64) -> bool| {
         let mut best: Option<(usize, f64)> = None;
@@ -75,7 +76,7 @@ fn extremes(reference: &Trajectory, errors: &[Errors]) -> Vec<usize> {
     of_errors.chain(of_values).collect()
 }
 
-/// Engine minus reference over the whole grid, for every engine. An engine that stopped has no errors beyond.
+/// Engine minus reference over the whole grid, for every engine. If an engine stopped, the later errors are missing.
 pub(super) fn errors(proof: &Proof) -> Vec<Errors> {
     let reference = &proof.reference_trajectory;
     let of = |own: &Trajectory| -> Errors {
@@ -110,7 +111,7 @@ fn matching(times: &[f64], others: &[f64]) -> Vec<Option<usize>> {
     times.iter().map(at).collect()
 }
 
-/// Least and greatest of some numbers; zeros if there are none.
+/// Smallest and largest of some numbers; zeros if there are no numbers.
 pub(super) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let [low, high] =
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.smaller(value), high.larger(value)]);
@@ -122,7 +123,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn instants_meet_whatever_their_order() {
+    fn instants_are_matched_in_any_order() {
         assert_eq!(matching(&[0.0, 2.0, 1.0], &[1.0, 0.0]), [Some(1), None, Some(0)]);
         assert_eq!(matching(&[0.0], &[]), [None]);
         assert_eq!(ends([2.0, -1.0].into_iter()), [-1.0, 2.0]);

@@ -1,4 +1,4 @@
-//! What a page says in words: verdict, structure, settings.
+//! Texts of a page: verdict, structure, settings.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -14,7 +14,7 @@ use prover::run::Proof;
 /// Longest scenario that is shown (bytes).
 const LONGEST: usize = 200_000;
 
-/// Sign and word of a verdict on the whole.
+/// Sign and word of a proof's verdict.
 pub(super) fn verdict(proof: &Proof) -> String {
     let grade = grade(&proof.verdict);
     let sign = match grade {
@@ -26,7 +26,7 @@ pub(super) fn verdict(proof: &Proof) -> String {
     format!("<span class=\"{class}\"><span aria-hidden=\"true\">{sign}</span> {word}</span>")
 }
 
-/// One sentence on how much was judged, and by what.
+/// One sentence on how much was judged, and by which parties.
 pub(super) fn sentence(proof: &Proof) -> String {
     let engine = if proof.engines.len() == 1 { "Engine" } else { "Engines" };
     let parties: Vec<&str> = proof.engines.iter().map(|engine| engine.info.name).collect();
@@ -34,12 +34,13 @@ pub(super) fn sentence(proof: &Proof) -> String {
     escaped(&format!("{judged} Reference: {}. {engine}: {parties}; {at}.", proof.reference))
 }
 
-/// Checks, and forces as engines themselves exert them, as a table; what uses most of its bound first.
+/// Table of the checks and of the forces that engines themselves exert, sorted by the fraction of the bound that they
+/// use.
 pub(super) fn checks(proof: &Proof) -> String {
     let share = |own: &JudgedNumber| if own.bound > 0.0 { own.value / own.bound } else { f64::from(own.value > 0.0) };
     let mut all = judged::of(proof);
     all.retain(|own| own.sort != Sort::Channel);
-    // Of those that use as much, checks stand first.
+    // At equal fractions, checks come first.
     all.sort_by_key(|own| own.sort != Sort::Check);
     all.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let rows = all.into_iter().map(|own| {
@@ -108,13 +109,13 @@ fn joints(mechanism: &Mechanism) -> String {
     table("Joints", &["joint", "kind", "first link", "second link"], rows.collect())
 }
 
-/// A row of a table; the `last` cell is one already.
+/// A row of a table; `last` is already a cell.
 fn row(cells: &[String], last: &str) -> String {
     let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
     format!("<tr>{cells}{last}</tr>\n")
 }
 
-/// What is wider than a phone scrolls by itself.
+/// Wide content that scrolls separately on a phone.
 fn scrolling(label: &str, inside: &str) -> String {
     format!(
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{label}\"><table>{inside}</tbody></table></div>\n"
@@ -137,7 +138,7 @@ pub(super) fn settings(told: &BTreeMap<String, String>) -> String {
     scrolling(sentences::SETTINGS_AND_VERSIONS, &format!("<tbody>\n{rows}"))
 }
 
-/// The scenario as it was given.
+/// The scenario in its original form.
 pub(super) fn scenario(given: &str) -> String {
     match given.len() {
         0 => "<p>The case was built in code; there is no file.</p>".into(),

@@ -1,5 +1,5 @@
-//! What a family has come to, as JSON, schema 1, and back. A point is taken back only as it was written: it has a digest of
-//! its text.
+//! Stores the results of a family as JSON, schema 1, and reads them back.
+//! Each point contains a digest of its text; a changed point is not read back.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -26,7 +26,7 @@ struct Sealed<O> {
     digest: String,
 }
 
-/// FNV-1a of what a point says, its digest left out.
+/// FNV-1a of the text of a point without its digest.
 fn digest(outcome: &StressOutcome) -> String {
     let bare = Sealed { outcome, digest: String::new() };
     fnv(&serde_json::to_string(&bare).expect("texts and numbers can be written"))
@@ -45,8 +45,9 @@ pub(crate) fn json<'a>(family: &StressFamily, seed: u64, outcomes: impl Iterator
     serde_json::to_string_pretty(&document).expect("texts and numbers can be written") + "\n"
 }
 
-/// The results that a text holds. A text of another schema, or none of ours, holds none: everything is made anew. So is
-/// a point that was changed since it was written, or that no point could be.
+/// The results in a text.
+/// A text with another schema, or from another program, gives no results, so everything is computed anew.
+/// A changed or invalid point is also computed anew.
 pub(crate) fn outcomes(text: &str) -> Vec<StressOutcome> {
     let document: Option<Document<Value>> = serde_json::from_str(text).ok();
     let points = document.filter(|own| own.schema == SCHEMA).map_or_else(Vec::new, |own| own.points);

@@ -1,6 +1,6 @@
-//! The map of a family: errors and bounds of all parties over the dial, as SVG.
+//! The map of a family as SVG: errors and bounds of all parties over the varied parameter.
 //!
-//! Every party has a colour and a mark of its own, and a verdict is the mark's filling.
+//! Every party has a separate colour and mark; the filling of a mark shows the verdict.
 
 use super::super::chart::{Chart, DASHED, Filling, colour, decades, mark};
 use super::summary::names;
@@ -15,17 +15,17 @@ use linkage::math::{KeepNan, Vec2};
 /// Size of a panel, and height of the head with the legend (mm).
 const PANEL: [f64; 2] = [217.0, 72.0];
 const HEAD: f64 = 24.0;
-/// Smallest and largest number on the axis of errors. What is beyond stands at the edge.
+/// Smallest and largest number on the axis of errors; numbers outside are drawn at the edge.
 const ERRORS: [f64; 2] = [1e-17, 1e3];
-/// Where the strip of failures begins, its middle, and its upper end.
+/// Lower end of the strip of failures, its middle, and its upper end.
 const FAILED: [f64; 3] = [1e4, 1e5, 1e6];
-/// Size of a mark, and distance of the marks of two parties that fail at one point (mm).
+/// Size of a mark, and distance between the marks of parties that fail at the same point (mm).
 const MARK: f64 = 1.3;
 const ASIDE: f64 = 0.8;
 /// Font size of the legend (mm).
 const LETTER: f64 = 3.4;
 
-/// The map. Panels are positions, rates and forces.
+/// The map of a family. Its panels are positions, rates and forces.
 pub(crate) fn map(family: &StressFamily, outcomes: &[&StressOutcome]) -> String {
     let names = names(outcomes);
     let title = format!("{}: {}", family.name, family.title);
@@ -78,19 +78,19 @@ fn panel(family: &StressFamily, outcomes: &[&StressOutcome], names: &[&str], gro
     let wide = if high > low { (high / low).powf(0.04) } else { 2.0 };
     let along = [low / wide, high * wide];
     let mut chart = Chart::new(PANEL, [along, [ERRORS[0], FAILED[2]]]);
-    // Where the dial spans less than a decade, its own values stand below the axis.
+    // If the parameter spans less than a decade, the axis shows its values.
     let numbers = if along[1] / along[0] < 10.0 { distinct(dials()) } else { decades(along, 13) };
     chart.axes([&numbers, &decades(ERRORS, 7)], &sentences::error_over_the_scale(&group.name()), family.dial);
     chart.level(FAILED[0], solid(GREY, 0.3));
     let clipped = |error: f64| if error.is_nan() { ERRORS[1] } else { error.clamp(3.0 * ERRORS[0], ERRORS[1]) };
     let mut is_empty = true;
     for (number, name) in names.iter().enumerate() {
-        // Where a party has numbers, its errors and its bounds are lines.
+        // Errors and bounds of a party are connected by a line; the line is interrupted where a value is not a number.
         let mut lines: Vec<[Vec<Vec2>; 2]> = vec![Default::default()];
         let mut marks = Vec::new();
         for own in outcomes {
             let Some(party) = own.parties.iter().find(|party| party.name == *name) else { continue };
-            // Several samples stand side by side.
+            // Several samples are drawn side by side.
             let dial = own.dial * (1.0 + 0.004 * own.sample as f64);
             let Some(reached) = party.reached.iter().find(|own| own.group == group) else {
                 if party.verdict == PointEnd::Fails {
@@ -126,12 +126,12 @@ mod tests {
     use super::*;
     use lab::stress::named;
 
-    /// Symptom: empty diagrams, without a word.
+    /// Symptom: empty diagrams without a message.
     #[test]
-    fn regress_a_map_without_numbers_says_so() {
+    fn regress_a_map_without_data_is_labelled_as_empty() {
         let family = named("step").unwrap();
-        let refused = String::from("no mechanism");
+        let refused = String::from("not a valid mechanism");
         let outcome = StressOutcome { dial: 1.0, sample: 0, key: String::new(), refused, parties: Vec::new() };
-        assert_eq!(map(family, &[&outcome]).matches("nothing to draw").count(), QuantityGroup::ALL.len());
+        assert_eq!(map(family, &[&outcome]).matches("no data to draw").count(), QuantityGroup::ALL.len());
     }
 }

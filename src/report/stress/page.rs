@@ -1,4 +1,4 @@
-//! The page of the documentation: all families with their tables and maps.
+//! The documentation page: all families with their tables and maps.
 
 use super::super::chart::label;
 use super::super::html::filled;
@@ -6,14 +6,15 @@ use super::summary::{Tally, cells, names};
 use crate::plain::cells::marked;
 use lab::stress::{StressFamily, StressOutcome};
 
-/// The page as Markdown. `command` is what makes it, `maps` the directory of the maps as the page names it.
+/// The page as Markdown.
+/// `command` generates it; `maps` is the directory of the maps, relative to the page.
 pub(crate) fn page(families: &[(&StressFamily, Vec<&StressOutcome>)], command: &str, maps: &str) -> String {
     let tally = Tally::of(families.iter().flat_map(|(_, all)| all.iter().copied()));
     let mut text = filled(include_str!("page.md"), &[("command", command), ("verdict", &tally.verdict())]);
     for (family, outcomes) in families {
         put!(
             text,
-            "\n## {}\n\n{}.\nDial: {}.\n\n| | agrees at | not | positions | rates | forces | over bound | widest bound |\n|---|---|---|---|---|---|---|---|\n",
+            "\n## {}\n\n{}.\nDial: {}.\n\n| | agrees at | otherwise | positions | rates | forces | over bound | widest bound |\n|---|---|---|---|---|---|---|---|\n",
             family.name,
             capital(family.title),
             family.dial

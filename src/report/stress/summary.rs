@@ -1,4 +1,4 @@
-//! Stability as text, verdict first: where every solver and engine holds to, and what does not.
+//! Stability as text, the verdict first: the limit up to which every solver and engine works, and the failures.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -14,13 +14,13 @@ use lab::stress::{PointEnd, QuantityGroup, StressFamily, StressOutcome};
 pub(crate) struct Tally {
     /// Points with results.
     pub(crate) points: usize,
-    /// Points that are no case, with their reason.
+    /// Points that are not valid cases.
     pub(crate) refused: usize,
-    /// Points at which something panicked.
+    /// Points at which a solver or engine panicked.
     pub(crate) panics: usize,
     /// Results of solvers and engines by verdict, in the order of [`PointEnd::ALL`].
     pub(crate) verdicts: [usize; PointEnd::ALL.len()],
-    /// Channels beyond their bound that no verdict tells of.
+    /// Number of channels that exceed their bounds although no verdict reports it.
     pub(crate) silent: usize,
 }
 
@@ -65,7 +65,7 @@ impl Tally {
     }
 }
 
-/// The results of families, as text. `hint` says how a single one is looked at.
+/// The results of families, as text.
 pub(crate) fn text(families: &[(&StressFamily, Vec<&StressOutcome>)]) -> String {
     let mut text = String::new();
     let tally = Tally::of(families.iter().flat_map(|(_, all)| all.iter().copied()));
@@ -76,10 +76,10 @@ pub(crate) fn text(families: &[(&StressFamily, Vec<&StressOutcome>)]) -> String 
     text
 }
 
-/// One family: a table of its parties, and the reasons of what does not agree.
+/// One family: a table of its parties, and the reasons of all results other than agreement.
 pub(super) fn body(outcomes: &[&StressOutcome]) -> String {
     let mut found =
-        table("| agrees at | not | largest error: positions | rates | forces | over bound> | widest bound>");
+        table("| agrees at | otherwise | largest error: positions | rates | forces | over bound> | widest bound>");
     let mut reasons = String::new();
     for name in names(outcomes) {
         let [agrees, others, positions, rates, forces, used, widest] = cells(outcomes, name);
@@ -94,13 +94,14 @@ pub(super) fn body(outcomes: &[&StressOutcome]) -> String {
     format!("{found}\n{reasons}")
 }
 
-/// Names of all parties, in the order in which they come.
+/// Names of all parties, in the order of their occurrence.
 pub(super) fn names<'a>(outcomes: &[&'a StressOutcome]) -> Vec<&'a str> {
     distinct(outcomes.iter().flat_map(|own| &own.parties).map(|party| party.name.as_str()))
 }
 
-/// Where a party agrees, where not, its largest errors where it agrees, and there the largest share of a bound and the
-/// widest bound of a worst channel.
+/// Parameter values at which a party agrees, and those at which it does not.
+/// For the points with agreement: the largest errors, the largest used fraction of a bound, and the widest bound of a
+/// worst channel.
 pub(super) fn cells(outcomes: &[&StressOutcome], name: &str) -> [String; 7] {
     let mut by_dial: Vec<(f64, PointEnd)> = Vec::new();
     let mut largest: BTreeMap<QuantityGroup, f64> = BTreeMap::new();
@@ -132,7 +133,7 @@ pub(super) fn cells(outcomes: &[&StressOutcome], name: &str) -> [String; 7] {
     [stretches(PointEnd::Agree), others.join("; "), positions, rates, forces, used, widest]
 }
 
-/// Neighbouring values of the dial with one verdict, as `1 .. 100`.
+/// Ranges of neighbouring parameter values with one verdict, as `1 .. 100`.
 fn stretches(by_dial: &[(f64, PointEnd)], wanted: PointEnd) -> String {
     let same = by_dial.chunk_by(|one, next| one.1 == next.1).filter(|own| own[0].1 == wanted);
     let one = |own: &[(f64, PointEnd)]| match own {
@@ -143,7 +144,7 @@ fn stretches(by_dial: &[(f64, PointEnd)], wanted: PointEnd) -> String {
     same.map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// Where a party does not agree, with the reason at the first of these points, by verdict.
+/// Parameter values at which a party does not agree, by verdict, with the reason at the first of these values.
 fn told(outcomes: &[&StressOutcome], name: &str) -> Vec<(&'static str, String, String)> {
     let mut found: Vec<(&'static str, String, String)> = Vec::new();
     for own in outcomes {
@@ -156,7 +157,7 @@ fn told(outcomes: &[&StressOutcome], name: &str) -> Vec<(&'static str, String, S
     found
 }
 
-/// The points that are no case, by reason.
+/// Points that are not valid cases, by reason.
 fn refused<'a>(outcomes: &[&'a StressOutcome]) -> Vec<(String, &'a str)> {
     let own = outcomes.iter().filter(|own| !own.refused.is_empty());
     own.map(|own| (dial(own.dial), own.refused.as_str())).collect()

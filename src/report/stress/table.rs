@@ -1,4 +1,4 @@
-//! A family as CSV: one row for every group of channels of every party at every point.
+//! A family as CSV: one row for each point, party and group of channels.
 
 use super::super::table_csv::csv;
 use lab::stress::{StressFamily, StressOutcome};
@@ -28,7 +28,8 @@ const HEADER: [&str; 21] = [
     "why",
 ];
 
-/// The table. Errors and bounds are shares of the channel's scale; empty cells are numbers that do not exist.
+/// The table.
+/// Errors and bounds are shares of the channel's scale; missing numbers are empty cells.
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.

@@ -17,7 +17,7 @@ struct Module {
     file: PathBuf,
     /// Names of items other than modules.
     items: BTreeSet<String>,
-    /// Names brought in by `use`, and the paths that they stand for.
+    /// Names brought in by `use`, and the paths that they denote.
     imports: BTreeMap<String, Vec<String>>,
     /// Modules from which all names are brought in.
     globs: Vec<Vec<String>>,
@@ -152,7 +152,7 @@ fn take(modules: &mut BTreeMap<Vec<String>, Module>, at: Vec<String>, file: &Pat
                 }
             }
             Item::Use(import) => {
-                // A re-export is not a use. A user of the name is led to its definition.
+                // A re-export does not count as a use, because a use of the exported name leads to its definition.
                 let handed_on = !matches!(import.vis, syn::Visibility::Inherited);
                 let mut leaves = Vec::new();
                 expand(&import.tree, &mut Vec::new(), &mut leaves);
@@ -240,7 +240,7 @@ fn words(tokens: TokenStream, paths: &mut Vec<Vec<String>>) {
     }
 }
 
-/// Leaves of an import: the whole path, and the name that it has here.
+/// Leaves of an import: the whole path, and the local name.
 fn expand(tree: &UseTree, before: &mut Vec<String>, leaves: &mut Vec<(Vec<String>, String)>) {
     match tree {
         UseTree::Path(path) => {

@@ -1,10 +1,11 @@
-//! Errors in `[clearance]`. The good scenario has no such section: it is added at its end.
+//! Errors in `[clearance]`.
+//! The good scenario has no such section; the tests append it.
 
 use super::{Bad, GOOD, INPUT, assert_refused, parse};
 
 const END: &str = "figures = [{ figure = \"reduced_inertia_mean_kg_m2\", value = 0.16, digits = 2 }]\n";
 
-/// The good scenario with a section on clearance.
+/// The good scenario with a clearance section.
 fn with(section: &str) -> String {
     format!("{GOOD}\n[clearance]\n{section}")
 }
@@ -24,7 +25,8 @@ fn a_good_section_is_read() {
     let scenario = parse(&with(text), super::TABLE).unwrap_or_else(|error| panic!("{error}"));
     let asked = scenario.clearance.unwrap();
     assert_eq!((asked.wanted, asked.area, asked.bodies.len()), (Some(1e-3), 1e-2, 4));
-    // Crank and rocker are not joined, coupler and rocker meet the wall, and the crank is left out there.
+    // Crank and rocker are not joined.
+    // Coupler and rocker are checked against the wall; the crank is exempt.
     assert_eq!(asked.pairs, [[0, 2], [1, 3], [2, 3]]);
     assert_eq!(asked.bodies[2].outline.radius(), 5e-3);
 }
@@ -35,7 +37,7 @@ fn sizes() {
     refused("radius_mm = 0\n", "radius_mm = 0", "clearance.radius_mm", &["must be positive"]);
     refused("radius_mm = -3\n", "radius_mm = -3", "clearance.radius_mm", &["must be positive"]);
     refused("radius_mm = nan\n", "radius_mm = nan", "clearance.radius_mm", &["finite"]);
-    refused("radius = 3\n", "radius = 3", "clearance.radius", &["carries no unit"]);
+    refused("radius = 3\n", "radius = 3", "clearance.radius", &["has no unit"]);
     refused("radius_mm = 3\nwanted_mm = -1\n", "wanted_mm", "clearance.wanted_mm", &["must not be negative"]);
     refused("radius_mm = 3\ntolerance_mm = 0\n", "tolerance_mm", "clearance.tolerance_mm", &["must be positive"]);
     for share in ["area_rel = 0\n", "area_rel = 1\n", "area_rel = -1\n", "area_rel = 1e-9\n"] {
@@ -43,11 +45,11 @@ fn sizes() {
             &format!("radius_mm = 3\n{share}"),
             "area_rel",
             "clearance.area_rel",
-            &["share of a swept area", "1e-3"],
+            &["allowed error of a swept area", "1e-3"],
         );
     }
     let tiny = "radius_mm = 3\ntolerance_mm = 1e-9\n";
-    refused(tiny, "tolerance_mm", "clearance.tolerance_mm", &["3.5e-11 m and no better", "larger tolerance"]);
+    refused(tiny, "tolerance_mm", "clearance.tolerance_mm", &["more accurately than 3.5e-11 m", "larger tolerance"]);
     refused("radius_m = 1e8\n", "[clearance]", "clearance", &["\"crank\" extends to 1.000e8 m", "check the units"]);
     refused("radius_mm = 3\nareas_rel = 1e-3\n", "areas_rel", "clearance.areas_rel", &["did you mean `area_rel`"]);
 }
@@ -70,20 +72,20 @@ fn outlines() {
         "radius_mm = 3\n[clearance.outlines.ground]\nradius_mm = 4\n",
         "[clearance.outlines.ground]",
         "clearance.outlines.ground",
-        &["the ground has no outline", "[[clearance.housing]]"],
+        &["the ground has no separate outline", "[[clearance.housing]]"],
     );
     refused(&of(&corners(&[(0.0, 0.0), (1.0, 0.0)])), "corners =", key, &["found 2 corners", "three or more"]);
     refused(&of("corners = []\n"), "corners =", key, &["found 0 corners"]);
-    refused(&of("line = []\n"), "line =", "clearance.outlines.rocker.line", &["a place or more"]);
+    refused(&of("line = []\n"), "line =", "clearance.outlines.rocker.line", &["at least one point"]);
     let bow = [(0.0, 0.0), (10.0, 10.0), (10.0, 0.0), (0.0, 10.0)];
     refused(&of(&corners(&bow)), "corners =", key, &["corners 1 and 3 touch or cross", "in their order"]);
     let twice = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 0.0)];
-    refused(&of(&corners(&twice)), "corners =", key, &["corners 1 and 4 are in one place", "closes by itself"]);
-    // A side that ends on another, and one that comes back on itself.
+    refused(&of(&corners(&twice)), "corners =", key, &["corners 1 and 4 coincide", "closes automatically"]);
+    // Invalid outlines: a side that ends on another side, two equal corners, all corners on one line.
     let touching = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (5.0, 0.0), (0.0, 10.0)];
     refused(&of(&corners(&touching)), "corners =", key, &["touch or cross"]);
     let spike = [(0.0, 0.0), (10.0, 0.0), (20.0, 0.0), (10.0, 10.0), (20.0, 20.0), (0.0, 20.0), (10.0, 10.0)];
-    refused(&of(&corners(&spike)), "corners =", key, &["corners 4 and 7 are in one place"]);
+    refused(&of(&corners(&spike)), "corners =", key, &["corners 4 and 7 coincide"]);
     let flat = [(0.0, 0.0), (10.0, 0.0), (5.0, 0.0)];
     refused(&of(&corners(&flat)), "corners =", key, &["all corners lie on one line"]);
     let many: Vec<(f64, f64)> = (0..501).map(|k| f64::from(k) * 0.01).map(|a| (a.cos(), a.sin())).collect();
@@ -116,18 +118,13 @@ fn housing_and_pairs() {
     );
     refused(&of("name = \"a b\"\n"), "name = \"a b\"", "clearance.housing.a b.name", &["letters, digits"]);
     refused(&of("name = \"crank\"\n"), "name = \"crank\"", "clearance.housing.crank.name", &["is taken"]);
-    refused(
-        &of("name = \"housing\"\n"),
-        "name = \"housing\"",
-        "clearance.housing.housing.name",
-        &["stands for all parts"],
-    );
+    refused(&of("name = \"housing\"\n"), "name = \"housing\"", "clearance.housing.housing.name", &["means all parts"]);
     refused(&of("name = \"wall\"\n"), "[[clearance.housing]]", "clearance.housing.wall", &["no outline", "`corners`"]);
     refused(
         "radius_mm = 3\nignore = [{ bodies = [\"crank\", \"wal\"] }]\n",
         "ignore",
         "clearance.ignore[1].bodies",
-        &["no link and no part of the housing \"wal\""],
+        &["no link or part of the housing \"wal\""],
     );
     refused(
         "radius_mm = 3\nignore = [{ bodies = [\"crank\"] }]\n",

@@ -6,22 +6,17 @@ use super::{Bad, GOOD, INPUT, assert_refused};
 fn laws_and_their_grids() {
     let table = |points: &str| format!("law = \"table\"\npoints = [{points}]\n");
     let cases: [(String, &'static str, &'static str, &[&str]); 9] = [
-        ("law = \"sine\"\n".into(), "law =", "drive.law", &["no law of motion", "\"cycloidal\""]),
+        ("law = \"sine\"\n".into(), "law =", "drive.law", &["not a law of motion", "\"cycloidal\""]),
         ("law = \"ramp\"\nspeed_rpm = 130\n".into(), "[drive]", "drive", &["`time_s` or `time_ms` is missing"]),
         ("law = \"ramp\"\nspeed_rpm = 130\ntime_s = 0\n".into(), "time_s", "drive.time_s", &["must be positive"]),
         (
             "law = \"cycloidal\"\nto_deg = 0\ntime_s = 1\n".into(),
             "to_deg = 0",
             "drive.to_deg",
-            &["stay where it starts"],
+            &["not move from its start"],
         ),
-        (
-            "law = \"cycloidal\"\nto_deg = 90\ntime_s = 1\n".into(),
-            "[grid]",
-            "grid",
-            &["does not come to a crank angle"],
-        ),
-        (table("{ time_s = 0, angle_deg = 0 }"), "points = [{ time_s", "drive.points", &["two points or more"]),
+        ("law = \"cycloidal\"\nto_deg = 90\ntime_s = 1\n".into(), "[grid]", "grid", &["does not reach a crank angle"]),
+        (table("{ time_s = 0, angle_deg = 0 }"), "points = [{ time_s", "drive.points", &["at least two points"]),
         (
             table("{ time_s = 0, angle_deg = 5 }, { time_s = 1, angle_deg = 9 }"),
             "points = [{ time_s",
@@ -38,7 +33,7 @@ fn laws_and_their_grids() {
             table("{ time_s = 0, angle_deg = 0 }, { time_s = 1, angle_deg = 9 }"),
             "[grid]",
             "grid",
-            &["does not come to a crank angle of the grid at one time"],
+            &["does not reach a crank angle of the grid at exactly one time"],
         ),
     ];
     for (text, at, key, words) in cases {

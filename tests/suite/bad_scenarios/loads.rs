@@ -9,12 +9,12 @@ fn sorts_links_points_and_tables() {
     let spring = "type = \"spring\"\nlinks = [\"ground\", \"rocker\"]\npoints = [\"O\", \"B\"]\n";
     let cases: [(String, &'static str, &'static str, &[&str]); 20] = [
         (format!("{force}x_N = 1\n"), "[[loads]]\ntype = \"force\"", "loads[2]", &["`y_N` or `y_kN` is missing"]),
-        (format!("{force}x_N = 1\ny = 1\n"), "y = 1", "loads[2].y", &["carries no unit"]),
+        (format!("{force}x_N = 1\ny = 1\n"), "y = 1", "loads[2].y", &["has no unit"]),
         (
             format!("{force}x_N = 1\ny_N = 1\nframe = \"ground\"\n"),
             "frame =",
             "loads[2].frame",
-            &["no frame", "\"link\""],
+            &["\"ground\" is not a frame of a force", "\"link\""],
         ),
         (
             force.replace("\"B\"", "\"Q\"") + "x_N = 1\ny_N = 1\n",
@@ -53,7 +53,7 @@ fn sorts_links_points_and_tables() {
             "loads[2].moment_N_m",
             &["both given", "one of the two"],
         ),
-        (format!("{moment}table = []\n"), "table = []", "loads[2].table", &["a point or more"]),
+        (format!("{moment}table = []\n"), "table = []", "loads[2].table", &["at least one point"]),
         (
             format!("{moment}table = [{{ crank_deg = 9, moment_N_m = 1 }}, {{ crank_deg = 9, moment_N_m = 2 }}]\n"),
             "table = [",
@@ -76,7 +76,7 @@ fn sorts_links_points_and_tables() {
             format!("{moment}interpolation = \"cubic\"\ntable = [{{ crank_deg = 0, moment_N_m = 1 }}]\n"),
             "interpolation",
             "loads[2].interpolation",
-            &["no interpolation", "\"smooth\""],
+            &["not an interpolation", "\"smooth\""],
         ),
         (
             format!("{spring}stiffness_N_m = -1\nfree_length_m = 0\n"),

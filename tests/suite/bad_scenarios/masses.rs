@@ -5,10 +5,10 @@ use super::{Bad, GOOD, INPUT, assert_refused};
 #[test]
 fn mass_centres_and_inertias_beyond_the_mechanism_are_refused() {
     let far = ("mass_centre = { x_mm = 13, y_mm = 0 }", "mass_centre = { x_m = 1300, y_m = 0 }");
-    let words: &[&str] = &["link \"crank\"", "times the largest link", "check the unit", "has a point there"];
+    let words: &[&str] = &["link \"crank\"", "times the largest link", "check the unit", "add a point there"];
     let key = "links.crank.mass_centre";
     assert_refused(GOOD, &Bad { edits: &[far], kind: INPUT, at: "mass_centre", key, words });
-    // A second mass, so that there is something to compare with.
+    // A second mass, for comparison.
     let rod = (
         "[links.rocker.points]",
         "[links.rocker]\nmass_kg = 1\nmass_centre = { x_mm = 0, y_mm = 0 }\n[links.rocker.points]",
@@ -23,15 +23,15 @@ fn mass_centres_and_inertias_beyond_the_mechanism_are_refused() {
 }
 
 #[test]
-fn large_and_heavy_links_that_leave_digits_are_taken() {
+fn large_and_heavy_links_within_precision_are_accepted() {
     let taken = |from: &str, to: &str| {
         assert!(GOOD.contains(from));
         super::parse(&GOOD.replacen(from, to, 1), super::TABLE).unwrap_or_else(|error| panic!("{to}: {error}"))
     };
     taken("{ x_mm = 13, y_mm = 0 }", "{ x_m = 300, y_m = 0 }");
-    // With a point there the link is as large as that.
+    // A point at this position makes the link that large.
     let point = "mass_centre = { x_mm = 13, y_mm = 0 }\n[links.crank.points]";
     taken(point, "mass_centre = { x_m = 1300, y_m = 0 }\n[links.crank.points]\nG = { x_m = 1300, y_m = 0 }");
-    // Nothing else has a mass: there is nothing that it takes the digits of.
+    // No other link has a mass, so this value swamps no digits.
     taken("inertia_kg_m2 = 0.0002", "inertia_kg_m2 = 2e14");
 }

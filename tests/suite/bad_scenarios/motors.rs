@@ -30,13 +30,13 @@ fn laws_and_reducers() {
             "law = \"kloss\"\nbreakdown_torque_N_m = 1\nsynchronous_speed_rpm = 3000\nbreakdown_speed_rpm = 3000\nratio = 1\n".into(),
             "[motor]",
             "motor",
-            &["not below synchronous speed"],
+            &["is not below the synchronous speed"],
         ),
         (
             "law = \"table\"\npoints = [{ speed_rpm = 0, torque_N_m = 1 }]\nratio = 1\n".into(),
             "points = [{",
             "motor.points",
-            &["two points or more, found 1"],
+            &["at least two points, found 1"],
         ),
         (
             "law = \"table\"\npoints = [{ speed_rpm = 9, torque_N_m = 1 }, { speed_rpm = 9, torque_N_m = 0 }]\nratio = 1\n".into(),

@@ -1,5 +1,6 @@
-//! Remedies: for every key of the shipped scenarios that is left out or misspelt, the error names that key, and never
-//! proposes what it has found.
+//! Remedies in error messages.
+//! If a key of a shipped scenario is omitted or misspelt, the error names the correct key.
+//! The error never proposes the word that it found in the file.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,7 +11,7 @@ use scenario::{Scenario, files_in};
 /// Sections whose keys are names that the author chooses.
 const OWN_NAMES: [&str; 4] = ["points", "links", "columns", "parameters"];
 
-/// A key in a text: where it stands, and where its value ends.
+/// A key in a text, with its position and the end of its value.
 struct Key<'a> {
     section: &'a str,
     name: &'a str,
@@ -19,7 +20,7 @@ struct Key<'a> {
     is_line: bool,
 }
 
-/// The keys of a text that belong to the format, with values of one line.
+/// The keys of a text that belong to the format and have one-line values.
 fn keys(text: &str) -> Vec<Key<'_>> {
     let (mut found, mut start, mut section) = (Vec::new(), 0, "");
     for line in text.split_inclusive('\n') {
@@ -52,7 +53,7 @@ fn keys(text: &str) -> Vec<Key<'_>> {
     found
 }
 
-/// End of the value that begins at `from` in a line; `None` if it goes on in the next.
+/// End of the value that begins at `from` in a line; `None` if the value continues on the next line.
 fn value_end(line: &str, from: usize) -> Option<usize> {
     let (mut depth, mut quoted) = (0, false);
     for (at, c) in line[from..].char_indices() {
@@ -69,7 +70,7 @@ fn value_end(line: &str, from: usize) -> Option<usize> {
     None
 }
 
-/// Words in backticks that an error proposes instead of what it has found.
+/// Words in backticks that an error proposes in place of the word found.
 fn proposed(error: &Error) -> Vec<String> {
     let way_out = error.way_out().unwrap_or_default();
     let (_, after) = way_out.split_once("did you mean ").unwrap_or_default();
@@ -86,8 +87,8 @@ fn names(says: &str, key: &str) -> bool {
     says.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == key)
 }
 
-/// Calls `look` with every key of the shipped scenarios: its file, its text, and the key. Of keys with one name, in
-/// sections of one first name, the first two files are enough.
+/// Calls `look` with every key of the shipped scenarios: its file, its text, and the key.
+/// Of keys with the same name, in sections with the same first name, only the first two files are tried.
 fn for_each_key(mut look: impl FnMut(&Path, &str, &Key) -> Option<String>) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let all = ["scenarios", "scenarios/formulas"].map(|directory| files_in(root.join(directory)).unwrap());
@@ -109,12 +110,12 @@ fn for_each_key(mut look: impl FnMut(&Path, &str, &Key) -> Option<String>) {
 }
 
 #[test]
-fn a_misspelt_key_is_told_by_its_right_name() {
+fn a_misspelt_key_gets_the_right_name_as_remedy() {
     for_each_key(|path, text, key| {
         if key.name.len() < 5 {
             return None;
         }
-        // The third letter is left out.
+        // Omits the third letter.
         let misspelt = [&key.name[..2], &key.name[3..]].concat();
         let edited = [&text[..key.start], &misspelt, &text[key.start + key.name.len()..]].concat();
         let error = Scenario::parse(&edited, path).err()?;

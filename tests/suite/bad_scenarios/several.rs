@@ -1,4 +1,5 @@
-//! Several mistakes in one file: all are told, each at its place, and nothing that only comes of another.
+//! Several mistakes in one file: each is reported at its location.
+//! A mistake that only follows from another is not reported.
 
 use std::fmt::Write;
 
@@ -6,7 +7,7 @@ use linkage::Error;
 
 use super::{GOOD, TABLE, line_of, parse};
 
-/// The good scenario with these edits, and the errors that it ends with.
+/// The text of the good scenario with these edits, and its errors.
 fn refused(edits: &[(&str, &str)]) -> (String, Error) {
     let mut text = GOOD.to_string();
     for (from, to) in edits {
@@ -33,7 +34,7 @@ fn assert_all_told(cases: &[(&'static str, &'static str, &str, &str)]) {
 }
 
 #[test]
-fn mistakes_of_different_tables_are_told_at_once() {
+fn mistakes_in_different_tables_are_reported_together() {
     assert_all_told(&[
         ("name = \"good\"", "name = \"Good one\"", "name", "Good one"),
         ("title =", "titel =", "title", "titel"),
@@ -43,7 +44,7 @@ fn mistakes_of_different_tables_are_told_at_once() {
         ("length_mm = 26", "lenght_mm = 26", "links.crank.points.A.length_mm", "lenght_mm"),
         ("links = [\"crank\", \"coupler\"]", "links = [\"crank\", \"cuopler\"]", "joints.A.links", "cuopler"),
         ("speed_rpm = 130", "speed_rpm = 0\ncolour = 1", "drive.speed_rpm", "speed_rpm = 0"),
-        // The place of a wrong section, for which nothing was changed, is the line after it.
+        // If a section name is wrong and no key has changed, the reported line is the one after the section name.
         ("[gravity]", "\n[gravity]", "drive.colour", "colour"),
         ("x_m_s2 = 0\n", "", "gravity", "[gravity]"),
         ("link = \"rocker\"", "link = \"rockre\"", "loads[1].link", "rockre"),
@@ -59,7 +60,7 @@ fn mistakes_of_different_tables_are_told_at_once() {
 }
 
 #[test]
-fn mistakes_of_one_table_are_told_at_once() {
+fn mistakes_in_one_table_are_reported_together() {
     assert_all_told(&[
         ("mass_kg = 2.6\n", "masss_kg = 2.6\n", "links.crank.masss_kg", "masss_kg"),
         ("inertia_kg_m2 = 0.0002", "inertia_kg_m2 = -1", "links.crank.inertia_kg_m2", "inertia_kg_m2"),
@@ -69,7 +70,7 @@ fn mistakes_of_one_table_are_told_at_once() {
 }
 
 #[test]
-fn mistakes_of_published_numbers_are_told_at_once() {
+fn mistakes_in_published_numbers_are_reported_together() {
     assert_all_told(&[
         ("crank = \"crank_deg\"", "crank = \"crank_deg\"\nbass = 1", "oracle[1].bass", "bass"),
         ("value = 70, digits = 1", "valeu = 70, digits = 1", "oracle[2].values[1].value", "valeu"),
@@ -77,24 +78,24 @@ fn mistakes_of_published_numbers_are_told_at_once() {
     ]);
 }
 
-/// What hangs on a part that could not be read is not told: mending the part may mend it.
+/// An error that depends on an unreadable part is not reported: correcting the part may correct it.
 #[test]
-fn nothing_follows_from_another_mistake() {
+fn consequences_of_a_mistake_are_not_reported() {
     for (edits, key) in [
-        // The joint C and the load name the link.
+        // The joint C and the load refer to the link.
         (
             &[("[links.rocker.points]\nC = { x_mm = 0, y_mm = 0 }", "[links.rocker.points]\nC = 5")][..],
             "links.rocker.points.C",
         ),
         (&[("B = { x_mm = 250, y_mm = 0 }", "B = { x_mm = 250, z_mm = 0 }")], "links.rocker.points.B.y_mm"),
-        // The drive names the joint.
+        // The drive refers to the joint.
         (&[("name = \"O\"\ntype = \"revolute\"", "name = \"O\"\ntype = \"revolut\"")], "joints.O.type"),
         (&[("name = \"O\"\n", "")], "joints[1]"),
-        // The grid, the engine's step and the groups follow the drive.
+        // The grid, the engine's step and the groups depend on the drive.
         (&[("speed_rpm = 130", "speed_rpm = 1e308")], "drive.speed_rpm"),
         (&[("[[joints]]", "[[joint]]")], "joint"),
         (&[("[links.crank]\n", "[link.crank]\n")], "link"),
-        // A mass without a centre is told only if none is given.
+        // A missing mass centre is reported only if the key is absent, not if its value is wrong.
         (&[("mass_centre = { x_mm = 13, y_mm = 0 }", "mass_centre = 13")], "links.crank.mass_centre"),
         (&[("mass_kg = 2.6", "mass_kg = \"much\"")], "links.crank.mass_kg"),
     ] {
@@ -104,7 +105,7 @@ fn nothing_follows_from_another_mistake() {
     }
 }
 
-/// Twenty are shown; the others are counted, however many there are.
+/// Twenty mistakes are shown; the rest are counted, however many there are.
 #[test]
 fn many_mistakes_are_counted() {
     let many = (0..500).fold(String::new(), |mut text, k| {

@@ -12,7 +12,7 @@ fn assert_sliders_refused(cases: &[Bad]) {
     cases.iter().for_each(|bad| assert_refused(SLIDER, bad));
 }
 
-/// Guides and rods that do not work: the message says what is wrong and what to do.
+/// Guides and rods that do not work: the message states the fault and the remedy.
 #[test]
 fn sliders() {
     const RRP: &str = "start.groups (rod, slider)";
@@ -25,15 +25,15 @@ fn sliders() {
     const PIN: &str = "name = \"B\"\ntype = \"revolute\"\nlinks = [\"rod\", \"slider\"]";
     assert_sliders_refused(&[
         Bad {
-            // The rod is shorter than the distance of the crank's pin from the guide.
+            // The rod is shorter than the distance from the crank pin to the guide.
             edits: &[("crank_deg = 30", "crank_deg = 90"), ("B = { x_mm = 300", "B = { x_mm = 50")],
             kind: ErrorKind::Geometry,
             at: "[[start.groups]]",
             key: RRP,
-            words: &["passes its outer pin at 0.100000 m", "its rod spans 0.050000 m", "check the lengths"],
+            words: &["0.100000 m away from its outer pin", "its rod is 0.050000 m long", "check the lengths"],
         },
         bad!("B = { x_mm = 300" => "B = { x_mm = 0", ErrorKind::Geometry, at "[[start.groups]]", key RRP,
-            ["its rod spans 0.000000 m"]),
+            ["its rod is 0.000000 m long"]),
         Bad {
             // RPP with both axes along the guide.
             edits: &[
@@ -49,7 +49,7 @@ fn sliders() {
             words: &["axes of its two prismatic joints are parallel", "check the axes"],
         },
         Bad {
-            // The rod slides on the ground too: a loop of three prismatic joints.
+            // The rod also slides on the ground, which gives a loop of three prismatic joints.
             edits: &[
                 (PIN, OTHER),
                 POINT,
@@ -64,19 +64,20 @@ fn sliders() {
             kind: INPUT,
             at: "[[joints]]\nname = \"guide\"",
             key: "joints.guide",
-            words: &["a loop of prismatic joints alone", "must be revolute"],
+            words: &["a loop of prismatic joints only", "must be revolute"],
         },
         bad!("joint = \"O\"" => "joint = \"guide\"", ErrorKind::Unsupported, at "joint = \"guide\"", key "drive.joint",
             ["is prismatic", "by a revolute joint"]),
         bad!("[drive]" => "[[joints]]\nname = \"B2\"\ntype = \"prismatic\"\naxis_deg = 0\nlinks = [\"rod\", \"slider\"]\npoints = [\"B\", \"S\"]\n[drive]",
-            INPUT, at "links = [\"rod\", \"slider\"]\npoints", key "joints.B2.links", ["\"B\" joins", "lock"]),
+            INPUT, at "links = [\"rod\", \"slider\"]\npoints", key "joints.B2.links",
+            ["\"B\" already joins \"rod\" and \"slider\"", "lock"]),
         bad!("mode = \"ahead\"" => "mode = \"left\"", INPUT, at "mode = \"left\"", key "start.groups[1].mode",
-            ["does not belong to a group of RRP", "\"ahead\" or \"behind\""]),
+            ["a group of RRP has no mode \"left\"", "\"ahead\" or \"behind\""]),
         bad!("axis_deg = 0" => "axis_deg = nan", INPUT, at "axis_deg = nan", key "joints.guide.axis_deg", ["finite number"]),
         bad!("link = \"rod\"" => "link = \"slider\"", INPUT, at "link = \"slider\"", key "loads[1].link",
             ["\"slider\" does not turn", "name a link that turns"]),
     ]);
-    // The ground named second is the same guide.
+    // The guide is the same if the ground is named second.
     let turned = SLIDER.replace(GUIDE, "links = [\"slider\", \"ground\"]\npoints = [\"B\", \"O\"]");
     assert_ne!(turned, SLIDER);
     let [one, other] = [SLIDER, &turned].map(|text| parse(text, TABLE).unwrap().case.start.clone());

@@ -1,4 +1,4 @@
-//! `accept`: figures beside a scenario, and what has moved since.
+//! `accept`: figures kept beside a scenario, and what has changed since.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,12 +11,13 @@ use crate::common::{assert_within, shipped};
 const FILE: &str = "scenarios/crank_rocker.accepted";
 const SCENARIO: &str = "scenarios/crank_rocker.toml";
 
-/// How many channels the four-bar has.
+/// Number of channels of the four-bar.
 fn channels() -> usize {
     shipped("crank_rocker.toml").case.channels().len()
 }
 
-/// A four-bar without published numbers, so that another length leaves the proof as it is; its figures are accepted.
+/// A four-bar without published numbers, so that a changed length does not change its verdict.
+/// Its figures are accepted.
 fn accepted() -> Place {
     let place = Place::new();
     let text = fs::read_to_string(place.path(SCENARIO)).unwrap();
@@ -27,7 +28,7 @@ fn accepted() -> Place {
     place
 }
 
-/// Replaces a text that occurs once or more, the first time.
+/// Replaces the first occurrence of a text, which must occur.
 fn edit(place: &Place, file: &str, old: &str, new: &str) {
     let text = fs::read_to_string(place.path(file)).unwrap();
     assert!(text.contains(old), "{old} is not in {file}");
@@ -46,23 +47,27 @@ fn the_file_is_text_for_people_and_stays_as_it_is() {
     insta::assert_snapshot!(text[..end]);
     let told = place.ok(&format!("accept --check {SCENARIO}"));
     let all = channels();
-    assert_eq!(told, format!("AGREE: crank_rocker is as accepted in {FILE}, {all} channels within their bounds.\n"));
+    assert_eq!(
+        told,
+        format!("AGREE: crank_rocker matches the figures accepted in {FILE}, {all} channels within their bounds.\n")
+    );
     let told = place.ok(&format!("accept {SCENARIO}"));
-    assert_eq!(told, format!("crank_rocker: nothing has moved, {FILE} stays as it is ({all} channels).\n"));
+    assert_eq!(told, format!("crank_rocker: all figures are unchanged, {FILE} stays as it is ({all} channels).\n"));
     assert_eq!(fs::read_to_string(place.path(FILE)).unwrap(), text);
-    // Nothing takes it for a scenario.
+    // No command takes the file for a scenario.
     let listed = place.run("list scenarios");
     assert!(!listed.stdout.contains("accepted") && !listed.stderr.contains("accepted"));
 }
 
 #[test]
-fn a_length_that_changes_by_a_tenth_of_a_nanometre_is_seen_and_told_in_bounds() {
+fn a_length_change_of_a_tenth_of_a_nanometre_is_found() {
     let place = accepted();
     let before = fs::read_to_string(place.path(FILE)).unwrap();
     edit(&place, SCENARIO, "C = { x_mm = 150, y_mm = 15 }", "C = { x_mm = 150.0000001, y_mm = 15 }");
     let outcome = check(&place);
     assert_eq!((outcome.code, outcome.stderr.as_str()), (1, ""), "{}", outcome.stdout);
-    assert!(outcome.stdout.starts_with("DISAGREE: crank_rocker is not as accepted in "), "{}", outcome.stdout);
+    let told = format!("DISAGREE: crank_rocker differs from the figures accepted in {FILE}: ");
+    assert!(outcome.stdout.starts_with(&told), "{}", outcome.stdout);
     assert!(outcome.stdout.contains(" channels moved."), "{}", outcome.stdout);
     let header = "channel figure accepted found moved by bound bounds";
     let is_header = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ") == header;
@@ -78,7 +83,7 @@ fn a_length_that_changes_by_a_tenth_of_a_nanometre_is_seen_and_told_in_bounds() 
         assert!((found - accepted).abs() > bound && bounds > 1.0, "{row}");
         assert_within!(((found - accepted).abs() / bound - bounds).abs(), 1e-3 * bounds);
     }
-    // Every figure is that of the file, under its name; the text has the worst first.
+    // Every reported figure is stored in the file under its name; the text lists the worst figure first.
     let kept: toml::Table = before.parse().unwrap();
     let of = |name: &Value| {
         let all = kept["channels"].as_array().unwrap();
@@ -102,9 +107,9 @@ fn a_length_that_changes_by_a_tenth_of_a_nanometre_is_seen_and_told_in_bounds() 
     let told = outcome.stdout.lines().skip_while(|line| !is_header(line)).skip(1);
     let bounds: Vec<f64> = told.map_while(|line| line.split_whitespace().last()?.parse().ok()).collect();
     assert!(bounds.len() > 3 && bounds.is_sorted_by(|a, b| a >= b), "{}", outcome.stdout);
-    // The crank turns as before: of its channels nothing is written anew.
+    // The crank moves as before, so the figures of its channels are not rewritten.
     let told = place.ok(&format!("accept {SCENARIO}"));
-    assert!(told.starts_with("crank_rocker: accepted anew in "), "{told}");
+    assert!(told.starts_with("crank_rocker: new figures accepted in "), "{told}");
     let after = fs::read_to_string(place.path(FILE)).unwrap();
     let of = |text: &str, name: &str| -> String {
         text.split("\n\n").find(|part| part.contains(&format!("\"{name}\""))).unwrap().to_string()
@@ -114,7 +119,7 @@ fn a_length_that_changes_by_a_tenth_of_a_nanometre_is_seen_and_told_in_bounds() 
     assert_eq!(check(&place).code, 0);
 }
 
-/// Differences that the bounds allow are no difference, whatever the digits say.
+/// Differences within the bounds do not count, whatever the digits.
 #[test]
 fn a_figure_within_its_bound_has_not_moved() {
     let place = accepted();
@@ -129,7 +134,7 @@ fn a_figure_within_its_bound_has_not_moved() {
     let outcome = check(&place);
     assert_eq!(outcome.code, 1);
     assert!(outcome.stdout.contains(&format!("1 of {} channels moved.", channels())), "{}", outcome.stdout);
-    // A whole turn of an angle is none.
+    // A whole revolution of an angle is no difference.
     let turned = [
         ("at = [0.0, 1.5707963267949, 3.1415926535898,", "at = [6.2831853071796, 7.8539816339745, 9.4247779607694,"),
         ("4.7123889803847, 6.2831853071796]", "10.9955742875643, 12.5663706143592]"),
@@ -141,9 +146,9 @@ fn a_figure_within_its_bound_has_not_moved() {
     assert_eq!(check(&place).code, 0);
 }
 
-/// The root mean square alone: a motion may keep its ends and its few kept instants.
+/// Only the root mean square has changed: a motion may keep its extremes and its few stored instants.
 #[test]
-fn a_root_mean_square_that_has_moved_is_told() {
+fn a_changed_root_mean_square_is_reported() {
     let place = accepted();
     edit(&place, FILE, "rms = 13.61356816556\n", "rms = 13.62356816556\n");
     let outcome = check(&place);
@@ -152,7 +157,7 @@ fn a_root_mean_square_that_has_moved_is_told() {
 }
 
 #[test]
-fn what_is_new_or_gone_is_told() {
+fn new_and_missing_channels_are_reported() {
     let place = accepted();
     edit(&place, FILE, "\"link.coupler.angle_rad\"", "\"link.handle.angle_rad\"");
     edit(&place, FILE, "rms = 13.61356816556\n", "");
@@ -172,17 +177,21 @@ fn what_is_new_or_gone_is_told() {
 }
 
 #[test]
-fn another_grid_is_told_and_no_value_is_compared() {
+fn another_grid_is_reported_without_comparing_values() {
     let place = accepted();
-    // An instant that is off by a millionth is another one.
+    // An instant that is off by a millionth is a different instant.
     edit(&place, FILE, "times_s = [0.0, 0.11538461538461539", "times_s = [0.0, 0.11538473");
     let outcome = check(&place);
-    assert!(outcome.code == 1 && outcome.stdout.contains("its instants are others"), "{}", outcome.stdout);
+    assert!(outcome.code == 1 && outcome.stdout.contains("the instants differ"), "{}", outcome.stdout);
     place.ok(&format!("accept {SCENARIO}"));
     edit(&place, SCENARIO, "step_deg = 1\n", "step_deg = 2\n");
     let outcome = check(&place);
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
-    assert!(outcome.stdout.contains("its instants are others, values are not compared."), "{}", outcome.stdout);
+    assert!(
+        outcome.stdout.contains("the instants differ from the accepted ones, so values are not compared."),
+        "{}",
+        outcome.stdout
+    );
     place.ok(&format!("accept {SCENARIO}"));
     let text = fs::read_to_string(place.path(FILE)).unwrap();
     assert!(text.contains("instants = 181\n"), "{text}");
@@ -190,16 +199,13 @@ fn another_grid_is_told_and_no_value_is_compared() {
 }
 
 #[test]
-fn a_bound_that_has_grown_a_hundred_times_proves_nothing() {
+fn a_hundredfold_larger_bound_is_inconclusive() {
     let place = accepted();
     edit(&place, FILE, "bound = 6.6e-12", "bound = 6.6e-15");
     let outcome = check(&place);
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
-    assert!(
-        outcome.stdout.starts_with("INCONCLUSIVE: crank_rocker is not proven to be as accepted"),
-        "{}",
-        outcome.stdout
-    );
+    let told = format!("INCONCLUSIVE: it is undecided whether crank_rocker matches the figures accepted in {FILE}: ");
+    assert!(outcome.stdout.starts_with(&told), "{}", outcome.stdout);
     assert!(
         outcome.stdout.contains("link.crank.angle_rad: its bound was 6.6e-15 rad, now 6.6e-12"),
         "{}",
@@ -210,9 +216,9 @@ fn a_bound_that_has_grown_a_hundred_times_proves_nothing() {
     assert_eq!([&wider["accepted_bound"], &wider["found_bound"]], [6.6e-15, 6.6e-12]);
 }
 
-/// Symptom: with every kept bound at 1e300, or with a kept verdict `disagree`, whatever a run found was as accepted.
+/// Symptom: if every stored bound was 1e300, or the stored verdict was `disagree`, any result of a run was as accepted.
 #[test]
-fn regress_figures_kept_within_any_bound_or_of_no_proof_prove_nothing() {
+fn regress_loosely_bounded_or_unproven_figures_are_inconclusive() {
     let place = accepted();
     let whole = fs::read_to_string(place.path(FILE)).unwrap();
     let mut lines: Vec<String> = whole.lines().map(String::from).collect();
@@ -223,11 +229,11 @@ fn regress_figures_kept_within_any_bound_or_of_no_proof_prove_nothing() {
     let outcome = check(&place);
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
     let all = channels();
-    let told = format!("{all} of {all} channels accepted within 100 times the bound of now or more");
+    let told = format!("{all} of {all} channels accepted with a bound at least 100 times larger than now");
     assert!(outcome.unbroken().contains(&told), "{}", outcome.stdout);
     let json = place.run(&format!("accept --check {SCENARIO} --json -")).json();
     assert_eq!(json["files"][0]["comparison"]["looser"].as_array().unwrap().len(), all);
-    // They are accepted anew, and the file is as it was.
+    // The figures are accepted anew, which restores the file.
     place.ok(&format!("accept {SCENARIO}"));
     assert_eq!(fs::read_to_string(place.path(FILE)).unwrap(), whole);
     for word in ["disagree", "inconclusive"] {
@@ -245,7 +251,7 @@ fn regress_figures_kept_within_any_bound_or_of_no_proof_prove_nothing() {
 }
 
 #[test]
-fn what_is_not_proven_is_accepted_only_if_asked() {
+fn unproven_figures_are_accepted_only_on_request() {
     let place = accepted();
     let before = fs::read_to_string(place.path(FILE)).unwrap();
     let coarse = "--dt 2e-2";
@@ -267,7 +273,7 @@ fn what_is_not_proven_is_accepted_only_if_asked() {
     let outcome = check(&place);
     assert_eq!(outcome.code, 1);
     assert!(outcome.stdout.contains("the proof was accepted as disagree and still is"), "{}", outcome.stdout);
-    // Proven again, but the figures kept are not of a proof.
+    // The scenario is proven again, but the stored figures are not from a proof.
     fs::write(place.path(SCENARIO), text).unwrap();
     assert_eq!(check(&place).code, 3);
     place.ok(&format!("accept {SCENARIO}"));
@@ -276,7 +282,7 @@ fn what_is_not_proven_is_accepted_only_if_asked() {
 }
 
 #[test]
-fn a_file_that_cannot_be_judged_by_is_refused_with_its_place_and_never_overwritten() {
+fn an_unusable_accepted_file_is_refused_and_not_overwritten() {
     let place = accepted();
     let whole = fs::read_to_string(place.path(FILE)).unwrap();
     let cases = [
@@ -288,13 +294,13 @@ fn a_file_that_cannot_be_judged_by_is_refused_with_its_place_and_never_overwritt
         (String::new(), vec!["no accepted figures"]),
         (whole.replace("scenario = \"crank_rocker\"", "scenario = \"pendulum\""), vec!["of \"pendulum\", not of"]),
         (whole.replace("format = 1", "format = 7"), vec!["format 7"]),
-        (whole.replace("verdict = \"agree\"", "verdict = \"fine\""), vec!["\"fine\" is no verdict"]),
+        (whole.replace("verdict = \"agree\"", "verdict = \"fine\""), vec!["\"fine\" is not a verdict"]),
         (whole.replace("instants = 361", "instants = -1"), vec!["-1 instants"]),
         (whole.replacen("least = ", "last = ", 1), vec!["`least`", "did you mean"]),
         (whole.replacen("bound = ", "bound = -", 1), vec!["is negative"]),
         (whole.replacen("bound = 6.6e-12", "bound = inf", 1), vec!["a finite number is needed"]),
         (whole.replacen("at = [0.0, ", "at = [", 1), vec!["4 values are kept for 5 instants"]),
-        (whole.replace("link.crank.omega_rad_s", "link.crank.angle_rad"), vec!["link.crank.angle_rad stands twice"]),
+        (whole.replace("link.crank.omega_rad_s", "link.crank.angle_rad"), vec!["link.crank.angle_rad is given twice"]),
     ];
     for (text, words) in cases {
         fs::write(place.path(FILE), &text).unwrap();
@@ -304,7 +310,7 @@ fn a_file_that_cannot_be_judged_by_is_refused_with_its_place_and_never_overwritt
         }
     }
     fs::remove_file(place.path(FILE)).unwrap();
-    place.refused(&format!("accept --check {SCENARIO}"), &["nothing was accepted", "linkproof accept scenarios/"]);
+    place.refused(&format!("accept --check {SCENARIO}"), &["has no accepted figures", "linkproof accept scenarios/"]);
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! Documents of questions about a mechanism: every number is that of the library, under the key and in the unit that
-//! the documents promise.
+//! JSON answers to questions about a mechanism.
+//! Every number is that of the library, under the promised key and in the promised unit.
 
 use std::f64::consts::{PI, TAU};
 use std::fs;
@@ -32,7 +32,7 @@ fn point(at: Vec2) -> Value {
     json!([at.x, at.y])
 }
 
-/// A parallelogram that goes on through its change point: beside it nothing is proven.
+/// A parallelogram that passes its change point smoothly; beside that point nothing is proven.
 fn smooth() -> String {
     let mut spec = four_bar([0.4, 0.1, 0.4, 0.1], false);
     (spec.start, spec.dt) = (60f64.to_radians(), None);
@@ -44,9 +44,9 @@ fn smooth() -> String {
     spec.toml()
 }
 
-/// A collision, one that goes backwards, and one that is not proven.
+/// Three cases: a collision, a collision in a backward motion, and an undecided clearance.
 #[test]
-fn a_clearance_is_told_in_json_csv_and_text() {
+fn a_clearance_is_reported_in_json_csv_and_text() {
     let place = Place::new();
     let coarse = ("wanted_mm = 0.4", "wanted_mm = 0.4\narea_rel = 0.05");
     place.edited("crankcase.toml", "longer.toml", &[("x_mm = 130,", "x_mm = 132,"), coarse]);
@@ -72,7 +72,7 @@ fn a_clearance_is_told_in_json_csv_and_text() {
         let time = |crank: f64| json!(scenario.case.crank().time_of(crank));
         let meeting = |meeting: Option<Meeting>| {
             meeting.map(|own| {
-                // Until the first angle they are apart, at the second they meet.
+                // The bodies are apart up to the first angle, and meet at the second.
                 assert!((own.cranks[0] - found.range[0]).abs() <= (own.cranks[1] - found.range[0]).abs());
                 let [until, at] = own.cranks;
                 json!({"clear_until_rad": until, "crank_rad": at, "t_s": time(at), "place_m": point(own.place)})
@@ -99,7 +99,7 @@ fn a_clearance_is_told_in_json_csv_and_text() {
             assert!(value - error <= area.least && area.most <= value + error, "{name}: {row}");
             assert_eq!([&row["least_m2"], &row["most_m2"]], [&json!(area.least), &json!(area.most)]);
         }
-        // What comes first is the first on the way, which a drive may go backwards.
+        // The first meeting is the first in the direction of the drive, which may be backwards.
         for (key, all) in [("first_collision", false), ("first_too_near", true)] {
             let gone = |own: &Meeting| (own.cranks[1] - found.range[0]).abs();
             let each =
@@ -126,9 +126,11 @@ fn in_text(place: &Place, name: &str, asked: &ClearanceQuestion, found: &design:
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
     for pair in &found.pairs {
         let names = pair.bodies.map(|body| asked.bodies[body].name.as_str());
-        let row = rows.iter().find(|row| row.starts_with(&names)).unwrap_or_else(|| panic!("{names:?} in {text}"));
+        let first = format!("{},", names[0]);
+        let row = rows.iter().find(|row| row.starts_with(&[first.as_str(), names[1]]));
+        let row = row.unwrap_or_else(|| panic!("{names:?} in {text}"));
         assert_eq!(row[2], format!("{:.4}", 1e3 * pair.smallest.distance), "{text}");
-        // Where they first meet, if they do.
+        // The last column is the first collision, if there is one.
         if let Some(meeting) = pair.collision {
             assert_eq!(row[row.len() - 1], format!("{:.4}", meeting.cranks[1].to_degrees()), "{text}");
         }
@@ -155,9 +157,9 @@ fn in_table(place: &Place, name: &str, case: &Case, asked: &ClearanceQuestion) {
     }
 }
 
-/// Some that turn fully, one of them with sliders, and one with limits.
+/// Three mechanisms that rotate fully, one of them with sliders, and one mechanism with limits.
 #[test]
-fn a_range_is_told_in_json() {
+fn a_range_is_reported_in_json() {
     let place = Place::new();
     let limited = [
         ("A = { x_m = 0.025995627740337, y_m = 0 }", "A = { x_m = 0.15, y_m = 0 }"),
@@ -212,14 +214,14 @@ fn a_range_is_told_in_json() {
         });
         assert_eq!(told["four_bar"], json!(bar), "{name}");
     }
-    // Angles of the rocker between its ends: as they are swept.
+    // The text gives the angle that the rocker sweeps between its extremes.
     let text = place.ok("inspect scenarios/crank_rocker.toml --range");
     assert!(text.contains("over 32.000000 deg"), "{text}");
 }
 
-/// Pins have journals, sliders moments: with the lever and the stress in the units of the options.
+/// Pins get journals, sliders get moments; lever and stress have the units of the options.
 #[test]
-fn bearings_are_told_in_json() {
+fn bearings_are_reported_in_json() {
     let place = Place::new();
     for name in ["crank_rocker", "quick_return", "six_bar_slider"] {
         let scenario = scenario(&place, name).nominal();
@@ -229,7 +231,7 @@ fn bearings_are_told_in_json() {
         assert_eq!([&told["lever_m"], &told["stress_Pa"]], [&json!(0.012), &json!(150e6)]);
         assert_eq!(told["shaking_force"], peak(peaks.shaking_force, "N"));
         assert_eq!(told["balancing_moment"], peak(peaks.balancing_moment, "N_m"));
-        // The reactions and moments of the other side, nowhere larger.
+        // The other side has the same reactions and moments, none of them larger.
         let solved = NewtonSolver.solve(&scenario.case).unwrap();
         let sizes = |names: &[String]| -> Vec<f64> {
             let columns: Vec<&[f64]> = names.iter().map(|name| solved.named(name).unwrap()).collect();
@@ -254,7 +256,7 @@ fn bearings_are_told_in_json() {
                 holds(&joint.name, moment.value, sizes(&[format!("joint.{}.moment_N_m", joint.name)]));
             }
             match row["smallest_journal_m"].as_f64() {
-                // The bending stress of a round journal, 32 M / (pi d^3), is the stress it may carry.
+                // The bending stress of a round journal, 32 M / (pi d^3), equals the permissible stress.
                 Some(diameter) => {
                     let stress = 32.0 * reaction.value * 0.012 / (PI * diameter.powi(3));
                     assert_within!((stress / 150e6 - 1.0).abs(), 1e-12, "{name} {}", joint.name);
@@ -268,7 +270,7 @@ fn bearings_are_told_in_json() {
 
 /// Least and greatest values are those of the table, the slope is that of the inertia.
 #[test]
-fn a_drive_is_told_in_json_and_its_run_up_in_csv() {
+fn a_drive_is_reported_in_json_and_its_run_up_in_csv() {
     let place = Place::new();
     let name = "crank_rocker";
     let scenario = scenario(&place, name).nominal();
@@ -286,12 +288,12 @@ fn a_drive_is_told_in_json_and_its_run_up_in_csv() {
         for (end, wanted) in [("least", least), ("greatest", greatest)] {
             let [value, crank] = ["value", "crank_rad"].map(|part| told[key][end][part].as_f64().unwrap());
             assert_within!((value - wanted).abs(), 5e-3 * greatest, "{name} {key} {end}");
-            // Angles of whole turns more or less are the same pose.
+            // Angles that differ by whole revolutions are the same pose.
             let apart = |row: usize| ((cranks[row] - crank + PI).rem_euclid(TAU) - PI).abs();
             let row = (0..cranks.len()).min_by(|&a, &b| apart(a).total_cmp(&apart(b)));
             assert_within!((values[row.unwrap()] - value).abs(), 2e-2 * greatest, "{name} {key} {end}: {crank}");
         }
-        // Over whole turns the mean of evenly spaced values is the integral's.
+        // Over whole revolutions, the mean of evenly spaced values equals the integral mean.
         let rows = values.len() - 1;
         let mean = values[..rows].iter().sum::<f64>() / rows as f64;
         let told = told[key]["mean"].as_f64().unwrap();
@@ -301,7 +303,7 @@ fn a_drive_is_told_in_json_and_its_run_up_in_csv() {
         let slope = (inertia[k + 1] - inertia[k - 1]) / (cranks[k + 1] - cranks[k - 1]);
         assert_within!((slope - slopes[k]).abs(), 1e-2, "{name} {k}: {slope} {}", slopes[k]);
     }
-    // The steady motion has its ends where its speeds have.
+    // The slowest and fastest points of the steady motion are the extremes of its speeds.
     let speeds: Vec<f64> = column("omega_rad_s").iter().map(|own| own * sense).collect();
     for (key, wanted) in ["slowest", "fastest"].into_iter().zip(ends(&speeds)) {
         let found = sense * told["steady"][key]["omega_rad_s"].as_f64().unwrap();
@@ -310,7 +312,7 @@ fn a_drive_is_told_in_json_and_its_run_up_in_csv() {
     let model = ReducedModel::of(&scenario.case).unwrap();
     assert_eq!(told["motor_and_reducer_kg_m2"], json!(model.added_inertia()));
 
-    // Row by row, with the accelerations that its speeds have.
+    // Checks the run-up row by row: accelerations are the derivatives of speeds.
     let table = Table::of(&place.ok(&format!("drive scenarios/{name}.toml --run-up - --seconds 0.1 --points 200")));
     let [times, speeds, rates] = ["t_s", "crank_omega_rad_s", "crank_alpha_rad_s2"].map(|name| table.column(name));
     let (angles, of_link) = (table.column("crank_rad"), table.column("link.crank.omega_rad_s"));
@@ -323,9 +325,10 @@ fn a_drive_is_told_in_json_and_its_run_up_in_csv() {
     }
 }
 
-/// The vectors of a plan are the differences of its points, and its lengths on paper those at its scale.
+/// The vectors of a plan are the differences of its points.
+/// Its lengths on paper are their magnitudes divided by the scale.
 #[test]
-fn a_plan_is_told_in_json() {
+fn a_plan_is_reported_in_json() {
     let place = Place::new();
     for name in ["crank_rocker", "quick_return", "fourth_class"] {
         let scenario = scenario(&place, name).nominal();
@@ -370,7 +373,7 @@ fn a_plan_is_told_in_json() {
 
 /// The numbers of a choice are those of the model's, power is moment times speed.
 #[test]
-fn a_choice_of_a_motor_is_told_in_json() {
+fn a_choice_of_a_motor_is_reported_in_json() {
     let place = Place::new();
     let catalogue = Path::new(env!("CARGO_MANIFEST_DIR")).join("catalogues/motors.toml");
     let told = place
@@ -396,10 +399,10 @@ fn a_choice_of_a_motor_is_told_in_json() {
     }
 }
 
-/// Solvers that read a case start where it starts: masses, states, drives and loads of cases with springs, motors and
-/// a drive that goes backwards.
+/// Solvers that read an exported case start where it starts.
+/// The test checks masses, states, drives and loads of cases with springs, motors and a backward drive.
 #[test]
-fn a_case_is_told_in_json() {
+fn a_case_is_exported_in_json() {
     let place = Place::new();
     for name in ["crank_rocker_runup", "five_bar_on_a_spring", "double_pendulum", "n_four_bar_1", "loaded_slider"] {
         let scenario = scenario(&place, name);
@@ -421,7 +424,7 @@ fn a_case_is_told_in_json() {
             near((number("angle_rad") - angle + PI).rem_euclid(TAU), PI, "angle");
             near(number("omega_rad_s"), omega, "omega");
             near(number("alpha_rad_s2"), alpha, "alpha");
-            // The mass centre's, by the state of the frame's origin.
+            // Motion of the mass centre, from the state of the frame's origin.
             let of = |key: &str| Vec2::new(start[key][0].as_f64().unwrap(), start[key][1].as_f64().unwrap());
             let arm = linkage::math::rotated(linkage::math::unit(angle), link.mass_centre);
             let turned = linkage::math::turned(arm);
@@ -463,9 +466,9 @@ fn a_case_is_told_in_json() {
     }
 }
 
-/// A table that is right for a while, then off by a known course, and one whose time begins anew.
+/// Two tables: the first is right at the beginning and then has a known error; in the second, the time restarts.
 #[test]
-fn a_comparison_is_told_in_json() {
+fn a_comparison_is_reported_in_json() {
     let place = Place::new();
     let table = Table::of(&place.ok("solve scenarios/crank_rocker.toml --with newton"));
     let [times, cranks, right] = ["t_s", "crank_rad", "point.B.x_m"].map(|name| table.column(name));

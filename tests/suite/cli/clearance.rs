@@ -1,4 +1,4 @@
-//! `clearance`: what it says, what it writes, and its exit codes.
+//! `clearance`: its messages, its output files and its exit codes.
 
 use serde_json::Value;
 
@@ -6,33 +6,37 @@ use super::tools::Place;
 use crate::common::assert_within;
 
 #[test]
-fn the_crankcase_is_clear_and_says_so() {
+fn the_crankcase_is_reported_as_clear() {
     let place = Place::new();
     let text = place.ok("clearance scenarios/crankcase.toml");
     for part in
-        ["clearance over crank angles 0.0000 to 360.0000 deg", "piston  head ", "1.0000", "swept area", "\nclear: "]
+        ["clearance over crank angles 0.0000 to 360.0000 deg", "piston, head ", "1.0000", "swept area", "\nclear: "]
     {
         assert!(text.contains(part), "`{part}` is not in:\n{text}");
     }
-    assert_eq!(place.ok("clearance scenarios/crankcase.toml"), text, "same input, same bytes");
+    let again = place.ok("clearance scenarios/crankcase.toml -o files.svg -o files.csv");
+    assert_eq!(again, text, "same input, same bytes");
     let svg = place.ok("clearance scenarios/crankcase.toml --svg -");
     let drawing = roxmltree::Document::parse(&svg).unwrap();
     let titles: Vec<&str> =
         drawing.descendants().filter(|node| node.has_tag_name("title")).filter_map(|n| n.text()).collect();
     assert!(titles.contains(&"swept by rod") && titles.contains(&"head"), "{titles:?}");
-    // The marks are those of all drawings: pins, numbers of links, the drive's arrow, a scale.
+    // The drawing has the marks of all drawings: pins, numbers of links, the drive's arrow, a scale.
     let with = |key: &str, value: &str| drawing.descendants().filter(|node| node.attribute(key) == Some(value)).count();
     assert_eq!((with("r", "1.2"), with("r", "2.3")), (3, 3), "pins O, A, B and the numbers of three links");
     assert!(svg.contains("smallest distance 0.5000 mm: piston and cylinder_left") && svg.contains(">50 mm<"), "{svg}");
     let table = place.ok("clearance scenarios/crankcase.toml --csv -");
     assert!(table.starts_with("t_s,crank_rad,crank.piston.distance_m,"), "{table}");
     assert_eq!(table.lines().count(), 182);
+    for (file, same) in [("files.svg", &svg), ("files.csv", &table)] {
+        assert!(std::fs::read_to_string(place.path(file)).unwrap() == *same, "{file}");
+    }
 }
 
 #[test]
-fn a_collision_is_an_outcome() {
+fn a_collision_is_an_outcome_and_no_error() {
     let place = Place::new();
-    // Swept areas are no matter here, and cost most.
+    // Swept areas do not matter here, and are the most expensive part.
     let rough = |wanted: &str| format!("wanted_mm = {wanted}\narea_rel = 0.01");
     place.edited(
         "crankcase.toml",
@@ -49,27 +53,28 @@ fn a_collision_is_an_outcome() {
     let crank = first["at"]["crank_rad"].as_f64().unwrap();
     let height = 40.0 * crank.sin() + (132.0f64.powi(2) - (40.0 * crank.cos()).powi(2)).sqrt() + 30.0;
     assert_within!((height - 201.0).abs(), 1e-6, "{first}");
-    // Only too near: no collision, but less than wanted.
+    // The distance is less than the wanted one, but there is no collision.
     place.edited("crankcase.toml", "near.toml", &[("wanted_mm = 0.4", &rough("0.6"))]);
     let outcome = place.run("clearance scenarios/near.toml");
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
     assert!(
-        outcome.stdout.contains("first nearer than the 0.6000 mm wanted: piston and cylinder_left"),
+        outcome.stdout.contains("first closer than the required 0.6000 mm: piston and cylinder_left"),
         "{}",
         outcome.stdout
     );
 }
 
 #[test]
-fn what_cannot_be_answered_is_refused() {
+fn unanswerable_questions_are_refused() {
     let place = Place::new();
-    place.refused("clearance scenarios/crank_rocker.toml", &["asks nothing about clearance", "[clearance]"]);
+    place.refused("clearance scenarios/crank_rocker.toml", &["has no section `[clearance]`", "[clearance]"]);
     let outcome = place.run("clearance scenarios/crankcase.toml scenarios/crank_rocker.toml --json -");
     assert_eq!(outcome.code, 2);
     let found: Value = serde_json::from_str(&outcome.stdout).unwrap();
     assert_eq!(found["scenarios"][0]["standing"], "clear");
-    assert!(found["scenarios"][1]["error"].as_str().unwrap().contains("asks nothing"), "{found}");
+    assert!(found["scenarios"][1]["error"].as_str().unwrap().contains("has no section"), "{found}");
     let files = "scenarios/crankcase.toml scenarios/crankcase.toml";
     place.refused(&format!("clearance {files} --svg out.svg"), &["2 scenarios", "give one scenario"]);
-    place.refused("clearance scenarios/crankcase.toml --svg a.svg --csv a.csv", &["cannot be used with"]);
+    let twice = "clearance scenarios/crankcase.toml --svg a.svg --csv ./a.svg";
+    place.refused(twice, &["two results go to a.svg", "two files"]);
 }

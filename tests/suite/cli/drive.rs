@@ -80,8 +80,8 @@ fn graphs_as_svg() {
     ] {
         assert!(words.contains(label), "{label}: {words}");
     }
-    // The drawing is written beside the text. Without a motor there is no steady motion, and a resistance of gravity
-    // alone has no mean.
+    // The drawing is written in addition to the text.
+    // Without a motor there is no steady motion, and a resistance by gravity alone has a zero mean.
     let text = place.ok("drive scenarios/ov7_base.toml --svg ov7.svg");
     assert!(text.contains("no motor"), "{text}");
     let (words, curves) = drawn(&std::fs::read_to_string(place.path("ov7.svg")).unwrap());
@@ -94,15 +94,15 @@ fn graphs_as_svg() {
 }
 
 #[test]
-fn text_and_what_is_missing() {
+fn text_report_and_hint_on_a_missing_motor() {
     let place = Place::new();
     let text = place.ok("drive scenarios/crank_rocker.toml --table");
     for words in [
-        "mean      0.164846013 kg m^2",
-        "mean      17.777777778 N m",
-        "period 0.4404961061594 s",
+        "mean      0.164846 kg·m²",
+        "mean      17.7778 N·m",
+        "period 0.440496 s",
         "dI*/dphi",
-        "time constant 0.0051",
+        "time constant 0.005164 s",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }
@@ -110,17 +110,17 @@ fn text_and_what_is_missing() {
 }
 
 #[test]
-fn mistakes_are_answered() {
+fn mistakes_are_reported() {
     let place = Place::new();
     for (arguments, words) in [
-        ("--non-uniformity 0", ["asked for", "above zero"]),
+        ("--non-uniformity 0", ["non-uniformity of 0 is requested", "above zero"]),
         ("--step-deg -1", ["'-1' for '--step-deg", "greater than 0"]),
         ("--run-up - --seconds 0", ["'0' for '--seconds", "greater than 0"]),
-        ("--run-up - --points 0", ["'0' for '--points", "from 1"]),
+        ("--run-up - --points 0", ["'0' for '--points", "at least 1"]),
         ("--run-up - --from-rpm nan", ["'nan' for '--from-rpm", "finite"]),
-        ("--run-up same --json same", ["--run-up and --json both name", "two files"]),
-        ("--run-up same --svg same", ["--run-up and --svg both name", "two files"]),
-        ("--svg - --json -", ["--svg and --json both name -", "two files"]),
+        ("--run-up same --json same", ["--output and --run-up both name same", "two files"]),
+        ("--run-up same --svg same", ["--output and --run-up both name same", "two files"]),
+        ("--svg - --json -", ["two results go to -", "two files"]),
     ] {
         let outcome = place.run(&format!("drive scenarios/crank_rocker.toml {arguments}"));
         assert_eq!(outcome.code, 2, "{arguments}");
@@ -128,7 +128,7 @@ fn mistakes_are_answered() {
     }
     for (file, words) in [
         ("ov7_base.toml --non-uniformity 0.1", "no motor"),
-        ("five_bar.toml", "2 freedoms"),
+        ("five_bar.toml", "2 degrees of freedom"),
         ("tangent.toml", "does not turn fully"),
     ] {
         let outcome = place.run(&format!("drive scenarios/{file}"));

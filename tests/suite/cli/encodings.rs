@@ -1,4 +1,4 @@
-//! Files that other programs write otherwise: encodings, decimal commas, semicolons.
+//! Files in the formats of other programs: encodings, decimal commas, semicolons.
 
 use std::fs;
 
@@ -16,7 +16,7 @@ fn with_table(place: &Place, table: &[u8]) {
 }
 
 #[test]
-fn a_scenario_in_another_encoding_is_refused_with_the_way_out() {
+fn a_scenario_in_another_encoding_is_refused_with_a_remedy() {
     let place = Place::new();
     let text = fs::read_to_string(place.path("scenarios/crank_rocker.toml")).unwrap();
     let utf16: Vec<u8> = [0xfeff].into_iter().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect();
@@ -38,7 +38,7 @@ fn a_scenario_in_another_encoding_is_refused_with_the_way_out() {
 }
 
 #[test]
-fn a_table_in_another_encoding_is_refused_with_the_way_out() {
+fn a_table_in_another_encoding_is_refused_with_a_remedy() {
     let place = Place::new();
     let utf16: Vec<u8> = TABLE.encode_utf16().flat_map(u16::to_be_bytes).collect();
     with_table(&place, &utf16);
@@ -50,16 +50,19 @@ fn a_table_in_another_encoding_is_refused_with_the_way_out() {
 }
 
 #[test]
-fn tables_with_commas_and_semicolons_are_told_as_such() {
+fn wrong_separators_of_tables_are_reported() {
     let place = Place::new();
     for (table, words) in [
         ("crank_deg;rocker_deg\n0;70,5\n", ["table.csv:1", "separated by ';'", "decimals with a point"]),
         ("crank_deg\trocker_deg\n0\t70.5\n", ["table.csv:1", "separated by '\\t'", "commas"]),
         (
             "crank_deg,rocker_deg\n0,70\n90,0,75,5\n",
-            ["table.csv:3", "4 cells, but the header has 2", "decimals seem to have commas"],
+            ["table.csv:3", "4 cells, but the header has 2", "decimals seem to be written with commas"],
         ),
-        ("crank_deg,rocker_deg\n0,70\n90,\"75,5\"\n", ["table.csv:3", "found \"75,5\"", "decimals take a point"]),
+        (
+            "crank_deg,rocker_deg\n0,70\n90,\"75,5\"\n",
+            ["table.csv:3", "found \"75,5\"", "written with a decimal point"],
+        ),
     ] {
         with_table(&place, table.as_bytes());
         place.refused("inspect scenarios/own.toml", &words);
@@ -67,10 +70,10 @@ fn tables_with_commas_and_semicolons_are_told_as_such() {
 }
 
 #[test]
-fn decimal_commas_and_duplicates_of_a_scenario_are_told_with_their_places() {
+fn decimal_commas_and_duplicates_are_reported_with_positions() {
     let place = Place::new();
     place.edited("crank_rocker.toml", "own.toml", &[("mass_kg = 2.6", "mass_kg = 2,6")]);
-    place.refused("run scenarios/own.toml", &["own.toml:", "`2,6` has a decimal comma", "write 2.6"]);
+    place.refused("run scenarios/own.toml", &["own.toml:", "`2,6` has a decimal comma", "with a point: 2.6"]);
     place.edited("crank_rocker.toml", "own.toml", &[("mass_kg = 2.6", "mass_kg = 2.6\nmass_kg = 3")]);
     let text = fs::read_to_string(place.path("scenarios/own.toml")).unwrap();
     let first = text[..text.find("mass_kg").unwrap()].matches('\n').count() + 1;

@@ -6,14 +6,15 @@ use super::tools::{Place, texts};
 use crate::common::{assert_within, rapiers};
 
 #[test]
-fn all_engines_stand_side_by_side() {
+fn all_engines_are_reported_side_by_side() {
     let place = Place::new();
     let outcome = place.run("run scenarios/crank_rocker.toml --engine all --dt 2e-3 --no-record --json -");
     let document = outcome.json();
     let run = &document["runs"][0];
     let names = texts(&run["engines"], "name");
     assert!(names.starts_with(&rapiers()), "{names:?}");
-    // Single precision proves less, and engines that agree do not outvote it. But nothing may be contradicted.
+    // Single precision proves less, and engines that agree do not outvote it.
+    // Still, nothing may disagree.
     let single = cfg!(feature = "f32");
     let expected = if single { (3, Some("inconclusive")) } else { (0, Some("agree")) };
     assert_eq!((outcome.code, run["verdict"].as_str()), expected, "{run}");
@@ -25,7 +26,7 @@ fn all_engines_stand_side_by_side() {
     assert!(run["disputes"].is_null());
 
     let report = place.ok("run scenarios/crank_rocker.toml --engine rapier --engine impulse --dt 2e-3 --no-record -v");
-    for word in ["Side by side", "rapier ", "impulse ", "No two of them differ by more than both may be wrong"] {
+    for word in ["All engines", "rapier ", "impulse ", "No two of them differ by more than the sum of their bounds"] {
         assert!(report.contains(word), "{word}: {report}");
     }
 }
@@ -39,10 +40,10 @@ fn every_engine_is_a_side_of_the_recording() {
 }
 
 #[test]
-fn settings_that_make_no_sense_are_refused() {
+fn invalid_settings_are_refused() {
     let place = Place::new();
-    place.refused("run scenarios/crank_rocker.toml --sweeps 0", &["'0' for '--sweeps", "from 1"]);
-    place.refused("run scenarios/crank_rocker.toml --substeps 0", &["'0' for '--substeps", "from 1"]);
+    place.refused("run scenarios/crank_rocker.toml --sweeps 0", &["'0' for '--sweeps", "at least 1"]);
+    place.refused("run scenarios/crank_rocker.toml --substeps 0", &["'0' for '--substeps", "at least 1"]);
     place.refused("run scenarios/crank_rocker.toml --engine bullet", &["bullet", "rapier"]);
     place.refused("run scenarios/crank_rocker.toml --route guess", &["guess", "differences"]);
     place.refused("tune scenarios/crank_rocker.toml --within 0", &["between 0 and 1"]);
@@ -53,7 +54,7 @@ fn settings_that_make_no_sense_are_refused() {
 }
 
 #[test]
-fn settings_of_the_scenario_are_used_and_the_command_line_goes_first() {
+fn command_line_settings_override_those_of_the_scenario() {
     let place = Place::new();
     let path = place.path("scenarios/crank_rocker.toml");
     let text = fs::read_to_string(&path).unwrap();
@@ -69,7 +70,7 @@ fn settings_of_the_scenario_are_used_and_the_command_line_goes_first() {
 }
 
 #[test]
-fn tune_writes_settings_that_keep_the_promise() {
+fn tune_writes_settings_that_meet_the_accuracy() {
     let place = Place::new();
     let command = "tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --extrapolate --route differences";
     let report = place.ok(command);
@@ -85,7 +86,7 @@ fn tune_writes_settings_that_keep_the_promise() {
         let [max, scale] = ["max", "scale"].map(|key| channel[key].as_f64().unwrap());
         assert_within!(max, 1e-3 * scale, "{channel}");
     }
-    // No clock decides: the same command gives the same bytes, counts of runs among them.
+    // No clock enters: the same command gives the same bytes, including counts of runs.
     let all = "tune scenarios/pendulum.toml --within 1e-3 --channel positions --json -";
     assert_eq!(place.ok(all), place.ok(all));
     let found = place.run(&format!("{command} --json -")).json();

@@ -6,12 +6,12 @@ use super::tools::Place;
 use crate::common::assert_within;
 
 #[test]
-fn mjcf_goes_where_it_is_told() {
+fn mjcf_is_written_to_the_given_file() {
     let place = Place::new();
     let text = place.ok("export scenarios/crank_rocker.toml --mjcf -");
     let document = roxmltree::Document::parse(&text).unwrap();
     assert_eq!(document.root_element().attribute("model"), Some("crank_rocker"));
-    // The scenario gives no step: a quarter of a degree of the crank, unless another is given.
+    // The scenario gives no step, so the step is a quarter of a degree of the crank unless an option sets it.
     let step = |text: &str| {
         let document = roxmltree::Document::parse(text).unwrap();
         let option = document.descendants().find(|node| node.has_tag_name("option")).unwrap();
@@ -22,13 +22,15 @@ fn mjcf_goes_where_it_is_told() {
     assert_eq!(place.ok("export scenarios/crank_rocker.toml --mjcf model.mjcf"), "");
     assert_eq!(fs::read_to_string(place.path("model.mjcf")).unwrap(), text);
     // The user did not choose the name, so it is printed.
-    assert_eq!(place.ok("export scenarios/crank_rocker.toml --mjcf"), "crank_rocker.xml\n");
+    for option in ["", "--mjcf"] {
+        assert_eq!(place.ok(&format!("export scenarios/crank_rocker.toml {option}")), "crank_rocker.xml\n");
+    }
     let written = fs::read_to_string(place.path("crank_rocker.xml")).unwrap();
     assert_eq!(written.rsplit_once("<!--").map(|(model, _)| model), Some(text.as_str()), "its seal stands at the end");
 }
 
 #[test]
-fn the_mode_moves_the_start_pose() {
+fn the_mode_changes_the_start_pose() {
     let place = Place::new();
     let text = place.ok("export scenarios/crank_rocker.toml --mjcf -");
     let other = place.ok("export scenarios/crank_rocker.toml --mjcf - --mode coupler,rocker=right");
@@ -65,10 +67,11 @@ fn the_case_as_json_has_what_a_solver_needs() {
 #[test]
 fn wrong_requests_are_refused() {
     let place = Place::new();
-    place.refused("export scenarios/crank_rocker.toml", &["--mjcf"]);
+    place.refused("export scenarios/crank_rocker.toml -o model.txt", &["--output", "FILE.xml, FILE.json; found .txt"]);
     place.refused("export --mjcf scenarios/crank_rocker.toml", &["scenario file"]);
     place.refused("export scenarios/crank_rocker.toml --mjcf - --dt -1e-3", &["--dt", "greater than 0"]);
-    place.refused("export scenarios/crank_rocker.toml --mjcf no/such/place.xml", &["there is no directory no/such"]);
+    let nowhere = "export scenarios/crank_rocker.toml --mjcf no/such/place.xml";
+    place.refused(nowhere, &["the directory no/such does not exist"]);
     place.refused("export scenarios/crank_rocker.toml --mjcf - --mode coupler,rocker=up", &["--mode"]);
     place.refused("export scenarios/none.toml --mjcf -", &["cannot be read"]);
 }

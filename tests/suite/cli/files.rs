@@ -1,4 +1,4 @@
-//! Files that commands write: whole or not at all, whoever writes beside them.
+//! Files that commands write are complete or absent, whatever other processes write in the same place.
 #![cfg(unix)]
 
 use std::fs;
@@ -11,7 +11,7 @@ use super::tools::Place;
 
 const QUICK: &str = "run scenarios/pendulum.toml --route differences";
 
-/// Names of the files in a directory of a place that are no scenario.
+/// Names of the files in a directory of a place, except scenarios.
 fn files(place: &Place, directory: &str) -> Vec<String> {
     let entries = fs::read_dir(place.path(directory)).unwrap();
     let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
@@ -37,9 +37,9 @@ fn regress_runs_to_one_path_do_not_mix() {
     assert_eq!(fs::read(own).unwrap(), fs::read(place.path("alone/pendulum.mcap")).unwrap());
 }
 
-/// Symptom: a link in the place of the partial file was followed, and its target overwritten.
+/// Symptom: a link at the path of the partial file was followed, and its target overwritten.
 #[test]
-fn regress_no_link_in_the_way_is_followed() {
+fn regress_symlinks_at_temporary_paths_are_not_followed() {
     let place = Place::new();
     fs::create_dir(place.path("out")).unwrap();
     fs::write(place.path("victim"), "mine").unwrap();
@@ -54,9 +54,10 @@ fn regress_no_link_in_the_way_is_followed() {
     );
 }
 
-/// A link that the user gives as the target is the user's way to name a file. The file keeps its permissions.
+/// A link as the target is the user's choice of a file name.
+/// The file keeps its permissions.
 #[test]
-fn a_link_as_the_target_names_its_file() {
+fn a_symlink_given_as_target_is_followed() {
     let place = Place::new();
     fs::write(place.path("real.json"), "old").unwrap();
     fs::set_permissions(place.path("real.json"), PermissionsExt::from_mode(0o640)).unwrap();

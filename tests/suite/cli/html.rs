@@ -1,4 +1,4 @@
-//! `run --html`. What a browser makes of the pages is in `tests/html`.
+//! `run --html`; `tests/html` tests the pages in a browser.
 
 use std::fs;
 
@@ -9,10 +9,10 @@ use serde_json::Value;
 
 use super::tools::{Place, Table};
 
-/// The largest page that may be.
+/// Largest allowed page.
 const MOST_BYTES: usize = 3_000_000;
 
-/// Everything between two texts, each of which must be there.
+/// The text between two texts, both of which must occur.
 fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
     let from = text.find(start).unwrap_or_else(|| panic!("no {start}")) + start.len();
     &text[from..from + text[from..].find(end).unwrap_or_else(|| panic!("no {end}"))]
@@ -32,7 +32,8 @@ fn singles(column: &Value) -> Vec<f64> {
     bytes.as_chunks::<4>().0.iter().map(|four| f64::from(f32::from_le_bytes(*four))).collect()
 }
 
-/// What loads anything, besides the empty icon. The namespace of SVG is a name.
+/// Asserts that the page loads nothing except the empty icon.
+/// The namespace of SVG is only a name.
 fn assert_alone(page: &str) {
     for word in ["src=", "@import", "url(", "fetch(", "XMLHttpRequest", "import("] {
         assert!(!page.contains(word), "{word}");
@@ -47,7 +48,7 @@ fn assert_alone(page: &str) {
 }
 
 #[test]
-fn a_page_has_verdict_channels_errors_and_the_places_of_the_solution() {
+fn a_page_has_verdict_channels_errors_and_positions() {
     let place = Place::new();
     let run = "run scenarios/pendulum.toml --record out --budget 1e5";
     let told = place.ok(&format!("{run} --html page.html --json out.json"));
@@ -59,7 +60,7 @@ fn a_page_has_verdict_channels_errors_and_the_places_of_the_solution() {
     assert!(between(&page, "id=\"verdict\">", "</p>").contains("AGREE"));
     assert!(!page.contains("{{"), "a slot is open");
     let data = data(&page);
-    // Channel by channel what the JSON has.
+    // The page has the same values as the JSON, channel by channel.
     let json: Value = serde_json::from_str(&fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
     let judged = json["runs"][0]["engines"][0]["channels"].as_array().unwrap();
     let channels = data["channels"].as_array().unwrap();
@@ -72,12 +73,13 @@ fn a_page_has_verdict_channels_errors_and_the_places_of_the_solution() {
         {
             assert_eq!(own[key], judged[same], "{key} of {}", channel["name"]);
         }
-        // Errors are taken before they are rounded: the largest is that of the report to single precision.
+        // Errors are computed before rounding to single precision, so the largest error equals that of the report to
+        // this precision.
         let largest = singles(&own["errors"]).iter().map(|error| error.abs()).fold(0.0, f64::larger);
         let max = judged["max"].as_f64().unwrap();
         assert!(judged["left_out"] != 0 || (largest - max).abs() <= 1e-6 * max, "{largest} {max}");
     }
-    // Places are doubles: the bits of the solution.
+    // Positions are doubles, with the same bits as the solution.
     let solved = Table::of(&place.ok("solve scenarios/pendulum.toml --with assur"));
     let times = solved.column("t_s");
     let rows: Vec<usize> =
@@ -88,7 +90,7 @@ fn a_page_has_verdict_channels_errors_and_the_places_of_the_solution() {
         let right = solved.column(name);
         assert_eq!(doubles(&own["values"]), rows.iter().map(|&row| right[row]).collect::<Vec<_>>(), "{name}");
     }
-    // Errors are the engine less the reference, as in the recording.
+    // Errors are engine minus reference, as in the recording.
     let sides = recording::load(&place.path("out/pendulum.mcap")).unwrap();
     let value = |side: usize, name: &str, row: usize| sides[side].1.named(name).unwrap()[row];
     for name in ["link.rod.omega_rad_s", "joint.O.fx_N", "point.E.y_m"] {
@@ -97,7 +99,7 @@ fn a_page_has_verdict_channels_errors_and_the_places_of_the_solution() {
         let wanted = rows.iter().map(|&row| f64::from((value(1, name, row) - value(0, name, row)) as f32));
         assert_eq!(errors, wanted.collect::<Vec<f64>>(), "{name}");
     }
-    // Instants that are not judged are marked; here all are judged.
+    // Unjudged instants are marked; here all instants are judged.
     assert!(judged.iter().all(|own| own["left_out"] == 0));
     assert_eq!(data["engines"][0]["unjudged"], serde_json::json!([]));
     // Equal runs give equal bytes.
@@ -106,9 +108,9 @@ fn a_page_has_verdict_channels_errors_and_the_places_of_the_solution() {
 }
 
 #[test]
-fn no_text_of_a_scenario_is_markup() {
+fn scenario_texts_are_escaped_on_the_page() {
     let place = Place::new();
-    // Names of links are words; titles, names of published numbers and comments are any text.
+    // Names of links are single words, but titles, names of published numbers and comments may be any text.
     let bad = "</title></script><b>&'<!-- <script>alert(1)</script>";
     let [title, oracle] =
         ["title = \"", "name = \"Newton"].map(|own| (own, own.replace("= \"", &format!("= \"{bad}"))));
@@ -128,7 +130,7 @@ fn no_text_of_a_scenario_is_markup() {
 }
 
 #[test]
-fn a_long_run_is_thinned_and_says_so() {
+fn a_long_run_is_thinned_with_a_note() {
     let place = Place::new();
     place
         .ok("run scenarios/pendulum.toml --no-record --budget 1e5 --times 0:3:0.0001 --html page.html --json out.json");
@@ -139,7 +141,7 @@ fn a_long_run_is_thinned_and_says_so() {
     assert!(shown > 1000 && data["instants"] == 30_001, "{shown} of {}", data["instants"]);
     assert_eq!(doubles(&data["time"]).last(), Some(&3.0));
     assert!(page.contains(&format!("{shown} of 30001 instants")), "{shown}");
-    // The worst instant of every channel that is judged everywhere is there.
+    // The page contains the worst instant of every channel that is judged at all instants.
     let json: Value = serde_json::from_str(&fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
     let judged = json["runs"][0]["engines"][0]["channels"].as_array().unwrap();
     for own in judged.iter().filter(|own| own["left_out"] == 0) {
@@ -149,7 +151,7 @@ fn a_long_run_is_thinned_and_says_so() {
 }
 
 #[test]
-fn several_scenarios_go_to_a_directory_and_what_is_in_the_way_is_found_first() {
+fn several_pages_go_to_a_directory_that_is_checked_first() {
     let place = Place::new();
     fs::copy(place.path("scenarios/pendulum.toml"), place.path("scenarios/same.toml")).unwrap();
     let files = "scenarios/pendulum.toml scenarios/same.toml";
@@ -160,15 +162,15 @@ fn several_scenarios_go_to_a_directory_and_what_is_in_the_way_is_found_first() {
     assert_eq!(names, ["pendulum-2.html", "pendulum.html"]);
     fs::write(place.path("file"), "old").unwrap();
     for (target, words) in [
-        ("no/page.html", ["--html", "there is no directory"]),
+        ("no/page.html", ["--html", "the directory no does not exist"]),
         ("file/page.html", ["--html", "directory"]),
-        ("-", ["--html", "a page goes to a file"]),
+        ("-", ["--html", "a page cannot go to standard output"]),
         ("scenarios/pendulum.toml", ["--html", "scenario file"]),
     ] {
         let outcome = place.refused(&format!("run scenarios/pendulum.toml --no-record --html {target}"), &words);
         assert_eq!(outcome.stdout, "", "nothing is proven before");
     }
-    place.refused(&format!("run {files} --no-record --html file"), &["--html", "no directory"]);
+    place.refused(&format!("run {files} --no-record --html file"), &["--html", "not a directory"]);
     assert_eq!(fs::read_to_string(place.path("file")).unwrap(), "old");
 }
 
@@ -180,7 +182,7 @@ fn every_drive_with_a_moment_is_on_the_page_with_its_channel() {
         let page = fs::read_to_string(place.path(&format!("{file}.html"))).unwrap();
         let data = data(&page);
         if file == "crank_rocker" {
-            // The rocker hangs on C at (150, 15) mm; in pictures y points down.
+            // The rocker's frame is at C, (150, 15) mm; in pictures y points down.
             let own = between(&page, "data-name=\"rocker\" transform=\"matrix(", ")");
             let numbers: Vec<f64> = own.split(' ').map(|part| part.parse().unwrap()).collect();
             let unit = data["motion"]["unit"].as_f64().unwrap();
@@ -213,7 +215,8 @@ fn a_page_has_loads_and_the_vectors_of_the_plans() {
     place.ok("run scenarios/rotary_engine.toml --no-record --budget 1e5 --html page.html");
     let data = data(&fs::read_to_string(place.path("page.html")).unwrap());
     let loads = &data["loads"];
-    // A gas force of 300 N that turns with the cylinder, towards its pivot; weights; springs and dampers have a size only.
+    // Loads: a gas force of 300 N that turns with the cylinder and points towards its pivot, and weights.
+    // Springs and dampers have only a magnitude.
     let force = &loads["arrows"][0];
     assert_eq!(force["name"], "force at B on piston");
     let size = first(&force["force"][0]).hypot(first(&force["force"][1]));
@@ -230,7 +233,7 @@ fn a_page_has_loads_and_the_vectors_of_the_plans() {
         loads["between"].as_array().unwrap().iter().map(|own| own["name"].as_str().unwrap()).collect();
     assert_eq!(between[..2], ["spring from H on cylinder to B on piston", "damper from S to B on piston"]);
     assert_eq!(loads["drives"][0]["name"], "balancing moment on cylinder");
-    // The Coriolis part and the relative acceleration of the piston in its cylinder, as `plan` has them.
+    // The Coriolis component and the relative acceleration of the piston in its cylinder, as in `plan`.
     let start = doubles(&data["crank"])[0].to_degrees();
     let plan: Value =
         serde_json::from_str(&place.ok(&format!("plan scenarios/rotary_engine.toml --crank-deg {start} --json -")))
@@ -255,7 +258,7 @@ fn a_page_has_loads_and_the_vectors_of_the_plans() {
 }
 
 #[test]
-fn runs_that_disagree_prove_nothing_or_have_no_places_have_pages() {
+fn disagreeing_inconclusive_and_partial_runs_have_pages() {
     let place = Place::new();
     let page = |options: &str, code: i32| {
         let outcome = place.run(&format!("run scenarios/crank_rocker.toml --no-record --html page.html {options}"));
@@ -265,7 +268,7 @@ fn runs_that_disagree_prove_nothing_or_have_no_places_have_pages() {
     let wrong = page("--budget 1e5 --tolerance-scale 1e-4", 1);
     assert!(between(&wrong, "id=\"verdict\">", "</p>").contains("DISAGREE"));
     let why = between(&wrong, "<div id=\"why\">", "</div>");
-    assert!(why.contains("is beyond the scaled bound") && why.contains("more alike"), "{why}");
+    assert!(why.contains("is beyond the scaled bound") && why.contains("more for the same reason"), "{why}");
     let open = page("--dt 0.02", 3);
     assert!(between(&open, "id=\"verdict\">", "</p>").contains("INCONCLUSIVE"));
     let placeless = page("--budget 1e5 --only joint.B", 0);

@@ -1,4 +1,5 @@
-//! Every number of `run --json` against the proof's own: a field without a number here, or with another one, fails.
+//! Every number of `run --json` against that of the proof.
+//! A field without a number here, or with a different number, fails the test.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,10 +13,11 @@ use serde_json::Value;
 
 use super::tools::Place;
 
-/// Numbers by the names of fields; NaN and infinity are `null`.
+/// Numbers by field name; NaN and infinity are `null`.
 type Numbers<'a> = BTreeMap<&'a str, f64>;
 
-/// Compares all numbers of an object with `wanted`. Objects and lists in it are looked at elsewhere.
+/// Compares all numbers of an object with `wanted`.
+/// Other tests check nested objects and lists.
 fn is_said(what: &str, object: &Value, wanted: &Numbers) {
     let object = object.as_object().unwrap_or_else(|| panic!("{what} is no object"));
     let found: Numbers = object.iter().filter_map(|(key, value)| Some((key.as_str(), value.as_f64()?))).collect();
@@ -56,7 +58,7 @@ fn of_check(own: &Check) -> Numbers<'static> {
     numbers
 }
 
-/// Where an engine's values of a stage come from.
+/// Source of an engine's values of a stage.
 fn source(info: &EngineInfo, own: &ChannelProof) -> String {
     match info.provides.iter().find(|(stage, _)| *stage == own.residual.channel.kind.stage.name()).unwrap().1 {
         Provision::Computed => "read".into(),
@@ -88,7 +90,7 @@ fn checks(what: &str, rows: &Value, own: &[Check]) {
 }
 
 fn engine(what: &str, row: &Value, own: &EngineProof) {
-    // Engines that control their error have an accuracy in place of a step.
+    // Engines that control their error have an accuracy instead of a step.
     let size = if own.info.controls_error { "accuracy" } else { "dt_s" };
     is_said(what, row, &BTreeMap::from([(size, own.info.settings.resolution)]));
     assert_eq!((row["name"].as_str(), row["verdict"].as_str()), (Some(own.info.name), Some(own.verdict.word())));
@@ -151,9 +153,10 @@ fn proven(what: &str, run: &Value, proof: &Proof) {
     }
 }
 
-/// One that is prescribed, with a finding, and one under forces, whose times are not its crank angles.
+/// One case has a prescribed motion and a finding.
+/// The other moves under forces, so its times are not its crank angles.
 #[test]
-fn every_number_of_the_json_is_the_proof_s_own() {
+fn every_number_of_the_json_is_that_of_the_proof() {
     let place = Place::new();
     for name in ["crank_rocker", "compressor_runup"] {
         let path = format!("scenarios/{name}.toml");
@@ -164,10 +167,11 @@ fn every_number_of_the_json_is_the_proof_s_own() {
     }
 }
 
-/// What those two do not have: a grid that begins late, another engine, engines that agree against the reference, work
-/// that is used up, loads that are left out.
+/// Features that the two cases above lack: a grid that begins late, another engine, and engines that agree against the
+/// reference.
+/// Also exhausted work, and loads that are omitted.
 #[test]
-fn what_few_proofs_have_is_said_as_it_is() {
+fn rare_parts_of_a_proof_are_exact_in_the_json() {
     let load = |name: &str, edit: [&str; 2]| {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
         let text = std::fs::read_to_string(&path).unwrap();

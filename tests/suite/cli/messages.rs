@@ -45,7 +45,7 @@ fn inspect_lists_all_configurations() {
     }
     let text = place.ok("inspect scenarios/ov7_base.toml --modes");
     assert_eq!(text.matches("2 real configurations").count(), 3, "{text}");
-    assert_eq!(text.matches("right, followed by the scenario").count(), 3, "{text}");
+    assert_eq!(text.matches("right, chosen by the scenario").count(), 3, "{text}");
     assert_eq!(place.run("inspect scenarios/ov7_base.toml --at-crank-deg 70").code, 2);
 }
 
@@ -53,7 +53,8 @@ fn inspect_lists_all_configurations() {
 fn inspect_as_json() {
     let place = Place::new();
     let shown = place.ok("inspect scenarios/ov7_base.toml --json -");
-    assert_eq!(place.ok("inspect scenarios/ov7_base.toml --json out.json"), "");
+    let text = place.ok("inspect scenarios/ov7_base.toml");
+    assert_eq!(place.ok("inspect scenarios/ov7_base.toml --json out.json"), text);
     assert_eq!(fs::read_to_string(place.path("out.json")).unwrap(), shown);
     let found: Value = serde_json::from_str(&shown).unwrap();
     let count = |key: &str| found[key].as_array().unwrap().len();
@@ -72,7 +73,7 @@ fn inspect_as_json() {
 }
 
 #[test]
-fn list_shows_scenarios_and_what_is_wrong_with_bad_ones() {
+fn list_shows_scenarios_and_the_errors_of_bad_ones() {
     let place = Place::new();
     let text = place.ok("list");
     assert!(text.contains("scenarios/crank_rocker.toml\n    Crank-rocker of a design course"), "{text}");
@@ -84,7 +85,10 @@ fn list_shows_scenarios_and_what_is_wrong_with_bad_ones() {
     assert!(text.contains("must not be negative") && text.contains("scenarios/crank_rocker.toml\n    Crank"), "{text}");
 
     fs::create_dir(place.path("empty")).unwrap();
-    assert_eq!(place.ok("list empty"), "no scenario files (*.toml) in empty\n");
+    assert_eq!(
+        place.ok("list empty"),
+        "no scenario files (.toml) in empty\n`linkproof new` writes one, `linkproof new --shipped` the examples\n"
+    );
 }
 
 #[test]
@@ -111,12 +115,12 @@ fn list_shows_channels_and_solvers() {
 }
 
 #[test]
-fn every_help_shows_examples_that_the_command_understands() {
+fn every_help_shows_valid_examples() {
     let place = Place::empty();
     for command in [
         "", "run", "accept", "solve", "bench", "inspect", "list", "new", "docs", "bearings", "plan", "diagram", "drive",
     ] {
-        // Nothing is there but what the examples bring.
+        // The directory contains only what the examples create.
         let place = Place::empty();
         let help = place.ok(&format!("{command} --help"));
         let examples = help.split("Examples:\n").nth(1).unwrap_or_else(|| panic!("{command}: no examples in\n{help}"));
@@ -127,7 +131,7 @@ fn every_help_shows_examples_that_the_command_understands() {
             let words = line.trim().trim_start_matches("linkproof ").split("  ").next().unwrap();
             let words = words.replace("scenarios/*.toml", "scenarios/crank_rocker.toml scenarios/ov7_base.toml");
             let outcome = place.run(&words);
-            // Single precision proves less: with it, a proof by all engines is inconclusive.
+            // Single precision proves less, so a proof with all engines is inconclusive.
             let code = if cfg!(feature = "f32") && words.contains("--engine all") { 3 } else { 0 };
             assert_eq!((outcome.code, outcome.stderr.as_str()), (code, ""), "{words}: {}", outcome.stdout);
             count += 1;
@@ -139,7 +143,7 @@ fn every_help_shows_examples_that_the_command_understands() {
 }
 
 #[test]
-fn what_cannot_be_read_is_named_with_a_way_out() {
+fn unreadable_files_are_named_with_a_remedy() {
     let place = Place::new();
     fs::write(place.path("junk.toml"), (0..4096u32).map(|k| (k * 151 % 256) as u8).collect::<Vec<_>>()).unwrap();
     fs::write(place.path("zeros.toml"), [0u8; 512]).unwrap();
@@ -157,7 +161,7 @@ fn what_cannot_be_read_is_named_with_a_way_out() {
     for directory in ["gone", "empty.toml"] {
         place.refused(&format!("list {directory}"), &[directory, "linkproof list DIR"]);
     }
-    // Every command asks for its missing arguments.
+    // Every command reports its missing arguments.
     for command in ["", "run", "solve", "inspect", "prove"] {
         let outcome = place.run(command);
         assert_eq!(outcome.code, 2, "{command}");
@@ -166,7 +170,7 @@ fn what_cannot_be_read_is_named_with_a_way_out() {
 }
 
 #[test]
-fn what_cannot_be_written_is_named_with_a_way_out() {
+fn unwritable_files_are_named_with_a_remedy() {
     let place = Place::new();
     fs::write(place.path("plain"), "a file, not a directory").unwrap();
     let scenario = "scenarios/crank_rocker.toml";
@@ -186,18 +190,19 @@ fn what_cannot_be_written_is_named_with_a_way_out() {
         place.refused(&format!("run {scenario} --no-record {option}"), &["cannot be used with --no-record", "--live"]);
     }
     #[cfg(not(feature = "live"))]
-    place.refused(&format!("run {scenario} --live"), &["does not have it", "cargo install --path . --features live"]);
+    place
+        .refused(&format!("run {scenario} --live"), &["does not include it", "cargo install --path . --features live"]);
     place.refused(&format!("run {scenario} --engine magic"), &["magic", "rapier"]);
     place.refused(&format!("run {scenario} --reference rapier"), &["rapier", "assur, newton"]);
 }
 
 #[test]
-fn a_scenario_is_never_taken_for_a_target() {
+fn a_scenario_is_never_used_as_an_output_file() {
     let place = Place::new();
     let (scenario, other) = ("scenarios/crank_rocker.toml", "scenarios/ov7_base.toml");
     let before = fs::read(place.path(other)).unwrap();
     for command in [
-        // A shell makes this of `--json scenarios/*.toml`.
+        // A shell expands `--json scenarios/*.toml` to this.
         format!("run --no-record --json {other} {scenario}"),
         format!("solve {scenario} --with assur --csv {other}"),
         format!("inspect {scenario} --json {other}"),
@@ -208,7 +213,7 @@ fn a_scenario_is_never_taken_for_a_target() {
 }
 
 #[test]
-fn a_reader_that_goes_away_is_no_error() {
+fn a_closed_output_pipe_is_no_error() {
     use std::process::{Command, Stdio};
     let place = Place::new();
     let mut child = Command::new(env!("CARGO_BIN_EXE_linkproof"))

@@ -16,7 +16,7 @@ fn rocker(place: &Place, mode: &str) -> f64 {
 }
 
 #[test]
-fn a_dyad_starts_in_the_mode_asked_for() {
+fn a_dyad_starts_in_the_requested_mode() {
     let place = Place::new();
     let left = rocker(&place, "");
     assert_eq!(rocker(&place, "--mode coupler,rocker=left"), left);
@@ -34,7 +34,7 @@ fn a_dyad_starts_in_the_mode_asked_for() {
 }
 
 #[test]
-fn a_higher_group_starts_in_the_configuration_of_that_number() {
+fn a_higher_group_starts_in_the_numbered_configuration() {
     let place = Place::new();
     let shown = place.ok("inspect scenarios/fourth_class.toml --modes --json -");
     let found: Value = serde_json::from_str(&shown).unwrap();
@@ -58,7 +58,7 @@ fn a_higher_group_starts_in_the_configuration_of_that_number() {
 }
 
 #[test]
-fn another_mode_is_proven_without_the_numbers_of_the_first() {
+fn another_mode_is_proven_without_the_published_numbers() {
     let place = Place::new();
     let run = |mode: &str| {
         let outcome = place.run(&format!("run scenarios/crank_rocker.toml --no-record --json - {mode}"));
@@ -78,32 +78,32 @@ fn another_mode_is_proven_without_the_numbers_of_the_first() {
 }
 
 #[test]
-fn what_cannot_be_asked_for_is_refused() {
+fn invalid_modes_are_refused() {
     let place = Place::new();
     for command in ["run scenarios/crank_rocker.toml --no-record", "solve scenarios/crank_rocker.toml --with assur"] {
         for (mode, words) in [
-            ("coupler,rocker", ["names no group and mode", "\"coupler,rocker=left\""]),
+            ("coupler,rocker", ["does not name a group and a mode", "\"coupler,rocker=left\""]),
             ("crank,rocker=left", ["no Assur group (crank, rocker)", "\"coupler,rocker=left\""]),
             ("coupler,wheel=left", ["no Assur group (coupler, wheel)", "\"coupler,rocker=left\""]),
             (
                 "coupler,rocker=ahead",
-                ["no assembly mode of the group (coupler, rocker)", "\"left\", \"right\", or a number"],
+                ["not an assembly mode of the group (coupler, rocker)", "\"left\", \"right\", or a number"],
             ),
-            ("coupler,rocker=3", ["configuration 3 is asked for, but the group has 2 here", "from 1 to 2"]),
-            ("coupler,rocker=0", ["configuration 0 is asked for", "from 1 to 2"]),
+            ("coupler,rocker=3", ["configuration 3 is requested, but the group has 2 here", "from 1 to 2"]),
+            ("coupler,rocker=0", ["configuration 0 is requested, but the group has 2 here", "from 1 to 2"]),
         ] {
             place.refused(&format!("{command} --mode {mode}"), &words);
         }
     }
     let solve = "solve scenarios/fourth_class.toml --with assur --mode";
-    place.refused(&format!("{solve} {FOURTH}=left"), &["no assembly mode of the group", "inspect FILE --modes"]);
+    place.refused(&format!("{solve} {FOURTH}=left"), &["not an assembly mode of the group", "inspect FILE --modes"]);
     place.refused(&format!("{solve} {FOURTH}=9"), &["the group has 2 here", "from 1 to 2"]);
 }
 
 #[test]
-fn inspect_tells_how_clear_the_start_is() {
+fn inspect_reports_how_unambiguous_the_start_is() {
     let place = Place::new();
-    // The next configuration of fourth_class has its point E where `--modes` lists it.
+    // In the next configuration of fourth_class, the point E is where `--modes` lists it.
     let found: Value = serde_json::from_str(&place.ok("inspect scenarios/fourth_class.toml --modes --json -")).unwrap();
     let at = |mode: usize| {
         let points = found["modes"]["groups"][0]["modes"][mode]["links"][2]["points"].as_array().unwrap().clone();
@@ -114,9 +114,10 @@ fn inspect_tells_how_clear_the_start_is() {
     assert_within!((group["from_rough_place_m"].as_f64().unwrap() - at(0)).abs(), 1e-12, "{group}");
     assert_within!((group["next_from_rough_place_m"].as_f64().unwrap() - at(1)).abs(), 1e-12, "{group}");
     let text = place.ok("inspect scenarios/fourth_class.toml");
-    let words = format!("{:.1} mm from the rough place, the next configuration {:.0} mm", at(0) * 1e3, at(1) * 1e3);
+    let [first, next] = [0, 1].map(|mode| at(mode) * 1e3);
+    let words = format!("{first:.1} mm from the approximate position in the file, the next configuration {next:.0} mm");
     assert!(text.contains(&words), "`{words}` is not in:\n{text}");
-    assert!(!place.ok("inspect scenarios/ov7_base.toml").contains("rough place"));
+    assert!(!place.ok("inspect scenarios/ov7_base.toml").contains("approximate position"));
 }
 
 /// A crank, and two pinned base links on four leads, one of which is hinged to the crank: a group of six links.
@@ -202,7 +203,8 @@ fn a_group_of_six_links_starts_from_a_rough_drawing() {
         [("B", 50.0, 120.0), ("C", 200.0, 110.0), ("D", 260.0, 160.0), ("E", 450.0, 100.0), ("F", 560.0, 160.0)];
     six(&place, &near(&drawn));
     let text = place.ok("inspect scenarios/six.toml");
-    assert!(text.contains("mode followed") && text.contains(" mm from the rough place\n"), "{text}");
+    let words = " mm from the approximate position in the file\n";
+    assert!(text.contains("mode followed") && text.contains(words), "{text}");
     let [assur, newton] = ["assur", "newton"]
         .map(|solver| Table::of(&place.ok(&format!("solve scenarios/six.toml --with {solver} --crank-deg 0:10:5"))));
     for (point, x, y) in drawn {
@@ -210,7 +212,7 @@ fn a_group_of_six_links_starts_from_a_rough_drawing() {
             let name = format!("point.{point}.{axis}_m");
             let (own, other) = (assur.column(&name), newton.column(&name));
             own.iter().zip(&other).for_each(|(a, b)| assert_within!((a - b).abs(), 1e-12, "{name}"));
-            // Half the shortest link, as promised.
+            // The approximate positions may be off by half the shortest link, as promised.
             assert_within!((own[0] * 1e3 - drawn).abs(), 45.0, "{name}: {} for {drawn}", own[0]);
         }
     }
@@ -227,13 +229,14 @@ fn a_group_of_six_links_starts_from_a_rough_drawing() {
 }
 
 #[test]
-fn of_a_group_of_six_links_the_followed_configuration_is_listed() {
+fn a_group_of_six_links_lists_its_followed_configuration() {
     let place = Place::new();
     let drawn = [("B", 50.0, 120.0), ("C", 200.0, 110.0), ("E", 450.0, 100.0)];
     six(&place, &near(&drawn));
     let text = place.ok("inspect scenarios/six.toml --modes --at-crank-deg 5");
-    let words = "only the followed one is shown; the configurations of a group of 6 links of class 3 are not all known";
-    assert!(text.contains(words) && text.contains("1, followed by the scenario"), "{text}");
+    let words = "only the configuration chosen by the scenario is shown; \
+                 the configurations of a group of 6 links of class 3 are not all known";
+    assert!(text.contains(words) && text.contains("1, chosen by the scenario"), "{text}");
     let found: Value =
         serde_json::from_str(&place.ok("inspect scenarios/six.toml --modes --at-crank-deg 5 --json -")).unwrap();
     let group = &found["modes"]["groups"][0];
@@ -254,13 +257,13 @@ fn of_a_group_of_six_links_the_followed_configuration_is_listed() {
 }
 
 #[test]
-fn a_rough_drawing_that_does_not_do_is_refused() {
+fn an_unsuitable_rough_drawing_is_refused() {
     let place = Place::new();
     let inspect = "inspect scenarios/six.toml";
     six(&place, &near(&[("B", 50.0, 120.0)]));
-    place.refused(inspect, &["do not tell where link \"base_1\" of the group lies", "two points of the link"]);
+    place.refused(inspect, &["do not determine where link \"base_1\" of the group lies", "two points of the link"]);
     six(&place, "near = { point = \"B\", x_mm = 50, y_mm = 120 }");
-    place.refused(inspect, &["do not tell where link"]);
+    place.refused(inspect, &["do not determine where link"]);
     six(&place, "");
     place.refused(inspect, &["are not all known", "give `near` for enough points"]);
     six(&place, "near = [{ point = \"X\", x_mm = 50, y_mm = 120 }]");
@@ -268,5 +271,5 @@ fn a_rough_drawing_that_does_not_do_is_refused() {
     let far =
         [("B", 900.0, 120.0), ("C", 200.0, 900.0), ("D", 260.0, -700.0), ("E", 450.0, 900.0), ("F", 560.0, -860.0)];
     six(&place, &near(&far));
-    place.refused(inspect, &["rough places", "nearer to the configuration you mean"]);
+    place.refused(inspect, &["approximate positions", "nearer to the intended configuration"]);
 }

@@ -1,4 +1,4 @@
-//! `linkproof new`: what a newcomer begins with, in an empty directory.
+//! `linkproof new`: the first steps of a newcomer in an empty directory.
 
 use std::fs;
 
@@ -38,7 +38,7 @@ fn every_template_is_proven_for_its_whole_motion() {
 }
 
 #[test]
-fn templates_are_listed_and_what_is_unknown_is_answered() {
+fn templates_are_listed_and_unknown_ones_refused() {
     let place = Place::empty();
     let list = place.ok("new");
     assert_eq!(list, place.ok("new --list"));
@@ -59,41 +59,41 @@ fn templates_are_listed_and_what_is_unknown_is_answered() {
 }
 
 #[test]
-fn a_file_is_replaced_only_if_told() {
+fn a_file_is_replaced_only_with_force() {
     let place = Place::empty();
     assert!(place.ok("new klann -o -").starts_with("# A leg of Klann's spider"));
     place.ok("new four-bar -o mine.toml --set crank_mm=30");
     let mine = fs::read_to_string(place.path("mine.toml")).unwrap();
     assert!(mine.contains("name = \"mine\"") && mine.contains("\ncrank_mm = 30 #"), "{mine}");
-    place.refused("new watt -o mine.toml", &["mine.toml is there already", "--force"]);
+    place.refused("new watt -o mine.toml", &["mine.toml already exists", "--force"]);
     assert_eq!(fs::read_to_string(place.path("mine.toml")).unwrap(), mine);
     place.ok("new watt -o mine.toml --force");
     assert!(fs::read_to_string(place.path("mine.toml")).unwrap().starts_with("# A Watt six-bar"));
 }
 
 #[test]
-fn lengths_that_do_not_fit_are_written_and_told() {
+fn lengths_that_do_not_fit_are_written_and_reported() {
     let place = Place::empty();
     for (file, set, words) in [
         ("a.toml", "crank_mm=400", "cannot be assembled"),
-        ("b.toml", "coupler_mm=55", "can be reached"),
+        ("b.toml", "coupler_mm=55", "are"),
         ("c.toml", "ground_mm=0", "links"),
     ] {
         let told = place.run(&format!("new four-bar -o {file} --set {set}"));
         assert_eq!(told.code, 2, "{set}: {}", told.stdout);
-        for word in [words, "written nevertheless", "crank_mm = 40, coupler_mm = 120"] {
+        for word in [words, "written anyway", "crank_mm = 40, coupler_mm = 120"] {
             assert!(told.stderr.contains(word), "{set}: `{word}` is not in: {}", told.stderr);
         }
         assert!(fs::read_to_string(place.path(file)).unwrap().contains(&set.replace('=', " = ")));
     }
 }
 
-/// What the other examples of help name is there after `new --shipped`.
+/// After `new --shipped`, the files named by the other examples of the help exist.
 #[test]
-fn examples_run_where_nothing_was() {
+fn help_examples_run_in_an_empty_directory() {
     let place = Place::empty();
     place.ok("new --shipped");
-    place.refused("new --shipped", &["is there already", "--force"]);
+    place.refused("new --shipped", &["already exists", "--force"]);
     place.ok("new --shipped again");
     for command in [
         "list",
@@ -113,7 +113,7 @@ fn examples_run_where_nothing_was() {
     place.refused("inspect catalogues/motors.toml", &["linkproof docs scenario"]);
 }
 
-/// Coordinates of the foot (m) at every degree of a turn.
+/// Coordinates of the foot (m) at every degree of a revolution.
 fn steps(template: &str, foot: &str) -> (Vec<f64>, Vec<f64>) {
     let place = Place::empty();
     place.ok(&format!("new {template}"));
@@ -122,7 +122,8 @@ fn steps(template: &str, foot: &str) -> (Vec<f64>, Vec<f64>) {
     (table.column(&format!("point.{foot}.x_m")), table.column(&format!("point.{foot}.y_m")))
 }
 
-/// Degrees of the crank at which the foot is within a share of its stride of the ground, and how far it goes meanwhile.
+/// Number of crank degrees at which the foot is on the ground: its height is at most `share` of its stride.
+/// Also the distance that the foot travels during these degrees.
 fn on_the_ground(x: &[f64], y: &[f64], share: f64) -> (usize, f64) {
     let lowest = |values: &[f64]| values.iter().copied().reduce(KeepNan::smaller).unwrap();
     let span = |values: &[f64]| values.iter().copied().reduce(KeepNan::larger).unwrap() - lowest(values);
@@ -131,7 +132,7 @@ fn on_the_ground(x: &[f64], y: &[f64], share: f64) -> (usize, f64) {
     (flat.len(), span(&flat) / span(x))
 }
 
-/// Jansen's foot is on the ground for almost half a turn, and goes most of its stride there.
+/// Jansen's foot is on the ground for almost half a revolution, and covers most of its stride there.
 #[test]
 fn jansens_leg_walks() {
     let (x, y) = steps("jansen", "S");
@@ -139,8 +140,9 @@ fn jansens_leg_walks() {
     assert!(degrees > 150 && stride > 0.85, "{degrees} {stride}");
 }
 
-/// The patent's table: the foot is at (0, 0) with the leg drawn in, one unit (100 mm) ahead half a turn before, and on the
-/// ground in between.
+/// The patent's table: with the leg drawn in, the foot is at (0, 0).
+/// Half a revolution earlier, it is one unit (100 mm) ahead.
+/// Between these two poses it is on the ground.
 #[test]
 fn klanns_leg_walks() {
     let (x, y) = steps("klann", "P33");

@@ -1,8 +1,8 @@
-//! Every option that takes a number: what is none is refused before anything is run.
+//! Every option that takes a number refuses an invalid value before anything is run.
 
 use super::tools::Place;
 
-/// Names of values that are decimal numbers, in the helps.
+/// Value names of decimal numbers in the help texts.
 const DECIMAL: [&str; 14] =
     ["S", "DEG", "SHARE", "MM", "MPA", "RPM", "GB", "STEPS", "ACCURACY", "FACTOR", "KG_PER_M", "K", "NUMBER", "X,Y"];
 
@@ -25,7 +25,7 @@ const COMMANDS: [&str; 16] = [
     "synthesize search",
 ];
 
-/// The options of a command with the names of their values, as its help has them.
+/// The options of a command with their value names, as in its help.
 fn options(place: &Place, command: &str) -> Vec<(String, String)> {
     let help = place.ok(&format!("{command} --help"));
     let option = |line: &str| {
@@ -36,7 +36,7 @@ fn options(place: &Place, command: &str) -> Vec<(String, String)> {
 }
 
 #[test]
-fn numbers_that_are_none_are_refused_by_every_option() {
+fn every_option_refuses_invalid_numbers() {
     let place = Place::new();
     let mut tried = 0;
     for command in COMMANDS {
@@ -53,7 +53,7 @@ fn numbers_that_are_none_are_refused_by_every_option() {
             }
             tried += 1;
         }
-        // Counts, and numbers of threads, of which 0 may stand for all.
+        // Counts, and numbers of threads, where 0 may mean all.
         for (option, _) in options(&place, command).iter().filter(|(_, value)| value == "N") {
             for wrong in ["-1", "2.5", "many"] {
                 place.refused(&format!("{command} {option}={wrong}"), &[option, wrong]);

@@ -1,4 +1,4 @@
-//! Outputs that cannot be written: found before the work, or called by their name, and never left by halves.
+//! Outputs that cannot be written: detected before the work, or reported by name, and never left incomplete.
 #![cfg(unix)]
 
 use std::fs;
@@ -10,7 +10,7 @@ use assert_cmd::cargo::CommandCargoExt;
 
 use super::tools::Place;
 
-/// Every command with an output, up to the file's name, and that of the option.
+/// Every command with an output: the arguments up to the file name, and the name of the output option.
 const FILES: [(&str, &str); 28] = [
     ("run scenarios/pendulum.toml --no-record --json", "--json"),
     ("run scenarios/pendulum.toml --no-record --junit", "--junit"),
@@ -42,7 +42,7 @@ const FILES: [(&str, &str); 28] = [
     ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 --json", "--json"),
 ];
 
-/// Names in a place, without the scenarios.
+/// Names of the entries in a place, without the scenarios.
 fn left(place: &Place) -> Vec<String> {
     let names = fs::read_dir(place.path("")).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<String> = names.filter(|name| name != "scenarios").collect();
@@ -51,13 +51,13 @@ fn left(place: &Place) -> Vec<String> {
 }
 
 #[test]
-fn what_cannot_be_written_is_found_before_the_work() {
+fn unwritable_outputs_are_found_before_the_work() {
     let place = Place::new();
     fs::create_dir(place.path("taken")).unwrap();
     fs::write(place.path("file"), "old").unwrap();
     for (command, option) in FILES {
         for (target, words) in [
-            ("no/such/out", "there is no directory no/such"),
+            ("no/such/out", "the directory no/such does not exist"),
             ("taken", "this is a directory"),
             ("file/below", "directory"),
             ("new/", "this is a directory"),
@@ -68,11 +68,11 @@ fn what_cannot_be_written_is_found_before_the_work() {
     }
     place.refused(
         "synthesize slider-crank --stroke-mm 100 --rod-mm 200 -o no/such.toml",
-        &["--output", "no directory no;"],
+        &["--output", "the directory no does not exist;"],
     );
     for command in ["run scenarios/pendulum.toml --record", "bench scenarios/pendulum.toml --out", "stress speed --out"]
     {
-        let outcome = place.refused(&format!("{command} file/below"), &["expected a directory"]);
+        let outcome = place.refused(&format!("{command} file/below"), &["; expected a directory"]);
         assert_eq!(outcome.stdout, "", "{command}");
     }
     assert_eq!(left(&place), ["file", "taken"]);
@@ -80,30 +80,30 @@ fn what_cannot_be_written_is_found_before_the_work() {
 }
 
 #[test]
-fn no_result_takes_the_place_of_another_or_of_what_is_read() {
+fn no_output_overwrites_another_output_or_an_input() {
     let place = Place::new();
     fs::write(place.path("mine.csv"), "t_s,link.crank.angle_deg\n0,0\n").unwrap();
     for (command, words) in [
-        ("run scenarios/pendulum.toml --no-record --json out --junit ./out", "--json and --junit both name"),
-        ("run scenarios/pendulum.toml --no-record --markdown out --html out", "--html and --markdown both name"),
-        ("run scenarios/pendulum.toml --no-record --json - --markdown -", "--json and --markdown both name -"),
-        ("compare scenarios/crank_rocker.toml mine.csv --json mine.csv", "B and --json both name"),
-        ("mutate scenarios/pendulum.toml --json out --markdown out", "--json and --markdown both name"),
-        ("export scenarios/crank_rocker.toml --json out --mjcf out", "--mjcf and --json both name"),
-        ("synthesize search synthesis/straight_line.toml --svg out --json out", "--svg and --json both name"),
+        ("run scenarios/pendulum.toml --no-record --json out --junit ./out", "two results go to out"),
+        ("run scenarios/pendulum.toml --no-record --markdown out --html out", "two results go to out"),
+        ("run scenarios/pendulum.toml --no-record --json - --markdown -", "two results go to -"),
+        ("compare scenarios/crank_rocker.toml mine.csv --json mine.csv", "--output and B both name mine.csv"),
+        ("mutate scenarios/pendulum.toml --json out --markdown out", "two results go to out"),
+        ("export scenarios/crank_rocker.toml --json out --mjcf out", "two results go to out"),
+        ("synthesize search synthesis/straight_line.toml --svg out --json out", "two results go to out"),
     ] {
         let outcome = place.refused(command, &[words, "two files"]);
         assert_eq!(outcome.stdout, "", "{command}");
     }
     assert_eq!(left(&place), ["mine.csv"]);
     assert!(fs::read_to_string(place.path("mine.csv")).unwrap().starts_with("t_s"));
-    // What is thrown away may be thrown away twice.
+    // Two outputs may both go to the null device.
     place.ok("run scenarios/pendulum.toml --no-record --json /dev/null --junit /dev/null");
 }
 
-/// A proof that would take long ends at once, and touches nothing.
+/// A proof that would take long ends at once and changes no file.
 #[test]
-fn a_directory_that_may_not_be_written_to_is_found_at_once() {
+fn a_read_only_directory_is_found_at_once() {
     let place = Place::new();
     let locked = place.path("locked");
     fs::create_dir(&locked).unwrap();
@@ -119,7 +119,7 @@ fn a_directory_that_may_not_be_written_to_is_found_at_once() {
     fs::set_permissions(&locked, PermissionsExt::from_mode(0o755)).unwrap();
 }
 
-/// An existing file stays as it is while it is only tried.
+/// Testing whether an existing file can be written leaves it unchanged.
 #[test]
 fn an_older_file_survives_a_bad_scenario() {
     let place = Place::new();
@@ -128,7 +128,7 @@ fn an_older_file_survives_a_bad_scenario() {
     assert_eq!(fs::read_to_string(place.path("out.json")).unwrap(), "old");
 }
 
-/// Runs `linkproof` in a shell: `$0` is the command, and `prepare` goes before it.
+/// Runs `linkproof` in a shell: `$0` is the command, and `prepare` precedes it.
 fn in_shell(place: &Place, prepare: &str, arguments: &str) -> Output {
     let linkproof = Command::cargo_bin("linkproof").unwrap().get_program().to_owned();
     let script = format!("{prepare} exec \"$0\" {arguments}");
@@ -137,10 +137,11 @@ fn in_shell(place: &Place, prepare: &str, arguments: &str) -> Output {
 
 /// A limit on the size of files ends a write as a full disk does, and needs no rights.
 #[test]
-fn no_output_is_left_by_halves() {
+fn no_output_is_left_half_written() {
     let place = Place::new();
     for (index, (command, _)) in FILES.into_iter().enumerate() {
-        // Over an older file, and where there is none, in turn: all of them write in one way.
+        // Alternates between replacing an older file and creating a new one, because all outputs are written by the
+        // same method.
         let old = index.is_multiple_of(2).then_some("an older file");
         if let Some(old) = old {
             fs::write(place.path("out"), old).unwrap();
@@ -157,21 +158,22 @@ fn no_output_is_left_by_halves() {
 }
 
 #[test]
-fn a_full_device_is_called_so() {
+fn a_full_device_is_reported_as_such() {
     let place = Place::new();
     for command in ["solve scenarios/crank_rocker.toml --with assur --csv", "plan scenarios/crank_rocker.toml --svg"] {
         place.refused(
             &format!("{command} /dev/full"),
-            &["/dev/full cannot be written: no room is left on the device", "make room"],
+            &["/dev/full cannot be written: no space is left on the device", "free space there"],
         );
         let output = in_shell(&place, "exec > /dev/full;", &format!("{command} -"));
         let told = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{command}: {told}");
-        assert!(told.contains("standard output cannot be written: no room is left"), "{command}: {told}");
+        let words = "standard output cannot be written: no space is left on the device";
+        assert!(told.contains(words), "{command}: {told}");
     }
 }
 
-/// A file system of 16 kB, where the kernel lets its user mount one.
+/// A file system of 16 kB, if the kernel lets the user mount one.
 #[test]
 fn a_full_disk_leaves_no_file() {
     let place = Place::new();
@@ -195,7 +197,7 @@ fn a_full_disk_leaves_no_file() {
             command.current_dir(place.path("")).args(["-rm", "sh", "-c", &script]).arg(&linkproof).output().unwrap();
         let (told, listed) = (String::from_utf8_lossy(&output.stderr), String::from_utf8_lossy(&output.stdout));
         assert_eq!(output.status.code(), Some(2), "{arguments}: {told}");
-        assert!(told.contains("no room is left on the device") && told.contains(needs), "{arguments}: {told}");
+        assert!(told.contains("no space is left on the device") && told.contains(needs), "{arguments}: {told}");
         assert!(
             !listed.lines().any(|line| line.ends_with("out") || line.ends_with(".mcap") || line.ends_with(".partial")),
             "{listed}"

@@ -17,7 +17,9 @@ fn plans_as_text_json_and_drawing() {
     assert_eq!(json["velocity"]["scale_per_mm"], 0.02);
     let omega = json["singular_points"][0]["links"][0]["omega_rad_s"].as_f64().unwrap();
     assert_within!((omega - 2.03890).abs(), 0.5e-5, "{omega}");
-    assert_eq!(place.ok("plan scenarios/ov7_base.toml --crank-deg -30 --svg plans.svg"), "");
+    // The text is printed besides the drawing.
+    let plan = "plan scenarios/ov7_base.toml --crank-deg -30";
+    assert_eq!(place.ok(&format!("{plan} --svg plans.svg")), place.ok(plan));
     let drawing = fs::read_to_string(place.path("plans.svg")).unwrap();
     assert!(roxmltree::Document::parse(&drawing).is_ok());
 }
@@ -31,15 +33,15 @@ fn diagrams_as_text_json_csv_and_drawing() {
     let json = place.run(&format!("{of} --divisions 24 --json -")).json();
     assert_eq!(json["methods"][0]["points"].as_array().unwrap().len(), 24);
     let csv = place.ok(&format!("{of} --csv -"));
-    // Twelve middles and twelve ends of chords, thirteen ends of each of the two integrations, and the header.
+    // The header, twelve midpoints and twelve ends of chords, and thirteen ends for each of the two integrations.
     assert_eq!(csv.lines().count(), 1 + 12 + 12 + 13 + 13);
     assert!(roxmltree::Document::parse(&place.ok(&format!("{of} --svg -"))).is_ok());
 }
 
 #[test]
-fn wrong_questions_are_refused() {
+fn invalid_requests_are_refused() {
     let place = Place::new();
-    place.refused("plan scenarios/crank_rocker.toml --crank-deg 1e30", &["turns away"]);
+    place.refused("plan scenarios/crank_rocker.toml --crank-deg 1e30", &["turns from zero; the limit is 1e5"]);
     place.refused("plan scenarios/crank_rocker.toml --crank-deg nan", &["finite number"]);
     place.refused("plan scenarios/crank_rocker.toml --with rapier", &["rapier"]);
     place.refused("plan scenarios/crank_rocker.toml --svg scenarios/crank_rocker.toml", &["scenario file"]);
@@ -49,7 +51,7 @@ fn wrong_questions_are_refused() {
     place.refused(&format!("{of} point.B.x_m --divisions 2"), &["2 parts", "4 to 1000"]);
 }
 
-/// Symptom: the plan of a link with 10 000 points asked for 2.3 GB, and that of 500 took 79 s.
+/// Symptom: the plan of a link with 10 000 points requested 2.3 GB, and that of a link with 500 took 79 s.
 #[test]
 fn a_link_with_more_points_than_a_plan_can_show_is_refused() {
     let place = Place::new();

@@ -4,7 +4,7 @@ use super::tools::Place;
 use crate::common::assert_within;
 
 #[test]
-fn a_crank_rocker_is_told_with_its_extreme_positions() {
+fn a_crank_rocker_is_reported_with_its_extreme_positions() {
     let place = Place::new();
     let text = place.ok("inspect scenarios/crank_rocker.toml --range");
     for words in
@@ -26,7 +26,7 @@ fn a_crank_rocker_is_told_with_its_extreme_positions() {
 
 /// A longer crank: 0.15 m with a frame of 0.150748 m, coupler 0.347072 m and rocker 0.25 m, which does not turn fully.
 #[test]
-fn a_crank_that_does_not_turn_fully_is_told_with_its_limits() {
+fn a_limited_crank_is_reported_with_its_limits() {
     let place = Place::new();
     place.edited(
         "crank_rocker.toml",
@@ -37,12 +37,12 @@ fn a_crank_that_does_not_turn_fully_is_told_with_its_limits() {
         ],
     );
     let text = place.ok("inspect scenarios/limited.toml --range");
-    for words in ["from ", "triple-rocker", "limit of rotation (dead point)", "without bound", "coupler, rocker"] {
+    for words in ["from ", "triple-rocker", "limit of rotation (dead point)", "unbounded", "coupler, rocker"] {
         assert!(text.contains(words), "`{words}` is not in:\n{text}");
     }
     let range = place.run("inspect scenarios/limited.toml --range --json -").json()["range"].clone();
     let [from, to] = ["from_rad", "to_rad"].map(|key| range["extent"][key].as_f64().unwrap());
-    // Folded at both limits: |AC| = AB - CB.
+    // The dyad is folded at both limits: |AC| = AB - CB.
     let (a, d, reach) = (0.15f64, 0.15f64.hypot(0.015), 0.347_071_931_891_81 - 0.25);
     let half = ((a * a + d * d - reach * reach) / (2.0 * a * d)).acos();
     let base = 0.015f64.atan2(0.15);
@@ -56,17 +56,17 @@ fn a_crank_that_does_not_turn_fully_is_told_with_its_limits() {
         "run scenarios/limited.toml --no-record",
         "inspect scenarios/limited.toml --modes --at-crank-deg 0",
     ] {
-        place.refused(command, &["can be reached ", &interval, "deg on this branch"]);
+        place.refused(command, &["; reachable crank angles: ", &interval, "deg on this branch"]);
     }
 }
 
 #[test]
-fn range_and_modes_are_two_questions() {
+fn range_and_modes_exclude_each_other() {
     Place::new().refused("inspect scenarios/crank_rocker.toml --range --modes", &["cannot be used with"]);
 }
 
 #[test]
-fn a_range_is_sought_within_the_work_that_is_allowed() {
+fn a_range_search_keeps_to_the_work_limit() {
     let place = Place::new();
     place.refused("inspect scenarios/crank_rocker.toml --range --budget 10", &["1.0e1 steps", "--budget 1e2"]);
     place.refused("inspect scenarios/crank_rocker.toml --budget 10", &["--range"]);

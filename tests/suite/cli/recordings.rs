@@ -1,4 +1,4 @@
-//! A recording takes the place of an older one of the same run, and of no other.
+//! A recording replaces an older one of the same run, and no other.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -23,10 +23,11 @@ fn recordings(place: &Place) -> Vec<String> {
     names
 }
 
-/// A viewer shows what is logged at a time as what was then: log times are those of the instants, from the first one
-/// on, as many times longer as is asked for.
+/// A viewer takes a log time as the time of the event.
+/// Log times are therefore the times of the instants, counted from the first instant and multiplied by the requested
+/// factor.
 #[test]
-fn log_times_are_the_instants_times() {
+fn log_times_follow_the_times_of_the_instants() {
     let place = Place::new();
     for (slow, options) in [(1, ""), (10, " --slow 10")] {
         place.ok(&format!("run scenarios/crank_rocker.toml --times 0.1,0.15,0.3 --record out{slow}{options}"));
@@ -37,7 +38,7 @@ fn log_times_are_the_instants_times() {
             assert_eq!(message.log_time, message.publish_time);
             topics.entry(message.channel.topic.clone()).or_default().push(message.log_time);
         }
-        // 0, 50 and 200 ms after the first; frames of the picture lie between them, too.
+        // The instants are 0, 50 and 200 ms after the first; frames of the picture lie in between too.
         let instants = [0, 50_000_000, 200_000_000].map(|time| slow * time);
         let of_instants = topics.values().filter(|times| times.as_slice() == instants).count();
         assert!(of_instants >= 5, "{topics:?}");
@@ -48,11 +49,11 @@ fn log_times_are_the_instants_times() {
 }
 
 #[test]
-fn other_settings_get_a_name_of_their_own() {
+fn other_settings_get_a_separate_file_name() {
     let place = Place::new();
     place.ok(RUN);
     let first = fs::read(place.path("out/pendulum.mcap")).unwrap();
-    // The same run again takes its place, byte for byte.
+    // A repetition of the same run replaces the recording, byte for byte.
     let told = place.ok(RUN);
     let size = (first.len() as f64 / 1e3).round();
     let line = format!("recording  out/pendulum.mcap ({size} kB)\nlayout     out/pendulum.foxglove.json\n");
@@ -67,17 +68,18 @@ fn other_settings_get_a_name_of_their_own() {
         ("--times 0,0.1,0.2", "pendulum-3.mcap", "its grid_times_s is none, not \"0,0.1,0.2\""),
         ("--only positions", "pendulum-4.mcap", "its only is none, not \"positions\""),
         ("--reference newton", "pendulum-2.mcap", "its reference"),
-        // Fewer samples never take the place of all of them; another speed of the same samples does.
+        // A recording with fewer samples never replaces a complete recording.
+        // A recording with the same samples at another speed may replace it.
         ("--record-hz 10", "pendulum-5.mcap", "its record_hz is none, not \"10\""),
     ] {
         let told = place.ok(&format!("{RUN} {arguments}"));
-        let line = format!("\n           pendulum.mcap is of another run and is kept: {why}");
+        let line = format!("\n           pendulum.mcap belongs to another run and is kept: {why}");
         assert!(told.contains(&format!("recording  out/{name} (")) && told.contains(&line), "{arguments}: {told}");
     }
-    // Another scenario of the same name, and one that was changed.
+    // First a different scenario of the same name, then a changed one.
     place.edited("pendulum.toml", "pendulum.toml", &[("title = \"", "title = \"Another, ")]);
     let told = place.ok(RUN);
-    assert!(told.contains("out/pendulum-6.mcap") && told.contains("its scenario has another text"), "{told}");
+    assert!(told.contains("out/pendulum-6.mcap") && told.contains("its scenario text differs"), "{told}");
     let expected = [2, 3, 4, 5, 6].map(|number| format!("pendulum-{number}.mcap")).into_iter();
     let expected: Vec<String> = expected.chain(["pendulum.mcap".into()]).collect();
     assert_eq!(recordings(&place), expected);
@@ -85,12 +87,12 @@ fn other_settings_get_a_name_of_their_own() {
 }
 
 #[test]
-fn what_is_no_recording_is_left_alone() {
+fn files_that_are_no_recordings_are_left_alone() {
     let place = Place::new();
     fs::create_dir(place.path("out")).unwrap();
     fs::write(place.path("out/pendulum.mcap"), "notes of mine").unwrap();
     let told = place.ok(RUN);
-    assert!(told.contains("out/pendulum-2.mcap") && told.contains("it is no recording of a run"), "{told}");
+    assert!(told.contains("out/pendulum-2.mcap") && told.contains("it is not a recording of a run"), "{told}");
     assert_eq!(fs::read_to_string(place.path("out/pendulum.mcap")).unwrap(), "notes of mine");
 }
 
@@ -103,7 +105,7 @@ fn scenarios_of_one_name_are_both_recorded() {
     assert_eq!(recordings(&place), ["pendulum-2.mcap", "pendulum.mcap"]);
 }
 
-/// Slowed down, thinned and with arrows: the trajectory is the same, and so are the bytes of two runs.
+/// Slowed down, thinned and with arrows: the trajectory stays the same, and two runs give the same bytes.
 #[test]
 fn a_time_scale_changes_no_number() {
     let place = Place::new();
@@ -151,9 +153,9 @@ fn a_time_scale_changes_no_number() {
     place.refused("run scenarios/crank_rocker.toml --slow 1e300 --record no", &["cannot last", "time scale"]);
 }
 
-/// The layout shows all of the mechanism from above, and plots what is in the recording.
+/// The layout shows the whole mechanism from above, and plots the channels of the recording.
 #[test]
-fn layouts_name_what_is_recorded() {
+fn layouts_show_the_recorded_data() {
     let place = Place::new();
     place.ok("run scenarios/crank_rocker.toml --record out --record-forces");
     let text = fs::read_to_string(place.path("out/crank_rocker.foxglove.json")).unwrap();
@@ -163,7 +165,7 @@ fn layouts_name_what_is_recorded() {
         mcap::MessageStream::new(&bytes).unwrap().map(|message| message.unwrap().channel.topic.clone()).collect();
     let panels = layout["configById"].as_object().unwrap();
     let scene = &panels["3D!mechanism"];
-    // Each viewer has a key of its own.
+    // Each viewer uses a different key.
     for (name, panel) in panels {
         let title = panel["foxglovePanelTitle"].as_str().unwrap();
         assert_eq!(panel["lichtblickPanelTitle"].as_str(), Some(title), "{name}");
@@ -183,7 +185,7 @@ fn layouts_name_what_is_recorded() {
     assert_eq!(sides.into_iter().collect::<Vec<_>>(), ["engine", "error", "reference"].map(String::from));
 }
 
-/// Fields of every topic's messages, as they are declared; and for each whether every message has it.
+/// For every topic: the declared fields of its messages, and whether every message contains the field.
 fn declared(bytes: &[u8]) -> BTreeMap<String, BTreeMap<String, bool>> {
     let mut found: BTreeMap<String, BTreeMap<String, bool>> = BTreeMap::new();
     for message in mcap::MessageStream::new(bytes).unwrap().map(Result::unwrap) {
@@ -194,7 +196,7 @@ fn declared(bytes: &[u8]) -> BTreeMap<String, BTreeMap<String, bool>> {
         let set = prost_types::FileDescriptorSet::decode(&*schema.data).unwrap();
         let own = found.entry(message.channel.topic.clone()).or_default();
         for field in &set.file[0].message_type[0].field {
-            // All numbers below 16: one byte of key before each value.
+            // All field numbers are below 16, so a key of one byte precedes each value.
             let (number, size) = (field.number() as u8, if field.r#type() == Type::Float { 4 } else { 8 });
             let there = message.data.chunks(size + 1).any(|chunk| chunk[0] >> 3 == number);
             *own.entry(field.name().into()).or_insert(true) &= there;
@@ -203,15 +205,15 @@ fn declared(bytes: &[u8]) -> BTreeMap<String, BTreeMap<String, bool>> {
     found
 }
 
-/// The layout for PlotJuggler finds its recording, and curves that are recorded; also where there is nothing to draw.
+/// The layout for PlotJuggler refers to its recording and to recorded curves, even if there is nothing to draw.
 #[test]
-fn plotjuggler_is_told_what_is_recorded() {
+fn plotjuggler_layouts_name_recorded_curves() {
     let place = Place::new();
     for (options, name) in [("", "whole"), ("--only point.D.positions --only joint.B.fx_N", "some")] {
         place.ok(&format!("run scenarios/crank_rocker.toml {options} --record {name}"));
         let recording = format!("{name}/crank_rocker.mcap");
         let fields = declared(&fs::read(place.path(&recording)).unwrap());
-        // PlotJuggler shows a declared field that is absent as zero.
+        // PlotJuggler shows a declared but absent field as zero.
         assert!(fields.values().all(|own| !own.is_empty() && own.values().all(|&there| there)), "{name}: {fields:?}");
 
         let told = place.ok(&format!("view {recording} --with plotjuggler"));
@@ -231,7 +233,7 @@ fn plotjuggler_is_told_what_is_recorded() {
         assert_eq!(sides.into_iter().collect::<Vec<_>>(), ["engine", "error", "reference"]);
         assert_eq!(of("DockSplitter").next().unwrap().attribute("count"), Some("4"));
     }
-    // Elsewhere, it names the recording by its whole path.
+    // In another directory, the layout names the recording by its whole path.
     place.ok("view whole/crank_rocker.mcap --with plotjuggler -o there.xml");
     let whole = place.path("whole/crank_rocker.mcap").canonicalize().unwrap();
     let text = fs::read_to_string(place.path("there.xml")).unwrap();

@@ -24,7 +24,7 @@ fn place() -> Place {
 const FILES: &str = "scenarios/pendulum.toml scenarios/wrong.toml scenarios/broken.toml";
 
 #[test]
-fn junit_has_a_suite_for_each_scenario_and_a_case_for_each_channel_and_check() {
+fn junit_has_a_suite_per_scenario_and_a_case_per_result() {
     let place = place();
     let outcome = place.run(&format!("run {FILES} --no-record --budget 1e5 --junit out.xml --json out.json"));
     assert_eq!(outcome.code, 2, "{}", outcome.stderr);
@@ -40,7 +40,7 @@ fn junit_has_a_suite_for_each_scenario_and_a_case_for_each_channel_and_check() {
     assert_eq!(failures(0), Vec::<&str>::new());
     assert!(failures(1).iter().any(|name| name.contains("w as link.crank.omega_rad_s")), "{:?}", failures(1));
     assert_eq!(failures(2), ["proof"]);
-    // What disagrees is a failure, what cannot be proven an error: runners tell them apart.
+    // A disagreement is a failure, and an inconclusive result is an error: test runners distinguish them.
     let kinds = |index: usize| -> Vec<String> {
         let cases = suites[index].children().flat_map(|case| case.children().filter(roxmltree::Node::is_element));
         let names = cases.map(|node| node.tag_name().name().to_string());
@@ -64,17 +64,17 @@ fn junit_has_a_suite_for_each_scenario_and_a_case_for_each_channel_and_check() {
 }
 
 #[test]
-fn markdown_begins_with_the_verdict_and_tells_what_is_wrong() {
+fn markdown_starts_with_the_verdict_and_lists_failures() {
     let place = place();
     place.run(&format!("run {FILES} --no-record --budget 1e5 --markdown out.md"));
     let text = fs::read_to_string(place.path("out.md")).unwrap();
-    assert!(text.starts_with("**linkproof**: 3 scenarios, 1 disagree, 1 cannot be proven, 1 agree\n"), "{text}");
+    assert!(text.starts_with("**linkproof**: 3 scenarios, 1 disagree, 1 could not be proven, 1 agree\n"), "{text}");
     assert!(text.contains("| pendulum | agree |") && text.contains("| wrong | **disagree** |"), "{text}");
     assert!(text.contains("w as link.crank.omega_rad_s") && text.contains("joint \"Q\""), "{text}");
     assert!(text.lines().all(|line| !line.contains('\t')), "{text}");
 }
 
-/// Verdicts of a proof, with who judged and what, as the reports list them.
+/// Verdicts of a proof, each with its party and its subject, as the reports list them.
 fn verdicts(proof: &Proof) -> Vec<(String, String, &Verdict)> {
     let mut all: Vec<_> = proof.checks.iter().map(|own| ("analytic sides".into(), own.name(), &own.verdict)).collect();
     for engine in &proof.engines {
@@ -89,7 +89,7 @@ fn verdicts(proof: &Proof) -> Vec<(String, String, &Verdict)> {
     all
 }
 
-/// A proof that disagrees in many numbers and knows a finding, one that proves nothing, and one whose engines failed.
+/// Three proofs: one disagrees in many numbers and has a finding, one proves nothing, and in one the engines failed.
 fn proofs() -> [Proof; 3] {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
     let scenario = Scenario::load(&path).unwrap();
@@ -105,9 +105,9 @@ fn proofs() -> [Proof; 3] {
     [disagrees, open, failed]
 }
 
-/// Who judged, what it came to and why, case by case, in both reports.
+/// Both reports state party, verdict and reason for each case.
 #[test]
-fn reports_have_every_verdict_with_who_judged_and_why() {
+fn reports_have_every_verdict_with_judge_and_reason() {
     let proofs = proofs();
     let mut outcomes = Outcomes::told_by(Advice::to_string);
     proofs.iter().for_each(|proof| outcomes.add(proof));
@@ -117,7 +117,7 @@ fn reports_have_every_verdict_with_who_judged_and_why() {
     let text = markdown::text(&outcomes);
     let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| crank_rocker |")).collect();
     assert_eq!((suites.len(), rows.len()), (3, 3), "{text}");
-    assert!(text.starts_with("**linkproof**: 3 scenarios, 1 disagree, 2 prove nothing\n"), "{text}");
+    assert!(text.starts_with("**linkproof**: 3 scenarios, 1 disagree, 2 could not be decided\n"), "{text}");
     for ((proof, suite), row) in proofs.iter().zip(&suites).zip(rows) {
         let all = verdicts(proof);
         let mut cases = suite.children().filter(|node| node.has_tag_name("testcase"));
@@ -138,7 +138,7 @@ fn reports_have_every_verdict_with_who_judged_and_why() {
             let told = said.and_then(|said| said.attribute("message").or(said.text()));
             assert_eq!(told, reason.as_deref(), "{name}");
         }
-        // The engine that failed first says why.
+        // The reason is that of the engine that failed first.
         let failure = cases.next().map(|case| (case.attribute("name"), case.first_element_child().unwrap()));
         let wanted = proof.engines[0].failure.as_ref().map(|_| (Some("proof"), Some("the first fails")));
         assert_eq!(failure.map(|(name, own)| (name, own.attribute("message"))), wanted);
@@ -146,7 +146,7 @@ fn reports_have_every_verdict_with_who_judged_and_why() {
         let numbers = ["agree", "expected", "disagree", "inconclusive"].map(count).map(|count| count.to_string());
         assert!(row.ends_with(&format!(" | {} |", numbers.join(" | "))), "{row} {numbers:?}");
     }
-    // Ten reasons are told for each, the others counted.
+    // Ten reasons are listed for each; the others are counted.
     let sections: Vec<&str> = text.split("\n### ").skip(1).collect();
     assert_eq!(sections.len(), 3);
     for ((section, proof), errors) in sections.iter().zip(&proofs).zip([0, 0, 1]) {
@@ -158,13 +158,14 @@ fn reports_have_every_verdict_with_who_judged_and_why() {
     }
 }
 
-/// A scenario whose engine failed, or that cannot be read, has an entry also where no channel is wrong.
+/// If the engine of a scenario failed, or the scenario cannot be read, the report has an entry for it.
+/// This also holds if no channel is wrong.
 #[test]
-fn an_error_is_told_without_any_verdict() {
+fn an_error_is_reported_without_any_verdict() {
     let mut outcomes = Outcomes::told_by(Advice::to_string);
     outcomes.add_failure("a.toml", &linkage::Error::new(linkage::ErrorKind::Input, "line 3 is bad"));
     let text = markdown::text(&outcomes);
-    assert!(text.contains("1 cannot be proven") && text.contains("\n### a.toml\n\n- line 3 is bad\n"), "{text}");
+    assert!(text.contains("1 could not be proven") && text.contains("\n### a.toml\n\n- line 3 is bad\n"), "{text}");
     let xml = junit::xml(&outcomes);
     assert!(xml.contains("message=\"line 3 is bad\"") && xml.contains("type=\"error\""), "{xml}");
 }

@@ -28,13 +28,13 @@ fn keys(object: &Value) -> String {
     all.join(" ")
 }
 
-/// Names of the checks on the analytic sides and on the first engine.
+/// Names of the checks of the analytic sides and of the first engine.
 fn all_checks(run: &Value) -> Vec<&str> {
     [texts(&run["checks"], "name"), texts(&run["engines"][0]["checks"], "name")].concat()
 }
 
 #[test]
-fn both_scenarios_agree_and_the_json_is_as_promised() {
+fn both_scenarios_agree_and_the_json_is_as_documented() {
     let place = Place::new();
     let outcome = place.run(&format!("run {BOTH} --no-record --json -"));
     assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{}", outcome.stdout);
@@ -67,7 +67,7 @@ fn both_scenarios_agree_and_the_json_is_as_promised() {
                 "basis:text bound:number channel:text discretisation:number iteration:number left_out:number";
             let limit = if channel["limit"].is_null() { "null" } else { "number" };
             let rest = "origin:text q75:number q99:number reason:null reference:number rms:number rounding:number scale:number source:text unit:text verdict:text worst_crank_rad:number worst_t_s:number";
-            // An order that is hidden by rounding is null.
+            // The order is null if rounding hides it.
             let order = if channel["observed_order"].is_null() { "null" } else { "number" };
             assert_eq!(keys(channel), format!("{promised} limit:{limit} max:number observed_order:{order} {rest}"));
             assert_eq!(channel["verdict"], "agree", "{channel}");
@@ -101,7 +101,7 @@ fn both_scenarios_agree_and_the_json_is_as_promised() {
 }
 
 #[test]
-fn every_check_is_there() {
+fn every_check_is_in_the_json() {
     let place = Place::new();
     let document = place.run(&format!("run {BOTH} --no-record --json -")).json();
     let stages = ["positions", "velocities", "accelerations", "reactions", "balancing_moment"];
@@ -122,7 +122,7 @@ fn every_check_is_there() {
     let [crank_rocker, ov7] = [0, 1].map(|k| names[k].iter().copied().collect::<BTreeSet<&str>>());
     common(&crank_rocker);
     common(&ov7);
-    // Columns of the published tables besides the crank angle, each checked against both sides.
+    // Columns of the published tables except the crank angle, each checked against both sides.
     let tables = ["positions", "velocities", "accelerations", "angles", "angular_velocities", "angular_accelerations"];
     for table in tables {
         let text = fs::read_to_string(place.path(&format!("scenarios/ov7_base/{table}.csv"))).unwrap();
@@ -142,7 +142,7 @@ fn every_check_is_there() {
     for figure in figures {
         assert!(crank_rocker.iter().any(|name| !name.starts_with("published") && name.ends_with(figure)), "{figure}");
     }
-    // Printed numbers that are wrong and can be computed: both lengths and both steady speeds.
+    // Printed numbers that are wrong and can be computed: both lengths, and both steady speeds.
     for side in ["assur", "newton"] {
         for (oracle, wrong) in [
             ("lengths", ["distance_m of O A", "distance_m of A B"]),
@@ -157,7 +157,7 @@ fn every_check_is_there() {
 }
 
 #[test]
-fn recordings_go_where_they_are_asked_and_have_the_same_bytes_again() {
+fn recordings_go_to_the_given_directory_reproducibly() {
     let place = Place::new();
     let report = place.ok("run scenarios/crank_rocker.toml");
     assert!(report.contains("AGREE: ") && report.contains("recordings/crank_rocker.mcap"), "{report}");
@@ -189,7 +189,7 @@ fn json_in_a_file_leaves_the_report_on_the_terminal() {
 }
 
 #[test]
-fn a_bad_file_does_not_keep_the_good_ones_from_being_proven() {
+fn a_bad_file_does_not_stop_the_proof_of_good_ones() {
     let place = Place::new();
     place.edited("crank_rocker.toml", "bad.toml", &[("speed_rpm = 130", "speed = 130")]);
     let outcome = place.run("run scenarios/bad.toml scenarios/crank_rocker.toml gone.toml --no-record --json -");
@@ -236,7 +236,7 @@ fn a_wrong_published_number_disagrees_by_name() {
 }
 
 #[test]
-fn too_coarse_a_step_proves_nothing_and_a_hopeless_one_is_refused() {
+fn a_coarse_step_is_inconclusive_and_a_hopeless_one_refused() {
     let place = Place::new();
     let outcome = place.run("run scenarios/crank_rocker.toml --no-record --verbose --dt 2e-2");
     assert_eq!(outcome.code, 3, "{}", outcome.stderr);
@@ -272,20 +272,20 @@ fn a_finer_step_agrees_within_finer_bounds() {
     );
 }
 
-/// Symptom: the failure of a coarse run ended the command as if the engine could do no better.
+/// Symptom: if a coarse run failed, the command ended, although finer runs were possible.
 #[test]
-fn regress_work_that_is_not_enough_proves_nothing() {
+fn regress_too_little_work_is_inconclusive() {
     let place = Place::new();
     for scenario in ["tangent", "pendulum", "fourth_class"] {
         let outcome = place.run(&format!("run scenarios/{scenario}.toml --budget 1 --no-record"));
         assert_eq!((outcome.code, outcome.stderr.as_str()), (3, ""), "{scenario}: {}", outcome.stdout);
-        assert!(outcome.unbroken().contains("work that was allowed is done"), "{scenario}: {}", outcome.stdout);
+        assert!(outcome.unbroken().contains("work limit was reached"), "{scenario}: {}", outcome.stdout);
         assert!(outcome.stdout.contains("--budget"), "{scenario}: {}", outcome.stdout);
     }
 }
 
 #[test]
-fn senseless_steps_are_refused_at_once() {
+fn invalid_steps_are_refused_at_once() {
     let place = Place::new();
     for (step, word) in [
         ("0", "'0'"),
@@ -304,10 +304,10 @@ fn senseless_steps_are_refused_at_once() {
 }
 
 #[test]
-fn a_proof_stands_when_its_recording_fails() {
+fn a_proof_is_reported_even_if_its_recording_fails() {
     let place = Place::new();
     fs::write(place.path("plain"), "a file, not a directory").unwrap();
-    // What can be known beforehand is told before the work.
+    // An error that can be known in advance is reported before the work.
     let outcome =
         place.refused("run scenarios/crank_rocker.toml --record plain/below --json -", &["plain/below", "--no-record"]);
     assert_eq!(outcome.stdout, "");
@@ -330,17 +330,18 @@ fn scenarios_of_one_name_do_not_overwrite_each_other() {
     place.ok("run scenarios/crank_rocker.toml --record alone");
     let both = "run scenarios/crank_rocker.toml scenarios/other.toml --record both";
     let told = place.ok(both);
-    assert!(told.contains("both/crank_rocker-2.mcap (") && told.contains("its scenario has another text"), "{told}");
+    assert!(told.contains("both/crank_rocker-2.mcap (") && told.contains("its scenario text differs"), "{told}");
     let [alone, both] = ["alone", "both"].map(|dir| fs::read(place.path(dir).join("crank_rocker.mcap")).unwrap());
     assert!(alone == both, "the first one's recording is kept");
     place.ok("run scenarios/crank_rocker.toml scenarios/crank_rocker.toml");
 }
 
 #[test]
-fn channels_that_are_not_wanted_are_neither_compared_nor_checked() {
+fn unrequested_channels_are_neither_compared_nor_checked() {
     let place = Place::new();
     let only = "[channels]\nwant = [\"positions\", \"velocities\"]\n\n[grid]";
-    // Numbers of channels that are not wanted are refused: those of forces stand last.
+    // Published numbers of channels that are not requested are refused, so the test removes the numbers of forces at
+    // the end of the file.
     let text = fs::read_to_string(place.path("scenarios/crank_rocker.toml")).unwrap();
     place.edited("crank_rocker.toml", "few.toml", &[("[grid]", only), (from_outside(&text), "")]);
     let document = place.run("run scenarios/few.toml --no-record --json -").json();
@@ -358,10 +359,11 @@ fn channels_that_are_not_wanted_are_neither_compared_nor_checked() {
     );
 }
 
-/// One factor on all bounds. Stricter bounds disagree. At zero every channel and check is printed beside its bound, and
-/// verdicts are as usual.
+/// One factor scales all bounds.
+/// Stricter bounds disagree.
+/// A factor of zero prints every channel and check with its bound, and leaves the verdicts as usual.
 #[test]
-fn one_dial_scales_every_bound() {
+fn the_tolerance_scale_applies_to_every_bound() {
     let place = Place::new();
     let command = "run scenarios/crank_rocker.toml --dt 2e-3 --no-record --tolerance-scale";
     let document = place.run(&format!("{command} 1e-9 --json -")).json();

@@ -26,13 +26,13 @@ fn header(links: &[&str], points: &[&str], joints: &[&str]) -> Vec<String> {
     names
 }
 
-/// The columns of a table that are documented, in its order.
+/// The documented columns of a table, in its order.
 fn documented(header: &[String], names: &[String]) -> Vec<String> {
     header.iter().filter(|own| names.contains(own)).cloned().collect()
 }
 
 #[test]
-fn columns_are_named_and_ordered_as_promised_for_every_solver() {
+fn every_solver_gives_the_documented_columns_in_order() {
     let place = Place::new();
     let crank_rocker = header(&["crank", "coupler", "rocker"], &["A", "B", "D"], &["O", "A", "B", "C"]);
     let links = ["crank", "rod_23", "rocker_43", "rod_35", "rocker_65", "rod_57", "rocker_87"];
@@ -61,7 +61,7 @@ fn every_number_has_17_digits_and_reads_back_the_same() {
 }
 
 #[test]
-fn a_file_gets_what_standard_output_gets() {
+fn a_file_has_the_same_content_as_standard_output() {
     let place = Place::new();
     let solve = "solve scenarios/crank_rocker.toml --with assur";
     let shown = place.ok(solve);
@@ -82,7 +82,7 @@ fn ranges_may_be_negative_and_reversed() {
         let degrees = |all: &[f64]| all.iter().map(|angle| angle.to_degrees().round()).collect::<Vec<_>>();
         let (back, times, rocker_back) = cranks("--crank-deg 30:-30:-15");
         assert_eq!(degrees(&back), [30.0, 15.0, 0.0, -15.0, -30.0], "{solver}");
-        // 130 turns per minute are 780 degrees per second.
+        // At 130 revolutions per minute, the crank rotates by 780 degrees per second.
         let late = times.iter().zip(&back).all(|(t, crank)| (t - crank.to_degrees() / 780.0).abs() < 1e-15);
         assert!(late, "{solver}: {times:?}");
         let (forth, _, mut rocker_forth) = cranks("--crank-deg=-30:30:15");
@@ -96,7 +96,7 @@ fn ranges_may_be_negative_and_reversed() {
 }
 
 #[test]
-fn the_crank_angle_is_that_of_the_scenario() {
+fn the_crank_angle_is_measured_as_in_the_scenario() {
     let place = Place::new();
     // ov7_base measures it from 181.84 degrees; crank_rocker from the x axis.
     let solve =
@@ -132,7 +132,7 @@ fn val_ov7_base_positions_row_by_row() {
 }
 
 #[test]
-fn channels_that_are_not_wanted_have_no_column() {
+fn unrequested_channels_have_no_column() {
     let place = Place::new();
     for (want, quantities) in [
         ("\"positions\"", "angle_rad x_m y_m"),
@@ -140,7 +140,7 @@ fn channels_that_are_not_wanted_have_no_column() {
         ("\"positions\", \"velocities\", \"reactions\"", "angle_rad omega_rad_s x_m y_m vx_m_s vy_m_s fx_N fy_N"),
     ] {
         let wanted = format!("[channels]\nwant = [{want}]\n[grid]");
-        // The scenario's published numbers need more than positions, so all of them are removed.
+        // The published numbers of the scenario need more than positions, so they are all removed.
         place.edited("crank_rocker.toml", "few.toml", &[("[grid]", &wanted)]);
         let text = fs::read_to_string(place.path("scenarios/few.toml")).unwrap();
         let text = text.split("[[oracle]]").next().unwrap();
@@ -158,19 +158,20 @@ fn channels_that_are_not_wanted_have_no_column() {
 }
 
 #[test]
-fn a_step_belongs_to_an_engine() {
+fn only_engines_take_a_step() {
     let place = Place::new();
     let solve = |step: &str| {
         let command = format!("solve scenarios/crank_rocker.toml --with rapier --dt {step} --crank-deg 0:90:30");
         Table::of(&place.ok(&command)).column("link.rocker.angle_rad")
     };
     assert_ne!(solve("1e-3"), solve("5e-4"));
-    place.refused("solve scenarios/crank_rocker.toml --with assur --dt 1e-3", &["--dt", "assur is analytic", "rapier"]);
+    let words = ["--dt", "assur is an analytic solver", "rapier"];
+    place.refused("solve scenarios/crank_rocker.toml --with assur --dt 1e-3", &words);
 }
 
-/// What `tune --write` writes to `[engine]` holds for `solve` too, and options replace it.
+/// The settings that `tune --write` writes to `[engine]` hold for `solve` too; options replace them.
 #[test]
-fn an_engine_solves_with_the_settings_of_the_file_and_options_replace_them() {
+fn engine_settings_of_the_file_apply_unless_overridden() {
     let place = Place::new();
     let solve = |file: &str, options: &str| {
         place.ok(&format!("solve scenarios/{file} --with rapier --crank-deg 90:180:30 {options}"))
@@ -191,28 +192,29 @@ fn an_engine_solves_with_the_settings_of_the_file_and_options_replace_them() {
     place.edited("ov7_base.toml", "set.toml", &[("[grid]\n", "[engine]\nsweeps = 7\n[grid]\n")]);
     assert!(solve("set.toml", "--sweeps 9") == solve("ov7_base.toml", "--sweeps 9"));
     place.edited("ov7_base.toml", "set.toml", &[("[grid]\n", "[engine]\nroute = \"guess\"\n[grid]\n")]);
-    place.refused("solve scenarios/set.toml --with rapier", &["no route", "guess", "probe", "set.toml"]);
-    // An engine that does not have the route says where it is asked for.
+    place.refused("solve scenarios/set.toml --with rapier", &["\"guess\" is not a route", "probe", "set.toml"]);
+    // An engine without the route says which option requests it.
     if cfg!(feature = "simbody") {
         place.edited("ov7_base.toml", "set.toml", &[("[grid]\n", "[engine]\nroute = \"probe\"\n[grid]\n")]);
-        let words = ["set.toml:", "engine.route", "no route of engine simbody called \"probe\"", "native"];
+        let missing = "engine simbody has no route (method for the reactions) called \"probe\"";
+        let words = ["set.toml:", "engine.route", missing, "native"];
         place.refused("solve scenarios/set.toml --with simbody", &words);
-        let words = ["--route", "no route of engine simbody called \"probe\""];
-        place.refused("solve scenarios/ov7_base.toml --with simbody --route probe", &words);
+        place.refused("solve scenarios/ov7_base.toml --with simbody --route probe", &["--route", missing]);
     }
 }
 
 #[test]
-fn a_setting_of_engines_is_refused_where_no_engine_solves() {
+fn analytic_solvers_refuse_engine_settings() {
     let place = Place::new();
     for option in ["--dt 1e-3", "--accuracy 1e-3", "--sweeps 7", "--substeps 2", "--route probe", "--extrapolate"] {
         let name = option.split(' ').next().unwrap();
         for solver in ["assur", "newton"] {
-            let words = [name, &format!("{solver} is analytic"), "rapier"];
+            let words = [name, &format!("{solver} is an analytic solver"), "rapier"];
             place.refused(&format!("solve scenarios/crank_rocker.toml --with {solver} {option}"), &words);
         }
     }
-    place.refused("solve scenarios/crank_rocker.toml --with rapier --sweeps 0", &["--sweeps", "from 1"]);
+    let words = ["--sweeps", "a whole number of at least 1"];
+    place.refused("solve scenarios/crank_rocker.toml --with rapier --sweeps 0", &words);
 }
 
 #[test]
@@ -231,14 +233,23 @@ fn bad_grids_are_refused() {
         place.refused(&format!("{scenario} assur {grid}"), &[word]);
     }
     for solver in SOLVERS {
-        place.refused(&format!("{scenario} {solver} --times 0:1e300:1e300"), &["turns away, the limit is"]);
+        place.refused(&format!("{scenario} {solver} --times 0:1e300:1e300"), &["turns from zero; the limit is"]);
     }
     place.refused(&format!("{scenario} rapier --times 0:1e4:1e4 --dt 1e-4"), &["the limit is", "larger time step"]);
     place.refused(&format!("{scenario} magic"), &["magic", "assur, newton, rapier"]);
-    place.refused("solve scenarios/crank_rocker.toml", &["--with"]);
 }
 
-/// Symptom: asked for 120 deg, a free motion answered at 147 deg. Cause: angles became times by the nominal speed.
+#[test]
+fn assur_is_the_default_solver() {
+    let place = Place::new();
+    let solve = "solve scenarios/crank_rocker.toml --crank-deg 0:90:30";
+    let table = place.ok(solve);
+    assert_eq!(table, place.ok(&format!("{solve} --with assur")));
+    assert_ne!(table, place.ok(&format!("{solve} --with newton")));
+}
+
+/// Symptom: a free motion requested at 120 deg was solved at 147 deg.
+/// Cause: angles were converted to times by the nominal speed.
 #[test]
 fn regress_a_free_motion_takes_no_grid_of_crank_angles() {
     let place = Place::new();

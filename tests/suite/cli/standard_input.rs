@@ -33,7 +33,7 @@ fn every_command_reads_standard_input_as_a_file() {
     ] {
         let file = format!("scenarios/{scenario}.toml");
         let from_file = place.run(&command.replace("FILE", &file));
-        // Tables of published numbers are sought in the working directory, which is another one here.
+        // Tables of published numbers are searched for in the working directory, which differs here.
         let text = fs::read_to_string(place.path(&file)).unwrap().replace("file = \"", "file = \"scenarios/");
         let fed = fed(&place, &command.replace("FILE", "-"), text.as_bytes());
         assert_eq!((fed.code, fed.stderr.as_str()), (from_file.code, from_file.stderr.as_str()), "{command}");
@@ -47,7 +47,7 @@ fn errors_name_standard_input() {
     let text = fs::read_to_string(place.path("scenarios/pendulum.toml")).unwrap();
     for (input, words) in [
         (text.replace("title =", "titel =").into_bytes(), ["--> <standard input>:", "did you mean `title`"]),
-        (Vec::new(), ["the file holds no scenario", "<standard input>"]),
+        (Vec::new(), ["the file contains no scenario", "<standard input>"]),
         (b"\xff\xfea\0".to_vec(), ["<standard input> cannot be read: it is written in UTF-16", "iconv"]),
     ] {
         let outcome = fed(&place, "run - --no-record --json out.json", &input);
@@ -71,7 +71,7 @@ fn settings_are_not_written_to_standard_input() {
     assert!(!place.path("-").exists());
 }
 
-/// Settings belong to the mechanism that they were found for: the file's own, not one with other numbers.
+/// Settings hold only for the mechanism for which they were found: that of the file, not one with changed parameters.
 #[test]
 fn settings_found_for_other_numbers_are_not_written() {
     let place = Place::new();
@@ -89,11 +89,11 @@ fn settings_found_for_other_numbers_are_not_written() {
 }
 
 #[test]
-fn a_scenario_has_its_channels_listed() {
+fn the_channels_of_a_scenario_are_listed() {
     let place = Place::new();
     let text = place.ok("list --channels scenarios/crank_rocker.toml");
     let solved = place.ok("solve scenarios/crank_rocker.toml --with assur --times 0");
-    // Every column of a solution is there, and nothing else.
+    // The list contains every column of a solution, and nothing else.
     let names: Vec<&str> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
     let columns: Vec<&str> = solved.lines().next().unwrap().split(',').skip(2).collect();
     assert_eq!(names, columns);
@@ -102,7 +102,7 @@ fn a_scenario_has_its_channels_listed() {
         "reaction in A, crank on coupler, along world y",
         "mass centre velocity of link coupler, along world x",
         "balancing moment on link crank",
-        "with \"velocities\"",
+        "stage \"velocities\"",
     ] {
         assert!(text.contains(words), "`{words}` is not in:\n{text}");
     }

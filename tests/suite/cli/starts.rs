@@ -12,7 +12,7 @@ const AMBIGUOUS: (&str, &str) = ("mode = \"left\"", "near = { point = \"B\", x_m
 
 const OWN_GRID: &str = "from_s = 0\nto_s = 3\nstep_s = 0.01";
 
-/// All columns of two tables but the times agree to `bound`, angles up to whole turns.
+/// Asserts that all columns of two tables except the times agree to `bound`, and angles up to whole revolutions.
 fn assert_same_branch(one: &str, other: &str, bound: f64) {
     let [one, other] = [one, other].map(Table::of);
     assert_eq!(one.header, other.header);
@@ -26,7 +26,7 @@ fn assert_same_branch(one: &str, other: &str, bound: f64) {
 }
 
 #[test]
-fn run_takes_another_grid() {
+fn run_accepts_another_grid() {
     let place = Place::new();
     for (command, instants) in [
         ("crank_rocker --crank-deg 0:360:2", 181),
@@ -43,14 +43,14 @@ fn run_takes_another_grid() {
             "{command}: {text}"
         );
     }
-    // What the grid replaces does not touch published numbers.
+    // Replacing the grid does not affect published numbers.
     let text = place.ok("run scenarios/fourth_class.toml -v --no-record --crank-deg 70,80");
     assert!(text.contains("published"), "{text}");
     for (command, words) in [
         ("pendulum.toml --crank-deg 0,10", ["the motion is free", "--times"]),
         ("crank_rocker.toml --crank-deg 0,10,0", ["values 1 and 3 of the list are the same", "crank-deg"]),
         ("crank_rocker.toml --times 0,a", ["not a number", "0:360:30 or 0,45,90"]),
-        ("crank_rocker.toml --times 0:1e300:1e300", ["turns away, the limit is", "--times"]),
+        ("crank_rocker.toml --times 0:1e300:1e300", ["turns from zero; the limit is", "--times"]),
         ("crank_rocker.toml --times 0 --crank-deg 0", ["cannot be used with", "--crank-deg"]),
         ("crank_rocker.toml --start-crank-deg inf", ["finite number", "--start-crank-deg"]),
     ] {
@@ -59,7 +59,7 @@ fn run_takes_another_grid() {
 }
 
 #[test]
-fn grids_of_files_list_their_values() {
+fn grids_in_files_may_list_values() {
     let place = Place::new();
     let text = fs::read_to_string(place.path("scenarios/pendulum.toml")).unwrap();
     let listed =
@@ -78,13 +78,13 @@ fn grids_of_files_list_their_values() {
     assert_eq!(place.ok("solve scenarios/listed.toml --with newton"), by_option);
     listed("angles_deg = [0, 10]");
     place.refused("run scenarios/listed.toml --no-record", &["listed.toml", "grid", "the motion is free", "times_s"]);
-    // The file's grid does not block the one that takes its place.
+    // An invalid grid in the file does not block the one that replaces it.
     place.ok("solve scenarios/listed.toml --with assur --times 0,0.1,0.3");
 }
 
-/// `--start-crank-deg` is `crank_deg` of the file, and the same motion where the speed is constant.
+/// `--start-crank-deg` replaces `crank_deg` of the file, and gives the same motion at constant speed.
 #[test]
-fn another_start_of_the_crank() {
+fn the_start_angle_option_overrides_the_file() {
     let place = Place::new();
     let option = "--start-crank-deg 90 --times 0,0.01,0.1";
     place.edited("crank_rocker_runup.toml", "moved.toml", &[("crank_deg = 0\n", "crank_deg = 90\n")]);
@@ -93,7 +93,7 @@ fn another_start_of_the_crank() {
         let asked = place.ok(&format!("solve scenarios/crank_rocker_runup.toml --with {solver} {option}"));
         assert_eq!(asked, moved, "{solver}");
     }
-    // A group of dyads, a class III and a class IV group whose rough places belong to the file's own start.
+    // Dyads, a class III and a class IV group whose approximate positions belong to the start in the file.
     for (name, start, cranks) in
         [("ov7_base", -200, "0,-30,-250"), ("ov7_new", -70, "-60,-70,-80"), ("fourth_class", 200, "70,150,290")]
     {
@@ -106,11 +106,11 @@ fn another_start_of_the_crank() {
 }
 
 #[test]
-fn published_numbers_stay_on_their_branch() {
+fn published_numbers_apply_only_to_their_branch() {
     let place = Place::new();
     let run =
         |options: &str| place.run(&format!("run scenarios/{options} --no-record --json -")).json()["runs"][0].clone();
-    // The distance of two points at t = 0 is that of the start.
+    // The distance of two points at t = 0 belongs to the start.
     let published = |proof: &Value| {
         let checks = proof["checks"].as_array().unwrap().iter();
         let stays = |check: &&Value| !check["name"].as_str().unwrap().contains("distance");
@@ -125,7 +125,7 @@ fn published_numbers_stay_on_their_branch() {
         assert_eq!((own > 0, published(&moved), &moved["verdict"]), (true, own, &json!("agree")), "{name}");
     }
     assert_eq!(published(&run("crank_rocker.toml --start-crank-deg 100 --mode coupler,rocker=right")), 0);
-    // At a changing speed, velocities at a crank angle depend on where the crank starts.
+    // At a changing speed, velocities at a crank angle depend on the start angle of the crank.
     let ramp = ("law = \"constant\"", "law = \"ramp\"\ntime_s = 1");
     let speed = ("[drive]\n", "[drive]\nlaw = \"constant\"\n");
     place.edited("crank_rocker.toml", "ramp.toml", &[speed, ramp]);
@@ -133,10 +133,11 @@ fn published_numbers_stay_on_their_branch() {
     assert!(moved["checks"].as_array().unwrap().iter().all(|check| check["origin"] != "derived"), "{moved}");
 }
 
-/// Symptom: the command that lists configurations, and the option that chooses one, were refused because the file's
-/// rough place fits two of them. Cause: the file's own start was taken before what is asked for.
+/// Symptom: the file's approximate position fits two configurations.
+/// The command that lists configurations and the option that chooses one were therefore refused.
+/// Cause: the start in the file was evaluated before the request.
 #[test]
-fn regress_an_ambiguous_rough_place_does_not_block_what_resolves_it() {
+fn regress_an_ambiguous_start_does_not_block_its_resolution() {
     let place = Place::new();
     place.edited("crank_rocker.toml", "open.toml", &[AMBIGUOUS]);
     let solve =
@@ -149,23 +150,24 @@ fn regress_an_ambiguous_rough_place_does_not_block_what_resolves_it() {
     }
     let run = place.ok("run scenarios/open.toml --no-record --mode coupler,rocker=left");
     assert!(run.starts_with("crank_rocker: AGREE: "), "{run}");
-    let words = ["does not tell them apart", "inspect FILE --modes", "open.toml:"];
+    let words = ["does not distinguish them", "inspect FILE --modes", "open.toml:"];
     place.refused("solve scenarios/open.toml --with assur", &words);
     place.refused("inspect scenarios/open.toml", &words);
     let text = place.ok("inspect scenarios/open.toml --modes");
-    assert!(text.contains("2 real configurations\n  not decided by the scenario: the rough place"), "{text}");
-    assert!(!text.contains("followed by the scenario"), "{text}");
+    assert!(text.contains("2 real configurations\n  not chosen by the scenario: the approximate position"), "{text}");
+    assert!(!text.contains(", chosen by the scenario"), "{text}");
     let chosen = place.ok("inspect scenarios/open.toml --modes --mode coupler,rocker=2");
-    assert!(chosen.contains("2, right, followed by the scenario"), "{chosen}");
+    assert!(chosen.contains("2, right, chosen by the scenario"), "{chosen}");
 }
 
-/// A group with up to six configurations, and one that only the mode of another leaves open.
+/// Two cases: a group with up to six configurations, and a group whose configuration depends only on the mode of
+/// another group.
 #[test]
 fn all_configurations_of_an_open_group_are_listed() {
     let place = Place::new();
     let text = std::fs::read_to_string(place.path("scenarios/fourth_class.toml")).unwrap();
     let near = text.lines().find(|line| line.starts_with("near = ")).unwrap();
-    // Halfway between E of both configurations.
+    // The approximate position is halfway between the points E of the two configurations.
     let found: Value = serde_json::from_str(&place.ok("inspect scenarios/fourth_class.toml --modes --json -")).unwrap();
     let modes = found["modes"]["groups"][0]["modes"].as_array().unwrap();
     let mean = |axis: &str| {
@@ -179,7 +181,7 @@ fn all_configurations_of_an_open_group_are_listed() {
     place.edited("fourth_class.toml", "open.toml", &[(near, &between)]);
     let open: Value = serde_json::from_str(&place.ok("inspect scenarios/open.toml --modes --json -")).unwrap();
     let group = &open["modes"]["groups"][0];
-    assert!(group["undecided"].as_str().unwrap().contains("does not tell them apart"), "{group}");
+    assert!(group["undecided"].as_str().unwrap().contains("does not distinguish them"), "{group}");
     assert_eq!(open["groups"][0]["mode"], Value::Null);
     let places = |found: &Value| -> Vec<Value> {
         let modes = found["modes"]["groups"][0]["modes"].as_array().unwrap();
@@ -189,16 +191,16 @@ fn all_configurations_of_an_open_group_are_listed() {
     assert!(group["modes"].as_array().unwrap().iter().all(|mode| mode["followed"] == json!(false)), "{group}");
 }
 
-/// Symptom: with a wrong mode of the first group the error named the second one, and its lengths.
+/// Symptom: if the mode of the first group was wrong, the error named the second group and its lengths.
 #[test]
-fn regress_a_wrong_mode_is_blamed_on_its_own_group() {
+fn regress_a_wrong_mode_is_reported_for_its_own_group() {
     let place = Place::new();
     let first = "links = [\"rod_23\", \"rocker_43\"]\nmode = ";
     let edit = (format!("{first}\"right\""), format!("{first}\"left\""));
     place.edited("ov7_base.toml", "wrong.toml", &[(&edit.0, &edit.1)]);
     let words = [
         "`start.groups (rod_23, rocker_43)`: this configuration",
-        "no place for the group (rod_35, rocker_65)",
+        "does not fit the group (rod_35, rocker_65), but mode \"right\" does",
         "give mode \"right\" of the group (rod_23, rocker_43)",
     ];
     let outcome = place.refused("inspect scenarios/wrong.toml", &words);
@@ -210,22 +212,22 @@ fn regress_a_wrong_mode_is_blamed_on_its_own_group() {
         let outcome = place.refused(&solve, &words);
         assert!(!outcome.stderr.contains("ov7_base.toml:"), "{}", outcome.stderr);
     }
-    // The right mode on the command line helps, and the list shows both.
+    // The right mode on the command line repairs the start, and the list shows both modes.
     place.ok("solve scenarios/wrong.toml --with assur --crank-deg 0 --mode rod_23,rocker_43=right");
     let list = place.ok("inspect scenarios/wrong.toml --modes");
     assert!(
-        list.contains("not decided by the scenario: this configuration") && list.contains("for configuration 2 of"),
+        list.contains("not chosen by the scenario: this configuration") && list.contains("for configuration 2 of"),
         "{list}"
     );
-    // Rough places of a later group speak against an earlier one too.
+    // Approximate positions of a later group can contradict an earlier group too.
     let last = "links = [\"rod_35\", \"rocker_65\"]\nmode = \"right\"";
     let near = format!("{last}\nnear = {{ point = \"5\", x_mm = 101.4, y_mm = 46 }}");
     place.edited("ov7_base.toml", "near.toml", &[(last, &near)]);
     place.ok("inspect scenarios/near.toml");
-    // Where no earlier group helps, the group itself is named.
+    // If no change of an earlier group helps, the message names the group itself.
     let short = place.refused(
         "solve scenarios/crank_rocker.toml --with assur --mode coupler,rocker=3",
         &["`start.groups (coupler, rocker)`: configuration 3"],
     );
-    assert!(!short.stderr.contains("leaves no place"), "{}", short.stderr);
+    assert!(!short.stderr.contains("does not fit"), "{}", short.stderr);
 }

@@ -13,13 +13,13 @@ fn files(place: &Place, directory: &str) -> BTreeMap<String, Vec<u8>> {
     entries.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
 }
 
-/// What the last line says was run.
+/// The part of the last line that says what was run.
 fn run_of(told: &str) -> &str {
     told.lines().last().unwrap()
 }
 
 #[test]
-fn a_run_is_the_same_from_any_number_of_threads_and_goes_on_where_it_was() {
+fn a_run_is_independent_of_threads_and_can_be_resumed() {
     let place = Place::new();
     let told = place.ok("stress length_ratio redundant --quick --out one --jobs 1");
     assert!(run_of(&told).contains("5 of 5 points were run"), "{told}");
@@ -61,7 +61,7 @@ fn a_run_is_the_same_from_any_number_of_threads_and_goes_on_where_it_was() {
     assert!(run_of(&told).contains("0 of 5 points were run"), "{told}");
     assert!(whole == files(&place, "one"), "other bytes from what was kept");
 
-    // What is lost or stale is made anew.
+    // Lost or stale results are computed anew.
     let path = place.path("one/length_ratio.json");
     let mut kept: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
     kept["points"].as_array_mut().unwrap().remove(1);
@@ -72,7 +72,7 @@ fn a_run_is_the_same_from_any_number_of_threads_and_goes_on_where_it_was() {
     assert!(run_of(&told).contains("4 of 5 points were run"), "{told}");
     assert!(whole == files(&place, "one"), "other bytes after a run that was broken off");
 
-    // Nobody's hand decides a verdict, and what is no verdict is none.
+    // An edited result, valid or not, is computed anew.
     let kept = fs::read_to_string(&path).unwrap();
     for (old, new) in [
         ("\"verdict\": \"agree\"", "\"verdict\": \"disagree\""),
@@ -90,19 +90,19 @@ fn a_run_is_the_same_from_any_number_of_threads_and_goes_on_where_it_was() {
 }
 
 #[test]
-fn a_directory_that_cannot_be_is_told_before_anything_is_run() {
+fn an_unusable_directory_is_reported_before_any_run() {
     let place = Place::new();
     fs::write(place.path("file"), "").unwrap();
-    place.refused("stress speed --quick --out file", &["file", "is no directory"]);
-    place.refused("stress speed --quick --out file/below", &["--out", "expected a directory"]);
-    // A directory in the place of a result.
+    place.refused("stress speed --quick --out file", &["file", "is not a directory"]);
+    place.refused("stress speed --quick --out file/below", &["--out", "; expected a directory"]);
+    // A directory at the path of a result.
     fs::create_dir_all(place.path("out/speed.json")).unwrap();
     place.refused("stress speed --quick --out out", &["speed.json"]);
     place.refused("stress sped --quick --out out", &["sped", "speed"]);
-    place.refused("stress speed --quick --out out --jobs 0", &["from 1 on"]);
+    place.refused("stress speed --quick --out out --jobs 0", &["a whole number of at least 1"]);
 }
 
-/// The engines fail where the mechanism does not let them through; that is a result with a reason, and no error.
+/// If the mechanism blocks the engines, they fail; this is a result with a reason, not an error of the command.
 #[test]
 fn failures_are_results_with_reasons() {
     let place = Place::new();

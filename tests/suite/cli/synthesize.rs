@@ -14,9 +14,8 @@ const SINKER: &str = "scenarios/ov7_drives/sinker_task.toml";
 fn a_crank_rocker_is_found_written_and_proven() {
     let place = Place::new();
     let text = place.ok(&format!("{ROCKER} -o rocker.toml --rpm 130"));
-    for words in ["crank OA      0.025995627740337 m", "coupler AB    0.34707193189181 m", "mode          left"] {
-        let (name, number) = words.split_at(14);
-        assert!(text.contains(name) && text.contains(&number[..15.min(number.len())]), "{words}: {text}");
+    for words in ["crank OA      0.025996 m\n", "coupler AB    0.347072 m\n", "mode          left\n"] {
+        assert!(text.contains(words), "{words}: {text}");
     }
     let proof = place.ok("run rocker.toml --no-record");
     assert!(proof.contains("AGREE"), "{proof}");
@@ -63,7 +62,7 @@ fn a_search_is_written_drawn_and_checked() {
 }
 
 #[test]
-fn mistakes_are_answered() {
+fn mistakes_are_reported() {
     let place = Place::new();
     for (arguments, words) in [
         (
@@ -76,15 +75,15 @@ fn mistakes_are_answered() {
         ),
         (
             "synthesize crank-rocker --pivot-mm 150,0 --rocker-mm 250 --extreme-deg -16 --swing-deg 32",
-            ["no length", "move a pivot"],
+            ["a crank of zero length", "move a pivot"],
         ),
         ("synthesize slider-crank --stroke-mm 100 --offset-mm 30 --rod-mm 60", ["too short", "longer than 0.067202 m"]),
         (
             "synthesize slider-crank --stroke-mm 100 --offset-mm 30 --time-ratio 9",
-            ["out of reach", "ask for less than"],
+            ["cannot be reached", "ask for less than"],
         ),
         ("synthesize slider-crank --stroke-mm 100", ["--rod-mm", "--time-ratio"]),
-        ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 -o no.csv", ["ends in .toml", "`-`"]),
+        ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 -o no.csv", ["FILE.toml, FILE.json", "found .csv"]),
         ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 -o No.toml", ["cannot be the name", "lower-case"]),
         ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 --rpm 0", ["--rpm", "not 0"]),
         ("synthesize search nothing.toml", ["cannot be read", "sinker_task.toml"]),
@@ -97,7 +96,7 @@ fn mistakes_are_answered() {
         ),
         (
             "drive scenarios/crank_rocker.toml --catalogue motors.toml --synchronous-rpm 750",
-            ["no motor of 750 rpm", "3000"],
+            ["no motor with a synchronous speed of 750 rpm", "3000"],
         ),
     ] {
         motors(&place);
@@ -107,7 +106,7 @@ fn mistakes_are_answered() {
         place.run(&format!("synthesize search {SINKER} --candidates 100 --refined 1 --evaluations 1 -o {SINKER}"));
     assert!(outcome.code == 2, "{}", outcome.stderr);
     let other = place.run(&format!("synthesize check {SINKER} scenarios/crank_rocker.toml"));
-    assert!(other.code == 2 && other.stderr.contains("another structure"), "{}", other.stderr);
+    assert!(other.code == 2 && other.stderr.contains("does not have the structure"), "{}", other.stderr);
 }
 
 fn motors(place: &Place) {
@@ -120,7 +119,7 @@ fn the_published_motor_is_chosen() {
     let place = Place::new();
     motors(&place);
     let text = place.ok("drive scenarios/crank_rocker.toml --catalogue motors.toml --efficiency 0.92");
-    for words in ["4A63B2: 0.55 kW, 2745 rpm", "ratio     21.115385", "0.547", "law = \"linear\""] {
+    for words in ["4A63B2: 0.55 kW, 2745 rpm", "ratio     21.115385", "required  547.3", "law = \"linear\""] {
         assert!(text.contains(words), "{words}: {text}");
     }
     let json: Value = serde_json::from_str(
@@ -130,7 +129,7 @@ fn the_published_motor_is_chosen() {
     assert_eq!(json["motor"]["name"], "4A71A4");
 }
 
-/// An error in a catalogue is reported with its place.
+/// An error in a catalogue is reported with its location.
 #[test]
 fn catalogues_are_checked() {
     let place = Place::new();
@@ -142,7 +141,7 @@ fn catalogues_are_checked() {
             "rated_speed_rpm = 3745",
             ["`motors.4A63B2.rated_speed_rpm`", "not below the synchronous"],
         ),
-        ("power_kW = 0.55", "power = 0.55", ["carries no unit", "power_kW"]),
+        ("power_kW = 0.55", "power = 0.55", ["has no unit", "power_kW"]),
         ("breakdown_ratio = 2.2", "breakdown_ratio = 0.2", ["breakdown_ratio", "not above the rated"]),
         ("[[motors]]\nname = \"4A63B2\"", "[[motors]]\nnam = \"4A63B2\"", ["`name` is missing", "did you mean `name`"]),
     ] {

@@ -1,4 +1,4 @@
-//! Reports that fit the terminal: verdict first, 80 columns, colours only where somebody sees them, any number of jobs.
+//! Reports fit the terminal: verdict first, 80 columns, colours only on a terminal, any number of jobs.
 
 use std::fs;
 
@@ -25,7 +25,7 @@ fn place() -> Place {
 }
 
 #[test]
-fn short_reports_begin_with_the_verdict_and_have_lines_of_80_columns() {
+fn short_reports_start_with_the_verdict_and_fit_80_columns() {
     let place = place();
     for file in FILES {
         let (name, options) = file.split_once(' ').unwrap_or((file, ""));
@@ -71,7 +71,7 @@ fn no_line_ends_with_blanks() {
 }
 
 #[test]
-fn formulas_are_judged_in_80_columns() {
+fn formula_reports_fit_80_columns() {
     let place = Place::new();
     let mut files: Vec<String> = fs::read_dir(place.path("scenarios/formulas"))
         .unwrap()
@@ -92,7 +92,8 @@ fn formulas_are_judged_in_80_columns() {
     assert!(wrong.lines().all(|line| line.chars().count() <= 80), "{wrong}");
 }
 
-/// Both values at the worst instant, with the digits in which they differ, and all that is needed to act.
+/// The short report shows both values at the worst instant, with the digits in which they differ.
+/// It also has everything needed to act.
 #[test]
 fn a_disagreement_keeps_its_reasons_in_the_short_report() {
     let place = place();
@@ -102,7 +103,7 @@ fn a_disagreement_keeps_its_reasons_in_the_short_report() {
     assert_eq!(words, ["worst", "channel", "at", "deg", "assur", "rapier", "error", "bound", "unit"]);
     let reason = short.find("reduced_resistance_mean_N_m: 3.2").expect(&short);
     let words: Vec<&str> = short[reason..].split_whitespace().collect();
-    assert!(words.join(" ").contains("is beyond the bound 5e-5 N m"), "{short}");
+    assert!(words.join(" ").contains("is beyond the bound 5e-5 N·m"), "{short}");
     assert!(!short.contains("closure of all joints"), "{short}");
     let long = place.run("run scenarios/wrong.toml --no-record --verbose").stdout;
     assert!(long.starts_with(short.lines().next().unwrap()) && long.contains("closure of all joints"), "{long}");
@@ -127,7 +128,7 @@ fn any_number_of_jobs_prints_the_same_bytes() {
         let [one, two] = ["1", "2"].map(|own| fs::read(place.path(own).join(format!("{file}.mcap"))).unwrap());
         assert!(one == two, "{file}");
     }
-    // The table over all files closes the report.
+    // The report ends with the table over all files.
     let close = one.stdout.split("\nscenario ").nth(1).expect(&one.stdout);
     assert!(close.ends_with("\n\n5 scenarios: 1 error, 1 disagree, 3 agree\n"), "{close}");
     for [name, verdict] in [["wrong", "disagree"], ["scenarios/none.toml", "error"], ["pendulum", "agree"]] {
@@ -137,7 +138,8 @@ fn any_number_of_jobs_prints_the_same_bytes() {
     assert!(one.stdout.lines().all(|line| line.chars().count() <= 80), "{}", one.stdout);
 }
 
-/// A file that is given twice and written finds its own settings the second time, whatever the number of jobs.
+/// If a file is given twice and its settings are written, the second proof uses the new settings, whatever the number
+/// of jobs.
 #[test]
 fn settings_are_written_in_the_order_of_the_files() {
     let texts = ["1", "8"].map(|jobs| {
@@ -151,7 +153,7 @@ fn settings_are_written_in_the_order_of_the_files() {
 }
 
 #[test]
-fn colours_are_only_where_somebody_sees_them() {
+fn colours_are_printed_only_to_a_terminal() {
     let place = place();
     let run = |variables: &[(&str, &str)]| {
         let mut command = Command::cargo_bin("linkproof").unwrap();
@@ -188,7 +190,7 @@ fn completions_and_manual_name_every_command() {
     }
     let page = place.ok("man");
     place.ok("man -o deep/man1");
-    // In a file a seal stands before it.
+    // In a written file, a seal precedes the page.
     let file = fs::read_to_string(place.path("deep/man1/linkproof.1")).unwrap();
     assert_eq!(file.split_once('\n').unwrap().1, page);
     for name in names.iter().filter(|name| **name != "help") {
@@ -201,9 +203,9 @@ fn completions_and_manual_name_every_command() {
     place.refused("man -o plain/below", &["plain/below", "-o"]);
 }
 
-/// No number of a report is written as a machine would: `1.0e0`, `-0.000`, or zero with an exponent.
+/// No number in a report has a machine format such as `1.0e0`, `-0.000`, or zero with an exponent.
 #[test]
-fn numbers_are_written_as_people_write_them() {
+fn numbers_have_no_needless_exponent_or_signed_zero() {
     let place = Place::new();
     for command in [
         "run scenarios/crank_rocker.toml --no-record -v",

@@ -18,7 +18,7 @@ pub struct Outcome {
 }
 
 impl Place {
-    /// As whoever has just installed the program.
+    /// An empty directory, as a new user has it.
     pub fn empty() -> Self {
         Place(TempDir::new().unwrap())
     }
@@ -60,7 +60,7 @@ impl Place {
         outcome.stdout
     }
 
-    /// Runs a command that must be refused: exit code 2, a message with all of `words`, and a way out.
+    /// Runs a command that must be refused: exit code 2, a message with all of `words`, and a remedy.
     pub fn refused(&self, arguments: &str, words: &[&str]) -> Outcome {
         let outcome = self.run(arguments);
         assert_eq!(outcome.code, 2, "{arguments}: {}", outcome.stderr);
@@ -74,7 +74,7 @@ impl Place {
 }
 
 impl Outcome {
-    /// Standard output without the ends of its lines, so that a sentence is found wherever it is broken.
+    /// Standard output without line ends, so that a sentence is found wherever it wraps.
     pub fn unbroken(&self) -> String {
         self.stdout.split_whitespace().collect::<Vec<_>>().join(" ")
     }
@@ -121,7 +121,8 @@ impl Table {
     }
 }
 
-/// The commands that a help lists: what goes on in a second line stands further to the right, arguments begin with a sign.
+/// The commands that a help lists.
+/// Continuation lines are indented further, and arguments begin with a sign.
 pub fn listed(help: &str) -> impl Iterator<Item = &str> {
     let above = help.split("\nOptions:").next().unwrap_or_default().lines();
     above

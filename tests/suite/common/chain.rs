@@ -6,8 +6,8 @@ use std::path::Path;
 use linkage::case::Case;
 use scenario::Scenario;
 
-/// Scenario of `pairs` parallelograms of slender rods of 1 m and 1 kg, upright at t = 0 with 1 m/s at the first
-/// coupler.
+/// Scenario of `pairs` parallelograms of slender rods of 1 m and 1 kg.
+/// At t = 0 they are upright, and the first coupler moves at 1 m/s.
 /// The grid goes to `to` (s) in steps of `step` (s).
 pub fn text(pairs: usize, to: f64, step: f64) -> String {
     let mut text = "format = 1\nname = \"chain\"\ntitle = \"chain\"\n[ground.points]\n".to_string();

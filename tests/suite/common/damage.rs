@@ -1,4 +1,4 @@
-//! Bad scenarios: shipped ones and random specimens, damaged at random by seed and number.
+//! Bad scenarios: shipped scenarios and random specimens with random damage, reproducible from seed and number.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 use super::sketch::RandomSource;
 use super::specimens::specimen;
 
-/// A damaged scenario: the path that it is read as, its text, and what was done to it.
+/// A damaged scenario: the path under which it is read, its text, and a description of the damage.
 pub struct Damaged {
     pub path: PathBuf,
     pub text: String,
@@ -34,7 +34,7 @@ pub static SHIPPED: LazyLock<Vec<(PathBuf, String)>> = LazyLock::new(|| {
     found
 });
 
-/// The damaged scenario with this number of a seed.
+/// The damaged scenario with number `index` of a seed.
 pub fn damaged(seed: u64, index: u64) -> Damaged {
     let mut random = RandomSource::of_sample(seed, index);
     let (path, mut text) = match random.index(3) {
@@ -44,7 +44,7 @@ pub fn damaged(seed: u64, index: u64) -> Damaged {
         }
         _ => SHIPPED[random.index(SHIPPED.len())].clone(),
     };
-    // Published numbers are long: half of the files are damaged elsewhere for sure.
+    // Published numbers are long and would get most of the damage, so half of the files lose them.
     if random.yes()
         && let Some(end) = text.find("[[oracle]]")
     {
@@ -54,7 +54,7 @@ pub fn damaged(seed: u64, index: u64) -> Damaged {
     Damaged { path, text, what }
 }
 
-/// Words that are not what a number should be, or numbers that no mechanism has.
+/// Values that are not numbers, and numbers that no mechanism has.
 pub const NUMBERS: [&str; 36] = [
     "0",
     "-0.0",
@@ -94,7 +94,7 @@ pub const NUMBERS: [&str; 36] = [
     "{ x = 1 }",
 ];
 
-/// Texts in the place of a name, a type or a path.
+/// Texts that replace a name, a type or a path.
 const TEXTS: [&str; 24] = [
     "\"\"",
     "\" \"",
@@ -142,7 +142,7 @@ fn damage(random: &mut RandomSource, text: &mut String) -> String {
             let all = texts(text);
             let Some(at) = one(random, all.clone()) else { return "nothing".into() };
             let old = text[at.clone()].to_string();
-            // Another text of the same file disconnects links, or joins what should not be joined.
+            // Replacing a name by another name of the file separates links, or joins links that should be separate.
             let new = match random.index(2) {
                 0 => text[all[random.index(all.len())].clone()].to_string(),
                 _ => TEXTS[random.index(TEXTS.len())].to_string(),
@@ -179,7 +179,7 @@ fn damage(random: &mut RandomSource, text: &mut String) -> String {
             format!("{old} -> {new}")
         }
         12 => {
-            // A section comes to an end too early, or runs into the next.
+            // Moves a section heading, so that a section ends too early or runs into the next.
             let heads: Vec<usize> =
                 text.lines().enumerate().filter(|(_, line)| line.starts_with('[')).map(|l| l.0).collect();
             let Some(line) = (!heads.is_empty()).then(|| heads[random.index(heads.len())]) else {
@@ -222,7 +222,7 @@ fn damage(random: &mut RandomSource, text: &mut String) -> String {
     }
 }
 
-/// Another grid: reversed, empty, of one instant, far, fine, or of a list.
+/// Replaces the grid: reversed, empty, of one instant, far away, very fine, or a list.
 fn grid(random: &mut RandomSource, text: &mut String) -> String {
     const GRIDS: [&str; 14] = [
         "from_deg = 360\nto_deg = 0\nstep_deg = 1",
@@ -255,7 +255,7 @@ fn one(random: &mut RandomSource, all: Vec<Range<usize>>) -> Option<Range<usize>
     (!all.is_empty()).then(|| all[random.index(all.len())].clone())
 }
 
-/// Places of numbers that are values.
+/// Positions of the numbers that are values of keys.
 fn numbers(text: &str) -> Vec<Range<usize>> {
     words(text, |letter| letter.is_ascii_alphanumeric() || "+-._".contains(letter))
         .into_iter()
@@ -274,7 +274,7 @@ fn keys(text: &str) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Places of texts, with their quotes.
+/// Positions of texts, with their quotes.
 fn texts(text: &str) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut start = 0;
@@ -286,7 +286,7 @@ fn texts(text: &str) -> Vec<Range<usize>> {
     found
 }
 
-/// Places of the longest runs of letters that belong to a word, comments left out.
+/// Positions of the longest runs of characters that `is_own` accepts, outside comments.
 fn words(text: &str, is_own: impl Fn(char) -> bool) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut start = 0;

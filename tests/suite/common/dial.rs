@@ -1,13 +1,16 @@
 //! One factor scales every bound of the tests: `LINKPROOF_TOLERANCE_SCALE=0.1 cargo test --release --test suite`.
 //!
-//! At zero no bound fails. Instead, a residual is printed beside its bound (with `-- --nocapture`) if it uses more of
-//! the bound than any earlier one at the same place. So the last line of a place is its worst.
+//! With the factor zero, no bound fails.
+//! Instead, a test prints each residual that uses more of its bound than any earlier residual at the same line of code.
+//! Printing requires `-- --nocapture`.
+//! The last line printed for a line of code is therefore its worst residual.
 
 use std::panic::Location;
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Asserts that a residual is at most its bound times the factor; NaN fails. A message may follow, as in `assert!`.
+/// Asserts that a residual is at most its bound times the factor; NaN fails.
+/// A message may follow, as in `assert!`.
 macro_rules! assert_within {
     ($value:expr, $bound:expr $(,)?) => {
         $crate::common::assert_within!($value, $bound, "{}", stringify!($value))
@@ -35,8 +38,9 @@ pub fn accepts(value: f64, bound: f64) -> bool {
     scale() == 0.0 || value <= scale() * bound
 }
 
-/// The work of [`assert_within`]. `worst` keeps the largest share of the bound at the place of the call, as bits. The
-/// bits of numbers that are not negative have the same order as the numbers, and NaN is above them all.
+/// Implementation of [`assert_within`].
+/// `worst` keeps the bits of the largest ratio of residual to bound at the calling line.
+/// The bits of non-negative numbers are ordered like the numbers, and those of NaN are the largest.
 #[track_caller]
 pub fn judge(worst: &AtomicU64, value: f64, bound: f64, what: impl FnOnce() -> String) {
     if scale() > 0.0 {

@@ -1,6 +1,6 @@
 //! A disc on a motor, whose run-up has a closed form.
 
-/// The disc with a free crank; the rest of `[drive]`, the motor, the start and the grid follow in `rest`.
+/// The disc with a free crank; `rest` contains the other keys of `[drive]`, the motor, the start and the grid.
 pub fn disc(rest: &str) -> String {
     format!("format = 1\nname = \"disc\"\ntitle = \"Disc run up by a linear motor\"\n{PARTS}{rest}")
 }

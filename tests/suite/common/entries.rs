@@ -1,6 +1,8 @@
-//! What must hold of any input, however bad: one body for the property tests and for the fuzz targets in `fuzz/`.
+//! Properties that must hold for any input, however bad.
+//! The property tests and the fuzz targets in `fuzz/` share the same bodies.
 //!
-//! Each body panics where something does not hold. That it ends, and within what memory, is watched from outside.
+//! Each body panics if a property does not hold.
+//! Termination and memory are monitored from outside.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -15,7 +17,7 @@ use linkage::trajectory::CHANNELS;
 use linkage::{Error, ErrorKind};
 use scenario::Scenario;
 
-/// The text of a scenario file: it loads, or the error has what a user needs.
+/// The text of a scenario file: either it loads, or its error gives the user enough information.
 pub fn scenario(text: &str) -> Option<Scenario> {
     let path = Path::new("no_such_directory/scenario.toml");
     match Scenario::parse(text, path) {
@@ -33,7 +35,7 @@ pub fn scenario(text: &str) -> Option<Scenario> {
     }
 }
 
-/// An error of a scenario file names kind, place and key, and has a message of its own.
+/// Checks that an error of a scenario file states kind, location and key, and has a message.
 pub fn explains(error: &Error, text: &str) {
     let shown = format!("{error}");
     assert!(!error.message().trim().is_empty(), "an error without a message");
@@ -42,13 +44,13 @@ pub fn explains(error: &Error, text: &str) {
     if place.file.extension().is_some_and(|own| own == "toml") {
         assert!(place.line() <= text.split('\n').count().max(1), "line {} does not exist: {shown}", place.line());
         let is_whole = error.message().starts_with("the file is not valid TOML")
-            || error.message().starts_with("the file holds no scenario")
+            || error.message().starts_with("the file contains no scenario")
             || error.message().starts_with("a key ");
         assert!(error.scenario_key().is_some_and(|key| !key.is_empty()) || is_whole, "no key: {shown}");
     }
 }
 
-/// The text of a formula: it is read as it is written, differentiated twice and evaluated, or refused with its place.
+/// The text of a formula: either it is parsed, differentiated twice and evaluated, or it is refused with its location.
 pub fn formula(text: &str) {
     let tree = match FormulaTree::parse(text) {
         Ok(tree) => tree,
@@ -70,7 +72,7 @@ pub fn formula(text: &str) {
     }
 }
 
-/// Any links and joints: their structure is refused, or its driving links and groups are what they say.
+/// Any links and joints: either their structure is refused, or its driving links and groups fulfil their definitions.
 pub fn structure(bytes: &[u8]) -> Result<()> {
     let mut from = Unstructured::new(bytes);
     let Ok((mechanism, drives)) = mechanism(&mut from)? else { return Ok(()) };
@@ -81,7 +83,7 @@ pub fn structure(bytes: &[u8]) -> Result<()> {
             return Ok(());
         }
     };
-    // In this order every part hangs on what is known before it, and every joint is used once.
+    // In this order, every part is joined to earlier parts, and every joint is used exactly once.
     let (mut known, mut used) = (vec![GROUND], Vec::new());
     for &(link, joint) in &structure.drivers {
         assert!(!known.contains(&link), "link {link} is solved twice");
@@ -109,7 +111,7 @@ pub fn structure(bytes: &[u8]) -> Result<()> {
     used.sort_unstable();
     assert_eq!(known, mechanism.links().ids().collect::<Vec<_>>());
     assert_eq!(used, mechanism.joints().ids().collect::<Vec<_>>());
-    // Names and classes of what was found are written in every report.
+    // The structural formula, with names and classes of the groups, contains only visible characters.
     assert!(!structure.formula(&mechanism).contains(is_unseen));
     assert_eq!(structure.upstream(&mechanism).len(), mechanism.links().len());
     Ok(())
@@ -121,7 +123,7 @@ type DrawnJoint = (Mechanism, Vec<JointId>);
 fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<DrawnJoint, Error>> {
     let moving = from.int_in_range(1..=63usize)?;
     let drives = from.int_in_range(1..=4usize)?;
-    // Half of the drawings have the number of joints that the mobility asks for.
+    // In half of the random structures, the number of joints gives the mobility that the drives need.
     let fitting = (3 * moving).saturating_sub(drives) / 2;
     let joints = if from.arbitrary()? { fitting } else { from.int_in_range(0..=100usize)? };
     let links = (0..=moving)
@@ -138,7 +140,8 @@ fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<DrawnJoint, 
             let side = |from: &mut Unstructured, link: LinkId| {
                 Ok(JointSide { link, local: links[link].points[usize::from(from.arbitrary::<bool>()?)].local })
             };
-            // Near links are joined more often than distant ones: otherwise hardly a drawing decomposes.
+            // Links with close numbers are joined more often than links with distant numbers.
+            // Otherwise hardly any structure decomposes into groups.
             let first = from.int_in_range(0..=moving)?;
             let second = match from.arbitrary()? {
                 true => (first + from.int_in_range(0..=3usize)?) % (moving + 1),
@@ -165,8 +168,9 @@ fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<DrawnJoint, 
     })
 }
 
-/// The bytes of a recording: they are refused, or every side is a trajectory. An even first byte says that the rest is
-/// the file itself; an odd one that it draws topics and messages of a file that is whole.
+/// The bytes of a recording: they are refused, or every side is a trajectory.
+/// If the first byte is even, the rest is the file.
+/// If it is odd, the rest determines topics and messages of a complete file.
 pub fn recording(bytes: &[u8]) -> Result<()> {
     let Some((first, rest)) = bytes.split_first() else { return Ok(()) };
     let file = match first % 2 {
@@ -229,7 +233,8 @@ fn drawn_file(from: &mut Unstructured) -> Result<Vec<u8>> {
     Ok(file.into_inner().into_inner())
 }
 
-/// A descriptor of one message with double fields of these names; their numbers are those of the list, or any.
+/// A descriptor of one message with double fields of these names.
+/// Most field numbers follow the order of the list; some are arbitrary.
 fn descriptor(names: &[String], from: &mut Unstructured) -> Result<Vec<u8>> {
     use prost::Message;
     use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet};

@@ -1,4 +1,4 @@
-//! RandomSource mechanisms with one group of four links, the same in every run.
+//! Random mechanisms with one group of four links; every run has the same mechanisms.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -11,8 +11,8 @@ fn place(random: &mut RandomSource) -> [f64; 2] {
     [random.number(-0.5, 0.5), random.number(-0.5, 0.5)]
 }
 
-/// A link whose frame has its origin in its first point and the world's axes. So its points are differences of
-/// coordinates.
+/// A link whose frame has its origin at the first point and axes parallel to the world's.
+/// Local points are therefore differences of coordinates.
 fn link(text: &mut String, random: &mut RandomSource, name: &str, points: &[(&str, [f64; 2])]) {
     let origin = points[0].1;
     let local = |p: [f64; 2]| format!("{{ x_m = {:?}, y_m = {:?} }}", p[0] - origin[0], p[1] - origin[1]);
@@ -27,7 +27,8 @@ fn link(text: &mut String, random: &mut RandomSource, name: &str, points: &[(&st
     }
 }
 
-/// A mechanism with one group of four links, described in a pose that it can take: links, joints, ground points.
+/// A mechanism with one group of four links: links, joints and ground points.
+/// Its numbers come from a pose that it can take.
 pub fn scenario(random: &mut RandomSource, triad: bool) -> Scenario {
     let mut text = String::from("format = 1\nname = \"random\"\ntitle = \"random\"\n[ground.points]\n");
     let places: Vec<[f64; 2]> = (0..8).map(|_| place(random)).collect();

@@ -1,4 +1,5 @@
-//! RandomSource mechanisms with a higher group, alone or together with dyads; any joint of the group may be prismatic.
+//! Random mechanisms with a higher group, alone or together with dyads.
+//! Any joint of the group may be prismatic.
 
 use linkage::math::Vec2;
 
@@ -6,7 +7,7 @@ use super::random::{SORTS, dyad, sort};
 use super::sketch::{DrawnJoint, RandomSource, SpecimenSketch};
 use super::spec::{Ask, Spec, Start};
 
-/// End of a joint: a link of the group, or the link that the group is joined to.
+/// End of a joint: on a link of the group, on the crank or on the ground.
 #[derive(Clone, Copy, Debug)]
 pub enum End {
     Own(usize),
@@ -15,8 +16,8 @@ pub enum End {
 }
 use End::{Crank, Ground, Own};
 
-/// A group: number of links, class, and joints. In the list, the outer joint of each lead comes directly before its
-/// inner joint.
+/// A group: number of links, class and joints.
+/// The list has the outer joint of each lead directly before its inner joint.
 #[derive(Debug)]
 pub struct Topology {
     pub name: &'static str,
@@ -91,7 +92,7 @@ pub const CLASS_4_ORDER_3: Topology = Topology {
     ],
 };
 
-/// A group, and which of its joints slide.
+/// A group with a choice of prismatic joints.
 #[derive(Debug)]
 pub struct Family {
     pub topology: &'static Topology,
@@ -105,8 +106,9 @@ pub const FAMILIES: [Family; 18] = {
     }
     [
         of(&CLASS_3, &[]),
-        // One slider lead, on the crank or on the ground; one swivel lead; two of these; all three; a lead that keeps
-        // the base's angle.
+        // One slider lead, on the crank or on the ground; one swivel lead, on the crank or on the ground.
+        // Two slider leads, or a swivel lead and a slider lead; three slider leads; three swivel leads.
+        // A lead that keeps the angle of the base.
         of(&CLASS_3, &[0]),
         of(&CLASS_3, &[2]),
         of(&CLASS_3, &[1]),
@@ -131,16 +133,17 @@ pub const FAMILIES: [Family; 18] = {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Among {
     Alone,
-    /// It is joined to the second link of a dyad instead of the crank.
+    /// The group is joined to the second link of a dyad instead of the crank.
     BehindADyad,
-    /// Two of its links carry a dyad of any kind, possibly with its guide.
+    /// Two links of the group carry a dyad of any kind, possibly with its guide.
     CarryingADyad,
 }
 
-/// Distance of the rough places from the true ones (m).
+/// Distance between the approximate and the true positions (m).
 const ROUGH: f64 = 0.01;
 
-/// A mechanism with such a group; its start is given by rough places of its joints.
+/// A mechanism with a group of this family.
+/// Approximate positions of its joints define its start.
 pub fn mechanism(
     random: &mut RandomSource,
     family: &Family,
@@ -163,7 +166,7 @@ pub fn mechanism(
     sketch.finish()
 }
 
-/// Draws the group, joined to `driver`, and asks for its start.
+/// Draws the group, joined to `driver`, and states how it starts.
 fn links(sketch: &mut SpecimenSketch, family: &Family, driver: usize) -> Vec<usize> {
     let place =
         |sketch: &mut SpecimenSketch| Vec2::new(sketch.random.number(-0.5, 0.5), sketch.random.number(-0.5, 0.5));

@@ -1,5 +1,5 @@
-//! Hostile inputs to every door of the command line, by seed and number: shipped files damaged as text and as bytes, and
-//! what nobody writes by hand.
+//! Hostile inputs of every kind that the command line reads, reproducible from seed and number.
+//! They are shipped files with damaged text or bytes, and inputs that nobody writes by hand.
 
 mod spoil;
 
@@ -7,7 +7,7 @@ use super::damage::{NUMBERS, SHIPPED, damaged};
 use super::sketch::RandomSource;
 use spoil::{announced, lengths, spoil, wide};
 
-/// The doors through which something comes in that nobody vouches for.
+/// The kinds of untrusted input, one for each input channel of the program.
 pub const DOORS: [&str; 12] = [
     "scenario",
     "formula",
@@ -23,40 +23,41 @@ pub const DOORS: [&str; 12] = [
     "older output",
 ];
 
-/// Good inputs that are damaged, made once by the program itself.
+/// Valid inputs to be damaged, created once by the program itself.
 pub struct Good {
     pub recording: Vec<u8>,
     pub accepted: Vec<u8>,
     pub stress: Vec<u8>,
     pub table: Vec<u8>,
     pub positions: Vec<u8>,
-    /// Outputs whose names the program makes up: the command, and its files.
+    /// Output files whose names the program chooses: the command, and its files.
     pub older: Vec<(&'static str, Files)>,
 }
 
 /// Files by name, with their bytes.
 pub type Files = Vec<(String, Vec<u8>)>;
 
-/// Commands that make up names of files, so that they look at what is there already.
-pub const OLDER: [&str; 7] = [
-    "run pendulum.toml --route differences --record r --html h/",
-    "export pendulum.toml --mjcf",
+/// Commands that choose file names, and therefore inspect existing files.
+pub const OLDER: [&str; 8] = [
+    "run pendulum.toml --route differences --record r --output h/",
+    "export pendulum.toml",
     "export pendulum.toml --json",
+    "draw pendulum.toml",
     "view r/pendulum.mcap --with foxglove",
-    "stress turns --quick --out s --page p/page.md",
-    "bench five_bar.toml --out b --page p/page.md --quick --engine rapier --only positions --budget 1e4",
+    "stress turns --quick --output s --output p/page.md",
+    "bench five_bar.toml --output b --output p/page.md --quick --engine rapier --only positions --budget 1e4",
     "man --output m",
 ];
 
 /// A command with its inputs.
 pub struct Attack {
     pub door: usize,
-    /// What was done, in words.
+    /// Description of the damage.
     pub what: Vec<String>,
     pub files: Vec<(String, Vec<u8>)>,
     pub arguments: Vec<String>,
     pub standard_input: Vec<u8>,
-    /// Files that the command may replace: it made them, or they are named.
+    /// Files that the command may replace, because the program made them or the arguments name them.
     pub may: Vec<String>,
 }
 
@@ -76,13 +77,13 @@ const CATALOGUE: &str = include_str!("../../../catalogues/motors.toml");
 const MAPPING: &str = "[channels]\n\"point.B.x_mm\" = \"point.B.x_m*1000\"\n\n[tolerance]\nall = { rel = 0.01 }\n\
      \"point.B.y_m\" = { abs = 0.1 }\n";
 
-/// The attack with this number of a seed.
+/// The attack with number `index` of a seed.
 pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
     let door = index as usize % DOORS.len();
     let random = &mut RandomSource::of_sample(seed, index);
     let mut what = Vec::new();
     let (mut files, mut standard_input, mut may) = (Vec::new(), Vec::new(), Vec::new());
-    // Each command has its turn at each door.
+    // The commands alternate, so that each kind of input meets each command.
     let turn = index as usize / DOORS.len() + door;
     let line = match door {
         0 | 8 => {
@@ -107,7 +108,7 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
         1 => {
             let expression = expression(random, &mut what);
             match random.index(3) {
-                // Arguments have less than 128 kB, and no zero.
+                // Arguments are limited to 128 kB, and contain no zero byte.
                 0 if expression.len() < 100_000 && !expression.contains('\0') => {
                     files.push(("good.toml".into(), CRANK_ROCKER.into()));
                     let words = ["check", "good.toml", &expression, "--channel=link.rocker.angle_rad", "-q"];
@@ -222,7 +223,7 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
             let mut bytes =
                 if is_shipped { PARQUETS[random.index(PARQUETS.len())].to_vec() } else { announced(random, &mut what) };
             match (is_shipped, random.index(3)) {
-                // One bit of what is probably a number.
+                // Changes one bit of a byte that probably belongs to a number.
                 (true, 0) => {
                     let at = 4 + random.index(bytes.len() / 3);
                     bytes[at] ^= 1 << random.index(8);
@@ -274,9 +275,9 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
                     spoil(random, &mut bytes, &mut what);
                     what.push(name.clone());
                 }
-                // Of these the program tells only whether it wrote them.
+                // For these files the program knows only whether it wrote them, so a changed file may be replaced.
                 let is_any = ["mcap", "s/turns.json", "s/turns.csv"].iter().any(|own| name.ends_with(own));
-                // Ends of lines are no change: tools change them.
+                // Changed line endings do not count as damage, because tools change them.
                 let plain = |bytes: &[u8]| bytes.iter().copied().filter(|&byte| byte != b'\r').collect::<Vec<u8>>();
                 if is_any || plain(&bytes) == plain(&older[index].1) {
                     may.push(name.clone());
@@ -300,7 +301,7 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
     Attack { door, what, files, arguments, standard_input, may }
 }
 
-/// What is done with a scenario; most often what most people do.
+/// Commands on a scenario; usual commands occur more often in the list.
 const COMMANDS: [&str; 36] = [
     "run FILE --no-record -q",
     "run FILE",
@@ -340,7 +341,7 @@ const COMMANDS: [&str; 36] = [
     "draw FILE -o out.gif --frames 4 --width 200",
 ];
 
-/// A scenario, damaged as text, or with a number of parts that nobody writes by hand.
+/// A scenario with damaged text, or with more parts than anybody writes by hand.
 fn scenario(random: &mut RandomSource, seed: u64, index: u64, what: &mut Vec<String>) -> Vec<u8> {
     if random.index(4) > 0 {
         let bad = damaged(seed, index);
@@ -396,7 +397,7 @@ fn scenario(random: &mut RandomSource, seed: u64, index: u64, what: &mut Vec<Str
     text.into_bytes()
 }
 
-/// A formula: a nest, a chain, a number, or anything.
+/// A formula: nested parentheses, a chain of operators, a number, or random text.
 fn expression(random: &mut RandomSource, what: &mut Vec<String>) -> String {
     let deep = [3, 10, 100, 1000, 20_000, 200_000][random.index(6)];
     let inner = ["phi", "t", "k1", "1e308", "0", "1/0", "ln(-1)", "x", "", "pi*phi^2"][random.index(10)];
@@ -425,7 +426,7 @@ fn expression(random: &mut RandomSource, what: &mut Vec<String>) -> String {
     }
 }
 
-/// A peer: what it says, what it writes, and how it ends.
+/// A peer program: its messages, its output, and how it ends.
 fn peer(random: &mut RandomSource, good: &Good, what: &mut Vec<String>) -> Vec<(String, Vec<u8>)> {
     let mut ways = br#"[{"name": "as it is", "resolution": "none", "dt": 0.001}]"#.to_vec();
     let mut answer =

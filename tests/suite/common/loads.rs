@@ -1,4 +1,4 @@
-//! RandomSource loads of all sorts, as text of a scenario.
+//! Random loads of all kinds, as scenario text.
 
 use linkage::case::Case;
 use linkage::mechanism::LinkId;
@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use super::sketch::RandomSource;
 
-/// Natural magnitudes of a mechanism; those of loads are multiples of them from 0.2 to 2.
+/// Natural magnitudes of a mechanism; random loads have 0.2 to 2 times these magnitudes.
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes {
     /// N
@@ -17,7 +17,7 @@ pub struct Sizes {
     pub speed: f64,
 }
 
-/// `count` loads of random sorts.
+/// `count` loads of random kinds.
 pub fn loads(random: &mut RandomSource, case: &Case, count: usize, sizes: Sizes) -> String {
     let Sizes { force, length, speed } = sizes;
     let links = case.mechanism.links();
@@ -89,7 +89,7 @@ pub fn loads(random: &mut RandomSource, case: &Case, count: usize, sizes: Sizes)
     text
 }
 
-/// A table over two turns of the crank, of values up to `size`.
+/// A load table over two turns of the crank, with values up to `size`.
 fn table(random: &mut RandomSource, names: &[&str], size: f64) -> String {
     let row = |random: &mut RandomSource, k: usize| {
         let mut row = format!("crank_deg = {:?}", -400.0 + 110.0 * k as f64 + random.number(0.0, 100.0));

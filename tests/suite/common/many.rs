@@ -1,20 +1,21 @@
-//! Many numbered inputs, tried side by side.
+//! Many numbered inputs, tried in parallel.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// Time after which an input is named that has not ended, many times what the slowest one takes. A clock proves nothing
-/// on a busy machine: that all end is what a test shows by ending.
+/// If an input takes longer than this, the test prints its number.
+/// The slowest input takes a small fraction of this time.
+/// On a busy machine a time limit proves nothing; a test that ends proves termination.
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// What the environment says is the number of something.
+/// The environment variable `name` as a number.
 pub fn number(name: &str) -> Option<u64> {
     std::env::var(name).ok()?.parse().ok()
 }
 
-/// Counts down when a thread ends, also by a panic: who watches over it ends too.
+/// Counts down when a thread ends, even by a panic; the monitoring thread ends when the count is zero.
 struct Leaves<'a>(&'a AtomicUsize);
 
 impl Drop for Leaves<'_> {
@@ -23,7 +24,7 @@ impl Drop for Leaves<'_> {
     }
 }
 
-/// What `work` finds out about each of `count` inputs from the number `from` on, in their order.
+/// Results of `work` for `count` inputs, numbered from `from`, in order.
 pub fn each<T: Send>(from: u64, count: u64, work: impl Fn(u64) -> T + Sync) -> Vec<(u64, T)> {
     let next = AtomicU64::new(from);
     let found: Mutex<BTreeMap<u64, T>> = Mutex::default();
@@ -46,7 +47,7 @@ pub fn each<T: Send>(from: u64, count: u64, work: impl Fn(u64) -> T + Sync) -> V
                 }
             });
         }
-        // One that does not end is named before whoever runs the tests stops them.
+        // Prints the number of an input that does not end, before the user stops the tests.
         scope.spawn(|| {
             while at_work.load(Ordering::Relaxed) > 0 {
                 std::thread::sleep(Duration::from_millis(200));

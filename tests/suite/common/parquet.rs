@@ -1,27 +1,28 @@
-//! Parquet files that announce what is not there. No writer makes them: they are put together byte by byte.
+//! Parquet files that announce more than they contain.
+//! No writer produces them, so they are assembled byte by byte.
 
-/// One column `a` of whole numbers of 64 bits, with what its file announces, and the bytes of its pages.
+/// A file with one column `a` of 64-bit integers: its announced sizes, and the bytes of its pages.
 #[derive(Clone)]
 pub struct Announced {
-    /// Rows of the file, and of each group of rows.
+    /// Rows of the file, and rows of each row group.
     pub rows: i64,
     pub of_group: i64,
-    /// Groups of rows, all with the same pages.
+    /// Number of row groups, all with the same pages.
     pub groups: usize,
-    /// Children of the root of the columns, and groups of columns within each other above the one column.
+    /// Number of children of the schema root, and depth of nested column groups above the single column.
     pub children: i64,
     pub depth: usize,
     /// Number of the compression.
     pub codec: i64,
-    /// Bytes of a page when it is unpacked and in the file, and its values.
+    /// Announced sizes of a page: bytes after decompression, bytes in the file, number of values.
     pub held: i64,
     pub stored: i64,
     pub values: i64,
-    /// Values of a dictionary, in a page before.
+    /// Number of values of a dictionary, which is in a page before the data.
     pub dictionary: Option<i64>,
     /// Number of the encoding.
     pub encoding: i64,
-    /// What the page holds in the file.
+    /// Contents of the page in the file.
     pub body: Vec<u8>,
 }
 
@@ -31,7 +32,7 @@ const RLE_DICTIONARY: i64 = 8;
 pub const GZIP: i64 = 2;
 
 impl Announced {
-    /// A right file of so many zeros, in a page that is as long as they are.
+    /// A valid file of `rows` zeros; its page stores every value.
     pub fn zeros(rows: i64) -> Self {
         let bytes = rows * 8;
         let body = vec![0; bytes as usize];
@@ -53,9 +54,9 @@ impl Announced {
         }
     }
 
-    /// A right file of so many equal numbers in a few bytes: a dictionary of one value, and one run of it.
+    /// A valid file of `rows` equal numbers in a few bytes: a dictionary with one value, and one run of that value.
     pub fn run(rows: i64) -> Self {
-        // No bits for each value; the run's length, doubled.
+        // Bit width zero, then the header of a run: twice its length.
         let body = [vec![0], varint((rows as u64) << 1)].concat();
         let length = body.len() as i64;
         Announced {
@@ -112,7 +113,7 @@ impl Announced {
     }
 }
 
-/// A field of a structure: so many behind the one before it.
+/// Header of a Thrift field; `step` is the difference of its number from the previous field's number.
 fn field(step: u8, kind: u8) -> u8 {
     step << 4 | kind
 }

@@ -1,4 +1,4 @@
-//! RandomSource mechanisms of dyads of all five kinds, the same in every run.
+//! Random mechanisms of all five kinds of dyads; every run has the same mechanisms.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -12,12 +12,12 @@ use super::assert_within;
 use super::dial::accepts;
 use super::sketch::RandomSource;
 
-/// Checks that the mode asked for gives the pose that was drawn.
+/// Checks that the requested assembly mode gives the drawn pose.
 fn starts_as_drawn(sample: &DyadSpecimen, drawn: &[LinkPose]) {
     for (found, drawn) in sample.scenario.case.start.0.iter().zip(drawn) {
         let turn = linkage::math::angle::wrapped(found.angle - drawn.angle);
         let off = (found.origin - drawn.origin).norm().larger(turn.abs());
-        // Rounding along the dyads, as between the solvers.
+        // Rounding error accumulated along the dyads, with the same bound as between the solvers.
         assert_within!(off, 1e-13 * sample.condition.powi(2), "{off:e}\n{}", sample.spec.toml());
     }
 }
@@ -27,8 +27,8 @@ pub fn for_each(count: u32, check: impl Fn(&DyadSpecimen) -> Result<(), TestCase
     for_each_of(&SORTS, 3, count, check);
 }
 
-/// Runs `check` on `count` random mechanisms of one to `most` dyads of the given kinds: each number of dyads in turn, and
-/// each kind in turn where there is one.
+/// Runs `check` on `count` random mechanisms of one to `most` dyads of the given kinds.
+/// The number of dyads cycles; with a single dyad, the kind cycles too.
 pub fn for_each_of(
     allowed: &[[bool; 3]],
     most: usize,
@@ -56,7 +56,7 @@ pub fn for_each_of(
 }
 
 thread_local! {
-    /// Largest share of its bound that each quantity has used in this test.
+    /// For each quantity, the largest fraction of its bound used in this test.
     static WORST: RefCell<BTreeMap<String, f64>> = const { RefCell::new(BTreeMap::new()) };
 }
 
@@ -65,7 +65,7 @@ fn worst() -> String {
     WORST.with_borrow(|worst| -> Vec<String> { all(worst) }).join(", ")
 }
 
-/// Fails with both numbers unless `value` is at most `bound`; NaN fails.
+/// Fails with a message that states both numbers, unless `value` is at most `bound`; NaN fails.
 pub fn within(what: &str, value: f64, bound: f64) -> Result<(), TestCaseError> {
     WORST.with_borrow_mut(|worst| {
         let most = worst.entry(what.into()).or_insert(0.0f64);

@@ -1,6 +1,6 @@
-//! Mechanisms with prismatic joints, built by hand, with their motion in closed form: one of every kind of dyad. No
-//! frame and no axis is parallel to the world's, and no mass centre is on a joint. So a wrong sign or a missing frame
-//! shows.
+//! Mechanisms with prismatic joints, built by hand, with their motion in closed form: one for every kind of dyad.
+//! No frame or axis is parallel to the world's axes, and no mass centre is at a joint.
+//! A wrong sign or a missing rotation therefore shows.
 
 pub mod double;
 
@@ -26,13 +26,13 @@ const GUIDE: f64 = 0.3;
 pub struct Sample {
     pub name: &'static str,
     pub case: Case,
-    /// Slide of `joint` and angle of `link` as functions of the crank angle (rad), which grows with `SPEED`.
+    /// Slide of `joint` and angle of `link` as functions of the crank angle (rad), which increases at the rate `SPEED`.
     pub exact: fn(f64) -> Exact,
     pub joint: &'static str,
     pub link: &'static str,
 }
 
-/// Values with their first and second derivatives by time; m, rad, s.
+/// Values with their first and second time derivatives (m, rad, s).
 #[derive(Clone, Copy, Debug)]
 pub struct Exact {
     pub slide: [f64; 3],
@@ -53,8 +53,8 @@ fn along(first: f64, second: f64) -> JointKind {
     JointKind::Prismatic { axes: [unit(first), unit(second)] }
 }
 
-/// The same case with the links of its joints named in the other order. The mode of an RPR dyad says which link of the
-/// pair is ahead, so it changes too.
+/// The same case with the two links of each joint named in the other order.
+/// The mode of an RPR dyad states which link of the pair is ahead, so it changes too.
 pub fn swapped(case: &Case) -> Case {
     let swap = |joint: &Joint| {
         let kind = match joint.kind {
@@ -112,16 +112,16 @@ pub fn all() -> [Sample; 5] {
 
 const ROD: f64 = 0.35;
 const OFFSET: f64 = 0.02;
-/// The slider's axis in its own frame, and the joint's place there.
+/// Axis of the slider in its link's frame, and position of the joint in this frame.
 const SLIDER_AXIS: f64 = -0.5;
 const SLIDER_PLACE: Vec2 = Vec2::new(0.02, 0.015);
 
 /// RRP: crank 0.1 m, rod 0.35 m, slider whose pin moves on a line 0.02 m beside the crank's pivot.
 ///
-/// With the crank at phi from the guide and sin(beta) = (e - a sin(phi)) / l: s = a cos(phi) + l cos(beta); both
-/// derived twice (the formulas of a piston compressor, here with an offset).
+/// With the crank at phi from the guide and sin(beta) = (e - a sin(phi)) / l: s = a cos(phi) + l cos(beta).
+/// Both equations are differentiated twice (the formulas of a piston compressor, here with an offset).
 pub fn slider_crank() -> Sample {
-    // The place on the slider and the place on the guide are both off the pin's path.
+    // The joint points on slider and guide both lie beside the path of the pin.
     let from_pin = rotated(unit(-SLIDER_AXIS), SLIDER_PLACE);
     let guide = rotated(unit(GUIDE), Vec2::new(0.25, OFFSET + from_pin.y));
     let links = vec![
@@ -157,9 +157,10 @@ pub fn slider_crank() -> Sample {
     Sample { name: "slider-crank", case, exact, joint: "guide", link: "rod" }
 }
 
-/// The slider-crank with a rod of 0.11 m. It does not reach its line where the crank's tip is farther from the line
-/// than that. From the start onwards this begins at 180 deg + asin(0.09 / 0.1) = 244.158 deg from the guide, crank
-/// angle 261.347 deg.
+/// The slider-crank with a rod of 0.11 m.
+/// The rod is too short if the crank's tip is farther than 0.11 m from the slider's line.
+/// From the start onwards, this first happens at 180 deg + asin(0.09 / 0.1) = 244.158 deg from the guide.
+/// The crank angle is then 261.347 deg.
 pub fn short_rod() -> Case {
     let rod = 0.11;
     let case = slider_crank().case;

@@ -1,8 +1,10 @@
-//! RandomSource correct mechanisms of all kinds, as scenario text, from a seed and a number.
+//! Random correct mechanisms of all kinds, as scenario text, reproducible from a seed and a number.
 //!
-//! Sizes are from 1 mm to 10 m, masses spread over four decades within a mechanism, speeds are from 0.1 to 3000 rpm of
-//! either sense. Motions are prescribed or free. Loads are of all sorts, each of the size of inertia forces and weight.
-//! No specimen comes near a singular pose on its grid.
+//! Sizes are from 1 mm to 10 m, and masses within a mechanism spread over four decades.
+//! Speeds are from 0.1 to 3000 rpm in either direction.
+//! Motions are prescribed or free.
+//! Loads are of all kinds, each of the same magnitude as the inertia forces and weights.
+//! On its grid, no specimen comes near a singular pose.
 
 mod motions;
 mod shapes;
@@ -21,28 +23,29 @@ use super::sketch::RandomSource;
 use super::spec::Spec;
 use shapes::{Shape, short};
 
-/// Crank angle of one step (rad), where a step is written.
+/// Engine step as a crank angle (rad), if the scenario states a step.
 const STEP: f64 = 0.005;
 
 /// A mechanism with its motion and loads.
 pub struct Specimen {
     pub spec: Spec,
-    /// What it is, in words.
+    /// Description of the specimen.
     pub sort: String,
 }
 
 impl Specimen {
-    /// The scenario as text, with a step of the engine or without that section.
+    /// The scenario as text, with a step of the engine or without the section `[engine]`.
     pub fn toml(&self, with_step: bool) -> String {
         let dt = self.spec.dt.filter(|_| with_step);
         format!("# {}\n{}", self.sort, Spec { dt, ..self.spec.clone() }.toml())
     }
 }
 
-/// The specimen with this number of a seed. `dropped` counts the drawings that were not used, by reason.
+/// The specimen with number `index` of a seed.
+/// `dropped` counts the rejected candidates, by reason.
 pub fn specimen(seed: u64, index: u64, dropped: &mut BTreeMap<String, usize>) -> Specimen {
     let mut random = RandomSource::of_sample(seed, index);
-    // Decided here: a free drawing is dropped more often than another.
+    // The kind of motion is chosen before the rejections, because free candidates are rejected more often than others.
     let is_free = random.number(0.0, 1.0) < 0.4;
     loop {
         match drawn(&mut random, index, is_free) {
@@ -70,7 +73,7 @@ fn drawn(random: &mut RandomSource, index: u64, is_free: bool) -> Result<Specime
     let mut speed = TAU / 60.0 * random.decades(0.1, 3000.0);
     let swing = (spec.gravity.norm() / (0.3 * size)).sqrt();
     if is_free {
-        // Slower than that, a free motion is the same as from rest.
+        // At a lower speed, a free motion would hardly differ from one that starts at rest.
         speed = if falls { swing } else { speed.larger(0.5 * swing) };
     }
     spec.speed = if random.yes() { speed } else { -speed };
@@ -80,7 +83,7 @@ fn drawn(random: &mut RandomSource, index: u64, is_free: bool) -> Result<Specime
         spec.grid.1 *= -1.0;
     }
     let (force, moment) = natural(&spec)?;
-    // Half of the free ones have a flywheel; without it, a light crank is whipped by the links behind it.
+    // Half of the free mechanisms have a flywheel; without it, the links whirl a light crank around.
     if let Some((_, _, inertia)) = spec.links[0].mass.as_mut()
         && is_free
         && random.yes()
@@ -108,8 +111,8 @@ fn drawn(random: &mut RandomSource, index: u64, is_free: bool) -> Result<Specime
     Ok(Specimen { sort: format!("{sort}, {motion}, {size:.2e} m, {:.2e} rpm", spec.speed * 60.0 / TAU), spec })
 }
 
-/// Masses over four decades, mass centres off all lines. A few links of prescribed motions have no mass, or are point
-/// masses.
+/// Masses over four decades, with mass centres off all lines.
+/// A few links of prescribed motions are massless or point masses.
 fn masses(random: &mut RandomSource, spec: &mut Spec, size: f64, bare: bool) {
     let heaviest = 100.0 * size * size * random.decades(0.3, 3.0);
     for body in &mut spec.links {
@@ -126,7 +129,7 @@ fn masses(random: &mut RandomSource, spec: &mut Spec, size: f64, bare: bool) {
     }
 }
 
-/// Visits all states of the prescribed motion of a mechanism.
+/// Visits all states of the prescribed motion on the grid.
 fn each(spec: &Spec, mut visit: impl FnMut(&Case, &State)) -> Result<(), String> {
     let case = spec.scenario().map_err(|error| format!("scenario: {}", error.message()))?.case;
     let mut look = |_: usize, state: &State| {
@@ -136,8 +139,9 @@ fn each(spec: &Spec, mut visit: impl FnMut(&Case, &State)) -> Result<(), String>
     AssurSolver.each(&case, &mut look).map_err(|error| short(error.message()))
 }
 
-/// Size of the reactions (N) and of the balancing moment (N m) of inertia and weight: medians over the motion of the
-/// largest reaction and of the moment. Towards the ends of a limited range both grow beyond what is natural.
+/// Size of the reactions (N) and of the balancing moment (N m) from inertia and weight.
+/// The function takes the largest reaction and the moment at each instant, and returns their medians over the motion.
+/// Medians are used because both grow towards the ends of a limited range.
 fn natural(spec: &Spec) -> Result<(f64, f64), String> {
     let (mut forces, mut moments) = (Vec::new(), Vec::new());
     each(spec, |_, state| {
@@ -151,7 +155,8 @@ fn natural(spec: &Spec) -> Result<(f64, f64), String> {
     if force > 0.0 && moment > 0.0 { Ok((force, moment)) } else { Err("no inertia".into()) }
 }
 
-/// Checks that springs and dampers never get shorter than `least` (m): their direction is lost where the points meet.
+/// Checks that springs and dampers always stay longer than `least` (m).
+/// Where their end points coincide, their direction is undefined.
 fn apart(spec: &Spec, least: f64) -> Result<(), String> {
     let mut shortest = f64::MAX;
     each(spec, |case, state| {

@@ -1,11 +1,13 @@
-//! Columns of one number throughout: exact where the file leaves out zeros, and of unknown digits where it does not.
+//! Constant columns.
+//! If the file prints zeros in short form, they are exact; otherwise their number of digits is unknown.
 
 use super::digits::Format;
 use super::{scenario, solved};
 use prover::compare::{ComparisonRule, PartyComparison};
 use prover::tables::load;
 
-/// A scenario's channels in some formats, one column replaced by numbers of another.
+/// Compares channels of a scenario in the given formats.
+/// If a number is given, it replaces all values of the column.
 fn compared(name: &str, columns: &[(&str, Format, Option<f64>)]) -> PartyComparison {
     let scenario = scenario(name);
     let right = solved(&scenario);
@@ -29,9 +31,10 @@ fn words(name: &str, columns: &[(&str, Format, Option<f64>)]) -> Vec<&'static st
 
 const NINE: Format = Format::General(9);
 
-/// A joint without a guide, links that only translate, a constant speed; `0`, `0.0` by Python, `30`.
+/// Constant columns: a joint without a guide, links that only translate, a constant speed.
+/// They are printed as `0`, as `0.0` by Python, and as `30`.
 #[test]
-fn what_is_constant_by_structure_agrees_in_every_format() {
+fn structural_constants_agree_in_every_format() {
     for (format, constant) in [(NINE, NINE), (Format::Shortest, Format::Shortest), (Format::Fixed(6), Format::Fixed(0))]
     {
         let found = compared(
@@ -52,10 +55,10 @@ fn what_is_constant_by_structure_agrees_in_every_format() {
     }
 }
 
-/// A force in place of which `0` stands was forgotten, if `0` is exact; rounded to whole numbers it may be any below a
-/// half.
+/// If all columns have nine digits, a force printed as `0` is an exact zero, so it was forgotten.
+/// If columns are rounded to whole numbers, it may be any force below 0.5.
 #[test]
-fn a_zero_or_a_constant_that_is_wrong_is_found_where_it_is_exact_and_open_where_it_is_not() {
+fn wrong_constants_disagree_only_where_they_are_exact() {
     let of = |format, constant| {
         words(
             "crank_rocker",
@@ -69,6 +72,6 @@ fn a_zero_or_a_constant_that_is_wrong_is_found_where_it_is_exact_and_open_where_
     };
     assert_eq!(of(NINE, NINE), ["agree", "agree", "disagree", "disagree"]);
     assert_eq!(of(Format::Shortest, Format::Shortest), ["agree", "agree", "disagree", "disagree"]);
-    // Each column with other decimals.
+    // The other columns have nine decimals, the constant ones have none.
     assert_eq!(of(Format::Fixed(9), Format::Fixed(0))[..3], ["agree", "agree", "inconclusive"]);
 }

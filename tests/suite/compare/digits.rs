@@ -1,5 +1,5 @@
-//! Right tables as programs print them: each column with digits of its own, times rounded. None is refused, and what is
-//! wrong by a few units of its last digit is found.
+//! Correct tables as programs print them: each column with different digits, times rounded.
+//! All are accepted, and an error of a few units of the last digit is found.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ use linkproof::Scenario;
 use prover::compare::{ComparisonRule, PartyComparison};
 use prover::tables::{Raw, load};
 
-/// Numbers by chance, the same in every run (SplitMix64).
+/// Random numbers, the same in every run (SplitMix64).
 pub(crate) struct RandomSource(pub(crate) u64);
 
 impl RandomSource {
@@ -25,15 +25,15 @@ impl RandomSource {
 /// How a column is printed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Format {
-    /// So many significant digits, without zeros at the end, as `%.9g`.
+    /// Number of significant digits, without trailing zeros, as in `%.9g`.
     General(usize),
-    /// So many digits behind the first, with an exponent.
+    /// Number of digits after the first, with an exponent.
     Exponent(usize),
     /// So many decimals.
     Fixed(usize),
-    /// As Python does: the shortest text of a double.
+    /// The shortest text of a double, as in Python.
     Shortest,
-    /// The shortest text of a number in single precision.
+    /// The shortest text of a single-precision number.
     Single,
 }
 
@@ -57,7 +57,7 @@ impl Format {
         }
     }
 
-    /// A unit of the last digit of a value.
+    /// The value of one unit of the last printed digit.
     pub(crate) fn unit(self, value: f64) -> f64 {
         match self {
             Format::Fixed(decimals) => 10f64.powi(-(decimals as i32)),
@@ -70,7 +70,7 @@ impl Format {
     }
 }
 
-/// Column by column: name, format, numbers.
+/// The columns, each with name, format and numbers.
 struct Printed {
     times: (Format, f64, &'static str),
     columns: Vec<(String, Format, Vec<f64>)>,
@@ -78,7 +78,7 @@ struct Printed {
 }
 
 impl Printed {
-    /// Some channels of a trajectory, in formats by chance.
+    /// Some channels of a trajectory, in random formats.
     fn of(right: &Trajectory, random: &mut RandomSource, times: (Format, f64, &'static str), every: usize) -> Self {
         let rows = (0..right.times().len()).step_by(every);
         let mut columns = Vec::new();
@@ -146,14 +146,14 @@ const SCENARIOS: [&str; 8] = [
 ];
 
 #[test]
-fn right_tables_are_never_refused_whatever_digits_each_column_has() {
+fn correct_tables_are_never_refused_for_any_digits() {
     let (mut tables, mut channels, mut agreed) = (0, 0, 0);
     for (number, name) in SCENARIOS.into_iter().enumerate() {
         let scenario = scenario(name);
         let right = solved(&scenario);
         for (seed, times) in TIMES.into_iter().enumerate() {
             let mut random = RandomSource(100 * number as u64 + seed as u64);
-            // Whole tables, thin ones and those of a few rows.
+            // Complete tables, tables with every third row, and tables of a few rows.
             let every = [1, 3, right.times().len() / 4][seed % 3];
             let printed = Printed::of(&right, &mut random, times, every);
             let found = printed.compared(&scenario);
@@ -166,13 +166,13 @@ fn right_tables_are_never_refused_whatever_digits_each_column_has() {
         }
     }
     println!("{tables} tables, {agreed} of {channels} columns agree");
-    // Milliseconds without decimals leave much open; hardly anything else does.
+    // Times in whole milliseconds leave many columns undecided; other formats leave hardly any.
     assert!(agreed * 10 >= channels * 8, "{agreed} of {channels}");
 }
 
-/// Three units of the last digit are told from half of one: at instants that are exact.
+/// At exact instants, an error of three units of the last digit is found, and half a unit is allowed.
 #[test]
-fn a_number_that_is_wrong_by_three_units_of_its_last_digit_is_found() {
+fn an_error_of_three_units_of_the_last_digit_is_found() {
     let (mut planted, mut random) = (0, RandomSource(7));
     for name in ["crank_rocker", "offset_press", "quick_return", "compressor", "ov7_base", "scotch_yoke"] {
         let scenario = scenario(name);
@@ -182,14 +182,14 @@ fn a_number_that_is_wrong_by_three_units_of_its_last_digit_is_found() {
         for (text, format, values) in &mut printed.columns {
             let size = values.iter().map(|value| value.abs()).fold(0.0, KeepNan::larger);
             let row = random.index(values.len());
-            // Digits that the sides know, of a value that has some.
+            // Limits the format to digits that the sides compute reliably.
             *format = match (*format, size.log10().floor() as i32) {
                 (Format::Fixed(decimals), places) => Format::Fixed(decimals.min((6 - places).max(0) as usize)),
                 (Format::General(digits), _) => Format::General(digits.min(7)),
                 (Format::Exponent(digits), _) => Format::Exponent(digits.min(7)),
                 (Format::Shortest | Format::Single, _) => Format::General(7),
             };
-            // What is zero but for rounding has no digits.
+            // A value that consists of rounding error has no significant digits.
             let has_digits = size > 1e-6 && values[row].abs() > 1e-3 * size && format.unit(values[row]) > 1e-7 * size;
             if has_digits {
                 values[row] += 3.0 * format.unit(values[row]);
@@ -205,9 +205,9 @@ fn a_number_that_is_wrong_by_three_units_of_its_last_digit_is_found() {
     assert!(planted > 50, "{planted}");
 }
 
-/// Where instants are rounded, a number may be off by as much as it changes meanwhile, and by no more than that.
+/// If instants are rounded, a number may differ by its change within the rounding interval, but not by more.
 #[test]
-fn rounded_instants_excuse_what_changes_meanwhile_and_no_more() {
+fn rounded_instants_excuse_only_the_change_within_them() {
     let mut planted = 0;
     for name in ["crank_rocker", "offset_press", "ov7_base", "compressor", "six_bar_slider"] {
         let scenario = scenario(name);
@@ -223,7 +223,8 @@ fn rounded_instants_excuse_what_changes_meanwhile_and_no_more() {
                 let speed = column(&name.replace(".x_m", ".vx_m_s"));
                 let row = (37 * (index + 1)) % speed.len();
                 let half = 0.5 * times.0.unit(times.1 * printed.at[row]) / times.1;
-                // Three units of the last digit, and twice what the instant may be off by: one of these may be there.
+                // The error is three units of the last digit plus twice the change within the rounding of the instant.
+                // One such change may be legitimate.
                 printed.columns[index].2[row] += 3e-9 + 2.0 * speed[row].abs() * half + 1e3 * half * half;
                 wrong.push(row);
             }

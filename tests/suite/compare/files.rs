@@ -1,4 +1,4 @@
-//! Files: recordings of earlier versions, Parquet, text; damaged ones.
+//! Comparison of files: recordings of earlier versions, Parquet, text, and damaged files.
 
 use std::fs;
 use std::io::Write;
@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use crate::cli::tools::Place;
 use crate::common::parquet::{Announced, GZIP};
 
-/// Directory of files that other versions and other programs have written.
+/// Directory of files written by other versions and other programs.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/suite/compare");
 
 fn place() -> Place {
@@ -22,25 +22,26 @@ fn place() -> Place {
     place
 }
 
-/// Written by the first version that recorded at all.
+/// The first version that could record wrote this file.
 #[test]
 fn a_recording_of_the_first_version_is_read() {
     let place = place();
     let told = place.ok("compare scenarios/crank_rocker.toml first_version.mcap --side reference");
-    assert!(told.starts_with("AGREE: all 54 channels"), "{told}");
+    assert!(told.starts_with("AGREE: all 54 channels agree"), "{told}");
     let outcome = place.run("compare scenarios/crank_rocker.toml first_version.mcap --side engine --rel 0.01");
     assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{}", outcome.stdout);
     let outcome = place.run("compare scenarios/crank_rocker.toml first_version.mcap --side engine --rel 1e-7");
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
 }
 
-/// Both analytic sides are known to rounding: an old and a new recording of one mechanism agree without an allowance.
+/// Both recordings contain an analytic side, which is accurate to rounding error.
+/// An old and a new recording of one mechanism therefore agree without an allowed difference.
 #[test]
 fn two_recordings_are_compared_side_by_side() {
     let place = place();
     place.run("run scenarios/crank_rocker.toml --budget 1e4");
     let told = place.ok("compare first_version.mcap recordings/crank_rocker.mcap --side reference");
-    assert!(told.starts_with("AGREE: all 54 channels at 25 times"), "{told}");
+    assert!(told.starts_with("AGREE: all 54 channels agree at 25 times"), "{told}");
     assert!(told.contains("only in the second: frame.fx_N"), "{told}");
     let outcome = place.run("compare first_version.mcap recordings/crank_rocker.mcap");
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
@@ -52,13 +53,16 @@ fn two_recordings_are_compared_side_by_side() {
 fn parquet_files_of_pandas_and_polars_are_read() {
     let place = place();
     let told = place.ok("compare scenarios/crank_rocker.toml pandas.parquet -v");
-    assert!(told.starts_with("AGREE: all 3 channels at 31 times") && told.contains("nothing was measured"), "{told}");
-    // Single precision is known by its digits.
+    assert!(
+        told.starts_with("AGREE: all 3 channels agree at 31 times") && told.contains("without a measured value"),
+        "{told}"
+    );
+    // The program detects single precision from the digits of the numbers.
     place.ok("compare scenarios/crank_rocker.toml polars_f32.parquet");
     place.ok("compare pandas.parquet polars_f32.parquet --rel 1e-6");
 }
 
-/// Whatever bytes a file has: an error or a comparison, never a panic, and soon.
+/// Any bytes lead quickly to an error or a comparison, never to a panic.
 #[test]
 fn damaged_parquet_files_are_refused() {
     let path = Path::new(KEPT).join("pandas.parquet");
@@ -87,9 +91,10 @@ fn damaged_parquet_files_are_refused() {
     assert!(refused > 100, "{refused}");
 }
 
-/// A reader takes as much memory as a file announces: what is announced is looked at first.
+/// A reader would allocate as much memory as a file announces.
+/// The announced sizes are therefore checked first.
 #[test]
-fn what_a_parquet_file_announces_and_does_not_have_takes_no_memory() {
+fn sizes_announced_by_a_parquet_file_take_no_memory() {
     let directory = tempfile::TempDir::new().unwrap();
     let path = directory.path().join("x.parquet");
     let load = |own: &Announced| {
@@ -114,15 +119,15 @@ fn what_a_parquet_file_announces_and_does_not_have_takes_no_memory() {
     }
     let most = i64::from(i32::MAX);
     for (own, told) in [
-        (Announced { children: most, ..zeros.clone() }, "columns that are not there"),
-        (Announced { children: -1, ..zeros.clone() }, "columns that are not there"),
-        (Announced { depth: 100_000, ..zeros.clone() }, "within each other"),
+        (Announced { children: most, ..zeros.clone() }, "columns that do not exist"),
+        (Announced { children: -1, ..zeros.clone() }, "columns that do not exist"),
+        (Announced { depth: 100_000, ..zeros.clone() }, "columns are nested"),
         (Announced { held: most, ..zeros.clone() }, "announces 2147483647 bytes"),
         (Announced { stored: most, ..zeros.clone() }, "longer than its column"),
         (Announced { values: most, ..zeros.clone() }, "more values than the 1000 rows"),
         (Announced { dictionary: Some(most), ..run.clone() }, "a dictionary of 8 bytes has 2147483647 values"),
-        (Announced { rows: 1, ..zeros.clone() }, "other rows than the file says"),
-        (Announced { of_group: -1, ..zeros.clone() }, "other rows than the file says"),
+        (Announced { rows: 1, ..zeros.clone() }, "another number of rows than the file announces"),
+        (Announced { of_group: -1, ..zeros.clone() }, "another number of rows than the file announces"),
         (of_gzip(1 << 26), "more than the 8000 bytes"),
         (Announced { values: 10, ..Announced::zeros(100) }, "fewer values than there are rows"),
         (Announced { rows: most << 20, of_group: most << 20, ..run }, "more than 67108864"),
@@ -133,7 +138,7 @@ fn what_a_parquet_file_announces_and_does_not_have_takes_no_memory() {
 }
 
 #[test]
-fn the_command_says_what_is_wrong() {
+fn compare_reports_invalid_input() {
     let place = place();
     fs::write(place.path("plain.csv"), "t,phi3\n0,0.1\n0.1,x\n").unwrap();
     fs::write(place.path("names.csv"), "a,b\n0,0.1\n0.1,0.2\n").unwrap();
@@ -141,8 +146,8 @@ fn the_command_says_what_is_wrong() {
     fs::write(place.path("bad.toml"), "[at]\ntimes = \"t\"\n").unwrap();
     let of = |rest: &str| format!("compare scenarios/crank_rocker.toml {rest}");
     place.refused(&of("nothing.csv"), &["nothing.csv", "cannot be read"]);
-    place.refused(&of("plain.csv"), &["plain.csv:3", "\"x\"", "no number"]);
-    place.refused(&of("names.csv"), &["nothing says where the rows", "`a` or `b`", "time_s"]);
+    place.refused(&of("plain.csv"), &["plain.csv:3", "\"phi3\": expected a number, found \"x\""]);
+    place.refused(&of("names.csv"), &["has no column of times or crank angles", "`a` or `b`", "time_s"]);
     place.refused(&of("some.csv"), &["no column of the table is a channel", "phi3*180/pi=link"]);
     place.refused(&of("some.csv --map phi3"), &["--map", "`=`"]);
     place.refused(&of("some.csv --map bad.toml"), &["bad.toml:2", "`times`", "time_s"]);
@@ -152,25 +157,26 @@ fn the_command_says_what_is_wrong() {
     place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --rel joint.B=1"), &["joint.B"]);
     place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --side engine"), &["--side", "recording"]);
     place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --only point.X"), &["point.X"]);
-    place.refused(&of("some.csv --map-a phi3=link.rocker.angle_rad"), &["--map-a", "no table"]);
+    place.refused(&of("some.csv --map-a phi3=link.rocker.angle_rad"), &["--map-a", "A is not a table"]);
     place.refused("compare scenarios/crank_rocker.toml scenarios/pendulum.toml --map a=b", &["neither", "--map"]);
     place.refused("compare scenarios/crank_rocker_runup.toml some.csv --map t=crank_rad --map phi3=link.rocker.angle_rad --by crank", &["free"]);
 }
 
-/// Each as other programs had printed it: nine digits, or times of fifteen beside numbers of nine.
+/// Tables as other programs print them: nine digits throughout, or times with fifteen digits and numbers with nine.
 #[test]
 fn rounded_instants_and_the_digits_of_each_column_are_in_the_bound() {
     let place = place();
     let maps = "--map y=link.piston.y_m --map v=link.piston.vy_m_s --map a=link.piston.ay_m_s2";
     for table in ["piston_9_digits.csv", "piston_times_of_15_digits.csv"] {
         let told = place.ok(&format!("compare engine.toml {table} {maps}"));
-        assert!(told.starts_with("AGREE: all 3 channels at 73 times, 219 values"), "{told}");
+        assert!(told.starts_with("AGREE: all 3 channels agree at 73 times, 219 values"), "{told}");
     }
 }
 
-/// A simulation that has blown up writes NaN: that is no agreement. What nobody measured is left out, and counted.
+/// A diverged simulation writes NaN, which does not agree.
+/// Missing values are left out and counted.
 #[test]
-fn what_is_no_number_does_not_agree_and_what_is_missing_is_counted() {
+fn nan_does_not_agree_and_missing_cells_are_counted() {
     let place = place();
     let outcome = place.run("compare scenarios/crank_rocker.toml nan_after_3_rows.csv --rel 1e-6");
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
@@ -181,22 +187,22 @@ fn what_is_no_number_does_not_agree_and_what_is_missing_is_counted() {
     for marker in ["", "-", "NULL", "None", "N/A"] {
         fs::write(place.path("missing.csv"), text.replace("nan", marker).replace("NaN", marker)).unwrap();
         let told = place.ok("compare scenarios/crank_rocker.toml missing.csv");
-        assert!(told.starts_with("AGREE: all 15 channels at 41 times, 45 of 615 values"), "{marker}: {told}");
+        assert!(told.starts_with("AGREE: all 15 channels agree at 41 times, 45 of 615 values"), "{marker}: {told}");
         assert!(told.contains("left out: up to 38 instants"), "{marker}: {told}");
     }
-    // A mapping computes with what is there only.
+    // A mapping uses a row only if all its columns have a number there.
     fs::write(place.path("some.csv"), "t_s,a,b\n0,0,\n0.01,1,60\n").unwrap();
     let line = "compare scenarios/crank_rocker.toml some.csv --map ln(a-2)+b=link.rocker.angle_deg --rel 100";
     place.refused(line, &["line 3 of the table", "ln(-1) is undefined"]);
     let told = place.ok("compare scenarios/crank_rocker.toml some.csv --map a+b=link.rocker.angle_deg --rel 100");
-    assert!(told.starts_with("AGREE: all 1 channels at 2 times, 1 of 2 values"), "{told}");
+    assert!(told.starts_with("AGREE: all 1 channels agree at 2 times, 1 of 2 values"), "{told}");
 }
 
-/// Two columns of one name: nobody knows which of them is meant.
+/// If two columns have the same name, the table is refused as ambiguous.
 #[test]
-fn a_table_with_two_columns_of_one_name_is_refused_wherever_tables_are_read() {
+fn duplicate_column_names_are_refused_in_every_table() {
     let place = place();
-    let words = ["two_columns_r.csv:1", "columns 2 and 3", "\"r\"", "a name of its own"];
+    let words = ["two_columns_r.csv:1", "columns 2 and 3", "\"r\"", "a unique name"];
     place.refused(
         "compare scenarios/crank_rocker.toml two_columns_r.csv --map phi_deg=crank_deg --map r=point.B.x_m",
         &words,
@@ -208,9 +214,9 @@ fn a_table_with_two_columns_of_one_name_is_refused_wherever_tables_are_read() {
     place.refused("run scenarios/twice.toml --no-record", &words);
 }
 
-/// The crank angle of a recording, or of a table with both, is compared beside the times.
+/// If a recording or a table has times and crank angles, the rows match by time and the crank angle is compared too.
 #[test]
-fn the_crank_angle_is_compared_where_both_carry_it() {
+fn the_crank_angle_is_compared_if_both_files_have_it() {
     let place = place();
     place.run("run scenarios/crank_rocker.toml --budget 1e4");
     place.ok("compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --side reference");
@@ -226,13 +232,13 @@ fn the_crank_angle_is_compared_where_both_carry_it() {
         place.run("compare scenarios/crank_rocker.toml both.csv")
     };
     assert_eq!(write(&crank).code, 0);
-    // A table may count within a turn.
+    // A table may restart its angles at every revolution.
     assert_eq!(write(&|row| crank(row) - 360.0).code, 0);
     for wrong in [&(|row| -crank(row)) as &dyn Fn(usize) -> f64, &|row| crank(row + 1), &|row| crank(row - 1)] {
         let outcome = write(wrong);
         assert_eq!(outcome.code, 1, "{}", outcome.stdout);
         let told = outcome.unbroken();
-        assert!(told.starts_with("DISAGREE: the crank angle, and none of 1 channels"), "{told}");
+        assert!(told.starts_with("DISAGREE: the crank angle, but none of the 1 channels"), "{told}");
         assert!(told.contains("crank angle: first at t = "), "{told}");
         fs::copy(place.path("both.csv"), place.path("wrong.csv")).unwrap();
         assert_eq!(write(&crank).code, 0);
@@ -242,18 +248,19 @@ fn the_crank_angle_is_compared_where_both_carry_it() {
     }
 }
 
-/// What is compressed otherwise is called by its name, and gzip is read.
+/// The refusal names an unsupported compression; gzip is supported.
 #[test]
-fn compressed_parquet_files_are_read_or_named() {
+fn compressed_parquet_files_are_read_or_refused_by_name() {
     let place = place();
     for (file, name) in [("brotli.parquet", "Brotli"), ("lz4.parquet", "LZ4")] {
         place.refused(&format!("compare scenarios/crank_rocker.toml {file}"), &[file, name, "zstd"]);
     }
     let told = place.ok("compare scenarios/crank_rocker.toml gzip.parquet");
-    assert!(told.starts_with("AGREE: all 1 channels at 31 times, 31 values"), "{told}");
+    assert!(told.starts_with("AGREE: all 1 channels agree at 31 times, 31 values"), "{told}");
 }
 
-/// A pipe gives every byte once: the first four say whether the table is Parquet.
+/// A pipe delivers every byte only once.
+/// The first four bytes show whether the table is Parquet.
 #[test]
 fn a_table_comes_through_a_pipe_with_all_its_bytes() {
     let place = place();
@@ -272,15 +279,15 @@ fn a_table_comes_through_a_pipe_with_all_its_bytes() {
     };
     let table = place.ok("solve scenarios/crank_rocker.toml --with assur --only link.rocker.angle_rad");
     let (code, told) = through(table.as_bytes());
-    assert!(code == Some(0) && told.starts_with("AGREE: all 1 channels at 361 times"), "{told}");
+    assert!(code == Some(0) && told.starts_with("AGREE: all 1 channels agree at 361 times"), "{told}");
     assert_eq!(through(b"t\n").0, Some(2));
     let (code, told) = through(&fs::read(place.path("pandas.parquet")).unwrap());
     assert!(code == Some(2) && told.contains("Parquet file that comes through a pipe"), "{told}");
 }
 
-/// Memory is told before it is taken: for the numbers of a table, for what they are held against, and for `[[oracle]]`.
+/// Memory is estimated before it is allocated: for the numbers of a table, the comparison, and `[[oracle]]`.
 #[test]
-fn what_needs_more_memory_than_is_allowed_is_refused() {
+fn tables_beyond_the_memory_limit_are_refused() {
     let place = place();
     let words = ["of memory", "are allowed", "--memory"];
     place.refused(
@@ -297,7 +304,7 @@ fn what_needs_more_memory_than_is_allowed_is_refused() {
                   columns = { a = { channel = \"link.crank.angle_deg\" } }\n";
     fs::write(place.path("scenarios/long.toml"), text + oracle).unwrap();
     place.refused("run scenarios/long.toml --no-record --memory 0.05", &["[[oracle]]", words[0], words[1]]);
-    // Before the numbers are read, and before the file is.
+    // The comparison is refused before the file is read.
     place.refused(
         "run scenarios/long.toml --no-record --memory 0.01",
         &["scenarios/long.toml:", "reading 200000 rows", words[0], words[1], words[2]],
@@ -327,9 +334,10 @@ fn the_json_has_both_values_at_the_worst_instant() {
     assert_eq!(kept, "[tolerance]\nall = { rel = 0.1 }\n");
 }
 
-/// Reports of tests and comments have the same verdicts, and nothing that is no mapping is written over by one.
+/// Test reports and comments have the same verdicts.
+/// A mapping never overwrites a file that is not a mapping.
 #[test]
-fn other_programs_read_the_verdicts() {
+fn junit_and_markdown_reports_have_the_same_verdicts() {
     let place = place();
     fs::write(place.path("some.csv"), "t_s,link.rocker.angle_deg\n0,80\n0.1,60.5\n0.2,70\n0.25,71\n").unwrap();
     let line = "compare scenarios/crank_rocker.toml some.csv";
@@ -342,18 +350,21 @@ fn other_programs_read_the_verdicts() {
     let xml = fs::read_to_string(place.path("out.xml")).unwrap();
     assert!(xml.contains("name=\"link.rocker.angle_deg\"") && xml.contains("type=\"disagree\""), "{xml}");
     for (target, words) in [
-        ("scenarios/crank_rocker.toml", "no mapping and would be overwritten"),
-        ("kept.map", "ends in .toml"),
-        ("nowhere/kept.toml", "no directory nowhere"),
+        ("scenarios/crank_rocker.toml", "not a mapping and would be overwritten"),
+        ("kept.map", "must end in .toml"),
+        ("nowhere/kept.toml", "the directory nowhere does not exist"),
     ] {
         place.refused(&format!("{line} --write-map {target}"), &["--write-map", words]);
     }
 }
 
-/// Symptom: the reader's panic over a page of a dictionary that is not there was caught, and printed all the same.
+/// Symptom: a missing dictionary page made the reader panic; the panic was caught, but its message was printed.
 #[test]
-fn regress_a_panic_of_the_parquet_reader_is_a_message() {
+fn regress_a_panic_of_the_parquet_reader_becomes_a_message() {
     let place = Place::new();
     fs::write(place.path("x.parquet"), Announced { encoding: 2, ..Announced::zeros(1000) }.file()).unwrap();
-    place.refused("compare x.parquet x.parquet", &["x.parquet is cut off or damaged", "contradict each other"]);
+    place.refused(
+        "compare x.parquet x.parquet",
+        &["x.parquet is cut off or damaged", "its parts contradict each other"],
+    );
 }

@@ -1,4 +1,4 @@
-//! Real output of other programs, `examples/foreign`: what is right agrees, what was made wrong is found.
+//! Real output of other programs in `examples/foreign`: correct tables agree, and faults in wrong tables are found.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use scenario::mapping::{Mapped, Mapping};
 
 const FOREIGN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/foreign");
 
-/// Maps of the right tables, their scenarios, and the tables.
+/// For each correct table: its map, its scenario, and the table.
 const RIGHT: [(&str, &str, &str); 6] = [
     ("mujoco_crank_rocker", "crank_rocker", "mujoco_crank_rocker.csv"),
     ("mujoco_crank_rocker_runup", "crank_rocker_runup", "mujoco_crank_rocker_runup.csv"),
@@ -25,7 +25,8 @@ fn path(name: &str) -> PathBuf {
     Path::new(FOREIGN).join(name)
 }
 
-/// A table against the scenario of a right one, by its map, with other lines in the place of those for the same channels.
+/// Compares a table by the map of a correct table, with that table's scenario.
+/// `lines` replace lines of the map for the same channels.
 fn compared(right: &str, table: &str, lines: &[&str]) -> PartyComparison {
     let (map, of, _) = RIGHT.into_iter().find(|(map, ..)| *map == right).unwrap();
     let mut mapping = Mapping::load(&path(&format!("{map}.map.toml"))).unwrap();
@@ -47,12 +48,13 @@ fn causes(found: &PartyComparison) -> Vec<String> {
 }
 
 #[test]
-fn three_programs_agree_within_what_they_are_trusted_to() {
+fn three_programs_agree_within_their_tolerances() {
     for (map, _, table) in RIGHT {
         let found = compared(map, table, &[]);
         let channels = &found.pairs[0].channels;
         assert_eq!(found.verdict.word(), "agree", "{map}: {:?}", found.verdict);
-        // A tolerance that nothing comes near would prove nothing; closed formulas come near their digits.
+        // The errors must come near the tolerance, otherwise the test would prove nothing.
+        // The errors of closed formulas come near the rounding of their digits.
         let near = if map.starts_with("pylinkage") { 0.01 } else { 0.3 };
         assert!(channels.iter().any(|own| own.worst.unwrap().used() > near), "{map}");
         let mapping = Mapping::load(&path(&format!("{map}.map.toml"))).unwrap();
@@ -60,7 +62,7 @@ fn three_programs_agree_within_what_they_are_trusted_to() {
     }
 }
 
-/// Tables that were made wrong: the map, and words of the cause; none where no single cause is simple.
+/// Tables with planted faults, their maps, and words of the cause (empty if there is no single simple cause).
 const WRONG: [(&str, &str, &str); 11] = [
     ("wrong_mujoco_soft.csv", "mujoco_crank_rocker", ""),
     ("wrong_mujoco_late.csv", "mujoco_crank_rocker", "1 ms, 0.25 row too late"),
@@ -76,7 +78,7 @@ const WRONG: [(&str, &str, &str); 11] = [
 ];
 
 #[test]
-fn tables_that_were_made_wrong_are_found_and_explained() {
+fn planted_errors_in_tables_are_found_and_explained() {
     for (table, map, expected) in WRONG {
         let found = compared(map, table, &[]);
         assert_eq!(found.verdict.word(), "disagree", "{table}");
@@ -86,20 +88,20 @@ fn tables_that_were_made_wrong_are_found_and_explained() {
     }
 }
 
-/// MuJoCo begins anew where its state has no finite number, and goes on writing.
+/// If MuJoCo's state is not finite, MuJoCo resets the time to zero and continues to write.
 #[test]
-fn time_that_jumps_back_is_told() {
+fn time_that_jumps_back_is_reported() {
     let found = compared("mujoco_crank_rocker", "wrong_mujoco_reset.csv", &[]);
     let (row, [before, after]) = found.pairs[0].turns_back.unwrap();
     assert!(row > 10 && before > 0.2 && after < before, "{row} {before} {after}");
     assert!(compared("mujoco_crank_rocker", "mujoco_crank_rocker.csv", &[]).pairs[0].turns_back.is_none());
 }
 
-/// One line of a map that is wrong, and words of the cause that it should be called by.
+/// For each case: a wrong line of a map, and words that must occur in the named cause.
 const LINES: [(&str, &str, &str); 17] = [
-    ("mujoco_crank_rocker", "54.19349837312087 + q_rocker*180/pi=link.rocker.angle_deg", "other way round"),
+    ("mujoco_crank_rocker", "54.19349837312087 + q_rocker*180/pi=link.rocker.angle_deg", "opposite sense"),
     ("mujoco_crank_rocker", "54.19349837312087 - q_rocker=link.rocker.angle_deg", ""),
-    ("mujoco_crank_rocker", "0.6781965782888193 - q_coupler=link.coupler.angle_rad", "counted from another link"),
+    ("mujoco_crank_rocker", "0.6781965782888193 - q_coupler=link.coupler.angle_rad", "measured from another link"),
     ("mujoco_crank_rocker", "B.z=point.B.y_mm", "metres taken for millimetres"),
     ("mujoco_crank_rocker", "aB.z=point.B.ay_m_s2", "9.8"),
     ("mujoco_crank_rocker", "F_A.x=joint.A.fx_N", ""),
@@ -117,7 +119,7 @@ const LINES: [(&str, &str, &str); 17] = [
 ];
 
 #[test]
-fn a_wrong_line_of_a_map_is_found_and_called_by_its_name() {
+fn a_wrong_line_of_a_mapping_is_found_and_named() {
     let mut named = 0;
     for (map, line, expected) in LINES {
         let (_, _, table) = RIGHT.into_iter().find(|(own, ..)| *own == map).unwrap();
@@ -142,7 +144,7 @@ fn a_wrong_line_of_a_map_is_found_and_called_by_its_name() {
     assert!(named >= simple, "{named} of {simple}");
 }
 
-/// The scripts name the files that are there.
+/// The README of the scripts has a line for every table.
 #[test]
 fn every_table_has_its_line_in_the_readme() {
     let readme = fs::read_to_string(path("README.md")).unwrap();

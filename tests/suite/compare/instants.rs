@@ -1,5 +1,6 @@
-//! Columns of instants as they come: in another order, twice, in other units, glued, called otherwise. Each is judged
-//! rightly, or refused with its place.
+//! Columns of instants as they occur in practice.
+//! They may be in another order, repeated, in other units, concatenated, or under other names.
+//! Each is judged correctly, or refused with its location.
 
 use std::fmt::Write;
 use std::fs;
@@ -10,10 +11,11 @@ use linkage::solver::Solver;
 use super::{scenario, solved};
 use crate::cli::tools::Place;
 
-/// A row: instant, angle of the rocker (deg), its speed.
+/// A row: instant, angle of the rocker (deg), and its angular velocity.
 type Row = (String, f64, f64);
 
-/// Rows of a right table of the crank-rocker, by times of nine digits; `of` makes the instant from the time.
+/// Rows of a correct table of the crank-rocker, at times with nine digits.
+/// `of` converts a time to the printed instant.
 fn rows(of: impl Fn(f64) -> f64) -> Vec<Row> {
     let right = solved(&scenario("crank_rocker"));
     let [angle, omega] = ["link.rocker.angle_rad", "link.rocker.omega_rad_s"].map(|name| right.named(name).unwrap());
@@ -27,7 +29,7 @@ fn text(instants: &str, rows: &[Row]) -> String {
     text
 }
 
-/// Code and output of a comparison with a table.
+/// Exit code and output of a comparison with a table.
 fn compared(place: &Place, text: &str) -> (i32, String) {
     fs::write(place.path("spoiled.csv"), text).unwrap();
     let outcome = place.run("compare scenarios/crank_rocker.toml spoiled.csv");
@@ -35,11 +37,11 @@ fn compared(place: &Place, text: &str) -> (i32, String) {
     (outcome.code, all.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
-/// A turn at 130 rpm.
+/// Duration of one revolution at 130 rpm.
 const TURN: f64 = 60.0 / 130.0;
 
 #[test]
-fn right_rows_agree_in_any_order_any_number_of_times_and_at_any_turn() {
+fn correct_rows_agree_unordered_repeated_and_at_any_turn() {
     let place = Place::new();
     let right = rows(|at| at);
     let mixed: Vec<Row> = (0..right.len()).map(|row| right[(row * 137) % right.len()].clone()).collect();
@@ -53,12 +55,12 @@ fn right_rows_agree_in_any_order_any_number_of_times_and_at_any_turn() {
         ("a turn beyond the run", rows(|at| at + TURN), ""),
     ] {
         let (code, told) = compared(&place, &text("t_s", &rows));
-        assert!(code == 0 && told.contains(note) && !told.contains("contradict"), "{what}: {told}");
+        assert!(code == 0 && told.contains(note) && !told.contains("different values"), "{what}: {told}");
     }
 }
 
 #[test]
-fn a_column_says_in_words_and_brackets_where_rows_hold() {
+fn instant_columns_are_recognised_by_name_and_unit() {
     let place = Place::new();
     for name in ["t [s]", "Time", "TIME (s)", "time [s]", "t (s)"] {
         assert_eq!(compared(&place, &text(name, &rows(|at| at))).0, 0, "{name}");
@@ -69,12 +71,15 @@ fn a_column_says_in_words_and_brackets_where_rows_hold() {
     for name in ["Crank [deg]", "crank angle (deg)"] {
         assert_eq!(compared(&place, &text(name, &rows(|at| 360.0 * at / TURN))).0, 0, "{name}");
     }
-    // What is no unit of an instant here, and what may be another quantity.
+    // Unsupported units of an instant, and names that may denote another quantity.
     for name in ["t [min]", "T", "temperature [s]"] {
         let (code, told) = compared(&place, &text(name, &rows(|at| at)));
-        assert!(code == 2 && told.contains("nothing says where the rows") && told.contains("time_s"), "{name}: {told}");
+        assert!(
+            code == 2 && told.contains("has no column of times or crank angles") && told.contains("time_s"),
+            "{name}: {told}"
+        );
     }
-    // A name letter by letter comes first.
+    // If a table also has a column with the exact name `time_s`, this column is used.
     let both: Vec<Row> =
         rows(|at| at).into_iter().map(|(at, angle, omega)| (format!("{at},7"), angle, omega)).collect();
     assert_eq!(compared(&place, &text("time_s,Time [ms]", &both)).0, 0);
@@ -85,26 +90,26 @@ fn instants_in_another_unit_disagree_and_the_unit_is_named() {
     let place = Place::new();
     let (code, told) = compared(&place, &text("t_s", &rows(|at| 1e3 * at)));
     assert!(code == 1 && told.contains("milliseconds taken for seconds"), "{told}");
-    // So far away that nothing can be followed there.
+    // Motion cannot be solved at instants this far away.
     let (code, told) = compared(&place, &text("t_s", &rows(|at| 1e9 * at)));
     assert!(code == 2 && told.contains("check the unit of the instants"), "{told}");
 }
 
-/// Rows of one instant with other numbers: no cause is made up for them.
+/// Rows of the same instant with different numbers are reported, and no other cause is invented.
 #[test]
-fn rows_of_one_instant_that_contradict_each_other_are_told() {
+fn contradictory_rows_of_one_instant_are_reported() {
     let place = Place::new();
     let right = rows(|at| at);
     let other: Vec<Row> = right.iter().map(|(at, angle, omega)| (at.clone(), angle + 5.0, *omega)).collect();
     let one = vec![(right[100].0.clone(), right[200].1, right[200].2)];
     let still: Vec<Row> = right.iter().map(|(_, angle, omega)| ("0.100000000".into(), *angle, *omega)).collect();
     for (rows, numbers) in [
-        ([right.clone(), other].concat(), "rows 1 and 362 hold"),
-        ([right.clone(), one].concat(), "rows 101 and 362 hold"),
-        (still, "rows 1 and 2 hold"),
+        ([right.clone(), other].concat(), "rows 1 and 362 have the same time"),
+        ([right.clone(), one].concat(), "rows 101 and 362 have the same time"),
+        (still, "rows 1 and 2 have the same time"),
     ] {
         let (code, told) = compared(&place, &text("t_s", &rows));
-        assert!(code == 1 && told.contains(numbers) && told.contains("contradict each other"), "{told}");
+        assert!(code == 1 && told.contains(numbers) && told.contains("but different values"), "{told}");
         assert!(!told.contains("cause ") && !told.contains("noise"), "{told}");
     }
 }
@@ -114,10 +119,10 @@ fn rows_without_an_instant_are_refused_with_their_line() {
     let place = Place::new();
     let right = rows(|at| at);
     for (cell, words) in [
-        ("", ["line 9 of the table", "holds at no instant", "`t_s`"]),
-        ("nan", ["line 9 of the table", "holds at no instant", "`t_s`"]),
+        ("", ["line 9 of the table", "has no instant", "`t_s`"]),
+        ("nan", ["line 9 of the table", "has no instant", "`t_s`"]),
         ("0.1 s", ["spoiled.csv:9:1", "\"t_s\"", "\"0.1 s\""]),
-        ("2024-01-01", ["spoiled.csv:9:1", "\"t_s\"", "no number"]),
+        ("2024-01-01", ["spoiled.csv:9:1", "\"t_s\": expected a number", "\"2024-01-01\""]),
         ("0,1", ["spoiled.csv:9:1", "4 cells", "header"]),
     ] {
         let mut spoiled = right.clone();
@@ -127,9 +132,10 @@ fn rows_without_an_instant_are_refused_with_their_line() {
     }
 }
 
-/// A law ends, and a free motion begins: instants beyond are refused, but for the rounding of the last.
+/// A motion law has an end, and a free motion has a beginning.
+/// Instants outside are refused, but the last may be outside by its rounding error.
 #[test]
-fn instants_beyond_a_law_are_refused_and_rounded_ones_are_not() {
+fn instants_beyond_a_law_are_refused_except_for_rounding() {
     let place = Place::new();
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/outside/scenarios/cycloidal_press.toml");
     let press = fs::read_to_string(path).unwrap().replace("time_ms = 400", "time_ms = 400.06");
@@ -142,7 +148,7 @@ fn instants_beyond_a_law_are_refused_and_rounded_ones_are_not() {
         let grid = Grid::of_times(press.case.crank(), times);
         let right = analytic::AssurSolver.solve(&press.case.on(grid).unwrap()).unwrap();
         let angles = right.named("link.crank.angle_rad").unwrap();
-        // The last is printed as 0.4001.
+        // The last instant is printed as 0.4001.
         let rows = right.times().iter().zip(angles).map(|(at, angle)| format!("{:.4},{angle}\n", at + late));
         fs::write(place.path("late.csv"), format!("t_s,link.crank.angle_rad\n{}", rows.collect::<String>())).unwrap();
         place.run("compare press.toml late.csv")

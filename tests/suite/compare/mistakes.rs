@@ -1,4 +1,4 @@
-//! Planted mistakes in tables: each is found, and named as what it is.
+//! Planted mistakes in tables: every mistake is found and correctly named.
 
 use std::f64::consts::PI;
 
@@ -9,12 +9,12 @@ use linkproof::report::compare::why;
 use prover::compare::{ComparisonRule, PartyComparison};
 use scenario::mapping::{Allowed, Size};
 
-/// A mistake: what it does to the right columns of a table, and words of the cause that it should be called by.
+/// A mistake: a function that changes the correct columns of a table, and words that must occur in the named cause.
 type Mistake = (&'static str, fn(&mut Columns), &'static [&'static str]);
 
 struct Columns {
     time: Vec<f64>,
-    /// Angle, angular velocity and acceleration of a link, its mass centre, the driving moment.
+    /// Angle, angular velocity and angular acceleration of a link, motion of its mass centre, and the driving moment.
     all: Vec<(String, Vec<f64>)>,
     /// Angle of another link.
     other: Vec<f64>,
@@ -55,7 +55,7 @@ const MISTAKES: [Mistake; 16] = [
     ("millimetres", |own| own.change("x_m", |value| 1e3 * value), &["millimetres instead"]),
     ("revolutions per minute", |own| own.change("omega_rad_s", |value| value * 30.0 / PI), &["revolutions per minute"]),
     ("from the y axis", |own| own.change("angle_rad", |value| value - PI / 2.0), &["-90 deg added"]),
-    ("clockwise from the y axis", |own| own.change("angle_rad", |value| PI / 2.0 - value), &["other way round"]),
+    ("clockwise from the y axis", |own| own.change("angle_rad", |value| PI / 2.0 - value), &["opposite sense"]),
     ("twice", |own| own.change("torque_N_m", |value| 2.0 * value), &["twice"]),
     ("a third", |own| own.change("torque_N_m", |value| value / 3.0), &["0.33333"]),
     ("an offset", |own| own.change("y_m", |value| value + 0.0125), &["0.0125 m added"]),
@@ -82,7 +82,7 @@ const MISTAKES: [Mistake; 16] = [
             let angle = own.all.iter_mut().find(|(name, _)| name.ends_with("angle_rad")).unwrap();
             angle.1.iter_mut().zip(other).for_each(|(value, other)| *value -= other);
         },
-        &["counted from another link"],
+        &["measured from another link"],
     ),
     (
         "x and y exchanged",
@@ -97,7 +97,7 @@ const MISTAKES: [Mistake; 16] = [
     (
         "half a millisecond late",
         |own| own.time.iter_mut().for_each(|time| *time += 5e-4),
-        // With a steady crank the same as a crank that is turned by as much.
+        // At constant speed, a delay is equivalent to a rotated crank.
         &["too late", "angle of the drive"],
     ),
     ("the cosine's sign", |own| own.change(".x_m", |value| -value), &["opposite sign"]),
@@ -115,7 +115,8 @@ fn words(found: &PartyComparison) -> Vec<String> {
     found.pairs.iter().flat_map(|pair| &pair.causes).filter_map(why).collect()
 }
 
-/// All planted mistakes are found; those that are not named rightly are counted, and shown with --nocapture.
+/// All planted mistakes are found.
+/// Wrongly named ones are counted, and printed with --nocapture.
 #[test]
 fn every_planted_mistake_is_found_and_most_are_named() {
     let (mut named, mut all) = (0, 0);
@@ -147,9 +148,10 @@ fn every_planted_mistake_is_found_and_most_are_named() {
     assert!(all >= 60 && named * 10 >= all * 9, "{named} of {all}");
 }
 
-/// What a quantity lacks as a whole, no change of the mechanism explains: terms of what it has, by least squares.
+/// If a term of a quantity is missing, no change of the mechanism explains the difference.
+/// Least squares finds such terms from the other quantities of the table.
 #[test]
-fn a_term_that_is_missing_is_named() {
+fn a_missing_term_is_named() {
     let scenario = scenario("crank_rocker");
     let right = solved(&scenario);
     let agreed = Columns::of(&right, "rocker", "coupler", &scenario.case);
@@ -174,9 +176,10 @@ fn a_term_that_is_missing_is_named() {
     }
 }
 
-/// A simulation is wrong by its step besides. The mistake is named all the same, and what it leaves over is told.
+/// A simulation also has errors from its time step.
+/// The mistake is named nevertheless, and the remaining error is reported.
 #[test]
-fn a_mistake_is_named_in_numbers_that_are_not_exact() {
+fn a_mistake_is_named_in_inexact_numbers() {
     let scenario = scenario("crank_rocker");
     let right = solved(&scenario);
     let mut columns = Columns::of(&right, "rocker", "coupler", &scenario.case);
@@ -192,14 +195,15 @@ fn a_mistake_is_named_in_numbers_that_are_not_exact() {
     }
 }
 
-/// The error of a method is no mistake: it is called so, and with what it is trusted to it agrees.
+/// The error of a numerical method is not a mistake.
+/// The report says so, and the table agrees within the allowed difference.
 #[test]
-fn a_small_error_without_a_simple_cause_is_left_alone() {
+fn a_small_error_without_a_simple_cause_gets_no_cause() {
     let scenario = scenario("crank_rocker");
     let mut columns = Columns::of(&solved(&scenario), "rocker", "coupler", &scenario.case);
     columns.change("angle_rad", |value| value + 1e-4 * (40.0 * value).sin());
     let found = columns.compared("crank_rocker", &ComparisonRule::default());
-    let told = "the error is smooth, at most 0.036 % of the scale: integration or step";
+    let told = "the error is smooth, at most 0.036 % of the scale: integration error or time step";
     assert_eq!((found.verdict.word(), words(&found)), ("disagree", vec![told.to_string()]));
     for (share, verdict) in [(1e-3, "agree"), (1e-5, "disagree")] {
         let how = ComparisonRule {

@@ -1,4 +1,4 @@
-//! Alignment, mapping, units, digits, interpolation.
+//! Pairs of tables: alignment, mapping, units, digits, interpolation.
 
 use super::{against, held, mapping, scenario, solved, table};
 use prover::compare::{ComparedParty, ComparisonRule, compare as compared};
@@ -32,7 +32,7 @@ fn a_mapping_bridges_names_units_signs_and_offsets() {
     let both = [ComparedParty::from(scenario), ComparedParty::from(table)];
     let found = compared(both, &ComparisonRule::default()).unwrap();
     assert_eq!((found.verdict.word(), found.pairs[0].channels.len()), ("agree", 4));
-    // What it says is written to a file, and read back.
+    // The text of the mapping is written to a file and read back.
     let text = mapping.text();
     let path = std::env::temp_dir().join("linkproof-mapping-of-a-test.toml");
     std::fs::write(&path, &text).unwrap();
@@ -41,7 +41,7 @@ fn a_mapping_bridges_names_units_signs_and_offsets() {
 }
 
 #[test]
-fn a_wrong_mapping_is_refused_with_its_place() {
+fn a_wrong_mapping_is_refused_with_its_position() {
     let right = solved(&scenario("crank_rocker"));
     let raw =
         table(&[("time", right.times().to_vec()), ("phi3", right.named("link.rocker.angle_rad").unwrap().to_vec())]);
@@ -58,14 +58,14 @@ fn a_wrong_mapping_is_refused_with_its_place() {
             error.advice()
         );
     }
-    // The scenario has no such link.
+    // The scenario has no link of this (misspelt) name.
     let table = Held::of_table(&raw, &mapping(&["phi3=link.roker.angle_rad"])).unwrap();
     let both = [ComparedParty::from(scenario("crank_rocker")), ComparedParty::from(table)];
     let error = compared(both, &ComparisonRule::default()).err().unwrap();
     assert!(format!("{:?}", error.advice()).contains("link.rocker.angle_rad"), "{:?}", error.advice());
 }
 
-/// Numbers with few digits agree within half a unit of the last, times too.
+/// Numbers with few digits agree within half a unit of the last digit; the same holds for times.
 #[test]
 fn digits_of_numbers_and_of_instants_are_in_the_bound() {
     let scenario = scenario("crank_rocker");
@@ -77,7 +77,7 @@ fn digits_of_numbers_and_of_instants_are_in_the_bound() {
     std::fs::write(&path, format!("t_s,link.rocker.angle_deg\n{lines}")).unwrap();
     let raw = load(&path).unwrap();
     assert_eq!(against(&scenario, &raw, &ComparisonRule::default()).verdict.word(), "agree");
-    // One number is off by two units of its last digit, beyond what both roundings leave.
+    // One number is wrong by two units of its last digit, which is more than the two roundings allow.
     let spoiled =
         lines.replacen(&format!("{:.4}", angle[40].to_degrees()), &format!("{:.4}", angle[40].to_degrees() + 0.01), 1);
     std::fs::write(&path, format!("t_s,link.rocker.angle_deg\n{spoiled}")).unwrap();
@@ -88,7 +88,7 @@ fn digits_of_numbers_and_of_instants_are_in_the_bound() {
 }
 
 #[test]
-fn rows_are_brought_together_by_crank_angle_too() {
+fn rows_are_also_matched_by_crank_angle() {
     let scenario = scenario("crank_rocker");
     let right = solved(&scenario);
     let cranks: Vec<f64> = right.inputs().iter().map(|crank| crank.to_degrees()).collect();
@@ -104,7 +104,7 @@ fn rows_are_brought_together_by_crank_angle_too() {
     assert!(error.message().contains("no times"), "{}", error.message());
 }
 
-/// Of two tables neither is analytic: without an allowance nothing is proven, unless they are the same.
+/// Two tables without an analytic side prove nothing without an allowed difference, unless they are equal.
 #[test]
 fn two_tables_need_an_allowance() {
     let right = solved(&scenario("crank_rocker"));
@@ -119,9 +119,10 @@ fn two_tables_need_an_allowance() {
     assert_eq!([verdict(1e-6, &rel(1e-5)), verdict(1e-4, &rel(1e-5))], ["agree", "disagree"]);
 }
 
-/// Every third instant is enough to interpolate the others: the bound holds what that is wrong by, and not much more.
+/// Every third instant is enough to interpolate the others.
+/// The bound contains the interpolation error, and is not much larger.
 #[test]
-fn interpolation_has_its_error_in_the_bound() {
+fn the_interpolation_error_is_in_the_bound() {
     let right = solved(&scenario("crank_rocker"));
     let name = "link.rocker.angle_rad";
     let every = |step: usize| {
@@ -142,7 +143,7 @@ fn interpolation_has_its_error_in_the_bound() {
     assert_eq!(compared([held(&every(3)), held(&spoiled)], &how).unwrap().verdict.word(), "disagree");
 }
 
-/// Both count the crank angle alike, to its last digits.
+/// The comparison of crank angles finds an error of a millionth.
 #[test]
 fn a_crank_angle_that_is_off_by_a_millionth_is_found() {
     let scenario = scenario("crank_rocker");
@@ -156,9 +157,10 @@ fn a_crank_angle_that_is_off_by_a_millionth_is_found() {
     assert_eq!([verdict(0.0), verdict(1e-6)], ["agree", "disagree"]);
 }
 
-/// A course of slope 2 drifts by twice what the instants of both tables leave open, at rows and between them.
+/// A quantity with slope 2 may differ by twice the uncertainty of the instants of both tables, at rows and between
+/// rows.
 #[test]
-fn what_both_tables_leave_open_of_their_instants_is_in_the_bound() {
+fn uncertain_instants_of_both_tables_widen_the_bound() {
     let uneven: Vec<f64> = (0..20).map(|row| 0.0131 * f64::from(row) + 0.0007 * f64::from(row % 3)).collect();
     let between: Vec<f64> = uneven.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect();
     let of = |times: &[f64], error: f64| {
@@ -177,7 +179,7 @@ fn what_both_tables_leave_open_of_their_instants_is_in_the_bound() {
     }
 }
 
-/// The verdict on a number is the same whatever columns stand beside it.
+/// The verdict on a number does not depend on the other columns.
 #[test]
 fn a_number_is_judged_by_its_own_channel_alone() {
     let scenario = scenario("fourth_class");
@@ -197,14 +199,15 @@ fn a_number_is_judged_by_its_own_channel_alone() {
         for count in 2..=known.len() {
             assert_eq!(judged(&known[..count]), alone, "{:?}", &known[..count]);
         }
-        // -48.44 is off by more than 5 % of itself, and by less than 5 % of what the link goes through.
+        // The error is more than 5 % of the value -48.44, but less than 5 % of the channel's scale.
         assert_eq!(alone.2, if size == Size::OfValue(0.05) { "disagree" } else { "agree" });
     }
 }
 
-/// What a side knows of a channel that is zero but for rounding is known from the others, also where it is alone.
+/// If a channel consists of rounding error, its uncertainty comes from the other channels, even if the table lacks
+/// them.
 #[test]
-fn a_zero_that_is_rounding_agrees_alone_as_beside_the_others() {
+fn a_zero_of_rounding_size_agrees_with_and_without_others() {
     let scenario = scenario("compressor");
     let right = solved(&scenario);
     let name = "point.B.ax_m_s2";
@@ -217,7 +220,7 @@ fn a_zero_that_is_rounding_agrees_alone_as_beside_the_others() {
     }
 }
 
-/// One table in m and one in mm: the same, unless a number is meant otherwise.
+/// A table in m and a table in mm agree, unless a number has the wrong unit.
 #[test]
 fn two_tables_in_different_units_are_compared_in_one() {
     let right = solved(&scenario("crank_rocker"));
@@ -234,7 +237,7 @@ fn two_tables_in_different_units_are_compared_in_one() {
     assert_eq!(verdict(of("point.B.x_m", 1.0), late("time_ms")), "agree");
     let both = [of("point.B.x_m", 1.0), late("time_s")];
     assert!(compared(both, &rel(1e-9)).map_or(true, |found| found.verdict.word() != "agree"));
-    // Another unit leaves no more open than rounding: a last number that is off by a ten-millionth is found.
+    // Unit conversion adds only rounding error, so an error of 1e-7 in the last number is found.
     for (instants, name, factor) in [
         ("t", "point.B.x_m", 1.0),
         ("t", "point.B.x_mm", 1e3),
@@ -271,7 +274,7 @@ fn two_models_of_one_mechanism_are_compared() {
 }
 
 #[test]
-fn what_they_do_not_share_is_told() {
+fn unshared_columns_are_reported() {
     let scenario = scenario("crank_rocker");
     let right = solved(&scenario);
     let raw = table(&[

@@ -1,4 +1,5 @@
-//! Faults in the case, solved by the analytic side with errors as an engine has them.
+//! Faults in the case.
+//! The analytic side solves the faulty case, with errors like those of an engine.
 
 use super::{Tally, edited, examined, parsed, text};
 use linkage::case::{Case, Grid};
@@ -8,7 +9,7 @@ use linkage::trajectory::Stage;
 
 use crate::common::by_night;
 
-/// Scenario, place in its text, what stands there instead, and the words that must name it.
+/// Scenario, passage in its text, its replacement, and the words that must name the fault.
 type Fault = (&'static str, &'static str, &'static str, &'static str);
 
 const PRESCRIBED: &[Fault] = &[
@@ -44,14 +45,14 @@ const PRESCRIBED: &[Fault] = &[
         "mass centre of coupler: at joint A",
     ),
     ("crank_rocker", "mass_centre = { x_mm = 250", "mass_centre = { x_mm = 240", "mass centre of rocker, x: 0.24 m"),
-    ("crank_rocker", "B = { x_m = 0.34707193189181", "B = { x_m = 0.34717", "place of B on coupler, x: 0.34717 m"),
+    ("crank_rocker", "B = { x_m = 0.34707193189181", "B = { x_m = 0.34717", "position of B on coupler, x: 0.34717 m"),
     (
         "crank_rocker",
         "C = { x_mm = 150, y_mm = 15 }",
         "C = { x_mm = 150, y_mm = 16 }",
-        "place of C on ground, y: 0.016 m",
+        "position of C on ground, y: 0.016 m",
     ),
-    ("crank_rocker", "A = { x_m = 0.025995627740337", "A = { x_m = 0.026", "place of A on crank, x: 0.026 m"),
+    ("crank_rocker", "A = { x_m = 0.025995627740337", "A = { x_m = 0.026", "position of A on crank, x: 0.026 m"),
     ("crank_rocker", "mode = \"left\"", "mode = \"right\"", "another configuration of coupler, rocker: right"),
     ("crank_rocker", "speed_rpm = 130", "speed_rpm = 130.13", "speed of the drive at O: 13.627"),
     ("crank_rocker", "speed_rpm = 130", "speed_rpm = -130", "speed of the drive at O: of the opposite sign"),
@@ -68,15 +69,15 @@ const PRESCRIBED: &[Fault] = &[
     ("loaded_slider", "damping_N_m_s = 0.4", "damping_N_m_s = 0.8", "load 4, torsion damper: counted twice"),
     ("loaded_slider", "mass_kg = 12.0", "mass_kg = 12000", "mass of ram: 1000 times"),
     ("loaded_slider", "mode = \"ahead\"", "mode = \"behind\"", "another configuration of rod, ram: behind"),
-    ("loaded_slider", "B = { x_mm = 320", "B = { x_mm = 321", "place of B on rod, x: 0.321 m"),
+    ("loaded_slider", "B = { x_mm = 320", "B = { x_mm = 321", "position of B on rod, x: 0.321 m"),
     ("quick_return", "mass_kg = 6.0", "mass_kg = 6.5", "mass of ram: 6.5 kg"),
     ("quick_return", "inertia_kg_m2 = 0.09", "inertia_kg_m2 = 0.0", "moment of inertia of guide: missing"),
-    ("quick_return", "y_m_s2 = -9.81", "y_m_s2 = -9.8", "gravity: 9.8 m/s^2"),
+    ("quick_return", "y_m_s2 = -9.81", "y_m_s2 = -9.8", "gravity: 9.8 m/s²"),
     (
         "quick_return",
         "O1 = { x_mm = 0, y_mm = 300 }",
         "O1 = { x_mm = 0, y_mm = 301 }",
-        "place of O1 on ground, y: 0.301 m",
+        "position of O1 on ground, y: 0.301 m",
     ),
     ("class3_group", "mass_kg = 1.8", "mass_kg = 2.1", "mass of base: 2.1 kg"),
     ("class3_group", "inertia_kg_m2 = 0.0075", "inertia_kg_m2 = 0.015", "moment of inertia of base: counted twice"),
@@ -86,7 +87,7 @@ const PRESCRIBED: &[Fault] = &[
         "mass_centre = { x_mm = 10, y_mm = 60 }",
         "mass centre of base, y: of the opposite sign",
     ),
-    ("class3_group", "D = { x_mm = 160", "D = { x_mm = 160.5", "place of D on lead_1, x: 0.1605 m"),
+    ("class3_group", "D = { x_mm = 160", "D = { x_mm = 160.5", "position of D on lead_1, x: 0.1605 m"),
     ("cycloidal_start", "stiffness_N_m = 500", "stiffness_N_m = 0.5", "load 1, spring: 0.001 times"),
     ("cycloidal_start", "damping_N_s_m = 8", "damping_N_s_m = 4", "load 2, damper: counted half"),
     ("cycloidal_start", "to_deg = 200\n", "to_deg = 201\n", "speed of the drive at O"),
@@ -94,7 +95,7 @@ const PRESCRIBED: &[Fault] = &[
 
 const FREE: &[Fault] = &[
     ("pendulum", "y_m_s2 = -9.80665", "y_m_s2 = 9.80665", "gravity: of the opposite sign"),
-    ("pendulum", "y_m_s2 = -9.80665", "y_m_s2 = -9.81", "gravity: 9.81 m/s^2"),
+    ("pendulum", "y_m_s2 = -9.80665", "y_m_s2 = -9.81", "gravity: 9.81 m/s²"),
     (
         "pendulum",
         "inertia_kg_m2 = 0.16666666666666666",
@@ -113,7 +114,7 @@ const FREE: &[Fault] = &[
     ("double_pendulum", "y_m_s2 = -9.80665", "y_m_s2 = 0", "gravity: missing"),
     ("double_pendulum", "start_deg = 40", "start_deg = 41", "angle of the drive at A at t = 0: 41 deg"),
     ("double_pendulum", "mass_kg = 1\n", "mass_kg = 1.01\n", "mass of upper: 1.01 kg"),
-    ("double_pendulum", "A = { x_m = 0.5", "A = { x_m = 0.501", "place of A on upper, x: 0.501 m"),
+    ("double_pendulum", "A = { x_m = 0.5", "A = { x_m = 0.501", "position of A on upper, x: 0.501 m"),
     ("crank_rocker_runup", "moment_N_m = 100", "moment_N_m = 0", "load 1, resistance: missing"),
     ("crank_rocker_runup", "y_m_s2 = -9.81", "y_m_s2 = 0", "gravity: missing"),
     (
@@ -149,7 +150,7 @@ fn tally(faults: &[Fault], what: &str) -> Tally {
         let right = text(name);
         let case = parsed(name, &right).case;
         let wrong = parsed(name, &edited(&right, from, to)).case.on(case.grid.clone()).unwrap();
-        // As an engine does, the faulty side goes by time.
+        // The faulty side uses times instead of crank angles, like an engine.
         let grid = Grid::of_times(wrong.crank(), case.grid.times.clone());
         let suspect = analytic::AssurSolver.solve(&wrong.on(grid).unwrap()).unwrap();
         let found = examined(&case, &suspect, None);
@@ -175,7 +176,7 @@ fn faults_of_a_free_case_are_named() {
     assert!(tally.wrong.is_empty(), "\n{}", tally.wrong.join("\n"));
 }
 
-/// Two faults in every shipped scenario that has gravity: no weights, and one link a twentieth too heavy.
+/// Two faults in every shipped scenario with gravity: the weights are missing, or one link is 5 % too heavy.
 #[test]
 fn faults_in_every_shipped_scenario_are_named() {
     let mut tally = Tally::default();
@@ -185,14 +186,15 @@ fn faults_in_every_shipped_scenario_are_named() {
         .collect();
     names.sort();
     for name in names {
-        // It costs ten times as much as all others, and is the first of its benchmark with more bars.
+        // This scenario takes ten times as long as all others together, and is only a larger case of the same
+        // benchmark.
         if name == "n_four_bar_2" && !by_night() {
             continue;
         }
         let case = parsed(&name, &text(&name)).case;
         let mut add = |what: &str, wrong: &Case, expected: &str| {
             let grid = Grid::of_times(wrong.crank(), case.grid.times.clone());
-            // A pendulum without gravity and without speed is no motion.
+            // Without gravity and speed, a pendulum has no motion; it is skipped.
             let Ok(suspect) = analytic::AssurSolver.solve(&wrong.on(grid).unwrap()) else { return };
             tally.add(&format!("{name}, {what}"), examined(&case, &suspect, None).as_ref(), expected);
         };

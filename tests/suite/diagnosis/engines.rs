@@ -1,4 +1,4 @@
-//! Faults planted in the engine's case: the whole proof names them.
+//! Faults planted in the engine's case: the complete proof names every fault.
 
 use super::{Tally, edited, parsed, text};
 use prover::diagnosis::PartyStanding;
@@ -6,7 +6,7 @@ use prover::run::{Options, prove_against};
 
 use crate::common::by_night;
 
-/// Scenario, place in its text, what stands there instead, and the words that must name it.
+/// Scenario, passage in its text, its replacement, and the words that must name the fault.
 type Fault = (&'static str, &'static str, &'static str, &'static str);
 
 /// All faults of `faults.rs`.
@@ -25,7 +25,7 @@ const CRANK_ROCKER: &[Fault] = &[
         "crank_rocker",
         "B = { x_m = 0.34707193189181",
         "B = { x_m = 0.34717193189181",
-        "place of B on coupler, x: 0.3471",
+        "position of B on coupler, x: 0.3471",
     ),
     ("crank_rocker", "y_m_s2 = -9.81", "y_m_s2 = 0", "gravity: missing"),
     ("crank_rocker", "moment_N_m = 100", "moment_N_m = 0", "load 1, resistance: missing"),
@@ -80,7 +80,7 @@ const OTHERS: &[Fault] = &[
         "quick_return",
         "O1 = { x_mm = 0, y_mm = 300 }",
         "O1 = { x_mm = 0, y_mm = 301 }",
-        "place of O1 on ground, y: 0.301 m",
+        "position of O1 on ground, y: 0.301 m",
     ),
     ("class3_group", "mass_kg = 1.8", "mass_kg = 2.1", "mass of base: 2.1 kg"),
     ("pendulum", "y_m_s2 = -9.80665", "y_m_s2 = 9.80665", "gravity: of the opposite sign"),
@@ -103,7 +103,8 @@ const OTHERS: &[Fault] = &[
     ("five_bar_on_a_spring", "stiffness_N_m_rad = 4", "stiffness_N_m_rad = 0", "load 1, torsion spring: missing"),
 ];
 
-/// Costs more than all others; the kind is among them for a prescribed motion, and in `cases.rs` for this one.
+/// This fault costs more than all others.
+/// The same kind of fault is tested here in a prescribed motion, and in `cases.rs` in this scenario.
 const BY_NIGHT: &[Fault] =
     &[("five_bar_on_a_spring", "mode = \"left\"", "mode = \"right\"", "another configuration of rod_1, rod_2: right")];
 

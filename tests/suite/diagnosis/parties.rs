@@ -1,4 +1,4 @@
-//! Who stands alone, since when, and in which channels first.
+//! Which party disagrees with all others, since when, and in which channels first.
 
 use linkage::trajectory::{Channel, Trajectory};
 use prover::diagnosis::{DiagnosedParty, PartyStanding, SuspectChannel, since, standing};
@@ -11,7 +11,7 @@ fn trajectory(rows: &[(&str, Vec<f64>)]) -> Trajectory {
 
 const FORCE: &str = "joint.A.fx_N";
 
-/// How parties of one value and one bound each stand to each other.
+/// Standing of parties with one value and one bound each.
 fn of(parties: &[(&str, f64, f64)]) -> PartyStanding {
     let all: Vec<Trajectory> = parties.iter().map(|(_, value, _)| trajectory(&[(FORCE, vec![*value])])).collect();
     let party = |((name, _, bound), trajectory): (&(&'static str, f64, f64), &'static Trajectory)| DiagnosedParty {
@@ -29,7 +29,7 @@ fn of(parties: &[(&str, f64, f64)]) -> PartyStanding {
 }
 
 #[test]
-fn the_one_that_all_others_contradict_stands_alone() {
+fn the_party_contradicted_by_all_others_is_the_odd_one_out() {
     let alone = |name: &str| PartyStanding::Alone(name.into());
     assert_eq!(of(&[("side 1", 1.0, 1e-9), ("side 2", 1.0, 1e-9), ("engine", 2.0, 0.1)]), alone("engine"));
     assert_eq!(of(&[("side 1", 1.5, 1e-9), ("side 2", 1.0, 1e-9), ("engine", 1.0, 0.1)]), alone("side 1"));
@@ -37,11 +37,11 @@ fn the_one_that_all_others_contradict_stands_alone() {
 }
 
 #[test]
-fn two_camps_and_what_cannot_be_told() {
+fn two_camps_are_found_and_ambiguity_stays_open() {
     let camps = of(&[("a", 1.0, 0.1), ("b", 1.0, 0.1), ("c", 2.0, 0.1), ("d", 2.0, 0.1)]);
     let names = |names: [&str; 2]| names.map(String::from).to_vec();
     assert_eq!(camps, PartyStanding::Camps([names(["a", "b"]), names(["c", "d"])]));
-    // The engine is too coarse to say which of the two sides is wrong.
+    // The engine's bound is too wide to decide which of the two sides is wrong.
     let open = of(&[("side 1", 1.0, 1e-9), ("side 2", 1.01, 1e-9), ("engine", 1.0, 0.1)]);
     assert_eq!(open, PartyStanding::Open(vec![names(["side 1", "side 2"]).try_into().unwrap()]));
     assert!(matches!(of(&[("a", 1.0, 0.1), ("b", 2.0, 0.1), ("c", 3.0, 0.1)]), PartyStanding::Open(_)));
@@ -49,7 +49,7 @@ fn two_camps_and_what_cannot_be_told() {
 }
 
 #[test]
-fn channels_come_in_the_order_in_which_they_left_their_bounds() {
+fn channels_are_ordered_by_when_they_left_their_bounds() {
     let right = trajectory(&[
         (FORCE, vec![0.0; 5]),
         ("joint.B.fx_N", vec![0.0; 5]),

@@ -1,4 +1,4 @@
-//! RandomSource faults of the case: one number of one part changed by a random share.
+//! Random faults of the case: one number of one part changes by a random percentage.
 
 use super::{Outcome, examined, outcome, parsed, text, told};
 use linkage::case::{Case, CaseParts, Grid};
@@ -18,7 +18,7 @@ impl RandomSource {
         (self.next() * count as f64) as usize
     }
 
-    /// A share from 1 % to 30 %, of either sign.
+    /// A fraction from 1 % to 30 %, of either sign.
     fn share(&mut self) -> f64 {
         let size = 0.01 * 30f64.powf(self.next());
         if self.next() < 0.5 { -size } else { size }
@@ -78,7 +78,7 @@ fn planted(case: &Case, random: &mut RandomSource) -> Option<(Case, String)> {
             let names: Vec<String> = joints
                 .iter()
                 .filter(|joint| joint.on(link).is_some_and(|local| (local - old).norm() <= by.abs() * 1.001))
-                .map(|joint| format!("place of {} on {}, ", joint.name, links[link].name))
+                .map(|joint| format!("position of {} on {}, ", joint.name, links[link].name))
                 .collect();
             parts.mechanism = Mechanism::new(links, joints).ok()?;
             if along_guide || parts.modes.contains(&AssemblyMode::Followed) {
@@ -101,7 +101,7 @@ fn planted(case: &Case, random: &mut RandomSource) -> Option<(Case, String)> {
     Some((Case::new(parts).ok()?, words))
 }
 
-/// Faults are seldom called by another name, and then the true one is mentioned.
+/// Every fault is named or at least mentioned; for every twenty faults that are named, at most one is only mentioned.
 #[test]
 fn random_faults_are_named() {
     let names = [

@@ -1,4 +1,4 @@
-//! What is shown of a diagnosis, and where.
+//! Parts of a diagnosis that are shown, and their location.
 
 use super::{edited, parsed, text};
 use linkage::error::Advice;
@@ -14,16 +14,16 @@ fn against(from: &str, to: &str) -> Proof {
 }
 
 #[test]
-fn a_diagnosis_stands_under_the_verdict_and_in_the_json() {
+fn a_diagnosis_follows_the_verdict_and_is_in_the_json() {
     let proof = against("y_m_s2 = -9.81", "y_m_s2 = 0");
     let report = told(&proof, Advice::to_string, None);
     println!("{report}");
     let (verdict, diagnosis) = (report.find("DISAGREE").unwrap(), report.find("\nDiagnosis of rapier:").unwrap());
     assert!(verdict < diagnosis);
     for line in [
-        "\n  alone     rapier; all others agree with each other",
+        "\n  suspect   rapier; all others agree with each other",
         "\n  since     t = 0.000000 s, crank angle 0.000 deg, first in joint.",
-        "\n  cause     gravity: missing; that explains all ",
+        "\n  cause     gravity: missing; this explains all ",
     ] {
         assert!(report.contains(line), "{line}");
     }
@@ -46,7 +46,7 @@ fn without_a_disagreement_there_is_no_diagnosis() {
     assert!(!document.text().contains("\"diagnosis\":"));
 }
 
-/// Two faults at once: none is named as the cause of everything.
+/// With two simultaneous faults, neither is named as the cause of everything.
 #[test]
 fn two_faults_at_once_have_no_single_cause() {
     let right = text("crank_rocker");
@@ -61,17 +61,19 @@ fn two_faults_at_once_have_no_single_cause() {
     assert!(report.contains("\n  cause     no"));
 }
 
-/// The search for a cause has a limit of its own, as much work as the proof is allowed: it is used and kept to, and who
-/// reads the report or the JSON learns that it was cut.
+/// The search for a cause has a separate limit: it may do as much work as the proof.
+/// The search stops at this limit.
+/// The report and the JSON say that the search was stopped early.
 #[test]
-fn a_search_for_a_cause_that_is_cut_has_done_what_it_may_and_says_so() {
+fn a_truncated_search_for_a_cause_is_reported() {
     let right = text("double_pendulum");
     let once = edited(&right, "y_m_s2 = -9.80665", "y_m_s2 = -9");
     let twice = edited(&once, "start_deg = 40", "start_deg = 44");
     let mut whole = parsed("double_pendulum", &right);
     whole.oracles.clear();
     let wrong = parsed("double_pendulum", &twice).case;
-    // Every changed case is integrated anew; the engine's steps are given, and few.
+    // Every changed case is integrated again, which costs much work; the given settings keep the engine's own work
+    // small.
     let of = |budget: f64| {
         let options = Options::default().step(5e-3).sweeps(1).extrapolated(0).budget(budget);
         let proof = prove_against(&whole, &wrong, &options).unwrap();
@@ -84,7 +86,7 @@ fn a_search_for_a_cause_that_is_cut_has_done_what_it_may_and_says_so() {
         document.add(&proof, None);
         let json: serde_json::Value = serde_json::from_str(&document.text()).unwrap();
         let words = report.split_whitespace().collect::<Vec<_>>().join(" ");
-        let is_told = words.contains("The search for a cause ended at its limit of work");
+        let is_told = words.contains("The search for a cause reached its work limit");
         assert_eq!(is_told, proof.diagnosis_is_cut, "{report}");
         assert_eq!(json["runs"][0]["diagnosis_cut"] == true, proof.diagnosis_is_cut);
         (proof.diagnosis_is_cut, work)

@@ -1,4 +1,4 @@
-//! Faults in the values: what was done to them is named, and what is nothing simple is called so.
+//! Faults in the values: the diagnosis names the change, or reports that it is not simple.
 
 use super::{Tally, examined, parsed, text, told};
 use linkage::case::{Case, Grid};
@@ -10,7 +10,7 @@ fn solved(case: &Case) -> Trajectory {
     analytic::AssurSolver.solve(case).unwrap()
 }
 
-/// The right values, with those of the channels that `which` names changed by `change`.
+/// The correct values, with the channels selected by `which` changed by `change`.
 fn changed(case: &Case, which: impl Fn(&str, Stage) -> bool, change: impl Fn(usize, f64) -> f64) -> Trajectory {
     let right = solved(case);
     let column = |(channel, values): (&Channel, &[f64])| match which(&channel.to_string(), channel.kind.stage) {
@@ -21,7 +21,7 @@ fn changed(case: &Case, which: impl Fn(&str, Stage) -> bool, change: impl Fn(usi
     Trajectory::new(right.times().to_vec(), right.inputs().to_vec(), right.channels().to_vec(), columns).unwrap()
 }
 
-/// The right values, those of some stages read late.
+/// The correct values, with the selected stages delayed by `by`.
 fn late(case: &Case, by: f64, which: impl Fn(Stage) -> bool) -> Trajectory {
     let times = case.grid.times.iter().map(|t| t - by).collect();
     let (right, other) = (solved(case), solved(&case.on(Grid::of_times(case.crank(), times)).unwrap()));
@@ -56,18 +56,20 @@ fn slips_of_values_are_named() {
         add(
             "kN",
             &changed(&case, |_, stage| stage >= Stage::Reactions, |_, value| value / 1e3),
-            "another unit, a thousandth",
+            "another unit in joint.*: a thousandth",
         );
         let angles = |name: &str, _: Stage| name.ends_with("angle_rad");
-        add("degrees", &changed(&case, angles, |_, value| value * 180.0 / PI), "another unit, degrees instead");
+        let degrees = "another unit in link.*: degrees instead of radians";
+        add("degrees", &changed(&case, angles, |_, value| value * 180.0 / PI), degrees);
         let speeds = |name: &str, _: Stage| name.ends_with("omega_rad_s");
         add(
             "rpm",
             &changed(&case, speeds, |_, value| value * 30.0 / PI),
-            "another unit, revolutions per minute instead",
+            "another unit in link.*: revolutions per minute instead of rad/s",
         );
         let places = |name: &str, _: Stage| name.starts_with("point.") && name.ends_with("_m");
-        add("mm", &changed(&case, places, |_, value| value * 1e3), "another unit, millimetres instead");
+        let millimetres = "another unit in point.A.x_m, *: millimetres instead of metres";
+        add("mm", &changed(&case, places, |_, value| value * 1e3), millimetres);
         let own = |name: &str, _: Stage| name == "link.rocker.angle_rad" || name == "link.guide.angle_rad";
         add("other zero", &changed(&case, own, |_, value| value + PI / 6.0), "30 deg added at every instant");
         add(
@@ -108,9 +110,9 @@ fn values_of_another_instant_are_named() {
     assert!(tally.wrong.is_empty(), "\n{}", tally.wrong.join("\n"));
 }
 
-/// Noise, a part of a reaction left out, a drift, and two faults at once are nothing simple.
+/// Noise, a missing part of a reaction, a drift, and several faults at once have no single simple cause.
 #[test]
-fn what_is_nothing_simple_is_called_so() {
+fn deviations_without_a_simple_cause_are_reported_as_such() {
     let (mut silent, mut all, mut wrong) = (0, 0, Vec::new());
     for name in ["crank_rocker", "quick_return", "class3_group", "pendulum", "crank_rocker_runup"] {
         let scenario = parsed(name, &text(name));

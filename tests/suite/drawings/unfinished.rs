@@ -1,4 +1,4 @@
-//! Files that are not right yet: what can be read is drawn, and every mistake is told.
+//! Unfinished files: the readable part is drawn, and every mistake is reported.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use assert_cmd::Command;
 
 use super::{draw, texts};
 
-/// A template of a four-bar with these replacements.
+/// A four-bar template with these replacements.
 fn edited(directory: &Path, edits: &[(&str, &str)]) -> String {
     let path = directory.join("own.toml");
     let path = path.to_str().unwrap();
@@ -21,18 +21,18 @@ fn edited(directory: &Path, edits: &[(&str, &str)]) -> String {
     path.into()
 }
 
-/// The picture of such a file and what is told on standard error.
+/// The picture of such a file, and the text on standard error.
 fn drawn(edits: &[(&str, &str)], arguments: &[&str]) -> (String, String) {
     let directory = tempfile::tempdir().unwrap();
     let file = edited(directory.path(), edits);
     let (code, out, told) = draw(&[&[file.as_str(), "-o", "-"], arguments].concat());
-    assert_eq!(code, 2, "{edits:?}: {told}");
+    assert!(code == 0 && told.starts_with("warning: "), "{edits:?}: {code} {told}");
     let text = String::from_utf8(out).unwrap();
     assert!(!text.contains("NaN") && roxmltree::Document::parse(&text).is_ok(), "{edits:?}: {text}");
     (text, told)
 }
 
-/// Names of points and numbers of links that stand in a picture.
+/// Names of points and numbers of links in the picture.
 fn names(text: &str) -> Vec<String> {
     let mut names = texts(&roxmltree::Document::parse(text).unwrap());
     names.retain(|name| name.chars().count() == 1);
@@ -44,12 +44,13 @@ const DASHED: &str = "stroke-dasharray=\"2 1.4\"";
 const DRIVE: &str = "[drive]\njoint = \"O\"\nspeed_rpm = \"speed_rpm\"\n";
 const ALL: [&str; 8] = ["1", "2", "3", "A", "B", "C", "E", "O"];
 
-/// What each mistake leaves of the picture, the words on standard error, and whether all links have a certain place.
+/// For each mistake: the words on standard error, the remaining labels, and whether the positions of all links are
+/// certain.
 #[test]
-fn what_can_be_read_is_drawn_and_every_mistake_told() {
+fn readable_parts_are_drawn_and_every_mistake_reported() {
     let without = |names: &[&str]| -> Vec<&str> { ALL.into_iter().filter(|own| !names.contains(own)).collect() };
     for (edit, told, expected, is_whole) in [
-        // A joint that names an unknown link, a missing length, a load on a link that is not there.
+        // Three mistakes: a joint that names an unknown link, a missing length, and a load on an unknown link.
         (("[\"coupler\", \"rocker\"]", "[\"coupler\", \"rockre\"]"), "joints.B.links", without(&[]), false),
         (("length_mm = \"point\", ", ""), "links.coupler.points.E", without(&["E"]), true),
         (
@@ -58,7 +59,7 @@ fn what_can_be_read_is_drawn_and_every_mistake_told() {
             without(&[]),
             true,
         ),
-        // No drive: the crank is guessed. A link without places.
+        // A missing drive, so that the program guesses the crank; and a link without points.
         ((DRIVE, ""), "`drive` is missing", without(&[]), true),
         (
             ("C = { x_mm = 0, y_mm = 0 }\nB = { x_mm = \"rocker\", y_mm = 0 }", ""),
@@ -69,11 +70,11 @@ fn what_can_be_read_is_drawn_and_every_mistake_told() {
         // Too many degrees of freedom.
         (
             ("[[joints]]\nname = \"A\"\ntype = \"revolute\"\nlinks = [\"crank\", \"coupler\"]", ""),
-            "no joint holds the two together",
+            "no joint connects them",
             without(&[]),
             false,
         ),
-        // A misspelt section, a mode that is none, a parameter that cannot be calculated, a mass below zero.
+        // A misspelt section, an unknown mode, a parameter that cannot be evaluated, and a negative mass.
         (("[start]", "[strat]"), "strat", without(&[]), true),
         (("mode = \"left\"", "mode = \"up\""), "start.groups[1].mode", without(&[]), false),
         (("point_mm = 70", "point_mm = \"70 +\""), "parameters.point_mm", without(&["E"]), true),
@@ -91,7 +92,7 @@ fn what_can_be_read_is_drawn_and_every_mistake_told() {
 }
 
 #[test]
-fn all_mistakes_are_told_once_and_the_first_below_the_picture() {
+fn mistakes_are_reported_once_and_the_first_in_the_picture() {
     let edits = [
         ("title =", "titel ="),
         ("[\"coupler\", \"rocker\"]", "[\"coupler\", \"rockre\"]"),
@@ -100,14 +101,14 @@ fn all_mistakes_are_told_once_and_the_first_below_the_picture() {
         ("step_deg = 2", "step_deg = 0"),
     ];
     let (text, told) = drawn(&edits, &[]);
-    assert_eq!(told.matches("error: ").count(), edits.len(), "{told}");
+    assert_eq!(told.matches("warning: ").count(), edits.len(), "{told}");
     let texts = texts(&roxmltree::Document::parse(&text).unwrap());
     assert_eq!(texts.iter().filter(|own| own.starts_with("line ")).count(), 3, "{texts:?}");
     assert!(texts.iter().any(|own| own == "and 2 more"), "{texts:?}");
 }
 
 #[test]
-fn a_drive_that_is_guessed_has_no_arrow_and_is_told() {
+fn a_guessed_drive_has_no_arrow_and_is_reported() {
     let (without, told) = drawn(&[(DRIVE, "")], &[]);
     assert!(told.contains("no drive could be read") && told.contains("\"crank\""), "{told}");
     let (with, _) = drawn(&[("step_deg = 2", "step_deg = 0")], &[]);
@@ -125,12 +126,13 @@ fn a_path_of_an_unknown_point_is_left_out() {
 }
 
 #[test]
-fn a_file_of_mistakes_stands_still_in_an_animation() {
+fn a_faulty_file_gives_a_motionless_animation() {
     let directory = tempfile::tempdir().unwrap();
     let file = edited(directory.path(), &[("[\"coupler\", \"rocker\"]", "[\"coupler\", \"rockre\"]")]);
     let moving = directory.path().join("own.gif");
     let arguments = [file.as_str(), "-o", moving.to_str().unwrap(), "--frames", "4", "--width", "200"];
-    assert_eq!(draw(&arguments).0, 2);
+    let (code, _, told) = draw(&arguments);
+    assert!(code == 0 && told.starts_with("warning: `joints.B.links`"), "{told}");
     let mut decoder = gif::DecodeOptions::new().read_info(fs::File::open(moving).unwrap()).unwrap();
     let mut frames = Vec::new();
     while let Some(frame) = decoder.read_next_frame().unwrap() {
@@ -139,7 +141,7 @@ fn a_file_of_mistakes_stands_still_in_an_animation() {
     assert!(frames.len() == 4 && frames.windows(2).all(|pair| pair[0] == pair[1]));
 }
 
-/// What is no TOML is not drawn, nor is a file of another version.
+/// Invalid TOML and files of another format version are not drawn.
 #[test]
 fn a_file_that_cannot_be_read_is_refused() {
     let directory = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! A crank alone: everything has a closed form.
+//! A crank alone: all its motions have closed forms.
 
 use crate::common::assert_within;
 use linkage::math::KeepNan;
@@ -14,7 +14,8 @@ use linkage::drive::{DriveMotion, Load, MotionLaw, Motor, MotorLaw, ShaftInertia
 use linkage::mechanism::LinkId;
 use scenario::Scenario;
 
-/// A bar of 2 kg and 0.05 kg m^2 about its mass centre, 0.3 m from the pivot; it starts in the direction `start` (deg).
+/// A bar of 2 kg and 0.05 kg m^2 about its mass centre, which is `centre` from the pivot.
+/// It starts in the direction `start` (deg).
 fn bar(centre: f64, start: f64, gravity: bool) -> Case {
     let field = if gravity { "[gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n" } else { "" };
     let text = format!(
@@ -63,8 +64,8 @@ fn constant_coefficients_have_their_closed_form() {
     }
 }
 
-/// If inertia and resistance are constant, the averaged model is exact: a balanced bar against a resistance, behind a
-/// reducer with losses.
+/// If inertia and resistance are constant, the averaged model is exact.
+/// The example is a balanced bar with a resistance, driven through a reducer with losses.
 #[test]
 fn the_averaged_model_is_exact_for_constant_coefficients() {
     let inertia = ShaftInertia { rotor: 1e-3, input: 5e-4, intermediate: 2e-2, intermediate_ratio: 3.0, output: 0.1 };
@@ -80,7 +81,7 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
         let model = ReducedModel::of(&case).unwrap();
         let means = means::means_over_turn(&case, &AssurSolver).unwrap();
         let averaged = Averaged::of(&motor, means.inertia + model.added_inertia(), speed * means.resistance).unwrap();
-        // 40 N m and 2 N m s on the crank without losses.
+        // Without losses, 40 N m and 2 N m s act on the crank.
         assert_within!((averaged.time_constant - 0.48 / (2.0 * efficiency)).abs(), 1e-15, "{averaged:?}");
         assert_within!((averaged.steady_speed - (40.0 * efficiency - 6.0) / (2.0 * efficiency)).abs(), 1e-13);
         let (found, end) = motion(&model, 0.0, &evenly(1.5, 300), 1e-13).unwrap();
@@ -88,7 +89,7 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
         let mut most = [0.0f64; 2];
         for at in &found {
             let (omega, angle) = (speed * at.omega, speed * (at.crank - case.crank().start));
-            // omega_s (1 - exp(-t / T)), and its integral.
+            // The speed is omega_s (1 - exp(-t / T)), and the angle is its integral.
             let Averaged { time_constant, steady_speed } = averaged;
             let gone = (-at.t / time_constant).exp_m1();
             let off = [omega + steady_speed * gone, angle - steady_speed * (at.t + time_constant * gone)];
@@ -99,17 +100,17 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
 }
 
 #[test]
-fn the_averaged_model_is_closed_on_one_straight_line_only() {
+fn the_averaged_model_needs_one_falling_straight_line() {
     let linear = Motor::ideal(MotorLaw::Linear { at_rest: 4.0, slope: -0.02 }, 10.0);
     let lossy = Motor { efficiency: 0.9, ..linear.clone() };
-    // Without resistance both reach 200 rad/s of the motor, more slowly with losses.
+    // Without resistance, both motors reach the motor speed of 200 rad/s; the motor with losses is slower.
     let free = [&linear, &lossy].map(|motor| Averaged::of(motor, 0.5, 0.0).unwrap());
     free.iter().for_each(|free| assert_within!((free.steady_speed - 20.0).abs(), 1e-12, "{free:?}"));
     assert_within!((free[1].time_constant / free[0].time_constant - 1.0 / 0.9).abs(), 1e-14);
-    // A resistance that drives: beyond 20 rad/s losses act in the other direction.
+    // If the resistance drives the crank, losses act in the other direction above 20 rad/s.
     assert_within!((Averaged::of(&linear, 0.5, -2.0).unwrap().steady_speed - 21.0).abs(), 1e-12);
     assert_eq!(Averaged::of(&lossy, 0.5, -2.0), None);
-    // No steady motion: more than the starting moment, no mass, no slope, no straight line.
+    // No steady motion: a resistance above the starting moment, no mass, no slope, or a curved characteristic.
     assert_eq!(Averaged::of(&linear, 0.5, 40.1), None);
     assert_eq!(Averaged::of(&linear, 0.0, 1.0), None);
     let bent = [
@@ -137,7 +138,7 @@ fn kloss_runs_up_in_its_known_time() {
     }
 }
 
-/// A pendulum released at rest swings with the period 4 K(sin(amplitude / 2)) / Omega; it reverses twice per swing.
+/// A pendulum released at rest swings with the period 4 K(sin(amplitude / 2)) / Omega, and reverses twice per period.
 #[test]
 fn a_pendulum_swings_in_its_known_time() {
     for degrees in [10.0f64, 90.0, 150.0] {
@@ -151,20 +152,20 @@ fn a_pendulum_swings_in_its_known_time() {
         for (half, at) in found.iter().enumerate() {
             let side = if half % 2 == 0 { 1.0 } else { -1.0 };
             let expected = (-90.0f64).to_radians() + side * degrees.to_radians();
-            // At a reversal the angle is stationary in time: this proves the amplitude, and the quarter period below
-            // proves the period.
+            // At a reversal the angle is stationary in time, so this check proves the amplitude.
+            // The check of the quarter period below proves the period.
             assert_within!((at.crank - expected).abs(), 1e-11, "{degrees} {half}: {at:?}");
         }
         let quarters: Vec<f64> = (0..10).map(|k| period * (f64::from(k) + 0.25)).collect();
         let (found, _) = motion(&model, 0.0, &quarters, 1e-13).unwrap();
         for at in &found {
-            // The accuracy wanted of run-ups.
+            // The bound is the requested accuracy of run-ups.
             assert_within!((at.crank + PI / 2.0).abs(), 1e-10, "{degrees}: {at:?}");
         }
     }
 }
 
-/// If the pendulum rotates fully, every turn from the lowest place takes 4 K(2 Omega / omega_0) / omega_0.
+/// If the pendulum rotates fully, every revolution from the lowest position takes 4 K(2 Omega / omega_0) / omega_0.
 #[test]
 fn a_pendulum_turns_in_its_known_time() {
     let case = bar(0.3, -90.0, true);
@@ -202,7 +203,7 @@ fn reactions_follow_the_true_motion() {
         let [x, y] = [along * cos - across * sin, along * sin + across * cos];
         assert_within!((fx[row] - 2.0 * x).abs(), 1e-11, "{row}");
         assert_within!((fy[row] - 2.0 * (y + 9.81)).abs(), 1e-11, "{row}");
-        // Energy: the drop of the mass centre.
+        // Energy: the kinetic energy comes from the drop of the mass centre.
         let energy = 0.5 * (0.05 + 0.18) * at.omega * at.omega + 2.0 * 9.81 * 0.3 * sin;
         assert_within!(energy.abs(), 1e-11, "{energy:e}");
     }

@@ -1,4 +1,4 @@
-//! Energy of whole mechanisms, summed link by link.
+//! Energy of whole mechanisms, summed over the links.
 
 use linkage::math::KeepNan;
 use std::f64::consts::TAU;
@@ -21,7 +21,8 @@ fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> [f64; 2] {
     sum
 }
 
-/// Without motor and loads the energy is constant: a hundred turns, checked at some thousand instants.
+/// Without motor and loads the energy is constant.
+/// It is checked over a hundred turns, at some thousand instants.
 #[test]
 fn conservative_mechanisms_keep_their_energy() {
     for (name, speed) in [("crank_rocker", 30.0), ("compressor", 40.0), ("six_bar_slider", 100.0), ("ov7_base", -97.0)]
@@ -51,10 +52,10 @@ fn conservative_mechanisms_keep_their_energy() {
     }
 }
 
-/// A mechanism that runs freely against a resistance loses exactly the work of the resistance: 100 N m times the angle
-/// travelled by the rocker.
+/// A mechanism that runs freely against a resistance loses exactly the work of the resistance.
+/// This work is 100 N m times the angle travelled by the rocker.
 #[test]
-fn a_resistance_takes_its_work() {
+fn a_resistance_dissipates_exactly_its_work() {
     let case = shipped("crank_rocker.toml").case.with_motor(None).unwrap();
     let model = ReducedModel::of(&case).unwrap();
     let times: Vec<f64> = (0..=20_000).map(|k| f64::from(k) * 1e-4).collect();
@@ -67,7 +68,7 @@ fn a_resistance_takes_its_work() {
         poses.solve(at.crank, at.omega, at.alpha, Stage::Positions).unwrap();
         poses.with_angles().angles[rocker]
     };
-    // Travel of the rocker: it reverses at 50 and 82 deg.
+    // Angle travelled by the rocker, which reverses at 50 and 82 deg.
     let (mut way, mut last) = (0.0f64, angle(&found[0]));
     let mut other = PoseSolver::new(&case).unwrap();
     let first: f64 = energy(&case, &mut other, &found[0]).iter().sum();
@@ -78,14 +79,14 @@ fn a_resistance_takes_its_work() {
         let turned: Vec<f64> = kinks.into_iter().filter(|_| crosses(&model, previous.crank, at.crank)).collect();
         way += match turned.first() {
             None => (now - last).abs(),
-            // To the nearer extreme position and back.
+            // Between two instants, the rocker passes its nearer extreme position and returns.
             Some(_) => {
                 let extreme = kinks.into_iter().min_by(|a, b| (a - now).abs().total_cmp(&(b - now).abs())).unwrap();
                 (extreme - last).abs() + (extreme - now).abs()
             }
         };
         let left: f64 = energy(&case, &mut other, at).iter().sum();
-        // The extreme angles are those of the published problem, to twelve digits.
+        // The published problem gives the extreme angles; they agree to twelve digits.
         assert_within!(
             (first - left - 100.0 * way).abs(),
             1e-8 * first.abs(),

@@ -21,12 +21,12 @@ fn val_crank_rocker_reduced_means_and_maximum() {
     for solver in analytic::all() {
         let means = means::means_over_turn(&case, solver).unwrap();
         assert_within!((means.inertia - 0.164_846_013).abs(), 5.1e-10, "{}: {}", solver.name(), means.inertia);
-        // Over a turn gravity does no work, and the rocker travels its swing of 32 deg twice.
+        // Over a turn, gravity does no work, and the rocker travels its swing of 32 deg twice.
         let closed = 100.0 * 2.0 * 32.0 / 360.0;
         assert_within!((means.resistance - closed).abs(), 1e-11, "{}: {:e}", solver.name(), means.resistance - closed);
     }
-    // The published reduced moment omits the crank's weight: here its mass is moved to the pivot, and its moment of
-    // inertia about the pivot is kept.
+    // The published reduced moment omits the crank's weight.
+    // The crank's mass is therefore moved to the pivot, with the same moment of inertia about the pivot.
     let mut links = case.mechanism.links().to_vec();
     let crank = &mut links[1];
     crank.inertia += crank.mass * crank.mass_centre.norm_squared();
@@ -40,8 +40,8 @@ fn val_crank_rocker_reduced_means_and_maximum() {
     assert_within!((inertia.least.1 - own.least.1).abs(), 1e-13);
 }
 
-/// The authors' means are sums over the number of values: 361, with 0 deg and 360 deg both counted. Their sum of the
-/// inertia leaves the crank's out.
+/// The authors' means are sums over 361 values, so both 0 deg and 360 deg are counted.
+/// Their sum for the reduced inertia omits the crank's inertia.
 #[test]
 fn val_crank_rocker_printed_means_count_one_position_twice() {
     let case = shipped("crank_rocker.toml").case;
@@ -62,7 +62,8 @@ fn val_crank_rocker_printed_means_count_one_position_twice() {
     }
 }
 
-/// Of the ways to find the greatest reduced resistance, all weights with g = 9.8 m/s^2 round to the printed 36.98 N m.
+/// The printed greatest reduced resistance is 36.98 N m.
+/// Among the possible methods, only all weights with g = 9.8 m/s^2 round to this value.
 #[test]
 fn val_crank_rocker_printed_greatest_resistance_has_g_of_9_8() {
     let case = shipped("crank_rocker.toml").case;
@@ -89,15 +90,15 @@ fn val_crank_rocker_steady_motion() {
     assert_within!((steady * motor.ratio - 302.6266).abs(), 5e-5);
 }
 
-/// The run-up, integrated in time with dI*/dphi, ends in the steady motion, which is computed over the crank angle
-/// without it.
+/// The run-up, integrated in time with dI*/dphi, ends in the steady motion.
+/// The steady motion is integrated with respect to the crank angle, without dI*/dphi.
 #[test]
-fn run_up_in_time_and_steady_motion_over_the_angle_are_one() {
+fn the_run_up_in_time_ends_in_the_steady_motion() {
     let case = shipped("crank_rocker.toml").case;
     let model = ReducedModel::of(&case).unwrap();
     let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
     assert_eq!((found.len(), end), (501, RunUpEnd::Reached));
-    // A deviation has decayed after a tenth of a turn: from 0.1 s on the motion is the steady one.
+    // Deviations from the steady motion decay within a tenth of a revolution, so it is reached at 0.1 s.
     let late: Vec<_> = found.iter().filter(|at| at.t >= 0.1 && at.crank < TAU).collect();
     assert!(late.len() > 300);
     let cranks: Vec<f64> = late.iter().map(|at| at.crank).collect();
@@ -106,13 +107,14 @@ fn run_up_in_time_and_steady_motion_over_the_angle_are_one() {
         assert_within!((at.omega - steady.omega).abs(), 1e-10, "{at:?} {steady:?}");
         assert_within!((at.alpha - steady.alpha).abs(), 1e-7, "{at:?} {steady:?}");
     }
-    // One period later the crank has turned once more.
+    // One period later, the crank has made one more revolution.
     let pair = [0.2, 0.2 + regime.period];
     let (found, _) = motion(&model, 0.0, &pair, ACCURACY).unwrap();
     assert_within!((found[1].crank - found[0].crank - TAU).abs(), 1e-11, "{:e}", found[1].crank - found[0].crank - TAU);
 }
 
-/// The default accuracy against one a hundred times tighter, and on a grid ten times finer, so that all steps differ.
+/// Compares the default accuracy with one a hundred times tighter, and with a grid ten times finer, so that all steps
+/// differ.
 #[test]
 fn run_up_is_exact_to_1e_10() {
     let case = shipped("crank_rocker.toml").case;
@@ -142,8 +144,9 @@ fn slope_of_the_inertia_is_its_derivative() {
             let crank = start + case.crank().sense() * f64::from(k) * 0.2;
             let rows = model.rows(&[crank - step, crank, crank + step]).unwrap();
             let slope = (rows[2].inertia - rows[0].inertia) / (2.0 * step);
-            // The error of central differences is the third derivative, some hundred times the inertia, times 1e-10 /
-            // 6, plus rounding over 2e-5.
+            // Error of central differences: the third derivative (some hundred times the inertia) times 1e-10 / 6, plus
+            // rounding error
+            // divided by 2e-5.
             assert_within!(
                 (slope - rows[1].slope).abs(),
                 1e-6 * rows[1].inertia.larger(1e-9),
@@ -154,7 +157,7 @@ fn slope_of_the_inertia_is_its_derivative() {
 }
 
 #[test]
-fn a_flywheel_does_what_is_asked() {
+fn a_flywheel_gives_the_requested_non_uniformity() {
     let case = shipped("crank_rocker.toml").case;
     let model = ReducedModel::of(&case).unwrap();
     for wanted in [0.2, 0.02, 1e-3] {
@@ -162,11 +165,11 @@ fn a_flywheel_does_what_is_asked() {
         let again = model.with_flywheel(found.inertia).regime(&[], ACCURACY).unwrap();
         assert_within!((again.non_uniformity() / wanted - 1.0).abs(), 1e-10, "{wanted}");
     }
-    // Uniform enough without a flywheel.
+    // The motion is uniform enough without a flywheel.
     assert_eq!(Flywheel::of(&model, 0.5, ACCURACY).unwrap().inertia, 0.0);
-    // With a large flywheel the speed hardly changes. Then J = W / (delta omega^2), where W is the largest surplus of
-    // work that the mechanism's own kinetic energy does not take, as in textbooks (Merzalow). The motor's moment is
-    // then the mean resistance.
+    // With a large flywheel the speed hardly changes, so J = W / (delta omega^2), as in textbooks (Merzalow).
+    // W is the largest surplus of work that the kinetic energy of the mechanism does not absorb.
+    // The motor's moment is then equal to the mean resistance.
     let count = 36_000;
     let cranks: Vec<f64> = (0..count).map(|k| TAU * (f64::from(k) + 0.5) / f64::from(count)).collect();
     let mean = 100.0 * 64.0 / 360.0;
@@ -180,12 +183,12 @@ fn a_flywheel_does_what_is_asked() {
     let wanted = 1e-5;
     let textbook = (most - least) / (wanted * speed * speed);
     let found = Flywheel::of(&model, wanted, ACCURACY).unwrap();
-    // The effect of changes of I* and of the motor's moment is of the order of I* / J.
+    // The textbook formula neglects changes of I* and of the motor's moment, which are of the order of I* / J.
     assert_within!((found.inertia / textbook - 1.0).abs(), 1e-3, "{} {textbook}", found.inertia);
 }
 
 #[test]
-fn a_table_of_a_straight_line_is_the_line() {
+fn a_motor_table_of_a_straight_line_equals_the_linear_law() {
     let case = shipped("crank_rocker.toml").case;
     let motor = case.crank().motor().unwrap();
     let speeds: Vec<f64> = (0..8).map(|k| 50.0 * f64::from(k)).collect();
@@ -203,14 +206,14 @@ fn a_table_of_a_straight_line_is_the_line() {
 }
 
 #[test]
-fn losses_of_the_reducer_cost_their_share() {
+fn reducer_losses_apply_in_both_directions_of_power() {
     let case = shipped("crank_rocker.toml").case;
     let motor = Motor { efficiency: 0.9, ..case.crank().motor().unwrap().clone() };
     let case = case.with_motor(Some(motor)).unwrap();
     let model = ReducedModel::of(&case).unwrap();
     let run_up = RunUp::of(&model, 0.0, &times(), ACCURACY).unwrap();
-    // Twice per turn the mechanism drives the motor. Then the moment on the crank is 1 / 0.9 of the motor's, otherwise
-    // 0.9.
+    // Twice per revolution the mechanism drives the motor.
+    // The moment on the crank is then the motor's moment divided by 0.9; otherwise it is multiplied by 0.9.
     let motor = case.crank().motor().unwrap();
     let (mut drives, mut driven) = (0, 0);
     for at in &run_up.motion[1..] {
@@ -224,20 +227,20 @@ fn losses_of_the_reducer_cost_their_share() {
 }
 
 #[test]
-fn what_a_motor_cannot_move_is_held() {
-    // 10 N m against a greatest resistance of 37: the crank moves up to some angle and stops there for good.
+fn a_motor_that_is_too_weak_stops_for_good() {
+    // The motor has 10 N m, but the greatest resistance is 37 N m: the crank stalls at some angle.
     let motor = Motor::ideal(MotorLaw::Constant { torque: 10.0 }, 1.0);
     let case = shipped("crank_rocker.toml").case.with_motor(Some(motor)).unwrap();
     let model = ReducedModel::of(&case).unwrap();
     let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
     let RunUpEnd::Held(t, crank) = end else { panic!("{end:?}") };
     assert!(found.iter().all(|at| at.t <= t && at.crank <= crank + 1e-12) && found.len() < 501);
-    // There the resistance alone exceeds the motor's moment.
+    // At this angle the resistance alone exceeds the motor's moment.
     let rows = model.rows(&[crank]).unwrap();
     assert!(rows[0].resistance > 10.0, "{rows:?}");
     let error = model.regime(&[], ACCURACY).unwrap_err();
     assert!(error.message().contains("no stable speed"), "{error}");
-    // Without a load the crank is not held.
+    // Without a load the crank does not stall.
     let case = case.with(|parts| parts.loads.retain(|load| !matches!(load, Load::Resistance { .. }))).unwrap();
     let free = ReducedModel::of(&case).unwrap();
     assert_eq!(motion(&free, 0.0, &times(), ACCURACY).unwrap().1, RunUpEnd::Reached);

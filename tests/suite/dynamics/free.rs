@@ -1,4 +1,4 @@
-//! Motion decided by forces: both analytic sides against each other, against textbook equations, and the twin.
+//! Free motion: the two analytic sides against each other, against textbook equations, and against Rapier's twin.
 
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid, Wanted};
@@ -21,7 +21,7 @@ pub(super) fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
     solver.solve(case).unwrap_or_else(|error| panic!("{}: {error}", solver.name()))
 }
 
-/// Largest error over the scale, of the channels that `of` selects.
+/// Largest error divided by the scale, over the channels that `of` selects.
 pub(super) fn worst(reference: &Trajectory, other: &Trajectory, of: impl Fn(&Channel) -> bool) -> f64 {
     let all = residuals(reference, other).unwrap();
     let picked = all.iter().filter(|residual| of(&residual.channel));
@@ -38,8 +38,9 @@ const RUN_UPS: [&str; 6] =
 /// Motions through change points.
 const CHAINS: [&str; 2] = ["n_four_bar_1", "n_four_bar_2"];
 
-/// The README's figures. Side 1 (reduced equation of motion, or transfer functions group by group) against side 2 (embedding with the
-/// Jacobian of the whole mechanism), from positions to reactions.
+/// The figures of the README, from positions to reactions.
+/// Side 1 uses the reduced equation of motion, or transfer functions group by group.
+/// Side 2 uses the embedding with the Jacobian of the whole mechanism.
 #[test]
 fn both_sides_agree_in_every_channel() {
     for name in RUN_UPS {
@@ -56,7 +57,7 @@ fn both_sides_agree_in_every_channel() {
     }
 }
 
-/// Every other shipped free motion is a chain of four-bars.
+/// The two lists of names contain every shipped free motion, so the test above compares the sides in each.
 #[test]
 fn every_shipped_free_motion_is_compared() {
     let directory = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
@@ -68,10 +69,11 @@ fn every_shipped_free_motion_is_compared() {
     }
 }
 
-/// With a damper of zero effect, side 1 uses the transfer functions of its groups instead of the reduced equation of
+/// A damper without effect makes side 1 use the transfer functions of its groups instead of the reduced equation of
 /// motion.
+/// The two methods agree.
 #[test]
-fn two_ways_of_side_1_agree() {
+fn both_methods_of_side_1_agree() {
     for name in ["crank_rocker_runup", "compressor_runup"] {
         let case = shipped(&format!("{name}.toml")).case;
         let damper = linkage::drive::Load::TorsionDamper { links: [LinkId(0), LinkId(1)], damping: 0.0 };
@@ -81,16 +83,16 @@ fn two_ways_of_side_1_agree() {
     }
 }
 
-/// Two rods of length l and mass m by Lagrange's equations in their angles from the vertical, as in any textbook, with
-/// classical Runge-Kutta steps.
+/// Two rods of length l and mass m, with Lagrange's equations for their angles from the vertical, as in textbooks.
+/// The test integrates these equations with classical Runge-Kutta steps.
 #[test]
-fn the_double_pendulum_moves_as_lagrange_has_it() {
+fn the_double_pendulum_obeys_lagranges_equations() {
     let case = shipped("double_pendulum.toml").case;
     let (m, l, g) = (1.0, 0.5, 9.80665);
     let rates = |[a, b, u, v]: [f64; 4]| {
         let (c, s) = ((a - b).cos(), (a - b).sin());
-        // (4/3) a'' + (1/2) cos(a - b) b'' = -(1/2) sin(a - b) b'^2 - (3/2) (g / l) sin a, and the corresponding second
-        // equation, both over m l^2.
+        // The first equation is (4/3) a'' + (1/2) cos(a - b) b'' = -(1/2) sin(a - b) b'^2 - (3/2) (g / l) sin a.
+        // The second equation has the same form; both are divided by m l^2.
         let (p, q, r) = (4.0 / 3.0, 0.5 * c, 1.0 / 3.0);
         let first = -0.5 * s * v * v - 1.5 * g / l * a.sin();
         let second = 0.5 * s * u * u - 0.5 * g / l * b.sin();
@@ -124,7 +126,7 @@ fn the_double_pendulum_moves_as_lagrange_has_it() {
     assert_within!(farthest, 1e-9, "{farthest:e}");
 }
 
-/// Kinetic and potential energy (J) at every instant, from the channels alone.
+/// Sum of kinetic and potential energy (J) at every instant, computed from the channels alone.
 pub(super) fn energies(case: &Case, found: &Trajectory) -> Vec<f64> {
     let of = |row: usize| {
         let links = case.mechanism.links()[1..].iter();
@@ -140,10 +142,10 @@ pub(super) fn energies(case: &Case, found: &Trajectory) -> Vec<f64> {
     (0..found.times().len()).map(of).collect()
 }
 
-/// Both sides over ten seconds of a motion that becomes chaotic. Their paths may separate; their energy must not
-/// change.
+/// Both sides over ten seconds of a motion that becomes chaotic.
+/// The two paths may separate, but the energy of each must stay constant.
 #[test]
-fn several_freedoms_keep_their_energy() {
+fn several_degrees_of_freedom_conserve_energy() {
     let case = shipped("double_pendulum.toml").case;
     let grid = Grid::of_times(case.crank(), (0..=1000).map(|k| f64::from(k) * 0.01).collect());
     let case = case.on(grid).unwrap().wanting(Wanted::of(&[Stage::Positions, Stage::Velocities]));
@@ -164,16 +166,17 @@ pub(super) fn twin(name: &str, settings: impl Fn(Settings) -> Settings) -> Box<d
     engine.with(settings(engine.settings()))
 }
 
-/// The run-up of the complete design problem at 1e-4 s: first order as it is; extrapolated, better than 1e-6 rad and
-/// 1e-5 of the range of forces.
+/// The run-up of the complete design problem with a step of 1e-4 s.
+/// Without extrapolation the method has first order.
+/// With extrapolation the errors are below 1e-6 rad and 1e-5 of the range of forces.
 #[test]
-fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
+fn twin_run_ups_are_of_order_one_and_extrapolate_accurately() {
     let scenario = shipped("crank_rocker_runup.toml");
     let begun = (0..=100).map(|k| f64::from(k) * 1e-3).collect();
     let begun = scenario.case.on(Grid::of_times(scenario.case.crank(), begun)).unwrap();
     let angle = |channel: &Channel| channel.kind.unit == Unit::Radian;
     let force = |channel: &Channel| channel.kind.stage >= Stage::Reactions;
-    // The impulse build needs thousands of sweeps; a fifth of the time is enough for it.
+    // The impulse build needs thousands of sweeps, so it runs only a fifth of the time.
     for (name, route, case) in [
         ("rapier", Route::Differences, &scenario.case),
         ("rapier", Route::Native, &scenario.case),
@@ -195,7 +198,7 @@ fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
         let forces = worst(&reference, &best, force);
         println!("{name} {}: {most:.1e} rad, {forces:.1e} of the range of forces", route.name());
         assert_within!(most, 1e-6, "{name} {}: {most:e} rad, {forces:e}", route.name());
-        // Forces at the start are those of later steps, extrapolated.
+        // Forces at the start are extrapolated from those of later steps.
         assert_within!(forces, 4e-5, "{name} {}: {most:e} rad, {forces:e}", route.name());
         let forces = crank.iter().filter(|residual| force(&residual.channel) && residual.max > 0.0);
         let later = forces.map(|residual| {
@@ -207,10 +210,11 @@ fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
     }
 }
 
-/// Without rotor and flywheel a second pass of Rapier over the constraints, after the step, would leave 23 times the error
-/// here: it takes away what moved the bodies across the constraints.
+/// The case has neither rotor nor flywheel.
+/// A second pass of Rapier over the constraints after the step would increase the error 23 times.
+/// It would remove the velocity that moved the bodies across the constraints.
 #[test]
-fn the_twin_goes_on_with_the_velocities_that_moved_it() {
+fn the_twin_keeps_the_velocities_that_moved_it() {
     let scenario = shipped("crank_rocker_runup.toml");
     let motor = Motor { inertia: Default::default(), ..scenario.case.crank().motor().unwrap().clone() };
     let case = scenario.case.with_motor(Some(motor)).unwrap();
@@ -222,14 +226,15 @@ fn the_twin_goes_on_with_the_velocities_that_moved_it() {
     assert_within!(worst, 3e-5, "{worst:e}");
 }
 
-/// Without rotor and flywheel the crank is almost massless at one angle, and the motion there is as fast as a step. The
-/// proof must be inconclusive, not a disagreement.
+/// Without rotor and flywheel, the crank is almost massless at one angle, and the motion there is so fast that it lasts
+/// about one step.
+/// The proof must be inconclusive; a disagreement would be wrong.
 #[test]
 fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     let mut scenario = shipped("crank_rocker_runup.toml");
     let motor = Motor { inertia: Default::default(), ..scenario.case.crank().motor().unwrap().clone() };
     scenario.case = scenario.case.with_motor(Some(motor)).unwrap();
-    // Its numbers are for another motor.
+    // The published numbers hold for a different motor.
     scenario.oracles.clear();
     let proof = prove(&scenario, &Options::default().engine(EngineName::Rapier).step(1e-4)).unwrap();
     assert!(matches!(proof.verdict, Verdict::Inconclusive { .. }), "{:?}", proof.verdict);
@@ -237,15 +242,15 @@ fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     assert!(!unclear.is_empty());
     for channel in unclear {
         let Verdict::Inconclusive { reason, .. } = &channel.verdict else { unreachable!() };
-        assert!(reason.contains("a millionth more of gravity and motor torque"), "{reason}");
+        assert!(reason.contains("increasing gravity and motor torque"), "{reason}");
         assert!(channel.sensitivity.unwrap() > 1e-3);
     }
     assert!(proof.engine().channels.iter().all(|channel| channel.verdict.word() != "disagree"));
 }
 
-/// A crank that is released at a speed, not at rest: in both builds all links start with the corresponding velocities.
+/// A crank released with an initial speed: in both builds all links start with velocities that match it.
 #[test]
-fn the_twin_starts_at_a_speed() {
+fn the_twin_starts_at_a_given_speed() {
     let mut scenario = shipped("crank_rocker_runup.toml");
     let case = scenario.case.with(|parts| match &mut parts.drives.crank_mut().motion {
         DriveMotion::Free { initial_speed, .. } => *initial_speed = 9.0,
@@ -255,8 +260,9 @@ fn the_twin_starts_at_a_speed() {
     let case = scenario.case.on(Grid::of_times(scenario.case.crank(), vec![0.0, 0.002, 0.05, 0.1])).unwrap();
     let reference = solve(&AssurSolver, &case);
     assert_within!((column(&reference, "link.crank.omega_rad_s")[0] - 9.0).abs(), 1e-14);
-    // Measured: 8.5e-6 and 3.1e-4. Bodies of their own start with a gap in every joint, which costs the impulse build
-    // more than extrapolation gains.
+    // Measured: 8.5e-6 and 3.1e-4.
+    // The separate bodies of the impulse build start with a gap in every joint.
+    // This gap causes a larger error than extrapolation removes.
     for (name, bound) in [("rapier", 2e-5), ("impulse", 1e-3)] {
         let engine = twin(name, |settings| Settings { extrapolated: 1, ..settings });
         let found = worst(&reference, &solve(engine.as_ref(), &case), |_| true);
@@ -266,18 +272,20 @@ fn the_twin_starts_at_a_speed() {
 }
 
 #[test]
-fn what_a_free_motion_cannot_be_asked_says_so() {
+fn invalid_requests_to_a_free_motion_are_refused() {
     let scenario = shipped("crank_rocker_runup.toml");
     let case = &scenario.case;
     let before = case.on(Grid::of_times(case.crank(), vec![-0.1, 0.0])).unwrap();
     let motor = Motor { ratio: 0.1, ..case.crank().motor().unwrap().clone() };
     let held = case.with_motor(Some(motor)).unwrap();
-    for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
+    let sides: [(&dyn Solver, &str); 2] =
+        [(&AssurSolver, "the loads stall the mechanism at t = "), (&NewtonSolver, "at rest at t = ")];
+    for (solver, words) in sides {
         let error = solver.solve(&held).unwrap_err();
-        assert!(error.message().contains("hold"), "{}: {error}", solver.name());
+        assert!(error.message().contains(words), "{}: {error}", solver.name());
         assert!(error.way_out().unwrap().contains("torque"), "{error}");
     }
-    // A motion that begins at t = 0 is not continued backwards, and not every engine moves a link without inertia.
+    // Two more refusals: an instant before the start of a free motion, and a link without inertia in some engines.
     let mut links = case.mechanism.links().to_vec();
     let coupler = case.mechanism.link_named("coupler").unwrap();
     links[coupler].inertia = 0.0;

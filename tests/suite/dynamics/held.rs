@@ -1,4 +1,5 @@
-//! Free motions that need senses of motion, higher groups or whole turns of loads: they are solved, not refused.
+//! Free motions that are solved, not refused.
+//! They have loads that depend on a direction of motion, higher groups, or load tables over whole revolutions.
 
 use analytic::range::Range;
 use analytic::{AssurSolver, NewtonSolver};
@@ -21,7 +22,7 @@ fn loaded(case: &Case, loads: &[Load]) -> Case {
     case.with(|parts| parts.loads.extend(loads.iter().cloned())).unwrap()
 }
 
-/// Motions of both sides, which agree within `bound` of every channel's scale.
+/// Solves the motion with both sides, and checks that they agree within `bound` of every channel's scale.
 fn both(what: &str, case: &Case, bound: f64) -> [Trajectory; 2] {
     let found = [solve(&AssurSolver, case), solve(&NewtonSolver, case)];
     let apart = worst(&found[0], &found[1], |_| true);
@@ -41,7 +42,7 @@ fn largest_change(values: &[f64]) -> f64 {
     values.iter().map(|value| (value - values[0]).abs()).fold(0.0, f64::larger)
 }
 
-/// A class III group on one crank under dampers: side 1 knows no reduction to the crank then.
+/// A class III group on one crank with dampers; side 1 then cannot use the reduction to the crank.
 #[test]
 fn a_higher_group_moves_under_a_damper() {
     let case = shipped("ov7_new_runup.toml").case;
@@ -55,7 +56,7 @@ fn a_higher_group_moves_under_a_damper() {
     assert!(worst(&plain, &damped, |_| true) > 1e-3);
 }
 
-/// The class III group between two free cranks, without any load but gravity: its energy stays.
+/// The class III group between two free cranks, with gravity as the only load: its energy is constant.
 #[test]
 fn a_higher_group_moves_between_two_free_cranks() {
     let text = shipped("class3_group.toml").text;
@@ -81,7 +82,7 @@ fn a_higher_group_moves_between_two_free_cranks() {
     }
 }
 
-/// A torsional spring that the pendulum winds up over several turns takes up its energy turn by turn.
+/// A torsional spring that the pendulum winds up over several revolutions absorbs energy in each revolution.
 #[test]
 fn a_spring_is_wound_up_by_a_free_motion() {
     let case = shipped("pendulum.toml").case;
@@ -103,7 +104,7 @@ fn a_spring_is_wound_up_by_a_free_motion() {
     }
 }
 
-/// Tables that repeat together only after 1309 turns are no reason to refuse a motion of some turns.
+/// Two load tables that repeat together only after 1309 revolutions do not prevent a motion of a few revolutions.
 #[test]
 fn tables_of_many_turns_act_on_a_free_motion() {
     let case = shipped("crank_rocker_runup.toml").case;
@@ -113,7 +114,7 @@ fn tables_of_many_turns_act_on_a_free_motion() {
     both("tables", &loaded(&case, &loads), 1e-9);
 }
 
-/// On a pendulum a force against the motion of its end is a moment against its rotation.
+/// A force against the motion of the pendulum's end is equivalent to a moment against its rotation.
 #[test]
 fn a_force_against_a_point_of_a_pendulum_is_a_moment() {
     let case = shipped("pendulum.toml").case;
@@ -130,11 +131,12 @@ fn a_force_against_a_point_of_a_pendulum_is_a_moment() {
     }
 }
 
-/// Symptom: the twin kept the direction of such a force for the whole step in which the point reverses. Where a reversal
-/// lay just behind a step, all its runs were off by the same, and a bound from them was too small. A moment against a
-/// link had both directions by their shares of the step.
+/// Symptom: in a step in which the point reverses, the twin kept the force's direction for the whole step.
+/// If the reversal lay just behind a step, all runs had the same error, and the bound from their differences was too
+/// small.
+/// Moments against a link were already right: each direction counted for its part of the step.
 #[test]
-fn regress_a_reversal_within_a_step_counts_by_its_shares_for_points_too() {
+fn regress_a_point_reversal_in_a_step_counts_by_its_shares() {
     let case = shipped("pendulum.toml").case;
     let case = case.on(Grid::of_times(case.crank(), vec![1.0, 2.0, 2.5])).unwrap();
     let at = point(&case, "rod", "E");
@@ -151,10 +153,11 @@ fn regress_a_reversal_within_a_step_counts_by_its_shares_for_points_too() {
     }
 }
 
-/// With two freedoms the force turns with its point, from the first instant at which it moves. What it takes from the
-/// energy is the force times the way of the point.
+/// With two degrees of freedom, the force keeps opposing its point's motion as that direction rotates, from the first
+/// instant on.
+/// The energy lost is the force times the path of the point.
 #[test]
-fn forces_against_points_take_force_times_way() {
+fn resisting_forces_dissipate_force_times_path() {
     let case = shipped("double_pendulum.toml").case;
     let force = 1.5;
     let resisted = loaded(&case, &[Load::ResistingForce { at: point(&case, "lower", "B"), force }]);
@@ -185,7 +188,7 @@ fn forces_against_points_take_force_times_way() {
     both("several", &loaded(&resisted, &more), 1e-10);
 }
 
-/// Strong enough, such a force holds its point, and both sides say so.
+/// A sufficiently large resisting force stops its point, and both sides report this.
 #[test]
 fn a_force_against_a_point_can_hold_it() {
     let case = shipped("double_pendulum.toml").case;
@@ -196,8 +199,9 @@ fn a_force_against_a_point_can_hold_it() {
     }
 }
 
-/// A piston starts from its dead centre, at which its own speed and acceleration are zero: the force against it acts from
-/// the first instant against the motion that begins. It reverses at every dead centre.
+/// A piston starts at its dead centre, where its speed and acceleration are zero.
+/// From the first instant, the resisting force opposes the motion that begins.
+/// The force reverses at every dead centre.
 #[test]
 fn a_piston_starts_from_its_dead_centre_against_a_force() {
     let case = shipped("compressor_runup.toml").case;
@@ -208,8 +212,8 @@ fn a_piston_starts_from_its_dead_centre_against_a_force() {
     assert_within!(((pin(&first) - pin(&found[0])).abs() - 20.0).abs(), 1e-6, "{} {}", pin(&first), pin(&found[0]));
 }
 
-/// The same for a link: the rocker at the end of its swing. Its resistance does not hold the crank there, and acts
-/// against the motion that begins.
+/// The same for a link: the rocker at the end of its swing.
+/// Its resistance does not hold the crank there; it acts against the motion that begins.
 #[test]
 fn a_rocker_starts_from_its_dead_centre_against_a_moment() {
     let text = shipped("crank_rocker_runup.toml").text;
@@ -224,9 +228,9 @@ fn a_rocker_starts_from_its_dead_centre_against_a_moment() {
     }
 }
 
-/// Where a slide grows without bound, the angles of all links are those at infinity, and the way there is short.
+/// If a slide grows without bound, the angles of all links reach their limits at infinity, with few poses.
 #[test]
-fn links_that_slide_to_infinity_turn_as_far_as_they_can() {
+fn links_that_slide_to_infinity_reach_their_limit_angles() {
     let case = shipped("tangent.toml").case;
     let range = Range::of(&case).unwrap();
     let block = case.mechanism.link_named("block").unwrap();

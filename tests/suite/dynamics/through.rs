@@ -1,4 +1,4 @@
-//! Change points that are passed: by momentum in free motion, by `through = "smooth"` under a prescribed drive.
+//! Passing change points: by momentum in free motion, by `through = "smooth"` in a prescribed motion.
 
 use std::path::Path;
 
@@ -21,15 +21,15 @@ use linkage::mechanism::LinkId;
 const SIDES: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
 const G: f64 = 9.81;
 
-/// Moment of inertia of N four-bars about the pivots, and the weights' moment with all bars level: all vertical bars
-/// turn by one angle, and the rods follow a circle without turning.
+/// Moment of inertia of N four-bars about the pivots, and the moment of the weights if all bars are level.
+/// All vertical bars rotate by one angle; the rods move on a circle without rotating.
 fn pendulum(pairs: usize) -> [f64; 2] {
     let n = pairs as f64;
     [(n + 1.0) / 3.0 + n, G * ((n + 1.0) / 2.0 + n)]
 }
 
-/// Angle and speed of theta'' = -c cos theta at instants `step` apart, by Taylor series of order 24: independent of
-/// everything in the crates, and exact to rounding.
+/// Angle and speed of theta'' = -c cos theta at instants `step` apart, by Taylor series of order 24.
+/// The solution is exact to rounding and uses no code of the crates.
 fn by_series(c: f64, [mut theta, mut omega]: [f64; 2], step: f64, count: usize) -> Vec<[f64; 2]> {
     const ORDER: usize = 24;
     let mut found = vec![[theta, omega]];
@@ -55,8 +55,8 @@ fn by_series(c: f64, [mut theta, mut omega]: [f64; 2], step: f64, count: usize) 
     found
 }
 
-/// The N-four-bar problem of the multibody benchmarks, over ten seconds and some ten change points at which all loops
-/// are singular at once.
+/// The N-four-bar problem of the multibody benchmarks over ten seconds.
+/// The motion passes some ten change points, at which all loops are singular at once.
 #[test]
 fn chains_of_four_bars_swing_through_their_change_points() {
     for pairs in [1, 2, 10] {
@@ -72,7 +72,7 @@ fn chains_of_four_bars_swing_through_their_change_points() {
             let off = exact.iter().zip(angle).map(|([exact, _], angle)| (exact - angle).abs()).fold(0.0, f64::larger);
             println!("{pairs} {}: energy {:.1e} of its range, angle {off:.1e} rad", side.name(), drift / range);
             assert_within!(drift / range, 1e-9, "{pairs} {}: {drift}", side.name());
-            // The coordinates of ten pairs are ten times as large, and so is their rounding.
+            // The coordinates of ten pairs are ten times as large, and so is their rounding error.
             assert_within!(off, 1e-9 * (pairs as f64), "{pairs} {}: {off}", side.name());
         }
         let apart = apart(&found, |_| true);
@@ -81,8 +81,8 @@ fn chains_of_four_bars_swing_through_their_change_points() {
     }
 }
 
-/// Largest difference between the sides over the largest number of the quantity (at least 1 in its unit), of the
-/// channels that `of` selects.
+/// Largest difference between the sides in the channels that `of` selects.
+/// It is divided by the largest value of the quantity, or by 1 in its unit if that is larger.
 fn apart(found: &[Trajectory; 2], of: impl Fn(&Channel) -> bool) -> f64 {
     let largest = |unit: Unit| {
         let own = found[0].iter().filter(move |(channel, _)| channel.kind.unit == unit);
@@ -96,10 +96,11 @@ fn apart(found: &[Trajectory; 2], of: impl Fn(&Channel) -> bool) -> f64 {
     worst
 }
 
-/// One parallelogram by hand: the rod does not turn, so that its ends carry half of its weight and inertia each; the
-/// rest follows from the moments on a bar about its pivot.
+/// One parallelogram, computed by hand.
+/// The rod does not rotate, so each of its ends carries half of its weight and inertia.
+/// The other forces follow from the moments on a bar about its pivot.
 #[test]
-fn the_reactions_of_one_four_bar_are_those_by_hand() {
+fn reactions_of_one_four_bar_match_the_hand_calculation() {
     let case = shipped("n_four_bar_1.toml").case;
     for side in SIDES {
         let found = solve(side, &case);
@@ -112,7 +113,7 @@ fn the_reactions_of_one_four_bar_are_those_by_hand() {
             let (s, c) = angle[row].sin_cos();
             let acceleration =
                 Vec2::new(-s * alpha[row] - c * omega[row].powi(2), c * alpha[row] - s * omega[row].powi(2));
-            // Two bars with their centres half way, and the rod.
+            // Forces of two bars, with their mass centres at half length, and of the rod.
             let all = acceleration * 2.0 + Vec2::new(0.0, 3.0 * G);
             let ground = Vec2::new(ox0[row] + ox1[row], oy0[row] + oy1[row]);
             assert_within!((ground - all).norm(), 1e-8, "{} row {row}: {ground} {all}", side.name());
@@ -128,8 +129,9 @@ fn the_reactions_of_one_four_bar_are_those_by_hand() {
     }
 }
 
-/// With two parallelograms the bars do not fit each other where they are level: reactions there have a pole, the motion
-/// has none. The middle bar carries two half rods, those at the ends one.
+/// With two parallelograms, the bars contradict each other where they are level: reactions have a pole there, but the
+/// motion does not.
+/// The middle bar carries two half rods, each end bar carries one.
 #[test]
 fn reactions_may_have_a_pole_at_a_change_point() {
     let case = chain::four_bars(2, 1.0, 0.1);
@@ -142,7 +144,7 @@ fn reactions_may_have_a_pole_at_a_change_point() {
                 column(&found, "link.bar0.alpha_rad_s2")[0]
             }]
         };
-        // The bar at the end: J alpha = -(w + w_rod) / 2 - R sin(theta), in the limit of level bars.
+        // The first bar in the limit of level bars: J alpha = -(w + w_rod) / 2 - R sin(theta).
         let [inertia, weight] = pendulum(2);
         let alpha = -weight / inertia;
         let residue = -(alpha * (1.0 / 3.0 + 0.5) + G);
@@ -168,7 +170,7 @@ fn root_of(case: &Case) -> f64 {
     0.5 * (low + high)
 }
 
-/// A four-bar (ground, crank, coupler, rocker) let go with a speed (rad/s), over `to` seconds.
+/// A four-bar (ground, crank, coupler, rocker) released with a speed (rad/s), over a time of `to` seconds.
 fn let_go(lengths: [f64; 4], left: bool, start: f64, speed: f64, to: f64) -> Spec {
     let mut spec = four_bar(lengths, left);
     spec.start = start.to_radians();
@@ -183,8 +185,9 @@ fn drift(case: &Case, found: &Trajectory) -> f64 {
     (most - least) / all[0].abs().larger(1.0)
 }
 
-/// Mechanisms that no report names: kites, antiparallelograms, and lengths of which the longest two are as long as the
-/// others together. Energy stays, and the sides agree.
+/// Mechanisms that no fault report names: kites, antiparallelograms, and lengths whose longest two sum to as much as
+/// the other two.
+/// The energy is constant, and the sides agree.
 #[test]
 fn other_change_point_mechanisms_pass_by_momentum() {
     let all = [
@@ -215,9 +218,9 @@ fn other_change_point_mechanisms_pass_by_momentum() {
     }
 }
 
-/// A parallelogram whose coupler has its mass centre off the line, under loads that take its energy.
+/// A parallelogram whose coupler has its mass centre beside its centre line, with loads that dissipate energy.
 #[test]
-fn a_loaded_parallelogram_passes() {
+fn a_loaded_parallelogram_passes_its_change_points() {
     let mut spec = let_go([0.4, 0.2, 0.4, 0.2], true, 80.0, -9.0, 2.0);
     spec.links[1].mass = Some((3.0, Vec2::new(0.15, 0.09), 0.05));
     spec.loads = vec![("rocker".into(), 0.4)];
@@ -232,10 +235,10 @@ fn a_loaded_parallelogram_passes() {
     }
 }
 
-/// A motion that turns round next to a change point, before it or behind it, in the region where nothing is calculated
-/// from the equations of the pose.
+/// A motion that reverses next to a change point, before or behind it.
+/// Near the change point, the equations of the pose are not used.
 #[test]
-fn motions_turn_round_beside_a_change_point() {
+fn motions_may_reverse_beside_a_change_point() {
     for (start, left) in [(2.0f64, true), (0.1, true), (0.001, true), (-2.0, false), (-0.1, false), (-0.001, false)] {
         let text = chain::text(1, 4.0, 0.02).replace("crank_deg = 90", &format!("crank_deg = {start:?}"));
         let text = text.replace("initial_speed_rad_s = -1\n", "initial_speed_rad_s = 0\n");
@@ -253,7 +256,8 @@ fn motions_turn_round_beside_a_change_point() {
     }
 }
 
-/// A four-bar that a drive turns at constant speed, through change points if `through`, at crank angles in degrees.
+/// A four-bar driven at constant speed, at crank angles in degrees.
+/// It passes change points if `through`.
 fn driven(lengths: [f64; 4], left: bool, start: f64, through: bool, cranks: &[f64]) -> Case {
     let mut spec = four_bar(lengths, left);
     spec.start = start.to_radians();
@@ -265,9 +269,10 @@ fn driven(lengths: [f64; 4], left: bool, start: f64, through: bool, cranks: &[f6
     case.on(Grid::of_times(case.crank(), times)).unwrap()
 }
 
-/// Under a prescribed drive a scenario says whether change points are passed. Without that they are errors.
+/// In a prescribed motion, the scenario states whether change points are passed.
+/// If it does not, they are errors.
 #[test]
-fn a_drive_passes_change_points_where_it_is_told_to() {
+fn a_drive_passes_change_points_only_on_request() {
     let cranks: Vec<f64> = (0..200).map(|k| 61.3 + 5.7 * f64::from(k)).collect();
     let all = [[0.4, 0.1, 0.4, 0.1], [0.3, 0.2, 0.2, 0.3], [0.2, 0.3, 0.3, 0.2], [0.5, 0.1, 0.25, 0.35]];
     for lengths in all {
@@ -279,21 +284,21 @@ fn a_drive_passes_change_points_where_it_is_told_to() {
             assert_within!(off, 1e-8, "{lengths:?} {left}: {off}");
             for side in SIDES {
                 assert!(side.solve(&driven(lengths, left, 60.0, false, &cranks)).is_err(), "{}", side.name());
-                // Backwards, and to and fro.
+                // The same angles in reverse, and a motion back and forth.
                 let back: Vec<f64> = cranks.iter().map(|crank| 120.0 - crank).collect();
                 let there = solve(side, &driven(lengths, left, 60.0, true, &back));
                 assert_eq!(there.times().len(), back.len());
             }
         }
     }
-    // A parallelogram has the rocker turn with the crank, all the way round.
+    // In a parallelogram the rocker rotates with the crank through the whole revolution.
     let found = solve(&AssurSolver, &driven(all[0], true, 60.0, true, &cranks));
     for (crank, rocker) in column(&found, "link.crank.angle_rad").iter().zip(column(&found, "link.rocker.angle_rad")) {
         assert_within!((crank - rocker).abs(), 1e-12, "{crank} {rocker}");
     }
 }
 
-/// At the change point itself the motion is told; reactions that have a pole there are not.
+/// Velocities and accelerations are computed at the change point itself, but reactions with a pole there are not.
 #[test]
 fn a_change_point_itself_has_velocities_and_accelerations() {
     let case = driven([0.3, 0.2, 0.2, 0.3], true, 90.0, true, &[179.0, 180.0, 181.0]);
@@ -304,8 +309,8 @@ fn a_change_point_itself_has_velocities_and_accelerations() {
         assert_within!((error.input().unwrap().value.to_degrees() - 180.0).abs(), 1e-9, "{error}");
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
         let found = solve(side, &case.wanting(wanted));
-        // The limit by the other side of the branch equation: rocker and crank speeds are as the second derivatives of
-        // |AB|^2 have it; here from the poses beside it.
+        // The expected limit is the mean over the neighbouring poses.
+        // The sides compute it from the branch equation, with the second derivatives of |AB|^2.
         let omega = column(&found, "link.rocker.omega_rad_s");
         assert_within!((omega[1] - 0.5 * (omega[0] + omega[2])).abs(), 1e-3, "{omega:?}");
     }
@@ -313,21 +318,21 @@ fn a_change_point_itself_has_velocities_and_accelerations() {
 
 /// The value of `through` is checked.
 #[test]
-fn other_ways_through_are_refused() {
+fn invalid_values_of_through_are_refused() {
     let with = |value: &str| {
         let mut spec = four_bar([0.4, 0.1, 0.4, 0.1], true);
         spec.start = 1.0;
         spec.other.drive = format!("speed_rad_s = 10\nthrough = {value}\n");
         spec.scenario().map(|_| ()).unwrap_err()
     };
-    for (value, part) in [("\"jump\"", "infinite forces"), ("\"left\"", "no way through"), ("1", "through")] {
+    for (value, part) in [("\"jump\"", "infinite forces"), ("\"left\"", "not a way to pass"), ("1", "through")] {
         let error = with(value);
         assert!(error.to_string().contains(part), "{error}");
         assert!(error.scenario_key().is_some_and(|key| key.contains("through")), "{error}");
     }
 }
 
-/// `run` ends with a verdict, without any setting.
+/// Without any engine setting, `run` ends with a verdict.
 #[test]
 fn the_benchmark_agrees_with_rapier() {
     for name in ["n_four_bar_1.toml", "n_four_bar_2.toml"] {
@@ -336,12 +341,12 @@ fn the_benchmark_agrees_with_rapier() {
     }
 }
 
-/// A class III group that is singular where its two equal leads are level with the plate, by itself and behind a
-/// parallelogram whose own change points lie 4.8 deg from it: each has its window, and reactions have poles at both.
+/// A class III group that is singular where its two equal leads are level with the plate.
+/// It is tested alone, and behind a parallelogram whose change points are 4.8 deg away from the group's change point.
+/// Around each change point, the solution uses a window; reactions have poles at both change points.
 #[test]
 fn higher_groups_pass_their_change_points() {
-    // The windows of two change points close together are ten times as narrow as usual: accelerations lose three
-    // digits.
+    // For two close change points, the windows are ten times narrower than usual, so accelerations lose three digits.
     let texts = [
         (include_str!("through/level_triad.toml"), 1e-8, 1e-5),
         (include_str!("through/behind_parallelogram.toml"), 1e-5, 1e-3),
@@ -356,7 +361,8 @@ fn higher_groups_pass_their_change_points() {
             let all = apart(&found, |_| true);
             println!("free {}: motion {motion:.1e}, all {all:.1e}", case.is_free());
             assert_within!(motion, smooth, "{motion}");
-            // Next to a pole reactions take up the error of the crank angle over the distance.
+            // Near a pole, the relative error of reactions is the error of the crank angle divided by the distance to
+            // the pole.
             assert_within!(all, poles, "{all}");
             if case.is_free() {
                 for found in &found {
@@ -364,10 +370,11 @@ fn higher_groups_pass_their_change_points() {
                 }
             }
         }
-        // Without the key it is refused.
+        // Without the key, the motion is refused.
         let plain = driven.replace("through = \"smooth\"\n", "");
         let case = Scenario::parse(&plain, Path::new("through.toml")).unwrap_or_else(|error| panic!("{error}")).case;
-        // However the instants lie: the branch that keeps the sign of the determinant is as near as the one that goes on.
+        // The different steps put instants at different distances from the change point.
+        // The branch that keeps the sign of the determinant is as near as the branch that continues the motion.
         for steps in [20.0f64, 30.0, 60.0, 37.0, 100.0, 200.0, 300.0, 731.0, 2000.0] {
             let times = (0..).map(|k| 0.6 * f64::from(k) / steps).take_while(|&t| t <= 0.6).collect();
             let case = case.on(Grid::of_times(case.crank(), times)).unwrap();
@@ -379,9 +386,10 @@ fn higher_groups_pass_their_change_points() {
     }
 }
 
-/// With several driving links the singular poses are no single angles: both sides refuse them, in free motion too.
+/// With several driving links, singular poses are not isolated angles.
+/// Both sides refuse to pass them, in free motion too.
 #[test]
-fn several_driving_links_do_not_pass() {
+fn several_driving_links_do_not_pass_change_points() {
     let other = "[links.other]\nmass_kg = 1\ninertia_kg_m2 = 0.083\nmass_centre = { x_m = 0.5, y_m = 0 }\n\
                  [links.other.points]\nP = { x_m = 0, y_m = 0 }\n[[joints]]\nname = \"P\"\ntype = \"revolute\"\n\
                  links = [\"ground\", \"other\"]\n[[joints]]";
@@ -402,14 +410,16 @@ fn several_driving_links_do_not_pass() {
     assert!(error.message().contains("one drive only"), "{error}");
 }
 
-/// The key by which a drive passes change points.
+/// The key that lets a drive pass change points.
 const SMOOTH: &str = "through = \"smooth\"";
 
-/// What is asked of parallel cranks where reactions are not: these have a pole at the change points.
+/// Channels requested for parallel cranks; reactions are omitted because they have a pole at the change points.
 const MOTION: &str = "want = [\"positions\", \"velocities\", \"accelerations\"]";
 
-/// Parallel cranks of two to five with a load on the coupler, which go all the way round in steps of `step` (deg).
-/// `want` says which channels are asked for, `through` is the drive's key.
+/// Parallel cranks with a length ratio of two to five and a load on the coupler, over a whole revolution in steps of
+/// `step`
+/// (deg).
+/// `want` gives the requested channels, and `through` is the key of the drive.
 fn parallel_cranks(through: &str, want: &str, step: f64) -> Case {
     let mut spec = four_bar([0.127, 0.0508, 0.127, 0.0508], true);
     spec.links[0].mass = Some((0.5, Vec2::new(0.025, 0.0), 0.0003));
@@ -425,14 +435,14 @@ fn parallel_cranks(through: &str, want: &str, step: f64) -> Case {
     spec.scenario().unwrap_or_else(|error| panic!("{error}")).case
 }
 
-/// Symptom: with an instant of the grid exactly at a change point, 16 of 51 numbers of the engine disagreed. Cause: its
-/// equations have many solutions there, and its rates at that very instant were judged.
+/// Symptom: if an instant of the grid was exactly at a change point, 16 of 51 numbers of the engine disagreed.
+/// Cause: the engine's equations have many solutions there, and its rates at this instant were judged.
 #[test]
 fn regress_an_instant_exactly_at_a_change_point_is_passed() {
     let case = parallel_cranks(SMOOTH, MOTION, 10.0);
     for side in SIDES {
         let found = side.solve(&case).unwrap();
-        // The coupler of parallel cranks does not turn, at the change points (180 and 360 deg) as anywhere.
+        // The coupler of parallel cranks never rotates, not even at the change points (180 and 360 deg).
         for channel in ["link.coupler.omega_rad_s", "link.coupler.alpha_rad_s2"] {
             let values = column(&found, channel);
             assert_within!(values.iter().map(|value| value.abs()).fold(0.0, f64::larger), 1e-6, "{channel}");
@@ -442,14 +452,14 @@ fn regress_an_instant_exactly_at_a_change_point_is_passed() {
     assert_ne!(proof.verdict.word(), "disagree", "{:?}", proof.verdict);
     let engine = &proof.engines[0];
     let of = |name: &str| engine.channels.iter().find(|own| own.residual.channel.to_string() == name).unwrap().left_out;
-    // The rates are left out at these two instants, and nowhere else; positions are judged everywhere.
+    // Rates are left out only at these two instants; positions are judged everywhere.
     assert_eq!([of("point.P.x_m"), of("point.P.vx_m_s"), of("point.P.ax_m_s2")], [0, 2, 2]);
 }
 
-/// Symptom: the error at a change point said "shorten the grid" or "change a length". Cause: it did not know of
-/// `through`. Where a load works along the other branch, reactions have a pole at the very instant: that is told too.
+/// Symptom: the error at a change point said "shorten the grid" or "change a length", but did not mention `through`.
+/// If a load does work on the other branch, reactions have a pole at that instant, and the error states this too.
 #[test]
-fn the_error_at_a_change_point_names_the_way_through() {
+fn the_error_at_a_change_point_suggests_the_key_through() {
     for step in [10.0, 7.0] {
         let case = parallel_cranks("", MOTION, step);
         for side in SIDES {

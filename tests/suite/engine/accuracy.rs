@@ -1,5 +1,5 @@
-//! Accuracy of Rapier's twin at a step of 0.08 deg of the crank: the figures of `docs/rapier.md`, with the sweeps given
-//! there.
+//! Accuracy of Rapier's twin at a step of 0.08 deg of the crank.
+//! These are the figures of `docs/rapier.md`, with the numbers of sweeps given there.
 
 use analytic::AssurSolver;
 use linkage::case::{Case, Wanted};
@@ -16,7 +16,7 @@ use crate::common::by_night;
 use crate::common::{assert_within, shipped};
 use linkage::mechanism::JointId;
 
-/// Enough for all shipped mechanisms, thanks to the flywheel (story 14).
+/// Enough sweeps for all shipped mechanisms, because they have a flywheel (story 14).
 const SWEEPS: usize = 256;
 
 fn whole(name: &str) -> Case {
@@ -29,7 +29,7 @@ fn fine(name: &str, case: &Case, route: Route, extrapolated: usize) -> Box<dyn E
     engine.with(Settings { route, extrapolated, sweeps: SWEEPS, ..engine.settings() })
 }
 
-/// Largest error over half the range, first in angles, then in reactions and moment.
+/// Largest error divided by half the range: first of angles, then of reactions and moment.
 fn worst(found: &[Residual]) -> [f64; 2] {
     let most = |wanted: &dyn Fn(&Residual) -> bool| {
         found.iter().filter(|r| wanted(r)).map(|r| r.share()).fold(0.0, f64::larger)
@@ -37,8 +37,9 @@ fn worst(found: &[Residual]) -> [f64; 2] {
     [most(&|r| r.channel.kind.unit == Unit::Radian), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
 }
 
-/// Story 61. Angles, and reactions and moments by every route, over half the range; the bounds are a tenth above the
-/// measured errors.
+/// Story 61.
+/// Errors divided by half the range: of angles, and by every route of reactions and moments.
+/// The bounds are 10 % above the measured errors.
 #[test]
 fn regress_61_errors_of_every_route_are_as_measured() {
     let case = whole("crank_rocker");
@@ -58,7 +59,7 @@ fn regress_61_errors_of_every_route_are_as_measured() {
     }
 }
 
-/// One quantity of every state of a solver, in the order of the grid.
+/// The same quantity of every state of a solver, in the order of the grid.
 fn of_states(solver: &dyn Solver, case: &Case, of: impl Fn(&State) -> f64) -> Vec<f64> {
     let mut found = vec![f64::NAN; case.grid.len()];
     let mut visit = |row: usize, state: &State| {
@@ -69,7 +70,7 @@ fn of_states(solver: &dyn Solver, case: &Case, of: impl Fn(&State) -> f64) -> Ve
     found
 }
 
-/// The largest gap in any joint over the mechanism's size.
+/// Largest gap in a joint, divided by the mechanism's size.
 fn gap(case: &Case, state: &State) -> f64 {
     let gaps = case.mechanism.joints().iter().map(|joint| {
         let [a, b] = [joint.first, joint.second].map(|side| state.motions[side.link].point(side.local));
@@ -78,10 +79,10 @@ fn gap(case: &Case, state: &State) -> f64 {
     gaps.fold(0.0, f64::larger)
 }
 
-/// Opening of a four-bar's loop after a step of length `step` (s) with constant velocities, over the mechanism's size.
-/// A vector r of a link that turns by omega h becomes r + omega h n - (omega h)^2 / 2 r. The velocities close the loop
-/// except for the last terms: h^2 / 2 |sum of omega^2 r| around the loop. Every step corrects the whole gap before it
-/// (erp = 1), so only the gap of one step remains.
+/// Opening of a four-bar's loop after a step of `step` (s) with constant velocities, divided by the mechanism's size.
+/// A vector r of a link that rotates by omega h becomes r + omega h n - (omega h)^2 / 2 r.
+/// The velocities close the loop except for the last terms: h^2 / 2 |sum of omega^2 r| around the loop.
+/// Every step corrects the whole earlier gap (erp = 1), so only the gap of one step remains.
 fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
     let joints = case.mechanism.joints();
     let around: linkage::math::Vec2 = (0..joints.len())
@@ -96,9 +97,11 @@ fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
     0.5 * step * step * around.norm() / case.mechanism.size()
 }
 
-/// Story 64. Opening of loops at that step, over the mechanism's size: 1.02e-7. It is exactly the local error of one
-/// step, at every crank angle. The value 1e-7, once stated, was for a crank half as long. With two substeps it is a
-/// quarter; extrapolated, it is the rounding of the combination.
+/// Story 64.
+/// At that step, loops open by 1.02e-7 of the mechanism's size.
+/// At every crank angle, this is exactly the local error of one step.
+/// The earlier value 1e-7 was for a crank half as long.
+/// With two substeps the opening is a quarter; if extrapolated, it is the rounding of the combination.
 #[test]
 fn regress_64_loops_open_by_the_local_error_of_a_step() {
     let case = whole("crank_rocker");
@@ -124,18 +127,20 @@ fn regress_64_loops_open_by_the_local_error_of_a_step() {
     assert_within!(measured, 1e-10, "{measured:e}");
 }
 
-/// Story 70. With two substeps the same step of 0.08 deg meets every wanted figure at once. Shares of the range: angles
-/// 1e-6; reactions in all joints and balancing moment 3e-6 by differences, 1e-7 extrapolated, 1e-6 by probe. Loops are
-/// closed to 1e-7 of the size.
+/// Story 70.
+/// With two substeps, the same step of 0.08 deg meets every required figure at once.
+/// The figures are fractions of the range: 1e-6 for angles.
+/// For reactions in all joints and the balancing moment: 3e-6 by differences, 1e-7 extrapolated, 1e-6 by probe.
+/// Loops close to 1e-7 of the mechanism's size.
 #[test]
-fn regress_70_two_substeps_meet_every_figure_at_once() {
+fn regress_70_two_substeps_meet_all_accuracy_goals_at_once() {
     let case = whole("crank_rocker");
     let truth = solve(&AssurSolver, &case);
     let engine = |route, extrapolated| {
         let engine = fine("rapier", &case, route, extrapolated);
         engine.with(Settings { substeps: 2, ..engine.settings() })
     };
-    // The shares found are of half the range.
+    // Converts fractions of half the range to fractions of the range.
     let of_range = |found: [f64; 2]| found.map(|share| 0.5 * share);
     for (route, extrapolated, bound) in
         [(Route::Differences, 0, 3e-6), (Route::Differences, 1, 1e-7), (Route::Probe, 0, 1e-6)]
@@ -153,9 +158,10 @@ fn regress_70_two_substeps_meet_every_figure_at_once() {
     assert_within!(largest, 1e-7, "{largest:e}");
 }
 
-/// Origin of the value 1e-7: with the crank half as long, as it was once printed, the same step leaves less than that.
+/// Origin of the value 1e-7: it was printed for a crank of half the length, for which the same step leaves a smaller
+/// gap.
 #[test]
-fn regress_64_a_crank_half_as_long_leaves_less_than_a_ten_millionth() {
+fn regress_64_half_the_crank_leaves_gaps_below_1e_7() {
     let whole_crank = whole("crank_rocker");
     let text = shipped("crank_rocker.toml").text;
     let half = text.replace("A = { x_m = 0.025995627740337, y_m = 0 }", "A = { x_m = 0.0129978138701685, y_m = 0 }");
@@ -171,8 +177,10 @@ fn regress_64_a_crank_half_as_long_leaves_less_than_a_ten_millionth() {
     assert_within!(gaps[1], 1e-7, "{gaps:?}");
 }
 
-/// Story 62. At the same step, mechanisms of all classes and with sliders converge with order 2 in angles and in
-/// reactions by centred differences. Extrapolated, their errors are within 1e-7 and 1e-5.
+/// Story 62.
+/// Mechanisms of all classes, also with sliders, converge with order 2 at this step.
+/// This holds for angles, and for reactions by centred differences.
+/// With extrapolation, their errors are below 1e-7 and 1e-5.
 #[test]
 fn regress_62_orders_and_extrapolation_of_all_classes() {
     for name in ["ov7_base", "ov7_new", "fourth_class", "quick_return", "scotch_yoke"] {
@@ -200,8 +208,9 @@ fn regress_62_orders_and_extrapolation_of_all_classes() {
     }
 }
 
-/// Story 63. Positions and velocities of an extrapolated run converge with order 3 (a term in h^3 is left), native
-/// reactions with order 2.
+/// Story 63.
+/// Positions and velocities of an extrapolated run converge with order 3, because a term in h^3 remains.
+/// Native reactions converge with order 2.
 #[test]
 fn regress_63_extrapolation_raises_the_order_by_one() {
     let case = whole("crank_rocker");
@@ -212,7 +221,7 @@ fn regress_63_extrapolation_raises_the_order_by_one() {
     for residual in residuals(&truth, &runs[1]).unwrap() {
         let kind = residual.channel.kind;
         let noise = engine.at(4.0 * engine.settings().resolution).noise(&case, kind);
-        // The error of order 3 in accelerations is so small that the next order shows.
+        // In accelerations the third-order term is so small that the next order dominates.
         if kind.stage == Stage::Accelerations || residual.rms <= 100.0 * noise {
             continue;
         }
@@ -224,9 +233,13 @@ fn regress_63_extrapolation_raises_the_order_by_one() {
     assert!(seen > 20, "only {seen} channels have more than rounding errors");
 }
 
-/// Story 14. Symptom: velocities are off in proportion to the step, and forces by several times their size where a tree
-/// is cut at the crank. Cause: too few sweeps for a light crank before a heavy coupler. A flywheel on the crank, which
-/// has no effect at constant speed, cures it. 32 sweeps must do as well as 1024.
+/// Story 14.
+/// Symptom: errors of velocities are proportional to the step, and errors of forces are several times the forces where
+/// a
+/// tree is cut at the crank.
+/// Cause: too few sweeps for a light crank before a heavy coupler.
+/// Remedy: a flywheel on the crank, which has no effect at constant speed.
+/// With it, 32 sweeps must be as accurate as 1024.
 #[test]
 fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
     let case = whole("crank_rocker");
@@ -238,12 +251,15 @@ fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
     }
 }
 
-/// Story 60. Symptom: halving the step makes an f32 run worse. Cause: rounding. Its bound must hold by every route, on
-/// long and on short grids: the difference from the f64 run is only rounding.
+/// Story 60.
+/// Symptom: halving the step makes an f32 run worse.
+/// Cause: rounding error.
+/// Its bound must hold by every route, on long and on short grids.
+/// The difference from the f64 run consists of rounding error only.
 #[test]
 #[cfg(feature = "f32")]
 fn regress_60_single_precision_is_within_its_rounding_bound() {
-    // Parts of a turn at a few instants: this tests rounding, not convergence.
+    // Parts of a turn at a few instants are enough: this tests rounding error, not convergence.
     let parts = [
         ("crank_rocker", 0.0, 1.0),
         ("crank_rocker", 0.0, 0.25),
@@ -257,11 +273,11 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         let turn = std::f64::consts::TAU / base.crank().at(0.0).rate.abs();
         let times = (0..=45).map(|k| turn * (from + (to - from) * f64::from(k) / 45.0)).collect();
         let case = base.on(linkage::case::Grid::of_times(base.crank(), times)).unwrap();
-        // Rows of ill-conditioned loops have more weight in an impulse. The constants of the routes by impulses were
-        // found on the crank-rocker.
+        // Rows of ill-conditioned loops have more weight in an impulse.
+        // The constants of the routes by impulses were found on the crank-rocker, so only it uses all routes.
         let routes: &[Route] = if name == "crank_rocker" { &Route::ALL } else { &[Route::Differences, Route::Native] };
         for (single, double) in [("rapier-f32", "rapier"), ("impulse-f32", "impulse")] {
-            // Fine steps of a short grid; by night of long ones too.
+            // Short grids use small steps too; long grids do only with more draws.
             let steps = if to - from < 0.5 || by_night() { &[1e-3, 2.5e-4][..] } else { &[1e-3] };
             for (&route, &step) in routes.iter().flat_map(|route| steps.iter().map(move |step| (route, step))) {
                 let engines = [double, single].map(|name| {
@@ -273,12 +289,13 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
                 for residual in residuals(&wide, &narrow).unwrap() {
                     let kind = residual.channel.kind;
                     let noise = engines[1].noise(&case, kind);
-                    // Channels that are not read by a route have the same rounding by every route.
+                    // Channels that do not depend on the route have the same rounding error by every route.
                     let by_route = (kind.stage >= Stage::Reactions).then(|| route.name());
                     let most = used.entry((kind.stage, kind.unit.symbol(), by_route)).or_insert(0.0);
                     *most = most.larger(residual.max / noise);
-                    // A bound that holds in single precision holds in double: except for the turn of a probe, it is
-                    // proportional to epsilon.
+                    // The bound is proportional to epsilon, so a bound that holds in single precision also holds in
+                    // double precision.
+                    // The rotation of a probe is an exception.
                     if route != Route::Probe {
                         let [own, single] =
                             [0, 1].map(|k| engines[k].noise(&case, kind) / super::epsilon(engines[k].as_ref()));
@@ -295,9 +312,10 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
             }
         }
     }
-    // From above: somewhere each bound is used up to a fiftieth at least.
-    // The bound of a slide's moment supposes all masses at the mechanism's size. What `quick_return` and `scotch_yoke`
-    // guide is lighter and nearer, so a thousandth is asked.
+    // The bounds are tight: each reaches at least a fiftieth of its value at some channel.
+    // The bound of a slide's moment assumes all masses at the mechanism's size.
+    // The guided links of `quick_return` and `scotch_yoke` are lighter and nearer, so a thousandth is enough for this
+    // bound.
     used.iter().for_each(|(what, share)| println!("{what:?}: {share:.1e}"));
     for (what, share) in &used {
         let least = if (what.0, what.1) == (Stage::Reactions, "N m") { 1e-3 } else { 1.0 / 50.0 };

@@ -1,4 +1,4 @@
-//! Long chains, and links without mass in the impulses of an engine.
+//! Long chains, and links without mass, whose stand-in masses enter the impulses of an engine.
 
 use analytic::AssurSolver;
 use linkage::case::{Case, Grid};
@@ -11,8 +11,8 @@ use super::solve;
 use crate::common::assert_within;
 use crate::common::spec::{Dyad, Pin, Spec, SpecimenLink, four_bar};
 
-/// A four-bar and four more dyads behind it. Each dyad is a parallelogram except that its coupler is a little longer.
-/// With the ground there are twelve links.
+/// A four-bar, followed by four more dyads; twelve links including the ground.
+/// Each dyad is a parallelogram with a slightly longer coupler.
 fn twelve_links() -> Spec {
     let (base, coupler, rocker) = (0.45, 0.47, 0.3);
     let mut spec = four_bar([0.4, 0.1, 0.35, rocker], true);
@@ -45,14 +45,15 @@ fn quarter(case: &Case) -> Case {
     case.on(Grid::of_inputs(case.crank(), cranks)).unwrap()
 }
 
-/// Largest error over the scale in the channels of some stages.
+/// Largest error divided by the scale, over the channels of the selected stages.
 fn worst(truth: &Trajectory, run: &Trajectory, stages: impl Fn(Stage) -> bool) -> f64 {
     let found = residuals(truth, run).unwrap();
     found.iter().filter(|r| stages(r.channel.kind.stage)).map(|r| r.share()).fold(0.0, f64::larger)
 }
 
-/// Story 68. Errors of the impulse build spread along a chain joint by joint, and need sweeps for it. For twelve links
-/// its default is enough for the formal order in all channels.
+/// Story 68.
+/// Errors of the impulse build spread along a chain from joint to joint, and sweeps must reduce them.
+/// For twelve links, the default number of sweeps gives the formal order in all channels.
 #[test]
 fn regress_68_twelve_links_converge_in_the_impulse_build() {
     let case = quarter(&twelve_links().scenario().unwrap().case);
@@ -67,18 +68,20 @@ fn regress_68_twelve_links_converge_in_the_impulse_build() {
     for k in 0..4 {
         let order = (errors[0][k] / errors[1][k]).log2();
         assert_within!((order - 2.0).abs(), 0.2, "stage {k}: order {order}: {errors:?}");
-        // A tenth above the measured values.
+        // The bounds are 10 % above the measured values.
         let bound = [5.1e-3, 3.1e-4, 8.3e-4, 1.6e-3][k];
         assert_within!(errors[1][k], bound, "stage {k}: {errors:?}");
     }
 }
 
-/// Story 69. Symptom: a massless coupler carries the weight and the inertia of its stand-in. Cause: Rapier moves
-/// nothing without mass, so impulses contain the stand-in until it is subtracted. What remains of a stand-in does not
-/// vanish with the step: native impulses approach the reference with order one, a probe with order two. The native
-/// bound is that of the engine, measured 0.113 and 0.058.
+/// Story 69.
+/// Symptom: a massless coupler carries the weight and the inertia of its stand-in.
+/// Cause: Rapier moves nothing without mass, so impulses contain the stand-in until it is subtracted.
+/// If a part of the stand-in remains, the error does not vanish with the step.
+/// Native impulses converge to the reference with order one, a probe with order two.
+/// The bound for native impulses is the engine's error; 0.113 and 0.058 were measured.
 #[test]
-fn regress_69_stand_ins_are_taken_off_reported_impulses() {
+fn regress_69_substitute_masses_are_subtracted_from_impulses() {
     let mut spec = four_bar([0.4, 0.1, 0.35, 0.3], true);
     spec.links[1].mass = None;
     let case = quarter(&spec.scenario().unwrap().case);

@@ -1,4 +1,4 @@
-//! The same run at other instants.
+//! The same run, sampled at different instants.
 
 use linkage::case::{Case, Grid};
 use linkage::engine::Settings;
@@ -20,7 +20,8 @@ fn at(case: &Case, times: Vec<f64>) -> Case {
     case.on(Grid::of_times(case.crank(), times)).unwrap()
 }
 
-/// Largest difference in any channel, relative to its scale. `row` gives the row of `dense` for each row of `other`.
+/// Largest difference in any channel, divided by the channel's scale.
+/// `row` gives the row of `dense` for each row of `other`.
 fn differ(dense: &Trajectory, other: &Trajectory, row: impl Fn(usize) -> usize) -> (f64, String) {
     let picked: Vec<Vec<f64>> =
         dense.iter().map(|(_, values)| (0..other.times().len()).map(|k| values[row(k)]).collect()).collect();
@@ -32,13 +33,14 @@ fn differ(dense: &Trajectory, other: &Trajectory, row: impl Fn(usize) -> usize) 
     (worst, channel.to_string())
 }
 
-/// Story 20. Symptom: values between steps are those of a neighbouring step, or a value at a step changes with the
-/// grid. On a step nothing is interpolated, so the values have the same bits for any number of instants.
+/// Story 20.
+/// Symptom: values between steps are those of a neighbouring step, or a value at a step changes with the grid.
+/// Values at the end of a step are not interpolated, so their bits do not depend on the number of instants.
 #[test]
 fn regress_20_samples_on_steps_do_not_depend_on_the_grid() {
     let case = case();
     for engine in stepping(DT) {
-        // Equality of the bits does not depend on the number of sweeps.
+        // The bits are equal for any number of sweeps, so few are enough.
         let engine = engine.with(Settings { sweeps: 64, ..engine.settings() });
         let dense = solve(engine.as_ref(), &at(&case, (0..=600).map(|k| f64::from(k) * DT).collect()));
         let sparse = solve(engine.as_ref(), &at(&case, (0..=20).map(|k| f64::from(k) * 30.0 * DT).collect()));
@@ -50,13 +52,15 @@ fn regress_20_samples_on_steps_do_not_depend_on_the_grid() {
     }
 }
 
-/// Story 21. Symptom: a sample between two steps is worse than its neighbours. Interpolation of order six adds far less
-/// than the engine's own error of order two. (In single precision rounding is larger than that.)
+/// Story 21.
+/// Symptom: a sample between two steps is less accurate than its neighbours.
+/// The error of interpolation of order six is far below the engine's error of order two.
+/// (In single precision, the rounding error is larger than the interpolation error.)
 #[test]
 fn regress_21_samples_between_steps_are_as_good_as_samples_on_steps() {
     let case = case();
     for engine in double(DT) {
-        // Enough for this four-bar, thanks to the flywheel.
+        // A quarter of the sweeps is enough for this four-bar, because it has a flywheel.
         let engine = engine.with(Settings { sweeps: engine.settings().sweeps / 4, ..engine.settings() });
         for shift in [0.1, 0.5, 0.777, 0.999_999] {
             let on = at(&case, (0..600).map(|k| f64::from(k) * DT).collect());
@@ -71,8 +75,9 @@ fn regress_21_samples_between_steps_are_as_good_as_samples_on_steps() {
     }
 }
 
-/// Story 22. Symptom: instants before the start are refused, or differ where the run reverses. A run back and forth
-/// over t = 0 must agree with the run that starts there, to the engine's own error.
+/// Story 22.
+/// Symptom: instants before the start are refused, or values differ where the run reverses.
+/// A run back and forth over t = 0 must agree, within the engine's error, with the run that starts at t = 0.
 #[test]
 fn regress_22_instants_before_the_start_are_as_good_as_others() {
     let case = case();
@@ -81,7 +86,8 @@ fn regress_22_instants_before_the_start_are_as_good_as_others() {
         let truth = solve(&analytic::AssurSolver, &whole);
         let run = solve(engine.as_ref(), &whole);
         let half = solve(engine.as_ref(), &at(&case, (0..=300).map(|k| f64::from(k) * DT).collect()));
-        // The two runs reverse at different poses. The remaining difference must be less than their rounding.
+        // The two runs reverse at different poses.
+        // Their difference must be less than the sum of their rounding errors.
         for (channel, values) in half.iter() {
             let (noise, whole_values) = (engine.noise(&whole, channel.kind), run.column(channel).unwrap());
             for (a, b) in values.iter().zip(&whole_values[300..]) {

@@ -1,4 +1,4 @@
-//! A free link that hangs on another free link, or on one with a law, with and without a loop behind it.
+//! A free link that hangs on another free link, or on a link with a motion law, with and without a loop behind it.
 
 use super::solve;
 use crate::common::{assert_within, rapiers};
@@ -50,12 +50,16 @@ const SECOND: [(&str, &str); 3] = [
 const DRIVEN: (&str, &str) = (CRANK, "joint = \"O\"\n");
 const ONLY_ITS_FORCE: (&str, &str) = ("[grid]", "[channels]\nwant = [\"joint.N\"]\n\n[grid]");
 
-/// Story 71. Symptom: where a free link hangs on a link of a loop, the force at its hinge as Rapier exerts it is wrong
-/// by newtons, and everything else is right; in a chain without a loop too, if no other reaction is wanted. Cause: the
-/// world that reports this hinge cuts it, and had the link as a body beside the multibody. Rapier never turns such a
-/// body. It floats in the multibody now.
+/// Story 71.
+/// Symptom: if a free link hangs on a link of a loop, Rapier's force at its hinge is wrong by newtons.
+/// All other results are right.
+/// In a chain without a loop, this also happens if no other reaction is requested.
+/// Cause: the world that reports this force cuts the hinge, and the hanging link was a separate body beside the
+/// multibody.
+/// Rapier never rotates such a body.
+/// The link is now a floating link of the multibody.
 #[test]
-fn regress_71_a_link_that_hangs_on_a_loop_is_held_by_the_right_force() {
+fn regress_71_a_link_hanging_on_a_loop_has_the_right_reaction() {
     let one = alone();
     let scenarios = [
         ("on a loop", with(ON_A_LOOP, &[])),
@@ -75,9 +79,11 @@ fn regress_71_a_link_that_hangs_on_a_loop_is_held_by_the_right_force() {
     }
 }
 
-/// Story 72. Symptom: a free link that hangs on a moving one and is to start at rest starts with that link's speed, and
-/// one with a speed of its own with the sum of both. Cause: the motors that set the start velocities turn a link
-/// relative to the other link of its joint; its speed is one in the world.
+/// Story 72.
+/// Symptom: a free link that hangs on a moving link starts with that link's speed, although it should start at rest.
+/// With an initial speed, it starts with the sum of the two speeds.
+/// Cause: the motors that set the start velocities turn a link relative to the other link of its joint.
+/// The initial speed, however, is relative to the world.
 #[test]
 fn regress_72_a_hanging_link_starts_with_its_own_speed() {
     let two: Vec<(&str, &str)> = SECOND.into_iter().collect();
@@ -101,7 +107,7 @@ fn regress_72_a_hanging_link_starts_with_its_own_speed() {
             for (link, speed) in ["pendulum", "second"].into_iter().zip(&speeds) {
                 let omega = Channel::named(&format!("link.{link}.omega_rad_s")).unwrap();
                 let off = (found.column(&omega).unwrap()[0] - speed).abs();
-                // What one step changes: the accelerations are some 100 rad/s^2.
+                // The speed changes in one step, because the accelerations are about 100 rad/s^2.
                 assert_within!(off, 2e-2, "{name}, {}: {link}", engine.name());
             }
         }

@@ -1,5 +1,5 @@
-//! Steps that are far too large and poses that cannot be reached: the result is an error that helps, never plausible
-//! numbers.
+//! Steps that are far too large, and poses that cannot be reached.
+//! The result is an error that helps the user, never plausible numbers.
 
 use std::path::Path;
 
@@ -19,9 +19,10 @@ use crate::common::sliders::short_rod;
 use crate::common::spec::four_bar;
 use crate::common::specimens::specimen;
 
-/// Story 40. Symptom: numbers are off by half, without a message. Cause: with a step of a tenth of a turn the loop
-/// opens by less than the limit that stops a run. The ladder of three steps must then be inconclusive: steps of 37 to
-/// 7.8 degrees.
+/// Story 40.
+/// Symptom: numbers are wrong by 50 %, without a message.
+/// Cause: with a step of a tenth of a revolution, the gap of the loop stays below the limit that stops a run.
+/// Three runs at steps from 37 to 7.8 degrees must then be inconclusive.
 #[test]
 fn regress_40_steps_that_are_too_large_prove_nothing() {
     let scenario = shipped("crank_rocker.toml");
@@ -41,19 +42,20 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
     }
 }
 
-/// The error states where it happened and what to do.
+/// The error states the location and a remedy.
 fn assert_helpful(error: &linkage::Error) {
     assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
     assert!(error.message().contains("crank angle"), "{error}");
     assert!(error.input().is_some() && error.time().is_some(), "{error:?}");
-    // Smaller steps do not help an engine that chooses its own steps.
+    // A smaller step does not help an engine that chooses its steps itself.
     let helps = |way: String| way.contains("smaller time step") || way.contains("can be assembled");
     assert!(error.way_out().is_some_and(helps), "{error}");
 }
 
-/// Story 41. Symptom: gaps of metres and forces of 1e12 N beyond a pose that cannot be assembled. Cause: the engine
-/// does not detect it by itself. The links reach 0.45 m; the outer joints of the dyad exceed that at acos(0.0475 /
-/// 0.24) = 78.6 deg.
+/// Story 41.
+/// Symptom: gaps of metres and forces of 1e12 N beyond a pose that cannot be assembled.
+/// Cause: the engine does not detect this by itself.
+/// The links of the dyad reach 0.45 m; beyond acos(0.0475 / 0.24) = 78.6 deg, its outer joints are farther apart.
 #[test]
 fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle() {
     let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
@@ -73,8 +75,9 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
     assert_eq!(geometry.kind(), ErrorKind::Geometry);
 }
 
-/// Story 42. The same with a slider. The engine has no gap in the guide by which to detect it: the rod does not reach
-/// beyond 261.347 deg.
+/// Story 42.
+/// The same with a slider, where no gap in the guide shows the error.
+/// Beyond 261.347 deg the rod is too short.
 #[test]
 fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
     let case = short_rod();
@@ -87,15 +90,17 @@ fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
     assert!(error.message().contains("crank angle 261.34"), "{error}");
 }
 
-/// Symptom: 2 deg from the dead point of a class III group both builds jumped to the other branch, and nobody noticed:
-/// the loops had opened by 0.2 % only. A run that gets through stays on its branch; one that slips is stopped.
+/// Symptom: 2 deg from the dead point of a class III group, both builds jumped to the other branch without a message.
+/// Cause: the loops had opened by only 0.2 %.
+/// A run that reaches the end must stay on its branch; a run that changes branch must be stopped.
 #[test]
-fn regress_higher_groups_do_not_slip_unnoticed_near_their_dead_points() {
+fn regress_higher_groups_do_not_change_branch_unnoticed() {
     const FROM_THE_END: f64 = 2.0;
-    /// Farther from the exact motion is another configuration: twice the largest error met at steps of 4 deg.
+    /// If the distance from the exact motion (deg) is larger than this, the configuration is a different one.
+    /// The value is twice the largest error found at steps of 4 deg.
     const FAR: f64 = 17.0;
     let (mut stopped, mut through) = (0, 0);
-    // Class III of order 3 and 4, class IV of order 2.
+    // These specimens are groups of class III of order 3 and 4, and of class IV of order 2.
     for index in [28, 158, 298, 328] {
         let text = specimen(1, index, &mut Default::default()).toml(false);
         let case = Scenario::parse(&text, Path::new("limits.toml")).unwrap().case;

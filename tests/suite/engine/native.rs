@@ -1,4 +1,4 @@
-//! Rapier's own readings: impulses and velocities as the engine reports them.
+//! Values that Rapier itself reports: impulses and velocities.
 
 use analytic::AssurSolver;
 use linkage::case::Case;
@@ -11,19 +11,19 @@ use crate::common::spec::{Spec, four_bar};
 use crate::common::{assert_within, shipped, states};
 use linkage::mechanism::LinkId;
 
-/// Number of steps before the first reading is used: the closure force of the very first step is about half.
+/// Number of steps before the first reading is used; in the first step, the closure force is only about half its value.
 const SETTLED: usize = 20;
 
 struct Reading {
     time: f64,
-    /// Forces of every joint that the tree cuts.
+    /// Forces in all joints that the tree cuts.
     forces: Vec<Vec2>,
     torque: f64,
     /// Speeds of the tree's joints.
     speeds: Vec<f64>,
 }
 
-/// The multibody's world of a case in its start pose, with its drives at their speeds.
+/// The world of a case in its start pose, with its drives at their speeds.
 pub fn moving(case: &Case, build: Build, tree: SpanningTree, dt: f64) -> Box<dyn World> {
     let mut world = Rapier::new(build, Precision::Double, dt).world(case, tree, true).unwrap();
     for (index, drive) in case.drives.iter().enumerate() {
@@ -45,7 +45,7 @@ fn read(case: &Case, build: Build, tree: &SpanningTree, dt: f64, end: f64) -> Ve
     readings
 }
 
-/// Every build with a tree for it; for the multibody, trees that together cut every joint.
+/// Every build with a tree; for the multibody, several trees, so that each joint is cut in one of them.
 fn builds(case: &Case) -> Vec<(Build, SpanningTree)> {
     let mut builds = vec![(Build::Impulse, SpanningTree::none(&case.mechanism))];
     builds.extend(
@@ -56,7 +56,7 @@ fn builds(case: &Case) -> Vec<(Build, SpanningTree)> {
     builds
 }
 
-/// Largest errors of forces and torque after the settling steps, relative to the largest values.
+/// Largest errors of forces and torque after the settling steps, divided by the largest values.
 fn errors(case: &Case, (build, tree): &(Build, SpanningTree), dt: f64, end: f64, from: f64) -> [f64; 2] {
     let readings = read(case, *build, tree, dt, end);
     let readings = &readings[SETTLED.max((from / dt) as usize)..];
@@ -74,7 +74,7 @@ fn errors(case: &Case, (build, tree): &(Build, SpanningTree), dt: f64, end: f64,
     [0, 1].map(|k| worst[k] / size[k])
 }
 
-/// Hanging, almost at rest, in a pose in which no link is parallel to an axis.
+/// A four-bar that hangs almost at rest, in a pose in which no link is parallel to an axis.
 fn hanging(swapped: bool) -> Spec {
     let mut spec = four_bar([0.4, 0.1, 0.35, 0.3], false);
     spec.speed = 1e-6;
@@ -86,17 +86,19 @@ fn hanging(swapped: bool) -> Spec {
     spec
 }
 
-/// Story 10. Symptom: a hanging weight gives a force of the right size in a wrong direction, or of the wrong size in
-/// the impulse build (1148 N where 566 N hang). Cause: the impulse of a joint is given in the axes of its first body
-/// (as they were at the start of the step), not in the world's, and acts on that body. Between bodies of their own,
-/// Rapier first makes its rows orthogonal.
+/// Story 10.
+/// Symptom: a hanging weight gives a force of the right magnitude in a wrong direction.
+/// In the impulse build the magnitude is wrong too (1148 N for a weight of 566 N).
+/// Cause: the impulse of a joint acts on its first body, and is given in that body's axes at the start of the step.
+/// Between separate bodies, Rapier also orthogonalises the rows of the joint.
 #[test]
 fn regress_10_a_weight_at_rest_is_reported_in_world_axes_whichever_body_is_first() {
     for swapped in [false, true] {
         let case = hanging(swapped).scenario().unwrap().case;
         for build in builds(&case) {
             let found = errors(&case, &build, 1e-3, 0.1, 0.0);
-            // At this speed the first-order error, about the turn in one step, is 1e-9; 6e-10 and 3e-9 were measured.
+            // At this speed the first-order error, about the rotation in one step, is 1e-9; 6e-10 and 3e-9 were
+            // measured.
             found.iter().for_each(|error| assert_within!(*error, 1e-8, "{build:?}: {found:?}"));
         }
         let joint = SpanningTree::of(&case.mechanism).cut[0];
@@ -105,13 +107,15 @@ fn regress_10_a_weight_at_rest_is_reported_in_world_axes_whichever_body_is_first
     }
 }
 
-/// Story 11. Symptom: native forces do not converge, or converge to a wrong value. Cause: wrong time stamp, wrong sign,
-/// wrong substep. It is tested in every joint, whichever tree cuts it.
+/// Story 11.
+/// Symptom: native forces do not converge, or converge to a wrong value.
+/// Cause: wrong time stamp, wrong sign, or wrong substep.
+/// Every joint is tested, whichever tree cuts it.
 #[test]
 fn regress_11_native_force_and_torque_converge_with_first_order() {
     let moving = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
     let rocker = shipped("crank_rocker.toml").case;
-    // The resistance jumps where the rocker reverses, and no order is visible across a jump.
+    // The resistance jumps where the rocker reverses, which would hide the order of convergence.
     let rocker = rocker.with(|parts| parts.loads.clear()).unwrap();
     for case in [moving, rocker] {
         for build in builds(&case) {
@@ -127,8 +131,9 @@ fn regress_11_native_force_and_torque_converge_with_first_order() {
     }
 }
 
-/// Story 12. Symptom: velocities are wrong in the second digit. Cause: the velocities that the engine gives after step
-/// n are those of step n - 1.
+/// Story 12.
+/// Symptom: velocities are wrong in the second digit.
+/// Cause: the velocities that the engine gives after step n belong to step n - 1.
 #[test]
 fn regress_12_velocities_are_one_step_late() {
     let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
@@ -152,9 +157,10 @@ fn regress_12_velocities_are_one_step_late() {
     assert_within!(late, 1e-4, "stamped t: {now:e}, stamped t - dt: {late:e}");
 }
 
-/// Story 13. Symptom: a speed above an eighth of a turn per step is cut to that value, without a message. Cause:
-/// Rapier's limit on bodies that do not `allow_fast_rotation`. Here the crank of the impulse build turns by 0.9 rad per
-/// step; the limit is 0.785.
+/// Story 13.
+/// Symptom: a speed above an eighth of a revolution per step is cut to that value, without a message.
+/// Cause: Rapier's limit on bodies that do not `allow_fast_rotation`.
+/// Here the crank of the impulse build rotates by 0.9 rad per step; the limit is 0.785 rad.
 #[test]
 fn regress_13_fast_cranks_are_not_capped() {
     let mut spec = four_bar([0.4, 0.1, 0.35, 0.3], true);

@@ -1,5 +1,5 @@
-//! The engine's set-up on a free compound pendulum, whose period is known in closed form. There is no drive, so the
-//! behaviour of the multibody in free motion is visible: order one, and a default damping.
+//! The engine's set-up, tested on a free compound pendulum with a period in closed form.
+//! Without a drive, the free motion of the multibody shows its order, which is one, and its default damping.
 
 use crate::common::assert_within;
 use linkage::math::KeepNan;
@@ -10,10 +10,10 @@ const MASS: f64 = 2.0;
 const ARM: f64 = 0.3;
 const INERTIA: f64 = 0.05;
 const GRAVITY: f64 = 9.81;
-/// Amplitude (rad), which is also the angle of release.
+/// Amplitude (rad); the pendulum is released at this angle.
 const AMPLITUDE: f64 = 1.0;
 
-/// Period by the complete elliptic integral: 2 pi / (w agm(1, cos(amplitude / 2))) with w^2 = m g s / (J + m s^2).
+/// Period from the complete elliptic integral: 2 pi / (w agm(1, cos(amplitude / 2))) with w^2 = m g s / (J + m s^2).
 fn exact_period() -> f64 {
     let (mut a, mut b) = (1.0f64, (AMPLITUDE / 2.0).cos());
     for _ in 0..8 {
@@ -23,13 +23,14 @@ fn exact_period() -> f64 {
     std::f64::consts::TAU / (omega * a)
 }
 
-/// The pendulum in its own world.
+/// The pendulum in a separate world.
 struct Pendulum {
     world: PhysicsWorld,
     handle: MultibodyJointHandle,
 }
 
-/// A pendulum held at its amplitude, built and started as the twin does it; `damped` leaves the default damping.
+/// A pendulum held at its amplitude, built and started as in the twin.
+/// If `damped`, it keeps Rapier's default damping.
 fn pendulum(dt: f64, damped: bool) -> Pendulum {
     let mut world = PhysicsWorld::new();
     world.gravity = Vector::new(0.0, -GRAVITY);
@@ -73,8 +74,8 @@ impl Pendulum {
         multibody.links().last().unwrap().joint().coords()[2]
     }
 
-    /// Mean of `turns` periods, from passages through the lowest point from left to right. Between steps a straight
-    /// line is accurate enough: the angle has no curvature there.
+    /// Mean of `turns` periods, from passages through the lowest point from left to right.
+    /// Linear interpolation between steps is accurate enough, because the angle has no curvature there.
     fn period(&mut self, dt: f64, turns: usize) -> f64 {
         let (mut passages, mut last, mut steps) = (Vec::new(), AMPLITUDE, 0.0);
         while passages.len() <= turns {
@@ -90,8 +91,9 @@ impl Pendulum {
     }
 }
 
-/// Story 30. The integrator is semi-implicit Euler, conjugate to a method of second order. So its period converges with
-/// second order, although a single angle converges with first order (story 31).
+/// Story 30.
+/// The integrator is semi-implicit Euler, which is conjugate to a method of second order.
+/// The period therefore converges with second order, although a single angle converges with first order (story 31).
 #[test]
 fn val_elliptic_integral_period_of_a_compound_pendulum() {
     let exact = exact_period();
@@ -105,9 +107,11 @@ fn val_elliptic_integral_period_of_a_compound_pendulum() {
     assert_within!(errors[3].abs(), 2e-7, "{errors:?}");
 }
 
-/// Story 31. Symptom: free motion is far less accurate than driven motion with the same step. Cause: it is of first
-/// order. A quarter of a period after the start the pendulum is at its lowest point, and 2y - x is much more accurate
-/// there than y.
+/// Story 31.
+/// Symptom: free motion is far less accurate than driven motion with the same step.
+/// Cause: free motion is of first order.
+/// A quarter of a period after the start, the pendulum is at its lowest point.
+/// There the extrapolation 2y - x is much more accurate than y.
 #[test]
 fn regress_31_free_motion_is_of_first_order() {
     let quarter = exact_period() / 4.0;
@@ -123,11 +127,13 @@ fn regress_31_free_motion_is_of_first_order() {
     }
 }
 
-/// Story 32. Symptom: a free mechanism comes to rest. Cause: by default, every pin has a damping of 0.1 N m s/rad. The
-/// amplitude of small swings decays as exp(-c t / 2 J). A pendulum without damping keeps it, to the integrator's first
-/// order.
+/// Story 32.
+/// Symptom: a free mechanism comes to rest.
+/// Cause: by default, every pin has a damping of 0.1 N m s/rad.
+/// The amplitude of small swings decays as exp(-c t / 2 J).
+/// Without damping the amplitude is constant, to the first order of the integrator.
 #[test]
-fn regress_32_the_default_damping_must_be_taken_off() {
+fn regress_32_the_default_damping_must_be_removed() {
     let dt = 1e-3;
     let [free, damped] = [false, true].map(|damped| {
         let mut swinging = pendulum(dt, damped);
@@ -135,6 +141,7 @@ fn regress_32_the_default_damping_must_be_taken_off() {
         angles[6000..].iter().fold(0.0, |max: f64, angle| max.larger(*angle))
     });
     assert_within!((free / AMPLITUDE - 1.0).abs(), 1e-4, "{free}");
-    // The largest swing between 6 and 8 s is the first after 6 s: exp(-0.1 * 6 / (2 * 0.23)) = 0.27.
+    // The amplitude falls to exp(-0.1 * 6 / (2 * 0.23)) = 0.27 at 6 s, the first swing of the tested interval from 6 to
+    // 8 s.
     assert_within!(damped, 0.3 * AMPLITUDE, "{damped}");
 }

@@ -1,4 +1,4 @@
-//! Links without a moment of inertia, or without a mass, in free motion. Textbooks are full of them.
+//! Links without a moment of inertia or without a mass, in free motion, as many textbooks have them.
 
 use std::path::Path;
 
@@ -14,7 +14,8 @@ fn case_of(text: &str) -> Case {
     Scenario::parse(text, Path::new("point_masses.toml")).unwrap_or_else(|error| panic!("{error}")).case
 }
 
-/// A shipped scenario whose lines that begin with one of `begins` are replaced, or left out where the new line is empty.
+/// A shipped scenario with replaced lines.
+/// A change is the beginning of a line and the new line; an empty new line deletes the old line.
 fn with(name: &str, changes: &[(&str, &str)]) -> Case {
     let text = shipped(name).text;
     let mut kept = Vec::new();
@@ -28,7 +29,8 @@ fn with(name: &str, changes: &[(&str, &str)]) -> Case {
     case_of(&(kept.join("\n") + "\n"))
 }
 
-/// Largest distances from the known states: angular accelerations over the largest, forces over the largest.
+/// Largest errors relative to the known states: of angular accelerations and of forces, each divided by the largest
+/// value.
 fn errors(known: &[State], found: &[State]) -> [f64; 2] {
     let (mut errors, mut scales) = ([0.0f64; 2], [0.0f64; 2]);
     for (known, found) in known.iter().zip(found) {
@@ -42,19 +44,21 @@ fn errors(known: &[State], found: &[State]) -> [f64; 2] {
     [errors[0] / scales[0], errors[1] / scales[1]]
 }
 
-/// Both builds in double precision, by both routes, approach the analytic side with order 1 and from t = 0 on.
+/// Asserts that both double-precision builds, by both routes, approach the analytic side with order 1 from t = 0 on.
 fn approaches(what: &str, case: &Case, step: f64, bound: f64) {
     let times = [0.0, 0.0004];
     let known = states(&AssurSolver, case, &times).unwrap_or_else(|error| panic!("{what}: {error}"));
     for name in ["rapier", "impulse"] {
         for route in [Route::Differences, Route::Native] {
-            // The impulses of a massless crank take 40 times as long as all others: by one route, and by both by night.
+            // The impulses of a massless crank take 40 times as long as all other cases.
+            // They are tested by one route; with more draws, by both routes.
             if name == "impulse" && route == Route::Native && what == "crank" && !by_night() {
                 continue;
             }
             let of = |step: f64| {
                 let engine = prover::engines::named(name, step).unwrap();
-                // Impulses of the first steps between bodies of their own take most sweeps: with 4096 a thousandth is left.
+                // Between separate bodies, the impulses of the first steps need the most sweeps; even with 4096 an
+                // error of a thousandth remains.
                 let many = if name == "impulse" && route == Route::Native { 4 } else { 1 };
                 let own = engine.settings();
                 let engine = engine.with(Settings { route, sweeps: many * own.sweeps, ..own });
@@ -65,14 +69,14 @@ fn approaches(what: &str, case: &Case, step: f64, bound: f64) {
             for (what_of, coarse, fine) in [("alpha", coarse[0], fine[0]), ("force", coarse[1], fine[1])] {
                 let message = format!("{what}: {name} {route:?} {what_of}: {coarse:e} {fine:e}");
                 assert_within!(fine, bound, "{message}");
-                // Halving the step halves the error; below a tenth of the bound rounding may have its part.
+                // Halving the step must halve the error; below a tenth of the bound, rounding may prevent this.
                 assert!(fine <= 0.65 * coarse || fine <= 0.1 * bound, "{message}");
             }
         }
     }
 }
 
-/// Symptom: Rapier refused links without a moment of inertia in free motion, as "cannot move it under forces".
+/// Symptom: in free motion, Rapier refused links without a moment of inertia with "cannot move it under forces".
 #[test]
 fn regress_point_masses_move_under_forces() {
     approaches("pendulum", &with("pendulum.toml", &[("inertia_kg_m2", "")]), 2e-5, 2e-2);
@@ -81,7 +85,7 @@ fn regress_point_masses_move_under_forces() {
     approaches("crank and rocker", &with("crank_rocker_runup.toml", &rods), 2e-5, 3e-3);
 }
 
-/// A link without any mass, in the tree or at the end of it, between others or on the ground.
+/// The massless link is inside the tree or at its end, between moving links or on the ground.
 #[test]
 fn massless_links_move_under_forces() {
     let rocker = [("mass_kg = 33.3", ""), ("inertia_kg_m2 = 0.74", ""), ("mass_centre = { x_mm = 250", "")];
@@ -92,8 +96,9 @@ fn massless_links_move_under_forces() {
     approaches("crank", &with("crank_rocker_runup.toml", &crank), 2e-5, 3e-3);
 }
 
-/// Symptom: without a motor, reactions read from the engine held a driving moment of 1e-4 of what holds the mechanism at
-/// rest. Cause: Rapier keeps the impulse of a motor that has been switched off.
+/// Symptom: without a motor, reactions read from the engine contained a driving moment.
+/// This moment was 1e-4 of the moment that holds the mechanism at rest.
+/// Cause: Rapier keeps the impulse of a motor that has been switched off.
 #[test]
 fn regress_a_free_link_without_motor_has_no_driving_moment() {
     let case = with("pendulum.toml", &[]);

@@ -1,4 +1,4 @@
-//! Prismatic joints: one mechanism of every kind of dyad, built by hand, against the whole-mechanism solver.
+//! Prismatic joints: one mechanism of every kind of dyad, built by hand, compared with the whole-mechanism solver.
 
 use analytic::NewtonSolver;
 use linkage::case::{Case, Grid};
@@ -13,7 +13,7 @@ use super::{has_formal_order, solve};
 use crate::common::sliders::{self, SPEED, swapped};
 use crate::common::{assert_within, states};
 
-/// The same case with a massless first link behind the crank: a rod, block or disc.
+/// The same case with a massless link behind the crank: a rod, block or disc.
 fn lighter(case: &Case) -> Case {
     let mut links = case.mechanism.links().to_vec();
     links[2] = Link { mass: 0.0, inertia: 0.0, ..links[2].clone() };
@@ -21,10 +21,11 @@ fn lighter(case: &Case) -> Case {
     case.with(|parts| parts.mechanism = mechanism).unwrap()
 }
 
-/// Story 50. Symptom: a slider moves in the wrong direction, or a slide, its speed or its moment does not converge.
-/// Cause: the slide is measured along the axis of the parent in the tree, which may be the joint's second link. Its
-/// speed is one step old, so the axis that carries it must be one step old too. The order must be 2 in every channel,
-/// whichever link is named first and whichever has no mass.
+/// Story 50.
+/// Symptom: a slider moves in the wrong direction, or a slide, its speed or its moment does not converge.
+/// Cause: the slide is measured along the axis of the parent in the tree, which may be the joint's second link.
+/// The slide's speed is one step old, so the axis must be one step old too.
+/// The order must be 2 in every channel, whichever link is named first and whichever link has no mass.
 #[test]
 fn regress_50_all_sorts_of_sliders_converge_with_the_formal_order() {
     for sample in sliders::all() {
@@ -35,8 +36,9 @@ fn regress_50_all_sorts_of_sliders_converge_with_the_formal_order() {
     }
 }
 
-/// Story 51. Symptom: slide speeds are wrong in the second digit. Cause: as in story 12, the speed that the engine
-/// gives after step n is that of step n - 1.
+/// Story 51.
+/// Symptom: slide speeds are wrong in the second digit.
+/// Cause: as in story 12, the speed that the engine gives after step n belongs to step n - 1.
 #[test]
 fn regress_51_slide_speeds_are_one_step_late() {
     let dt = 1e-3;
@@ -63,16 +65,18 @@ fn regress_51_slide_speeds_are_one_step_late() {
                     }
                 }
             }
-            // A step turns the crank by 0.01 rad: a lag of one step changes a speed by about 1 %, the engine's error is
-            // about 1e-4.
+            // A step turns the crank by 0.01 rad.
+            // A lag of one step therefore changes a speed by about 1 %; the engine's error is about 1e-4.
             assert!(now >= 5e-3 * size, "{}: {now:e}, {late:e} of {size}", sample.name);
             assert_within!(late, 1e-3 * size, "{}: {now:e}, {late:e} of {size}", sample.name);
         }
     }
 }
 
-/// Story 52. Symptom: angles of links in sliders drift, or lose a turn. A prismatic joint keeps the angle between its
-/// links to the bit, including whole turns of the start pose. In the coupling all moving links turn with the crank.
+/// Story 52.
+/// Symptom: angles of links in sliders drift, or lose a revolution.
+/// A prismatic joint keeps the angle between its links to the bit, including whole revolutions of the start pose.
+/// In the coupling, all moving links rotate with the crank.
 #[test]
 fn regress_52_links_in_sliders_turn_together() {
     let case = sliders::double::oldham().case;
@@ -85,7 +89,7 @@ fn regress_52_links_in_sliders_turn_together() {
         for (state, &crank) in states(solver.as_ref(), &case, &case.grid.times).unwrap().iter().zip(&case.grid.inputs) {
             for link in case.mechanism.links().ids().skip(1) {
                 let turned = state.angles[link] - case.start.0[link].angle;
-                // Half a unit in the last place of the largest angle per step, as in story 1.
+                // Half a unit in the last place of the largest angle for each step, as in story 1.
                 let bound = 0.5 * f64::EPSILON * 128.0 * (crank / SPEED / 1e-3);
                 let error = (turned - (crank - case.crank().start)).abs();
                 assert_within!(error, bound, "{} link {link} at {crank}: {error:e}", solver.name());
@@ -94,9 +98,12 @@ fn regress_52_links_in_sliders_turn_together() {
     }
 }
 
-/// Story 53. Symptom: at the same step, sliders prove less than pins. The largest errors over the half range in any
-/// channel at a step of 1e-4 s were measured: 1.4e-6, 8.3e-6, 7.8e-7, 2.0e-5 and 1.7e-6. (The fourth mechanism makes
-/// only a quarter turn, so that its ranges are small.) The bounds are a tenth larger.
+/// Story 53.
+/// Symptom: at the same step, proofs of sliders are weaker than proofs of pins.
+/// At a step of 1e-4 s, the measured largest errors over half the range in any channel are 1.4e-6, 8.3e-6, 7.8e-7,
+/// 2.0e-5 and 1.7e-6.
+/// (The fourth mechanism makes only a quarter revolution, so its ranges are small.)
+/// The bounds are a tenth larger.
 #[test]
 fn regress_53_errors_of_sliders_are_as_measured() {
     let measured = [1.4e-6, 8.3e-6, 7.8e-7, 2.0e-5, 1.7e-6];
@@ -112,8 +119,10 @@ fn regress_53_errors_of_sliders_are_as_measured() {
     }
 }
 
-/// Story 54. Symptom: none, until a run follows another branch. Cause: at the start, a slide has the wrong sign if the
-/// tree's parent is the joint's second link. The first step closes the loop again, and nothing shows it afterwards.
+/// Story 54.
+/// Symptom: the error shows only when a run follows another branch.
+/// Cause: at the start, a slide has the wrong sign if the tree's parent is the joint's second link.
+/// The first step closes the loop again, which hides the fault.
 #[test]
 fn regress_54_the_twin_starts_in_the_start_pose() {
     for sample in sliders::all() {
@@ -129,7 +138,7 @@ fn regress_54_the_twin_starts_in_the_start_pose() {
                     for point in &body.points {
                         let gap =
                             twin.point(JointSide { link, local: point.local }) - case.start.0[link].point(point.local);
-                        // A chain of three links, each below half a metre.
+                        // Bound: rounding error of a chain of three links, each shorter than 0.5 m.
                         assert_within!(gap.norm(), 1e-15, "{} {} {}: {gap}", sample.name, body.name, point.name);
                     }
                 }

@@ -1,4 +1,4 @@
-//! Several substeps per step: their effect in Rapier, and what can be read from them.
+//! Several substeps per step: their effect in Rapier, and the values that can be read from it.
 
 use analytic::AssurSolver;
 use linkage::case::{Case, Grid};
@@ -11,10 +11,10 @@ use super::{epsilon, has_formal_order, solve};
 use crate::common::assert_within;
 use crate::common::spec::four_bar;
 
-/// Enough for this four-bar in either build.
+/// Enough sweeps for this four-bar in both builds.
 const SWEEPS: usize = 1024;
 
-/// A quarter turn; no instant but the first lies on a step.
+/// A quarter revolution; of its instants, only the first lies on a step.
 fn case() -> Case {
     let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
     let cranks = (0..=18).map(|k| f64::from(5 * k).to_radians()).collect();
@@ -27,10 +27,11 @@ fn engine(name: &str, route: Route, substeps: usize) -> Box<dyn Engine> {
     engine.with(Settings { route, substeps, sweeps: SWEEPS, ..engine.settings() })
 }
 
-/// Story 65. Symptom: with two substeps velocities converge with order one only, and the crank of the impulse build
-/// lags. Cause: velocities and impulses belong to the start of the last substep, not of the step, and a separate body
-/// turns by atan(omega dt) in every substep. The order must be the same as without substeps, in every channel and by
-/// every route.
+/// Story 65.
+/// Symptom: with two substeps, velocities converge with order one only, and the crank of the impulse build lags.
+/// Cause: velocities and impulses belong to the start of the last substep, not of the step.
+/// Also, a separate body rotates by atan(omega dt) in every substep.
+/// The order must be the same as without substeps, in every channel and by every route.
 #[test]
 fn regress_65_substeps_keep_the_formal_order_by_every_route() {
     for name in ["rapier", "impulse"] {
@@ -42,7 +43,9 @@ fn regress_65_substeps_keep_the_formal_order_by_every_route() {
     }
 }
 
-/// Story 66. Symptom: as in story 65. The crank keeps its angle to rounding, as it does without substeps (story 1).
+/// Story 66.
+/// Symptom: as in story 65.
+/// The crank keeps its angle to rounding error, as it does without substeps (story 1).
 #[test]
 fn regress_66_the_motor_holds_its_speed_with_substeps() {
     let case = case();
@@ -60,9 +63,10 @@ fn regress_66_the_motor_holds_its_speed_with_substeps() {
     }
 }
 
-/// Story 67. The gain of two substeps. Errors in angles are a quarter of those without substeps, as with half the step.
-/// Errors of native reactions are 0.63 of them in the multibody build and 0.50 in the impulse build. Reactions by a
-/// probe, whose tiny steps are not divided, are no worse than without substeps.
+/// Story 67.
+/// Two substeps reduce the errors in angles to a quarter, as half the step does.
+/// Errors of native reactions fall to 0.63 of their value in the multibody build, and to 0.50 in the impulse build.
+/// Reactions by a probe are no worse than without substeps; the tiny steps of a probe are not divided.
 #[test]
 fn regress_67_two_substeps_are_nearly_as_good_as_half_the_step() {
     let case = case();

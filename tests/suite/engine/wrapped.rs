@@ -1,4 +1,4 @@
-//! What stands for an engine is that engine, but for what it says that it changes.
+//! A wrapper of an engine behaves like that engine, except for its declared changes.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ impl Hook for Idle {
     fn answer(&self, _: &Case, _: usize, _: &mut State) {}
 }
 
-/// Adds to the first force.
+/// A wrapper that changes the first force of its engine.
 #[derive(Clone)]
 struct More(f64);
 
@@ -30,7 +30,7 @@ impl Hook for More {
     }
 }
 
-/// Everything that an engine says of itself on a case.
+/// Everything that an engine reports about itself for a case.
 fn answers(engine: &dyn Engine, case: &Case) -> String {
     let facts = (engine.name(), engine.version(), engine.settings(), engine.controls_error(), engine.told());
     let routes = (engine.routes(), engine.own_routes(case), engine.sweeps(case), engine.overrun());
@@ -42,7 +42,7 @@ fn answers(engine: &dyn Engine, case: &Case) -> String {
 }
 
 #[test]
-fn an_engine_in_a_wrapper_that_changes_nothing_is_that_engine() {
+fn a_neutral_wrapper_does_not_change_an_engine() {
     for name in ["crank_rocker.toml", "double_pendulum.toml"] {
         let case = shipped(name).case;
         for engine in EngineName::ALL.into_iter().filter(|engine| is_built(*engine)) {
@@ -70,9 +70,9 @@ fn an_engine_in_a_wrapper_that_changes_nothing_is_that_engine() {
     }
 }
 
-/// Forces that belong to an extrapolated motion are changed too.
+/// The wrapper also changes forces of an extrapolated motion.
 #[test]
-fn what_a_hook_changes_is_changed_once_in_every_way() {
+fn a_hook_applies_exactly_once_plain_and_extrapolated() {
     let case = shipped("crank_rocker.toml").case;
     let engine = with_step(EngineName::Rapier, 2e-3).unwrap();
     for extrapolated in [0, 2] {
@@ -81,7 +81,7 @@ fn what_a_hook_changes_is_changed_once_in_every_way() {
         let right = kept(engine.as_ref());
         let wrong = kept(&Wrapped { hook: More(5.0), inner: engine.with(engine.settings()) });
         for ((channel, right), (_, wrong)) in right.iter().zip(wrong.iter()) {
-            // What acts on the frame is a sum.
+            // Forces on the frame are sums of other forces, so they are not compared.
             if channel.kind.subject != ChannelSubject::Frame {
                 let more = if channel.to_string() == "joint.O.fx_N" { 5.0 } else { 0.0 };
                 let is_once = right.iter().zip(wrong).all(|(right, wrong)| (wrong - right - more).abs() <= 1e-9);
@@ -91,9 +91,10 @@ fn what_a_hook_changes_is_changed_once_in_every_way() {
     }
 }
 
-/// Only what follows from other methods has a default, so that a wrapper that forgets a method does not compile.
+/// Only methods that follow from other methods have a default.
+/// A wrapper that forgets a method therefore does not compile.
 #[test]
-fn engines_and_solvers_have_no_defaults_but_what_follows_from_their_other_methods() {
+fn engine_and_solver_have_only_derived_default_methods() {
     let defaults = |file: &str, name: &str| -> Vec<String> {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/linkage/src").join(file);
         let items = syn::parse_file(&std::fs::read_to_string(path).unwrap()).unwrap().items;

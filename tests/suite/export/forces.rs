@@ -28,7 +28,7 @@ fn numbers(node: Node, attribute: &str) -> Vec<f64> {
     node.attribute(attribute).unwrap().split(' ').map(|word| word.parse().unwrap()).collect()
 }
 
-/// Force of an actuator at a length and a rate.
+/// Force of an actuator at a given length and rate of change of length.
 fn force(node: Node, length: f64, rate: f64) -> f64 {
     let bias = numbers(node, "biasprm");
     bias[0] + bias[1] * length + bias[2] * rate
@@ -54,7 +54,7 @@ fn a_motor_with_losses_is_two_actuators() {
             force(node, 0.0, omega).clamp(range[0], range[1])
         };
         let expected = motor.moment_on_crank(omega);
-        // At rest it has 40 N m.
+        // Bound relative to the motor's torque at rest, 40 N m.
         assert_within!((of(drives) + of(brakes) - expected).abs(), 40.0 * 1e-12, "{omega}");
     }
     let armature: f64 = find(&document, "joint", "O").attribute("armature").unwrap().parse().unwrap();
@@ -76,13 +76,13 @@ fn torsional_springs_and_dampers_have_their_moments() {
             linkage::drive::LoadState { motions: &state.motions, angles: &angles, start: &case.start.0, crank: 0.0 };
         load.act(&setting, &mut |action| moment = if action.link == links[1] { action.moment } else { moment });
         let name = format!("load.{}", index + 1);
-        // One hinge is acted on itself, more make a tendon.
+        // A load on one hinge acts on the joint; a load on several needs a tendon.
         let actuator = find(&document, "general", &name);
         let [length, rate] = match actuator.attribute("joint") {
             Some(joint) => {
                 let (joint, on) = (case.mechanism.joint_named(joint).unwrap(), &case.mechanism.joints());
                 let [first, second] = [on[joint].first.link, on[joint].second.link];
-                // The coordinate is the child's angle less that of its parent.
+                // The joint coordinate is the child's angle minus its parent's angle.
                 let sign = if links[1] == second || links[0] == first { 1.0 } else { -1.0 };
                 [sign * (angles[second] - angles[first]), sign * (speeds[second] - speeds[first])]
             }
@@ -130,7 +130,7 @@ fn springs_and_dampers_lie_between_their_points() {
 }
 
 #[test]
-fn forces_turn_with_their_link_or_stand_in_the_world() {
+fn forces_rotate_with_their_link_or_stay_fixed_in_the_world() {
     let text = exported(&all_loads(), "all_loads");
     let document = Document::parse(&text).unwrap();
     let [world, link] = ["load.2", "load.3"].map(|name| find(&document, "general", name));
@@ -140,7 +140,7 @@ fn forces_turn_with_their_link_or_stand_in_the_world() {
 }
 
 #[test]
-fn what_mjcf_has_no_words_for_is_refused_by_name() {
+fn features_unsupported_by_mjcf_are_refused_by_name() {
     let refused = |case: &Case, words: &[&str]| {
         let error = mjcf(case, &AssurSolver, "refused", 1e-3).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Unsupported);

@@ -1,4 +1,5 @@
-//! An MJCF file as data, and the motion that it describes, computed along its bodies.
+//! An MJCF file as data.
+//! The motion is computed body by body from the root.
 
 use std::collections::BTreeSet;
 
@@ -73,7 +74,7 @@ pub struct Document {
     sites: Vec<(Option<String>, String, Vec2)>,
     /// Owner and ends.
     rods: Vec<(Option<String>, [Vec2; 2])>,
-    /// Kind of thing and name.
+    /// Kind and name of each element.
     names: Vec<(String, String)>,
 }
 
@@ -172,7 +173,7 @@ impl Document {
         let geom = child(child(root, "default"), "geom");
         let named = root.descendants().filter(|node| node.attribute("name").is_some() && !node.has_tag_name("key"));
         let kind = |node: Node| match node.parent().unwrap().tag_name().name() {
-            // Sensors and equality constraints each have one common space of names.
+            // All sensors share one namespace; so do all equality constraints and all tendons.
             parent @ ("sensor" | "equality" | "tendon") => parent.to_string(),
             _ => node.tag_name().name().to_string(),
         };
@@ -201,15 +202,15 @@ impl Document {
 
     /// The body called `name`.
     pub fn body(&self, name: &str) -> &Body {
-        self.bodies.iter().find(|body| body.name == name).unwrap_or_else(|| panic!("there is no body {name}"))
+        self.bodies.iter().find(|body| body.name == name).unwrap_or_else(|| panic!("no body is given {name}"))
     }
 
-    /// Rate of the joint of a body.
+    /// Rate of the joint of the named body.
     pub fn rate_of(&self, name: &str) -> f64 {
         self.rates[self.bodies.iter().position(|body| body.name == name).unwrap()]
     }
 
-    /// Owner (`None` for the ground) and place of a site.
+    /// Owner (`None` for the ground) and position of a site.
     pub fn site(&self, name: &str) -> (Option<&str>, Vec2) {
         let mut found = self.sites.iter().filter(|site| site.1 == name);
         let site = found.next().unwrap_or_else(|| panic!("there is no site {name}"));
@@ -222,7 +223,8 @@ impl Document {
         self.rods.iter().filter(|rod| rod.0.as_deref() == Some(name)).map(|rod| rod.1).collect()
     }
 
-    /// Names in one space occur once. No name is empty or reserved by MuJoCo.
+    /// Asserts that names are unique in each namespace.
+    /// No name may be empty or reserved by MuJoCo.
     pub fn names_are_unique(&self) {
         let mut seen = BTreeSet::new();
         for name in &self.names {
@@ -231,7 +233,7 @@ impl Document {
         }
     }
 
-    /// Motions of all bodies in the keyframe, each from its parent's.
+    /// Motions of all bodies in the keyframe, each computed from that of its parent.
     pub fn motions(&self) -> Vec<Motion> {
         let mut motions: Vec<Motion> = Vec::new();
         for (body, &rate) in self.bodies.iter().zip(&self.rates) {

@@ -2,7 +2,8 @@ use super::{files, is_named, is_wrong, judged, load};
 use crate::cli::tools::Place;
 use scenario::{Formulas, Scenario};
 
-/// The scenario with one formula written otherwise, and only the claim of another, or of the same, kept.
+/// The scenario with the formula `step` replaced by `text`.
+/// Only the formula `claim` keeps its claim; it may be the same formula.
 fn with_mistake(scenario: &Scenario, step: &str, text: &str, claim: &str) -> Scenario {
     let mut formulas = Formulas::over(scenario.formulas.parameters.clone());
     for own in &scenario.formulas.list {
@@ -16,7 +17,7 @@ fn with_mistake(scenario: &Scenario, step: &str, text: &str, claim: &str) -> Sce
     changed
 }
 
-/// What the diagnosis says of a claim.
+/// Text of the diagnosis of a claimed formula.
 fn said(scenario: &Scenario, claim: &str) -> String {
     let found = judged(scenario);
     assert!(is_wrong(&found, claim), "{}: {claim} is not found", scenario.name);
@@ -24,9 +25,10 @@ fn said(scenario: &Scenario, claim: &str) -> String {
     cause.map_or("nothing".into(), |cause| cause.to_string())
 }
 
-/// Mistakes as people make them, written down before anything was tried, with what a teacher would call them.
+/// Typical human mistakes with the names that a teacher would give them.
+/// They were collected before any test was run.
 #[test]
-fn mistakes_of_notebooks_are_found_and_called_by_their_names() {
+fn mistakes_from_notebooks_are_found_and_named() {
     let mut reader = csv::Reader::from_reader(include_bytes!("mistakes.csv").as_slice());
     let scenarios: Vec<(String, Scenario)> =
         files().iter().map(|path| (path.file_name().unwrap().to_str().unwrap().to_string(), load(path))).collect();
@@ -47,17 +49,17 @@ fn mistakes_of_notebooks_are_found_and_called_by_their_names() {
     assert!(100 * named >= 85 * all, "{named} of {all}:\n{}", others.join("\n"));
 }
 
-/// Every kind of cause, by mistakes of exactly that kind.
+/// Every kind of cause is found from a mistake of exactly that kind.
 #[test]
-fn every_kind_of_cause_is_said() {
+fn every_kind_of_cause_is_named() {
     for (file, claim, expression, words) in [
         ("yoke_drive", "v", "r*w*sin(phi)", "a sign"),
         ("yoke_drive", "v", "-r*w*sin(phi)*1000", "a unit"),
         ("yoke_drive", "acc", "-r*w^2*cos(phi*180/pi)", "a unit"),
-        ("yoke_drive", "T", "m*r^2*w^2*sin(2*phi)", "a factor"),
-        ("yoke_drive", "x", "1.037*r*cos(phi)", "a factor"),
-        ("yoke_drive", "x", "1.3*1.7*r*cos(phi)", "too large by the factor 2.21"),
-        ("yoke_drive", "x", "r*cos(phi) + 0.0123*1.7 - 0.0031*1.3", "too much everywhere"),
+        ("yoke_drive", "T", "m*r^2*w^2*sin(2*phi)", "a factor, in T"),
+        ("yoke_drive", "x", "1.037*r*cos(phi)", "a factor, in x"),
+        ("yoke_drive", "x", "1.3*1.7*r*cos(phi)", "too large by a factor of 2.21"),
+        ("yoke_drive", "x", "r*cos(phi) + 0.0123*1.7 - 0.0031*1.3", "everywhere"),
         ("slider_crank_eccentric", "x", "r*cos(phi) - sqrt(l^2 - (e - r*sin(phi))^2)", "a sign"),
         ("four_bar_freudenstein", "psi", "2*atan2(-q + sqrt(q^2 - 4*p*s), 2*p)", "a sign"),
         ("yoke_drive", "x", "r*sin(phi)", "another function"),
@@ -80,7 +82,7 @@ fn every_kind_of_cause_is_said() {
             "slider_crank_centric",
             "v",
             "-r*w^2*(cos(phi + beta)/cos(beta) + lambda*cos(phi)^2/cos(beta)^3)",
-            "it is point.B.ax_m_s2",
+            "it gives another quantity: point.B.ax_m_s2",
         ),
         ("yoke_drive", "x", "exp(sin(phi))*r*abs(sin(5*phi))", "nothing"),
     ] {
@@ -90,26 +92,27 @@ fn every_kind_of_cause_is_said() {
     }
 }
 
-/// A published balancing moment is almost three times too small, because only one component of the reaction at the
-/// crank pin was counted: docs/findings.md. The same slip on a slider-crank.
+/// A published balancing moment is almost three times too small: docs/findings.md.
+/// Only one component of the reaction at the crank pin was counted.
+/// The test makes the same slip in a slider-crank.
 #[test]
-fn half_a_reaction_on_the_crank_is_called_so() {
+fn half_a_reaction_on_the_crank_is_recognised() {
     let scenario = load(&files()[0].with_file_name("slider_crank_press.toml"));
     let whole = with_mistake(&scenario, "T", "-r*(P*sin(phi) - rod_y*cos(phi))", "T");
     assert_eq!(judged(&whole).verdict.word(), "agree");
     let half = with_mistake(&scenario, "T", "-r*P*sin(phi)", "T");
-    // The thrust of the guide is as large, and told too.
+    // The guide's thrust has the same magnitude, so the diagnosis may name it.
     let found = said(&half, "T");
     assert!(found.contains("a missing term, in T: `+ r*rod_y*cos(phi)`"), "{found}");
-    // The component along the stroke is the other half.
+    // Now the component along the stroke is missing instead.
     let half = with_mistake(&scenario, "T", "r*rod_y*cos(phi)", "T");
     let found = said(&half, "T");
     assert!(found.contains("a missing term, in T: `- r*P*sin(phi)`"), "{found}");
 }
 
-/// A published steady speed divides the mean resistance by the ratio of the reducer twice: docs/findings.md.
+/// A published steady speed divides the mean resistance twice by the gear ratio of the reducer: docs/findings.md.
 #[test]
-fn a_ratio_that_is_used_twice_is_called_so() {
+fn a_ratio_used_twice_is_recognised() {
     let place = Place::new();
     let check = |formula: &str| {
         let law = "--set M0_N_m=22.51 --set slope_N_m_s=0.0716 --set i=21.115384615384617 --let R=100*64/360";

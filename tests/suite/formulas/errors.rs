@@ -1,5 +1,5 @@
-//! Wrong formulas of kinds that the search was not built on: every mistake is found, most are called by their cause,
-//! and no cause is made up.
+//! Wrong formulas of kinds that were not used to develop the search.
+//! Every mistake is found, most causes are named, and no cause is invented.
 
 use prover::check::{FormulaCause, MOST_WORK};
 use prover::run::solved::Claimed;
@@ -12,12 +12,13 @@ struct Error<'a> {
     step: &'a str,
     claim: &'a str,
     expression: &'a str,
-    /// What else is wrong: a parameter, `r_mm=4`; another channel, `channel=NAME`; or `exact`, for an approximation
-    /// that does not claim its error.
+    /// Further change: a parameter, `r_mm=4`; another channel, `channel=NAME`; or `exact`.
+    /// `exact` removes the stated error of an approximation.
     change: &'a str,
 }
 
-/// The scenario with a wrong formula, and only the claim that it belongs to.
+/// The scenario with one wrong formula.
+/// All claims are removed except the one that the formula belongs to.
 fn with_error(scenario: &Scenario, error: &Error) -> Scenario {
     let mut parameters = scenario.formulas.parameters.clone();
     let (key, value) = error.change.split_once('=').unwrap_or((error.change, ""));
@@ -44,7 +45,7 @@ fn cause<'a>(found: &'a Claimed, claim: &str) -> Option<&'a FormulaCause> {
     found.judgement.causes.iter().find(|(name, _)| name == claim).and_then(|(_, cause)| cause.as_ref())
 }
 
-/// What a list of wrong formulas comes to: all, called by their cause, without one, and called by another.
+/// Counts of a list of wrong formulas: all, correctly named, unnamed, and wrongly named.
 fn shares(list: &[u8]) -> [usize; 4] {
     let scenarios: Vec<(String, Scenario)> =
         files().iter().map(|path| (path.file_stem().unwrap().to_str().unwrap().to_string(), load(path))).collect();
@@ -58,7 +59,8 @@ fn shares(list: &[u8]) -> [usize; 4] {
         most = most.max(found.judgement.work);
         let cause = cause(&found, claim);
         let said = cause.map_or("nothing".into(), FormulaCause::to_string);
-        // That it is nearly right, a constant, or wrong by a factor, says no more than the numbers do.
+        // "Nearly right", "constant" or "wrong by a factor or an offset" only describes the numbers and counts as
+        // unnamed.
         let is_fact = |cause: &FormulaCause| {
             matches!(
                 cause,
@@ -83,21 +85,21 @@ fn shares(list: &[u8]) -> [usize; 4] {
     println!(
         "{named} of {all} called by their cause, {open} without one, {other} by another; at most {most} operations"
     );
-    // Far from the limit that ends a search.
+    // Each search needs less than half of the work limit.
     assert!(most < MOST_WORK / 2, "{most}");
     counts
 }
 
-/// The half that the search was developed on.
+/// The half of the list with which the search was developed.
 #[test]
-fn wrong_formulas_are_called_by_their_cause() {
+fn causes_of_wrong_formulas_are_named() {
     let [all, named, _, other] = shares(include_bytes!("errors.csv"));
     assert!(all >= 80 && 100 * named >= 75 * all && other == 0, "{named} of {all}, {other} by another");
 }
 
-/// The half that was looked at once, when the search was done.
+/// The half of the list that was run only once, after the search was finished.
 #[test]
-fn wrong_formulas_that_nobody_looked_at_before_are_called_by_their_cause() {
+fn causes_of_unseen_wrong_formulas_are_named() {
     let [all, named, _, other] = shares(include_bytes!("errors_unseen.csv"));
     assert!(all >= 80 && 100 * named >= 75 * all && other == 0, "{named} of {all}, {other} by another");
 }

@@ -1,4 +1,4 @@
-//! Formulas that are wrong by a fixed share of themselves, not by a multiple of their bounds.
+//! Formulas that are wrong by a fixed relative error, not by a multiple of their bounds.
 
 use std::path::Path;
 
@@ -8,14 +8,15 @@ use scenario::Scenario;
 
 use super::{judged, load, rewritten};
 
-/// Whether both sides call a formula right, or wrong, by value.
+/// Outcomes of both sides for the value of a formula.
 fn outcomes(scenario: &Scenario, name: &str) -> Vec<FormulaOutcome> {
     let all = judged(scenario).judgement.sides;
     let own = all.iter().flat_map(|(_, all)| all.iter().flatten()).filter(|own| own.name == name && own.order == 0);
     own.map(|own| own.outcome()).collect()
 }
 
-/// Positions are known to 1e-12 of their size, accelerations and forces to 1e-10: a billionth more is wrong.
+/// Positions are known to a relative error of 1e-12, accelerations and forces to 1e-10.
+/// A relative error of 1e-9 is therefore wrong.
 #[test]
 fn a_formula_that_is_a_billionth_too_large_is_wrong() {
     for file in ["slider_crank_centric", "four_bar_centres", "slider_crank_balance", "unbalanced_rotor"] {
@@ -28,7 +29,7 @@ fn a_formula_that_is_a_billionth_too_large_is_wrong() {
             assert!(right.iter().all(|own| *own == FormulaOutcome::Right), "{file}: {name}: {right:?}");
             let more = rewritten(&scenario, name, &format!("({text})*(1 + 1e-9)"));
             let wrong = outcomes(&more, name);
-            // What is zero is zero a billionth larger, too.
+            // A formula that is zero stays zero when multiplied by 1 + 1e-9.
             let vanishes = ["0", "0.0"].contains(&text.as_str());
             assert!(
                 vanishes || wrong.iter().all(|own| *own == FormulaOutcome::Wrong),
@@ -40,9 +41,9 @@ fn a_formula_that_is_a_billionth_too_large_is_wrong() {
     }
 }
 
-/// The same in degrees, to the tenth part: the factor of a unit is known to its last digit.
+/// In degrees, a relative error of 1e-10 is wrong: the unit's conversion factor is known to its last digit.
 #[test]
-fn a_formula_in_degrees_is_judged_as_sharply() {
+fn a_formula_in_degrees_is_judged_as_strictly() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
     let claimed = |text: &str| {
         let more =
@@ -54,12 +55,15 @@ fn a_formula_in_degrees_is_judged_as_sharply() {
     assert!(claimed("phi*180/pi*(1 + 1e-10)").iter().all(|own| *own == FormulaOutcome::Wrong));
 }
 
-/// Digits that cancel: at more and more instants less than six are left. A few do no harm, nine of ten prove nothing.
+/// Cancellation leaves fewer than six digits at some instants.
+/// A few such instants do no harm.
+/// If most instants are affected, the formula is neither right nor wrong.
 #[test]
 fn a_formula_that_loses_its_digits_at_most_instants_proves_nothing() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas/slider_crank_centric.toml");
     let scenario = load(&path);
-    // A number that grows is added and taken away again; 40 deg after this crank angle it has taken too many digits.
+    // A number that grows with the crank angle is added and subtracted again.
+    // From 40 deg after `from_deg` on, the cancellation loses too many digits.
     let with = |from_deg: f64| {
         let large = format!("1e3*exp(20*(phi - {from_deg}*pi/180))");
         let text = format!("r*cos(phi) + sqrt(l^2 - r^2*sin(phi)^2) + {large} - {large}");
@@ -67,17 +71,17 @@ fn a_formula_that_loses_its_digits_at_most_instants_proves_nothing() {
     };
     for own in with(36.0) {
         assert!(
-            matches!(&own, FormulaOutcome::Open { reason, .. } if reason.contains("less than six digits")),
+            matches!(&own, FormulaOutcome::Open { reason, .. } if reason.contains("fewer than six digits")),
             "{own:?}"
         );
     }
     assert!(with(340.0).iter().all(|own| *own == FormulaOutcome::Right), "{:?}", with(340.0));
 }
 
-/// A wave that vanishes at every instant of the grid hides in the value. Its rate shows it; where a formula is claimed
-/// for one instant only, its rate says nothing.
+/// A wave that vanishes at every instant of the grid is invisible in the value, but its derivative reveals it.
+/// If a formula is claimed for one instant only, its derivative is not judged.
 #[test]
-fn what_is_right_at_the_instants_alone_is_found_by_its_rate() {
+fn a_formula_right_only_at_the_instants_fails_by_its_rate() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas/slider_crank_centric.toml");
     let scenario = load(&path);
     let orders = |scenario: &Scenario| -> Vec<Vec<(usize, bool)>> {
@@ -97,9 +101,9 @@ fn what_is_right_at_the_instants_alone_is_found_by_its_rate() {
     assert_eq!(orders(&instant), vec![vec![(0, true)]; 2]);
 }
 
-/// The check of a wrong formula disagrees, and its number is the largest difference itself.
+/// The check of a wrong formula has the verdict "disagree", and its value is the largest difference.
 #[test]
-fn the_check_of_a_formula_has_its_difference() {
+fn a_formula_check_gives_the_largest_difference() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas/slider_crank_centric.toml");
     let scenario = rewritten(&load(&path), "x", "r*cos(phi) + sqrt(l^2 - r^2*sin(phi)^2) + 1e-6");
     assert_eq!(judged(&scenario).verdict.word(), "disagree");

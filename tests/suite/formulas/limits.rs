@@ -1,4 +1,4 @@
-//! The search for a cause is counted, and ends: whatever is written, and however much of it.
+//! The search for a cause counts its work and always ends, whatever the number and form of the formulas.
 
 use prover::check::{CUT, FormulaCause, MOST_WORK};
 use prover::run::solved::Claimed;
@@ -7,7 +7,8 @@ use scenario::{Claim, Formulas, Scenario};
 use super::{files, judged, load, rewritten};
 use crate::cli::tools::Place;
 
-/// A shipped scenario with these formulas alone; those whose name begins with `f` claim the piston's place.
+/// A shipped scenario with only these formulas.
+/// Formulas whose name begins with `f` claim the piston's position.
 fn with_formulas(formulas: impl Iterator<Item = (String, String)>) -> Scenario {
     let mut scenario = load(&files()[0].with_file_name("slider_crank_centric.toml"));
     let claim = Claim::parse("point.B.x_m", &scenario.case).unwrap();
@@ -23,13 +24,14 @@ fn cause<'a>(found: &'a Claimed, name: &str) -> Option<&'a FormulaCause> {
     found.judgement.causes.iter().find(|(own, _)| own == name).and_then(|(_, cause)| cause.as_ref())
 }
 
-/// A formula of a page took all memory, 4 GB and more, because a copy of it was kept for every slip.
+/// Symptom: a formula of one page used more than 4 GB of memory.
+/// Cause: the search kept one copy of the formula for every slip.
 #[test]
-fn a_formula_of_a_page_ends_at_the_limit_of_work_and_says_so() {
+fn a_page_long_formula_stops_at_the_work_limit() {
     let text = vec!["sin(phi)*cos(phi)"; 550].join("+");
     let scenario = with_formulas([("f".to_string(), text)].into_iter());
     let found = judged(&scenario);
-    // A single change of a long formula, judged at all instants, may be beyond.
+    // A single change of a long formula is judged at all instants, so it may exceed the limit a little.
     assert!(found.judgement.work <= MOST_WORK + MOST_WORK / 10, "{}", found.judgement.work);
     assert!(found.judgement.unsought.contains("f") && cause(&found, "f").is_none());
     let place = Place::new();
@@ -43,7 +45,7 @@ fn a_formula_of_a_page_ends_at_the_limit_of_work_and_says_so() {
     assert!(said.contains(CUT), "{said}");
 }
 
-/// Steps that each use the one before them twice are evaluated once each.
+/// Each step uses the previous step twice, but is evaluated only once.
 #[test]
 fn chained_formulas_do_not_double_the_work() {
     let of = |steps: usize| {
@@ -58,7 +60,8 @@ fn chained_formulas_do_not_double_the_work() {
     assert!(whole < MOST_WORK && whole < 8 * half, "{half} {whole}");
 }
 
-/// All wrong formulas of a file share one limit; those that it leaves without a search are called so.
+/// All wrong formulas of a file share one work limit.
+/// Formulas left without a search are reported.
 #[test]
 fn many_wrong_formulas_share_one_limit() {
     let text = |index: usize| format!("{}+{index}", vec!["sin(phi)*cos(phi)"; 400].join("+"));
@@ -67,9 +70,9 @@ fn many_wrong_formulas_share_one_limit() {
     assert_eq!((found.judgement.causes.len(), found.judgement.unsought.len()), (6, 6));
 }
 
-/// What stands before a wrong formula in a long file, and is not used by it, costs nothing.
+/// Formulas that the wrong formula does not use add no work to its search.
 #[test]
-fn a_wrong_formula_of_a_long_file_is_sought_as_in_a_short_one() {
+fn unused_formulas_add_no_work_to_a_search() {
     let of = |count: usize| {
         let step = |index: usize| (format!("s{index}"), format!("{index}*sin(phi)"));
         let wrong = ("f".to_string(), "r*sin(phi) + sqrt(l^2 - r^2*sin(phi)^2)".to_string());
@@ -81,7 +84,7 @@ fn a_wrong_formula_of_a_long_file_is_sought_as_in_a_short_one() {
     assert!(long < short + short / 4, "{short} {long}");
 }
 
-/// A letter changed in a shipped file took six seconds.
+/// Symptom: changing one letter in a shipped file took six seconds.
 #[test]
 fn a_letter_changed_in_a_shipped_file_is_found_with_little_work() {
     let scenario = load(&files()[0].with_file_name("slider_crank_balance.toml"));
@@ -90,8 +93,8 @@ fn a_letter_changed_in_a_shipped_file_is_found_with_little_work() {
     assert!(found.judgement.work < 5_000_000, "{}", found.judgement.work);
 }
 
-/// Thousands of formulas, each of the one before, took minutes: all that a formula rests on was evaluated for each of
-/// them, and derived, and looked through for what has no value.
+/// Symptom: thousands of formulas, each using the previous one, took minutes.
+/// Cause: for each formula, all formulas below it were evaluated, differentiated, and searched for undefined values.
 #[test]
 fn regress_chained_claims_are_judged_once_each() {
     let of = |count: usize, text: &dyn Fn(usize) -> String| {
@@ -107,7 +110,8 @@ fn regress_chained_claims_are_judged_once_each() {
     let right = of(3000, &|index| after(index, "phi", "2*phi - s"));
     assert_eq!(right.verdict.word(), "agree");
     assert!(right.judgement.sides.iter().all(|(_, all)| all.len() == 3000 && all[2999].len() == 3));
-    // Wrong ones share the work of a search. The first that has no value is told with its place.
+    // Wrong formulas share the work of a search.
+    // The first undefined one is reported with its location.
     for (first, next) in
         [("phi + 1e-3", "2*phi - s"), ("phi + 0*ln(phi - 1)", "2*phi - s"), ("phi", "s + 0.1*exp(-phi)")]
     {
@@ -118,9 +122,9 @@ fn regress_chained_claims_are_judged_once_each() {
     }
 }
 
-/// A dictionary of what a formula may lack grew with the square of the steps before it, and was not counted.
+/// Symptom: a dictionary of possibly missing terms grew with the square of the previous steps, and was not counted.
 #[test]
-fn regress_a_wrong_formula_after_thousands_of_steps_is_sought_with_bounded_work() {
+fn regress_a_search_after_many_steps_has_bounded_work() {
     let step = |index: usize| {
         let text = if index == 0 { "sin(phi)".to_string() } else { format!("s{}*cos(phi)", index - 1) };
         (format!("s{index}"), text)
@@ -131,9 +135,9 @@ fn regress_a_wrong_formula_after_thousands_of_steps_is_sought_with_bounded_work(
     assert_eq!(found.verdict.word(), "disagree");
 }
 
-/// A search that was cut says so to a script as well as to a reader.
+/// A search that reached its limit is reported in the JSON and in the text.
 #[test]
-fn a_search_that_was_cut_is_told_in_the_json_of_check() {
+fn a_truncated_search_is_reported_in_the_json_of_check() {
     let place = Place::new();
     let own = std::fs::read_to_string(place.path("scenarios/formulas/slider_crank_centric.toml")).unwrap();
     let own = &own[..own.find("[[formula]]").unwrap()];

@@ -65,9 +65,10 @@ to_deg = 405
 step_deg = "90/ratio"
 "#;
 
-/// Short names count in the unit of the key where they measure the same, else in SI; keys are plain numbers.
+/// A short name has the unit of the key if it measures the same quantity, otherwise the SI unit.
+/// Keys are plain numbers.
 #[test]
-fn numbers_may_be_an_arithmetic_of_parameters() {
+fn numbers_may_be_expressions_of_parameters() {
     let scenario = Scenario::parse(FOUR_BAR, Path::new("x.toml")).unwrap_or_else(|error| panic!("{error}"));
     let links = scenario.case.mechanism.links();
     let size = |name: &str| links.iter().find(|link| link.name == name).unwrap().size();
@@ -96,7 +97,7 @@ fn parameters_are_set_from_the_command_line() {
 }
 
 #[test]
-fn wrong_arithmetic_is_shown_in_its_place() {
+fn errors_in_expressions_are_shown_at_their_position() {
     let place = Place::new();
     for (old, new, words) in [
         ("x_mm = \"a + b - 20\"", "x_mm = \"a + c - 20\"", ["there is no `c`", "allowed here"]),
@@ -105,7 +106,7 @@ fn wrong_arithmetic_is_shown_in_its_place() {
         ("x_mm = \"a\"", "x_mm = \"sqrt(-a)\"", ["sqrt(-40) is undefined", "sqrt takes"]),
         ("mass_kg = \"ratio/2\"", "mass_kg = \"-ratio\"", ["must", "mass_kg"]),
         ("b_mm = \"3*a\"", "b_mm = \"3*b\"", ["there is no `b`", "`a`"]),
-        ("b_mm = \"3*a\"", "b_mm = \"3*a\"\na = 4", ["stand for", "keep one"]),
+        ("b_mm = \"3*a\"", "b_mm = \"3*a\"\na = 4", ["would mean both `a_mm` and `a`", "keep one"]),
     ] {
         assert_eq!(FOUR_BAR.matches(old).count(), 1, "{old}");
         fs::write(place.path("mine.toml"), FOUR_BAR.replace(old, new)).unwrap();

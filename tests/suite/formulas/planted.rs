@@ -7,7 +7,8 @@ use super::{files, is_wrong, judged, load, rewritten};
 use crate::common::draws;
 use crate::common::sketch::RandomSource;
 
-/// A random slip in a part of a formula, with the words for it; `None` if this part has none of that kind.
+/// A random slip in a part of a formula, with a description.
+/// `None` if this part does not allow that kind of slip.
 fn spoiled(part: &FormulaTree, names: &[String], random: &mut RandomSource) -> Option<(&'static str, NodeShape)> {
     use Operator::{Minus, Plus, Power};
     let call = |function: Function, parts: &[FormulaTree]| NodeShape::Call(function, parts.to_vec());
@@ -35,7 +36,8 @@ fn spoiled(part: &FormulaTree, names: &[String], random: &mut RandomSource) -> O
     })
 }
 
-/// What a diagnosis may call a planted slip: -sqrt(x) is another branch and a sign.
+/// Names that a diagnosis may give a planted slip.
+/// For example, -sqrt(x) is both another branch and a sign error.
 fn of_kind(planted: &str) -> &'static [SlipKind] {
     match planted {
         "sign" => &[SlipKind::Sign],
@@ -60,7 +62,8 @@ fn at<'a>(tree: &'a mut FormulaTree, place: &[usize]) -> &'a mut FormulaTree {
     place.iter().fold(tree, |tree, &index| &mut tree.parts_mut()[index])
 }
 
-/// Largest change of a formula's value over the grid, over its largest value; infinite where it has none any more.
+/// Largest change of a formula's value over the grid, divided by its largest value.
+/// Infinite if the changed formula is undefined anywhere.
 fn change(right: &Scenario, wrong: &Scenario, name: &str) -> f64 {
     let grid = &right.case.grid;
     let values = |scenario: &Scenario| -> Vec<f64> {
@@ -77,7 +80,9 @@ fn change(right: &Scenario, wrong: &Scenario, name: &str) -> f64 {
     if largest.is_nan() { f64::INFINITY } else { largest / scale }
 }
 
-/// Plants mistakes in exact formulas of the library. All that change a value are found; how many are called by name?
+/// Plants mistakes in exact formulas of the library.
+/// Asserts that every mistake that changes a value is found.
+/// Returns the number of correctly named mistakes, and the number of all mistakes.
 fn planted(seed: u64, count: usize) -> (usize, usize) {
     let scenarios: Vec<Scenario> = files().iter().map(|path| load(path)).filter(|own| !own.case.is_free()).collect();
     let mut random = RandomSource::of_sample(seed, 0);
@@ -100,7 +105,7 @@ fn planted(seed: u64, count: usize) -> (usize, usize) {
         part.shape = shape;
         let text = tree.to_string();
         let wrong = rewritten(scenario, &formula.name, &text);
-        // Whole turns of an angle are no change.
+        // Whole revolutions of an angle do not count as a change.
         if !(change(scenario, &wrong, &formula.name) > 1e-9) {
             continue;
         }
@@ -108,7 +113,8 @@ fn planted(seed: u64, count: usize) -> (usize, usize) {
         let (name, file) = (&formula.name, &scenario.name);
         assert!(is_wrong(&found, name), "{file}: {name} = {text} for {}", formula.text);
         all += 1;
-        // Whatever is named makes the formula right everywhere. It is named rightly if it is of the planted kind.
+        // A named cause makes the formula right at all instants.
+        // The name is correct if the cause is of the planted kind.
         let cause = found.judgement.causes.iter().find(|(own, _)| own == name).and_then(|(_, cause)| cause.as_ref());
         match cause {
             Some(FormulaCause::Slip(slip)) if slip.formula == *name && of_kind(kind).contains(&slip.kind) => named += 1,

@@ -11,10 +11,11 @@ fn scenario(name: &str) -> Scenario {
     load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml")))
 }
 
-/// What both sides find of a quantity reduced to the crank, at two instants: crank angle, value and bound.
+/// Results of both sides for a quantity reduced to the crank.
+/// Each side gives two instants, each with crank angle, value and bound.
 fn found(scenario: &Scenario, quantity: &str) -> Vec<[f64; 3]> {
     let mut formulas = Formulas::over(Vec::new());
-    // It is wrong wherever the quantity is not this number, so that the judgement tells the number.
+    // The formula 1e6 is deliberately wrong: the judgement of a wrong formula reports the mechanism's value.
     let formula = formulas.add("other", "1e6").unwrap();
     formula.claim = Some(Claim::parse(quantity, &scenario.case).unwrap());
     let mut asked = scenario.clone();
@@ -24,10 +25,10 @@ fn found(scenario: &Scenario, quantity: &str) -> Vec<[f64; 3]> {
     all.map(|at| [at.crank, at.mechanism, at.bound]).collect()
 }
 
-/// The reduced equation of motion has I* from transfer functions; here it comes from the kinetic energy of each side,
-/// and the moment from the power that each side finds.
+/// The reduced equation of motion computes I* from transfer functions.
+/// The quantities here come from the kinetic energy and the power that each side finds.
 #[test]
-fn what_is_reduced_to_the_crank_is_that_of_the_equation_of_motion() {
+fn reduced_quantities_match_the_equation_of_motion() {
     for name in ["crank_rocker", "crank_rocker_runup", "class3_group", "compressor", "ov7_base", "quick_return"] {
         let scenario = scenario(name);
         let model = ReducedModel::of(&scenario.case).unwrap();
@@ -47,13 +48,13 @@ fn what_is_reduced_to_the_crank_is_that_of_the_equation_of_motion() {
     }
 }
 
-/// The mean over a turn, as it was published, is a figure that a formula may claim.
+/// A formula may claim a figure of the mechanism, such as the published mean over a turn.
 #[test]
 fn figures_of_the_mechanism_may_be_claimed() {
     let place = Place::new();
     let check = |formula: &str| format!("check scenarios/crank_rocker.toml {formula} --channel figure.");
     place.ok(&format!("{}reduced_inertia_mean_kg_m2 --error 5e-7", check("0.164846")));
-    // 100 N m over a swing of 32 degrees to and fro.
+    // The rocker moves against 100 N m over 32 degrees to and fro.
     let exact = place.ok(&format!("{}reduced_resistance_mean_N_m", check("100*64/360")));
     assert!(!exact.contains("derivative"), "{exact}");
     let outcome = place.run(&format!("{}reduced_resistance_mean_N_m*2", check("17.7778")));
@@ -61,21 +62,22 @@ fn figures_of_the_mechanism_may_be_claimed() {
 }
 
 #[test]
-fn what_has_no_meaning_is_refused_with_a_reason() {
+fn meaningless_claims_are_refused_with_a_reason() {
     let place = Place::new();
     let inertia = "--channel drive.reduced_inertia_kg_m2";
     for (scenario, channel, words) in [
-        ("five_bar", inertia, ["of one crank", "2 drives"]),
+        ("five_bar", inertia, ["belongs to one crank", "2 drives"]),
         ("formulas/four_bar_freudenstein", inertia, ["has a mass", "mass_kg"]),
         ("crank_rocker", "--channel drive.reduced_inertia_kgm2", ["no channel", "drive.reduced_inertia_kg_m2"]),
-        ("scotch_yoke", "--channel figure.steady_crank_speed_rad_s", ["needs a motor", "[motor]"]),
+        ("scotch_yoke", "--channel figure.steady_crank_speed_rad_s", ["a steady speed needs a motor", "[motor]"]),
         ("crank_rocker", "--channel figure.steady_crank_sped_rad_s", ["no channel", "figure.steady_crank_speed_rad_s"]),
     ] {
         place.refused(&format!("check scenarios/{scenario}.toml 1 {channel}"), &words);
     }
 }
 
-/// Over a crank at rest nothing can be divided: such instants are left out, and alone they prove nothing.
+/// At instants when the crank is at rest, the division by its speed is impossible.
+/// Such instants are left out; if there are no other instants, nothing is proven.
 #[test]
 fn a_crank_at_rest_has_no_reduced_inertia() {
     let place = Place::new();
@@ -86,5 +88,6 @@ fn a_crank_at_rest_has_no_reduced_inertia() {
     assert_eq!(json["formulas"][0]["undefined"].as_u64(), Some(1));
     let outcome = place.run(&format!("{check} --times 0"));
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
-    assert!(outcome.stdout.contains("no number at any of 1 instants"), "{}", outcome.stdout);
+    let words = "the claimed quantity has no value at any of 1 instants: it divides by zero";
+    assert!(outcome.unbroken().contains(words), "{}", outcome.stdout);
 }

@@ -1,4 +1,4 @@
-//! What is undefined is neither right nor read over, at whatever door it comes in.
+//! Undefined values are neither right nor ignored, wherever they occur.
 
 use prover::check::FormulaOutcome;
 use prover::run::Reference;
@@ -7,7 +7,7 @@ use scenario::Scenario;
 use crate::cli::tools::Place;
 use crate::common::shipped;
 
-/// Operations of constants outside their domains, and what the message says.
+/// Operations on constants outside their domains, each with the words of the message.
 const OUTSIDE: [(&str, &str); 14] = [
     ("0*ln(-1)", "ln(-1) is undefined"),
     ("0*(1/0)", "1/0 is undefined"),
@@ -25,10 +25,10 @@ const OUTSIDE: [(&str, &str); 14] = [
     ("0*exp(-1/0)", "(-1)/0 is undefined"),
 ];
 
-/// Symptom: `phi*180/pi + 0*ln(-1)` was right. Cause: 0*x, 0/x and x^0 were simplified when a formula was read, as the
-/// derivatives need it; and IEEE 754 gives 1/(1/0) a value.
+/// Symptom: `phi*180/pi + 0*ln(-1)` was right.
+/// Causes: the parser simplified 0*x, 0/x and x^0, which the derivatives need; and IEEE 754 gives 1/(1/0) a value.
 #[test]
-fn regress_undefined_constants_are_refused_at_every_door() {
+fn regress_undefined_constants_are_refused_in_every_input() {
     let place = Place::new();
     let own = std::fs::read_to_string(place.path("scenarios/crank_rocker.toml")).unwrap();
     std::fs::write(place.path("table.csv"), "time_s,a\n0,0\n0.1,1\n").unwrap();
@@ -41,7 +41,8 @@ fn regress_undefined_constants_are_refused_at_every_door() {
         ] {
             place.refused(&door, &[says, "^", "help: "]);
         }
-        // A formula may be wrong: it is judged, and the diagnosis of its slip is worth more than a refusal.
+        // `check` judges a formula with such an operation instead of refusing it, because the diagnosis of the slip is
+        // more useful.
         for formula in [format!("phi*180/pi+{operation}"), format!("u+phi*180/pi --let u={operation}")] {
             let outcome = place.run(&format!("{check} {formula} --channel link.crank.angle_deg"));
             assert_eq!(outcome.code, 1, "{formula}: {}", outcome.stdout);
@@ -60,10 +61,11 @@ fn regress_undefined_constants_are_refused_at_every_door() {
     }
 }
 
-/// With inputs it is a disagreement at the first instant without a value, with the operation and its place, also where
-/// that stands in a step of the derivation.
+/// An operation outside its domain that depends on the crank angle or the time disagrees at the first instant without a
+/// value.
+/// The message names the operation and its location, even in a step of the derivation.
 #[test]
-fn operations_that_leave_their_domain_on_the_way_disagree_with_their_place() {
+fn operations_outside_their_domain_disagree_with_a_position() {
     let scenario = shipped("crank_rocker.toml");
     let right = "phi*180/pi";
     for (steps, text, of, written, crank) in [
@@ -98,8 +100,9 @@ fn operations_that_leave_their_domain_on_the_way_disagree_with_their_place() {
     }
 }
 
-/// A pole that no instant hits is no operation outside its domain: what is right at every instant is right, and what
-/// passes near the pole is known less well. A pole at an instant, that only rounding hides, proves nothing.
+/// A pole between two instants is not an operation outside its domain.
+/// A formula that is right at every instant is right; its bound is wider near the pole.
+/// If rounding hides a pole at an instant, nothing is proven.
 #[test]
 fn poles_between_instants_and_poles_that_rounding_hides() {
     let scenario = shipped("crank_rocker.toml");
@@ -111,10 +114,10 @@ fn poles_between_instants_and_poles_that_rounding_hides() {
         assert!(found.judgement.undefined("formula").is_none(), "{text}");
         found.judgement.sides[Reference::Assur][0][0].clone()
     };
-    // Instants stand at whole degrees; this divisor crosses zero between 57 and 58.
+    // The instants are at whole degrees; this divisor is zero between 57 and 58 deg.
     let crossing = outcome("phi*180/pi*(phi - 1)/(phi - 1)");
     assert_eq!((crossing.outcome(), crossing.lost), (FormulaOutcome::Right, 0));
-    // At 90 and 270 deg nothing is known of a tangent, and whatever it is multiplied by.
+    // At 90 and 270 deg, rounding error leaves no known digit of the tangent or of a product with the tangent.
     for text in ["phi*180/pi + 0*tan(phi)", "phi*180/pi + 0/cos(phi)"] {
         let pole = outcome(text);
         assert_eq!((pole.outcome(), pole.lost), (FormulaOutcome::Right, 2), "{text}");
@@ -123,9 +126,9 @@ fn poles_between_instants_and_poles_that_rounding_hides() {
     assert_eq!(wrong.outcome(), FormulaOutcome::Wrong);
 }
 
-/// A number that a double cannot hold is not undefined: nothing is proven by it, and nothing disproven.
+/// A number that overflows a double is not undefined: it neither proves nor disproves anything.
 #[test]
-fn overflow_proves_nothing() {
+fn overflow_is_inconclusive() {
     let mut scenario = shipped("crank_rocker.toml");
     let claim = scenario::Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
     let formula = scenario.formulas.add("formula", "phi*180/pi + 0*exp(1000*phi)").unwrap();
@@ -135,13 +138,14 @@ fn overflow_proves_nothing() {
     assert!(matches!(outcome, FormulaOutcome::Open { .. }), "{outcome:?}");
 }
 
-/// A cell without a number is missing; numbers without a result are a mistake, with the row.
+/// An empty cell is a missing value.
+/// A mapping that is undefined for a given number is an error, and the message names the row.
 #[test]
-fn a_mapping_that_has_no_value_in_a_row_is_refused() {
+fn a_mapping_undefined_in_a_row_is_refused() {
     let place = Place::new();
     std::fs::write(place.path("table.csv"), "time_s,a\n0,1.0\n0.1,-1.0\n0.2,\n").unwrap();
     let compare = "compare scenarios/crank_rocker.toml table.csv --rel 1 --map";
-    let words = ["in line 3 of the table sqrt(-1) is undefined", "zero or a positive number", "leave the row out"];
+    let words = ["in line 3 of the table sqrt(-1) is undefined", "zero or a positive number", "leave out the row"];
     place.refused(&format!("{compare} a+0*sqrt(a)=link.crank.angle_deg"), &words);
     assert_ne!(place.run(&format!("{compare} a+0*sqrt(a+2)=link.crank.angle_deg")).code, 2);
 }

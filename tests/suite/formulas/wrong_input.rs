@@ -2,7 +2,7 @@ use std::fs;
 
 use crate::cli::tools::Place;
 
-/// The crank-rocker with formulas at its end.
+/// The crank-rocker with formulas appended.
 fn with(place: &Place, formulas: &str) {
     let path = place.path("scenarios/crank_rocker.toml");
     let text = fs::read_to_string(path).unwrap();
@@ -13,7 +13,7 @@ fn with(place: &Place, formulas: &str) {
 fn a_formula_of_the_command_line_is_judged() {
     let place = Place::new();
     let right = place.ok("check scenarios/crank_rocker.toml phi*180/pi --channel link.crank.angle_deg");
-    assert!(right.starts_with("crank_rocker: AGREE: 1 formula at 361 instants"), "{right}");
+    assert!(right.starts_with("crank_rocker: AGREE: 1 formula right at 361 instants (assur, newton)"), "{right}");
     let ratio = "link.crank.omega_rad_s/link.crank.omega_rad_s";
     place.ok(&format!("check scenarios/crank_rocker.toml 1 --channel {ratio}"));
     let wrong = place.run("check scenarios/crank_rocker.toml phi --channel link.crank.angle_deg");
@@ -29,7 +29,7 @@ fn a_formula_of_the_command_line_is_judged() {
         (json["verdict"].as_str(), json["formulas"][0]["cause"]["kind"].as_str()),
         (Some("disagree"), Some("a sign"))
     );
-    // Parameters in SI by their short names, and as plain numbers by their keys.
+    // Short names of parameters have SI values; keys are plain numbers.
     let place = Place::new();
     for expression in ["a/l*omega_crank*0+w", "w+a_mm-1000*a", "w_rpm*pi/30"] {
         let set = "--set a_mm=30 --set l_m=0.2 --set w_rpm=130 --set omega_crank=0";
@@ -48,7 +48,8 @@ fn steps_ranges_and_claimed_errors() {
     let outcome = place.run(&format!("{near} --error 0.01 --from-deg 1000 --to-deg 1001"));
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
     assert!(outcome.stdout.contains("no instant lies between"), "{}", outcome.stdout);
-    // Right for half a turn; at its ends the derivative of acos has no number.
+    // The formula is right for half a revolution.
+    // At the ends of this half, the derivative of acos is undefined.
     let branch = "check scenarios/crank_rocker.toml acos(cos(phi)) --channel link.crank.angle_rad";
     let outcome = place.run(branch);
     assert_eq!(outcome.code, 1);
@@ -57,7 +58,7 @@ fn steps_ranges_and_claimed_errors() {
 }
 
 #[test]
-fn what_is_wrong_is_shown_with_its_place_and_the_way_out() {
+fn errors_are_shown_with_position_and_remedy() {
     let place = Place::new();
     let to = "--channel link.crank.angle_rad";
     for (arguments, words) in [
@@ -70,33 +71,39 @@ fn what_is_wrong_is_shown_with_its_place_and_the_way_out() {
         ("check scenarios/crank_rocker.toml phi --channel 3", ["names no channel", "link.rocker.angle_deg"]),
         ("check scenarios/crank_rocker.toml", ["no formula", "channel"]),
         (&format!("check scenarios/crank_rocker.toml phi {to} --error -1"), ["--error", "greater than 0"]),
-        (&format!("check scenarios/crank_rocker.toml phi {to} --set phi=1"), ["meaning", "another name"]),
-        (&format!("check scenarios/crank_rocker.toml phi {to} --let t=1"), ["meaning", "another name"]),
-        (&format!("check scenarios/crank_rocker.toml phi {to} --set a_mm=1 --set a_m=2"), ["stand for", "unit"]),
+        (&format!("check scenarios/crank_rocker.toml phi {to} --set phi=1"), ["is a reserved name", "another name"]),
+        (&format!("check scenarios/crank_rocker.toml phi {to} --let t=1"), ["is a reserved name", "another name"]),
+        (
+            &format!("check scenarios/crank_rocker.toml phi {to} --set a_mm=1 --set a_m=2"),
+            ["would mean both `a_mm` and `a_m`", "unit"],
+        ),
         (&format!("check scenarios/crank_rocker.toml phi {to} --from-deg 9 --to-deg 1"), ["less than", "exchange"]),
     ] {
         place.refused(arguments, &words);
     }
-    // Arguments that cannot be read at all are the argument parser's.
+    // The argument parser reports unreadable arguments.
     for arguments in ["--set a", "--set a=x", "--set a=inf", "--let u"] {
         assert_eq!(place.run(&format!("check scenarios/crank_rocker.toml phi {to} {arguments}")).code, 2);
     }
 }
 
 #[test]
-fn what_is_wrong_in_a_file_is_shown_there() {
+fn errors_in_a_file_are_shown_at_their_position() {
     let place = Place::new();
     let claim = "channel = \"link.crank.angle_rad\"";
     for (formulas, words) in [
         (format!("[[formula]]\nname = \"x\"\nexpression = \"phi + y\"\n{claim}"), ["mine.toml", "no `y`"]),
-        (format!("[[formula]]\nname = \"x\"\nexpression = \"phi +\"\n{claim}"), ["mine.toml", "part is missing"]),
+        (
+            format!("[[formula]]\nname = \"x\"\nexpression = \"phi +\"\n{claim}"),
+            ["mine.toml", "is incomplete at its end"],
+        ),
         (format!("[[formula]]\nname = \"x y\"\nexpression = \"phi\"\n{claim}"), ["cannot be a name", "letters"]),
-        (format!("[[formula]]\nname = \"pi\"\nexpression = \"phi\"\n{claim}"), ["has a meaning", "another name"]),
+        (format!("[[formula]]\nname = \"pi\"\nexpression = \"phi\"\n{claim}"), ["is a reserved name", "another name"]),
         (format!("[[formula]]\nname = \"x\"\nexpresion = \"phi\"\n{claim}"), ["expression", "did you mean"]),
         ("[[formula]]\nname = \"x\"\nexpression = \"phi\"\nerror = 1".into(), ["belongs to a claim", "channel"]),
         (format!("[[formula]]\nname = \"x\"\nexpression = \"phi\"\nerror = 0\n{claim}"), ["positive", "exact"]),
-        ("[parameters]\nsin = 3".into(), ["has a meaning", "another name"]),
-        ("[parameters]\na_mm = 3\na = 4".into(), ["stand for", "keep one"]),
+        ("[parameters]\nsin = 3".into(), ["is a reserved name", "another name"]),
+        ("[parameters]\na_mm = 3\na = 4".into(), ["would mean both `a_mm` and `a`", "keep one"]),
         ("[parameters]\na_mm = \"x\"".into(), ["no `x`", "number"]),
         ("[parameters]\na_mm = 3\n[[formula]]\nname = \"a\"\nexpression = \"1\"".into(), ["already", "another name"]),
     ] {
@@ -108,7 +115,7 @@ fn what_is_wrong_in_a_file_is_shown_there() {
     let outcome = place.run("run mine.toml --no-record");
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
     assert!(
-        outcome.stdout.contains("x as link.crank.angle_rad") && outcome.stdout.contains("a factor"),
+        outcome.stdout.contains("x as link.crank.angle_rad") && outcome.unbroken().contains("a factor, in x"),
         "{}",
         outcome.stdout
     );

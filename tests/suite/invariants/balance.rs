@@ -1,4 +1,5 @@
-//! Forces against the laws of momentum and energy, with all derivatives taken by differences.
+//! Checks forces against the laws of momentum and energy.
+//! All derivatives are taken by finite differences.
 
 use linkage::case::Case;
 use linkage::drive::Wrench;
@@ -38,7 +39,8 @@ impl Instant<'_> {
         loads
     }
 
-    /// Forces of the joints on `link` (0 for the ground). A joint acts on either link at its place on its second link.
+    /// Forces of the joints on `link` (0 for the ground).
+    /// A joint acts on both links at its point on its second link.
     fn on(&self, link: LinkId) -> Vec<Action> {
         let here = self.here();
         let joints = self.case.mechanism.joints().iter().zip(here.forces.iter().zip(&here.moments));
@@ -51,7 +53,7 @@ impl Instant<'_> {
     }
 }
 
-/// A force at its place in the world, and a moment.
+/// A force with its point of application in the world, and a moment.
 struct Action {
     place: Vec2,
     force: Vec2,
@@ -160,7 +162,7 @@ fn joints_hold_together_and_guides_push_across_their_axes_only() {
             let sides = [joint.first, joint.second].map(|side| (&here.motions[side.link], side.local));
             let places = sides.map(|(motion, local)| motion.point(local));
             let (gap, turn) = joint.opening(places, sides.map(|(motion, _)| motion.direction));
-            // Rounding of coordinates up to the reach, growing from one dyad to the next.
+            // Rounding error of coordinates up to REACH; it grows from dyad to dyad.
             let rounding = 10.0 * f64::EPSILON * at.around.condition;
             within("gap", gap, REACH * rounding)?;
             within("turn of a guide", turn, rounding)?;

@@ -1,4 +1,4 @@
-//! The effect on a solution of moving, turning, mirroring, reversing the whole problem, or making it heavier.
+//! Effects on the solution when the problem is moved, rotated, mirrored, reversed or made heavier.
 
 use std::f64::consts::PI;
 
@@ -13,11 +13,13 @@ use crate::common::random::{DyadSpecimen, for_each, within};
 use crate::common::spec::{Spec, Start};
 use crate::common::states;
 
-/// Rounding between two solutions of one problem in different forms, relative to the size of the compared quantity,
-/// times the square of the condition. The largest measured value uses a tenth of it.
+/// Bound on the rounding difference between the solutions of one problem in two forms.
+/// It is relative to the size of the compared quantity times the square of the condition.
+/// The largest measured difference is a tenth of it.
 const ROUNDING: f64 = 1e-12;
 
-/// States of both problems over the grid of the first, at equal crank angles times `sense`.
+/// States of both problems over the grid of the first problem.
+/// The second problem's crank angles are those of the first times `sense`.
 fn pairs(solver: &dyn Solver, sample: &DyadSpecimen, two: &Case, sense: f64) -> Vec<(State, State)> {
     let one = &sample.scenario.case;
     let times = one.grid.inputs.iter().map(|crank| two.crank().time_of(crank * sense));
@@ -26,7 +28,7 @@ fn pairs(solver: &dyn Solver, sample: &DyadSpecimen, two: &Case, sense: f64) -> 
     ours.into_iter().zip(theirs).collect()
 }
 
-/// Expected state of the second problem, given the first's.
+/// Expected state of the second problem, computed from the state of the first.
 struct Expected {
     place: Box<dyn Fn(Vec2) -> Vec2>,
     angle: Box<dyn Fn(f64) -> f64>,
@@ -79,7 +81,7 @@ fn compare(
     for (a, b) in ours.forces.iter().zip(&theirs.forces) {
         within("force", (b - (expected.vector)(*a)).norm(), bound * force)?;
     }
-    // Moments change their sense together with the driving moment.
+    // Moments change their sign together with the driving moment.
     for (a, b) in ours.moments.iter().zip(&theirs.moments) {
         within("moment", (b - expected.torque * a).abs(), bound * force.larger(ours.torques[0].abs()))?;
     }
@@ -91,7 +93,7 @@ fn compare(
 }
 
 #[test]
-fn a_mechanism_moved_and_turned_as_a_whole_works_alike() {
+fn a_moved_and_rotated_mechanism_behaves_alike() {
     for_each(COUNT, |sample| {
         let (by, turn) = (Vec2::new(3.0, -2.0), 2.2);
         let expected = Expected {
@@ -158,7 +160,7 @@ fn same() -> Expected {
 }
 
 #[test]
-fn joints_read_the_other_way_round_flip_their_own_force_only() {
+fn swapping_the_links_of_a_joint_flips_only_its_force() {
     for_each(COUNT, |sample| {
         let case = &sample.scenario.case;
         for (index, joint) in case.mechanism.joints().entries() {
@@ -170,7 +172,7 @@ fn joints_read_the_other_way_round_flip_their_own_force_only() {
             for solver in analytic::all() {
                 for (ours, mut theirs) in pairs(solver, sample, &other, 1.0) {
                     theirs.forces[index] = -theirs.forces[index];
-                    // About the place on the link that was the second one before.
+                    // The moment refers to the point on the link that was listed second before the exchange.
                     let [first, second] =
                         [joint.first, joint.second].map(|side| ours.motions[side.link].point(side.local));
                     if joint.slides() {
@@ -184,7 +186,7 @@ fn joints_read_the_other_way_round_flip_their_own_force_only() {
     });
 }
 
-/// Changes the mode of the group whose inner or outer joint is `joint`, if this matters for its kind.
+/// Changes the mode of the group that has `joint` as an inner or outer joint, if `matters` accepts its kind.
 fn turn_modes(case: &Case, spec: &mut Spec, joint: JointId, matters: impl Fn(GroupKind) -> bool) {
     for group in case.structure.groups.iter().filter(|group| matters(group.kind)) {
         let has = |start: &Start| {
@@ -196,9 +198,10 @@ fn turn_modes(case: &Case, spec: &mut Spec, joint: JointId, matters: impl Fn(Gro
     }
 }
 
-/// A guide is a line. Neither the sense of its axis nor the place on the line that names it matters.
+/// A guide is a line.
+/// The direction of its axis and the choice of the point on the line do not matter.
 #[test]
-fn guides_read_against_their_axes_and_named_elsewhere_work_alike() {
+fn sense_and_reference_point_of_a_guide_do_not_matter() {
     for_each(COUNT, |sample| {
         let case = &sample.scenario.case;
         for (index, joint) in case.mechanism.joints().entries().filter(|(_, joint)| joint.slides()) {
@@ -241,7 +244,7 @@ fn twice_the_masses_make_exactly_twice_the_forces() {
         let heavier = case_of(&sample.spec.heavier(2.0));
         for solver in analytic::all() {
             for (ours, theirs) in pairs(solver, &sample, &heavier, 1.0) {
-                // A factor of two changes no rounding, so the equality is exact.
+                // Doubling all masses does not change any rounding error, so the forces are exactly twice as large.
                 let doubled: Vec<Vec2> = ours.forces.iter().map(|force| force * 2.0).collect();
                 proptest::prop_assert_eq!(&*theirs.forces, &doubled);
                 let doubled: Vec<f64> = ours.moments.iter().map(|moment| moment * 2.0).collect();

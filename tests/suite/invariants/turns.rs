@@ -1,4 +1,4 @@
-//! Whole turns: the same pose every 360 degrees, and angles that count their turns.
+//! Whole turns: the pose repeats every 360 degrees, and the angles count the turns.
 
 use linkage::math::KeepNan;
 use std::f64::consts::TAU;
@@ -9,8 +9,8 @@ use crate::common::spec::four_bar;
 use crate::common::{assert_within, states};
 use linkage::mechanism::LinkId;
 
-/// Base, crank, coupler and rocker of mechanisms whose crank turns fully, and the number of turns of coupler and rocker
-/// per turn of the crank.
+/// Base, crank, coupler and rocker of mechanisms whose crank rotates fully.
+/// Also the revolutions of coupler and rocker per revolution of the crank.
 const TURNING: [([f64; 4], [f64; 2]); 4] = [
     // Crank-rocker: the shortest link is the crank.
     ([0.4, 0.1, 0.35, 0.3], [0.0, 0.0]),
@@ -54,8 +54,8 @@ fn three_turns(lengths: [f64; 4], turning: [f64; 2], left: bool, speed: f64, ste
             }
         }
         for pair in found.windows(2) {
-            // No link of these turns more than eight times as fast as the crank; more would be an error of a whole
-            // turn.
+            // No link of these mechanisms turns more than eight times as fast as the crank.
+            // A larger step of an angle is an error of a whole turn.
             let limit = (8.0 * step_deg.to_radians()).smaller(TAU * 0.75);
             let jumps = (1..4).map(|link| (pair[1].angles[LinkId(link)] - pair[0].angles[LinkId(link)]).abs());
             assert_within!(jumps.fold(0.0, f64::larger), limit, "{} {lengths:?}", solver.name());

@@ -1,4 +1,4 @@
-//! A massless slider-crank, whose balancing moment is -F dx/dphi of each load in closed form.
+//! A massless slider-crank: the balancing moment of a load is -F dx/dphi in closed form.
 
 use linkage::math::KeepNan;
 use std::path::Path;
@@ -31,21 +31,21 @@ pub fn slider_crank(loads: &str) -> Scenario {
     Scenario::parse(&text, Path::new("test.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Place of the slider and its derivative by the crank angle.
+/// Position of the slider, and its derivative with respect to the crank angle.
 fn slide(phi: f64) -> [f64; 2] {
     let (sin, cos) = phi.sin_cos();
     let root = (L * L - R * R * sin * sin).sqrt();
     [R * cos + root, -R * sin - R * R * sin * cos / root]
 }
 
-/// Angle of the rod and its derivative by the crank angle.
+/// Angle of the rod, and its derivative with respect to the crank angle.
 fn rod(phi: f64) -> [f64; 2] {
     let sine = -R / L * phi.sin();
     [sine.asin(), -R / L * phi.cos() / (1.0 - sine * sine).sqrt()]
 }
 
-/// Checks that both solvers find the balancing moment `moment` as a function of the crank angle (rad), to rounding of
-/// `size`.
+/// Checks that both solvers find the balancing moment `moment`, a function of the crank angle (rad).
+/// The tolerance is the rounding error of `size`.
 fn balances(loads: &str, size: f64, moment: impl Fn(f64) -> f64) {
     let scenario = slider_crank(loads);
     let case = &scenario.case;
@@ -67,7 +67,7 @@ fn val_a_constant_force_on_the_slider() {
 
 #[test]
 fn val_a_force_that_follows_the_rod() {
-    // The force is along the rod at its pin A: r F (cos b, sin b) . (-sin phi, cos phi) on the crank alone.
+    // The force acts at pin A along the rod, so it loads only the crank: r F (cos b, sin b) . (-sin phi, cos phi).
     let load = "[[loads]]\ntype = \"force\"\nlink = \"rod\"\npoint = \"A\"\nx_N = 20\ny_N = 0\nframe = \"link\"";
     balances(load, 10.0, |phi| -20.0 * R * (rod(phi)[0] - phi).sin());
 }
@@ -87,7 +87,7 @@ fn val_a_table_repeats_after_its_turns() {
 fn val_a_force_against_the_motion_of_the_slider() {
     let load = "[[loads]]\ntype = \"resisting_force\"\nlink = \"slider\"\npoint = \"B\"\nforce_N = 30";
     balances(load, 10.0, |phi| {
-        // At the dead points themselves neither direction is right.
+        // At the dead points the slider is at rest, so the force has no direction.
         if phi.sin().abs() < 1e-9 { 0.0 } else { 30.0 * slide(phi)[1].abs() }
     });
 }
@@ -117,7 +117,7 @@ fn val_spring_and_damper_on_the_slider() {
 
 #[test]
 fn val_torsional_spring_and_damper() {
-    // A spring between rod and ground, and a damper between crank and rod.
+    // A spring between ground and rod, and a damper between crank and rod.
     let load = "[[loads]]\ntype = \"torsion_spring\"\nlinks = [\"ground\", \"rod\"]\nstiffness_N_m_rad = 12\nfree_angle_deg = 30\n\
                 [[loads]]\ntype = \"torsion_damper\"\nlinks = [\"rod\", \"crank\"]\ndamping_N_m_s = 0.7";
     balances(load, 10.0, |phi| {
@@ -132,7 +132,7 @@ fn val_a_torsional_spring_is_wound_up_turn_by_turn() {
     balances(load, 100.0, |phi| 5.0 * (phi + 10f64.to_radians()));
 }
 
-/// Work of the balancing moment between two crank angles, by Gauss's rule.
+/// Work of the balancing moment between two crank angles, by Gaussian quadrature.
 fn work(case: &Case, from: f64, to: f64) -> f64 {
     let nodes = quadrature::composite(&[from, to], 0.05);
     let times: Vec<f64> = nodes.iter().map(|&(crank, _)| case.crank().time_of(crank)).collect();

@@ -9,7 +9,7 @@ use crate::common::shipped;
 #[test]
 fn val_the_press_agrees_by_every_route() {
     let mut scenario = shipped("loaded_slider.toml");
-    // Every tenth degree is enough for a test.
+    // One instant every ten degrees is enough for a test.
     let cranks: Vec<f64> = (0..=36).map(|k| f64::from(10 * k).to_radians()).collect();
     let grid = linkage::case::Grid::of_inputs(scenario.case.crank(), cranks);
     scenario.case = scenario.case.on(grid).unwrap();
@@ -22,7 +22,7 @@ fn val_the_press_agrees_by_every_route() {
 }
 
 #[test]
-fn what_mujoco_does_not_get_is_refused_by_name() {
+fn loads_unsupported_by_mujoco_are_refused_by_name() {
     let case = shipped("loaded_slider.toml").case;
     let solver = analytic::named("assur").unwrap();
     let error = design::export::mjcf::mjcf(&case, solver, "press", 1e-3).unwrap_err();

@@ -1,4 +1,4 @@
-//! A load whose law changes where a motion reverses jumps there, or has a kink only.
+//! Loads whose law changes when a motion reverses: the load either jumps at the reversal or only has a kink.
 
 use linkage::engine::Route;
 use linkage::trajectory::Stage;
@@ -7,7 +7,7 @@ use scenario::Scenario;
 
 use crate::common::{from_outside, shipped};
 
-/// Largest number of instants that are left out in a channel of the pendulum under a load.
+/// For the pendulum under a load: the largest number of instants left out of a channel.
 fn left_out(load: &str) -> usize {
     let path = shipped("pendulum.toml").path;
     let text = std::fs::read_to_string(&path).unwrap();
@@ -19,9 +19,9 @@ fn left_out(load: &str) -> usize {
     proof.engine().channels.iter().map(|channel| channel.left_out).max().unwrap()
 }
 
-/// The pendulum reverses at 150 deg to either side of where it hangs.
+/// The pendulum reverses at 150 deg to either side of its lowest position.
 #[test]
-fn instants_are_left_out_where_a_load_jumps_and_nowhere_else() {
+fn only_instants_at_a_load_jump_are_left_out() {
     let table = |away: f64| {
         format!(
             "type = \"moment\"\nlink = \"rod\"\nacts = \"clockwise\"\ntable = [{{ crank_deg = -40, moment_N_m = {away} }}, \
@@ -35,8 +35,8 @@ fn instants_are_left_out_where_a_load_jumps_and_nowhere_else() {
     }
 }
 
-/// The crank-rocker, whose rocker has a resistance and reverses at the given crank angles (its own oracles), at some
-/// crank angles.
+/// Proof of the crank-rocker on a given grid, without its published numbers.
+/// The rocker has a resistance, and reverses at the two crank angles that the scenario states.
 fn rocker(grid: &str, options: &Options) -> Proof {
     let path = shipped("crank_rocker.toml").path;
     let text = std::fs::read_to_string(&path).unwrap();
@@ -45,14 +45,15 @@ fn rocker(grid: &str, options: &Options) -> Proof {
     prove(&Scenario::parse(&text, &path).unwrap(), options).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Instants left out of the channels of a stage, at most.
+/// For all channels of one stage: the largest number of instants left out of a channel.
 fn left_out_in(proof: &Proof, stage: Stage) -> usize {
     let own = proof.engine().channels.iter().filter(|own| own.residual.channel.kind.stage == stage);
     own.map(|own| own.left_out).max().unwrap()
 }
 
-/// In the very instant of a reversal the sense is rounding: the sides and the runs have different ones, and the forces
-/// of a resistance jump by twice its size. Nothing else is left out, and what is judged agrees.
+/// Exactly at a reversal, the sign of the speed is determined by rounding error.
+/// The sides and the runs find different signs, so the forces of a resistance differ by twice its size.
+/// Only this instant is left out, and the judged instants agree.
 #[test]
 fn forces_are_not_judged_where_the_runs_reverse_at_another_instant() {
     let grid = "angles_deg = [0, 20, 33.6108197898815586, 50, 90, 120, 150, 180, 210, 240, 270, 300, 330]\n";
@@ -61,10 +62,10 @@ fn forces_are_not_judged_where_the_runs_reverse_at_another_instant() {
     assert_eq!([Stage::Accelerations, Stage::Reactions].map(|stage| left_out_in(&proof, stage)), [0, 1]);
 }
 
-/// Under a prescribed motion a resistance jumps, and no acceleration does.
+/// In a prescribed motion, a resistance makes the forces jump, but not the accelerations.
 #[test]
 fn a_prescribed_acceleration_is_judged_where_a_load_jumps() {
-    // Two of them within a quarter of a step at which the impulses of several runs are combined.
+    // The angles 33.3 and 33.9 deg are close to the reversal, where the impulses of several runs are combined.
     let grid = "angles_deg = [0, 30, 33.3, 33.9, 60, 120, 180, 240, 300]\n";
     let proof = rocker(grid, &Options::default().step(2e-3).sweeps(16).extrapolated(1).route(Route::Probe));
     let [accelerations, forces] = [Stage::Accelerations, Stage::Reactions].map(|stage| left_out_in(&proof, stage));

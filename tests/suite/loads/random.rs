@@ -1,4 +1,4 @@
-//! RandomSource mechanisms of dyads of all kinds under random loads of all kinds.
+//! Random mechanisms of all kinds of dyads under random loads of all kinds.
 
 use linkage::math::KeepNan;
 
@@ -14,12 +14,12 @@ use crate::common::random::{for_each, within};
 use crate::common::sketch::RandomSource;
 use crate::common::{self, assert_within, shipped, states};
 
-/// Six loads of random sorts, as text.
+/// Six loads of random kinds, as scenario text.
 pub fn loads(random: &mut RandomSource, case: &Case) -> String {
     common::loads::loads(random, case, 6, Sizes { force: 50.0, length: 1.0, speed: 1.0 })
 }
 
-/// The scenario of a sample under other loads.
+/// The scenario of a sample with its loads replaced.
 pub fn loaded(random: &mut RandomSource, scenario: &Scenario) -> Scenario {
     let text = format!("{}\n{}", scenario.text, loads(random, &scenario.case));
     Scenario::parse(&text, &scenario.path).unwrap_or_else(|error| panic!("{error}\n{text}"))
@@ -32,7 +32,7 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
     for_each(128, |sample| {
         let scenario = loaded(&mut random.borrow_mut(), &sample.scenario);
         let case = &scenario.case;
-        // A load is called what its file calls it.
+        // The name of a load is its type in the file.
         let said = scenario.text.split("[[loads]]\ntype = \"").skip(1).map(|load| load.split('"').next().unwrap());
         assert_eq!(case.loads.iter().map(Load::sort).collect::<Vec<_>>(), said.collect::<Vec<_>>());
         for load in &case.loads {
@@ -44,7 +44,7 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
             own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.larger(v.abs()))
         };
         let scale = forces(Stage::Reactions).larger(forces(Stage::BalancingMoment));
-        // As without loads: see `both_solvers_agree_to_rounding` in the invariants.
+        // The same bound as without loads; see `both_solvers_agree_to_rounding` in the invariants.
         let bound = 1000.0 * f64::EPSILON * sample.condition;
         for residual in residuals(&a, &b).expect("one grid") {
             if residual.channel.kind.stage >= Stage::Reactions {
@@ -66,7 +66,7 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
 }
 
 #[test]
-fn higher_groups_bear_loads_too() {
+fn higher_groups_agree_under_loads() {
     let mut random = RandomSource::from_seed(72);
     for name in ["fourth_class.toml", "ov7_new.toml", "five_bar.toml"] {
         for _ in 0..4 {

@@ -18,7 +18,7 @@ fn press(keep: impl Fn(&Load) -> bool) -> Case {
     shipped("loaded_slider.toml").case.with(|parts| parts.loads.retain(keep)).unwrap()
 }
 
-/// Kinetic energy, energy of the weights and energy of the linear springs (J).
+/// Sum of kinetic energy, potential energy of the weights and energy of the linear springs (J).
 fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> f64 {
     let state = poses.solve(at.crank, at.omega, at.alpha, Stage::Velocities).unwrap();
     let mut sum = 0.0;
@@ -37,7 +37,7 @@ fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> f64 {
 }
 
 #[test]
-fn a_spring_gives_back_what_it_takes() {
+fn a_spring_returns_its_energy() {
     let case = press(|load| matches!(load, Load::Spring { .. }));
     assert_eq!(case.loads.len(), 1);
     let model = ReducedModel::of(&case).unwrap();
@@ -52,7 +52,7 @@ fn a_spring_gives_back_what_it_takes() {
 }
 
 #[test]
-fn the_reduced_moment_of_tables_and_one_sided_moments_is_that_of_the_reactions() {
+fn reduced_moments_of_varying_loads_match_the_reactions() {
     let case = press(|load| matches!(load, Load::Force { .. } | Load::Spring { .. }));
     let rod = case.mechanism.link_named("rod").unwrap();
     let table = linkage::drive::Course::table(&[(0.3, 2.0), (4.0, -5.0), (9.0, 8.0)], 2, false);
@@ -60,8 +60,9 @@ fn the_reduced_moment_of_tables_and_one_sided_moments_is_that_of_the_reactions()
     let more = [Load::Moment { link: rod, moment: table, acts }, Load::Resistance { link: rod, moment: 3.0 }];
     let case = case.with(|parts| parts.loads.extend(more)).unwrap();
     let model = ReducedModel::of(&case).unwrap();
-    // Two turns, because of the table over two turns: it has three points in them, the press's table has nine in each.
-    // Where the press's table has points, the rocker reverses.
+    // The period is two revolutions, because one load table extends over two revolutions.
+    // That table has three points per period; the press's table has nine points per revolution.
+    // The rocker reverses at points of the press's table.
     assert_eq!((model.kinks().period, model.kinks().cranks.len()), (Some(2.0 * TAU), 3 + 18));
     let times: Vec<f64> = (0..=400).map(|k| f64::from(k) * 1e-3).collect();
     let found = RunUp::of(&model, 120.0, &times, 1e-12).unwrap();
@@ -71,8 +72,8 @@ fn the_reduced_moment_of_tables_and_one_sided_moments_is_that_of_the_reactions()
 }
 
 #[test]
-fn what_the_reduction_does_not_know_is_refused_by_name() {
-    for (keep, word) in [("damper", "size of speeds"), ("torsion_damper", "size of speeds")] {
+fn loads_unknown_to_the_reduction_are_refused_by_name() {
+    for (keep, word) in [("damper", "magnitude of speeds"), ("torsion_damper", "magnitude of speeds")] {
         let case = press(|load| load.sort() == keep);
         let error = ReducedModel::of(&case).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Unsupported);
@@ -86,7 +87,7 @@ fn what_the_reduction_does_not_know_is_refused_by_name() {
     let at = case.mechanism.joint_named("guide").map(|joint| case.mechanism.joints()[joint].second).unwrap();
     let resisted = loaded(vec![Load::ResistingForce { at, force: 1.0 }]);
     let error = ReducedModel::of(&resisted).unwrap_err();
-    assert!(error.message().contains("\"resisting_force\" turns with the motion of a point"), "{error}");
+    assert!(error.message().contains("\"resisting_force\" follows the motion of a point"), "{error}");
     let (link, acts) = (at.link, linkage::drive::Acts::Always);
     let tables = [7, 11, 17].map(|turns| Load::Moment {
         link,

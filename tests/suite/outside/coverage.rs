@@ -1,5 +1,5 @@
-//! Whatever a scenario may say of a mechanism, and whatever a trajectory may hold, has a number from outside: the lists
-//! are the program's own tables, so that a new key, word or channel without one fails.
+//! An independent number tests every key and word of a scenario about a mechanism, and every channel of a trajectory.
+//! The lists are the tables of the program, so the test fails for a new key, word or channel without a number.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use toml_edit::{Item, TableLike, Value};
 
 use super::{SOURCE, files, loaded};
 
-/// Sections of what a mechanism is and what moves and loads it.
+/// Sections that describe a mechanism, its motion and its loads.
 const SECTIONS: [&str; 11] = [
     "links.*",
     "links.*.points.*",
@@ -24,16 +24,16 @@ const SECTIONS: [&str; 11] = [
     "loads",
     "loads.table",
 ];
-/// What pictures show, and no number has.
+/// A key that is only for pictures; no number depends on it.
 const DRAWN: &str = "drawn";
 
-/// Files with numbers from outside.
+/// Files with independent numbers.
 fn with_numbers() -> Vec<PathBuf> {
     let all = files("scenarios").into_iter().chain(files("tests/outside/scenarios"));
     all.filter(|path| loaded(path).oracles.iter().any(|own| own.source.starts_with(SOURCE))).collect()
 }
 
-/// Keys at `path` with their words, where they are texts.
+/// Collects the keys at `path`; if a value is a text, with its word.
 fn collect(table: &dyn TableLike, path: &[&str], found: &mut BTreeSet<(String, String)>) {
     let Some((first, rest)) = path.split_first() else {
         for (key, item) in table.iter() {
@@ -57,7 +57,7 @@ fn below(item: &Item, path: &[&str], found: &mut BTreeSet<(String, String)>) {
 }
 
 #[test]
-fn every_key_unit_and_word_of_a_mechanism_its_drives_motor_and_loads_has_numbers_from_outside() {
+fn every_key_unit_and_word_has_external_numbers() {
     let texts: Vec<toml_edit::DocumentMut> =
         with_numbers().iter().map(|path| std::fs::read_to_string(path).unwrap().parse().unwrap()).collect();
     let mut missing = Vec::new();
@@ -72,7 +72,7 @@ fn every_key_unit_and_word_of_a_mechanism_its_drives_motor_and_loads_has_numbers
             missing.extend(spelled.map(|spelling| format!("{path}: {spelling}")));
             if let ValueKind::Choice(words) = key.kind {
                 let has = |word: &&&str| found.contains(&(key.name.into(), (**word).into()));
-                // A default need not be written.
+                // A default need not be stated in a file.
                 let words = words();
                 let said = words.iter().filter(|word| !has(word) && !key.default.contains(&format!("\"{word}\"")));
                 missing.extend(said.map(|word| format!("{path}: {} = {word:?}", key.name)));
@@ -83,12 +83,12 @@ fn every_key_unit_and_word_of_a_mechanism_its_drives_motor_and_loads_has_numbers
 }
 
 #[test]
-fn every_channel_has_a_number_from_outside() {
+fn every_channel_has_an_external_number() {
     let scenarios: Vec<_> = with_numbers().iter().map(|path| loaded(path)).collect();
     let oracles = scenarios.iter().flat_map(|scenario| &scenario.oracles).filter(|own| own.source.starts_with(SOURCE));
     let series: Vec<_> = oracles.flat_map(|own| &own.series).collect();
     for kind in &CHANNELS {
-        // A number that is zero would be so at any scale.
+        // A number near zero does not test the scale, so it does not count.
         let says = |value: f64, bound: f64| value.abs() > 1e3 * bound;
         let has = series.iter().any(|own| {
             std::ptr::eq(own.channel.kind, kind) && own.points.iter().any(|point| says(point.value, point.bound))

@@ -1,5 +1,5 @@
-//! Momentum and power, calculated from the sampled channels alone: with masses and loads of the case, and with formulas
-//! for loads that are written here once more.
+//! Momentum and power, computed from the sampled channels alone.
+//! Masses and loads are those of the case; the formulas for loads are written independently here.
 
 use linkage::case::{Case, Wanted};
 use linkage::drive::load::Acts;
@@ -11,17 +11,18 @@ use linkproof::Scenario;
 
 use super::{files, loaded};
 
-/// Largest imbalance over the largest force, moment or power in it: rounding, and at a change point what a side loses.
+/// Upper limit of the imbalance, relative to the largest force, moment or power in it.
+/// It allows for rounding error, and for the error of a side at a change point.
 const BOUND: f64 = 1e-8;
 
-/// A trajectory at one row.
+/// One row of a trajectory.
 struct Row<'a> {
     case: &'a Case,
     all: &'a Trajectory,
     row: usize,
 }
 
-/// A link's motion: angle, angular velocity and acceleration, and those of its mass centre.
+/// Motion of a link: angle, angular velocity and angular acceleration, and the motion of its mass centre.
 #[derive(Clone, Copy)]
 struct Moving {
     turn: [f64; 3],
@@ -51,7 +52,7 @@ impl Row<'_> {
         }
     }
 
-    /// Place and velocity of a point of a link.
+    /// Position and velocity of a point of a link.
     fn point(&self, at: JointSide) -> [Vec2; 2] {
         let (moving, body) = (self.link(at.link), &self.case.mechanism.links()[at.link]);
         let from = if at.link == GROUND { Vec2::zeros() } else { body.mass_centre };
@@ -61,11 +62,11 @@ impl Row<'_> {
         [moving.centre[0] + arm, moving.centre[1] + moving.turn[1] * Vec2::new(-arm.y, arm.x)]
     }
 
-    /// What loads do: link, place, force, moment.
+    /// Effects of the loads: link, point of application, force, moment.
     fn loads(&self) -> Vec<(LinkId, Vec2, Vec2, f64)> {
         let crank = self.all.inputs()[self.row];
         let omega = |link: LinkId| self.link(link).turn[1];
-        // Zero at rest, as loads are.
+        // The sense is zero at rest, as in the solvers' loads.
         let sense = |speed: f64| if speed == 0.0 { 0.0 } else { speed.signum() };
         let couple = |link: LinkId, moment: f64| (link, Vec2::zeros(), Vec2::zeros(), moment);
         let mut all = Vec::new();
@@ -105,7 +106,7 @@ impl Row<'_> {
                 Load::TorsionSpring { links, stiffness, free_angle } => {
                     let angle = |link: LinkId| self.link(link).turn[0];
                     let begun = self.case.start.0[links[1]].angle - self.case.start.0[links[0]].angle;
-                    // At t = 0 in (-pi, pi].
+                    // At t = 0 the angle is in (-pi, pi].
                     let turns = ((begun - std::f64::consts::PI) / std::f64::consts::TAU).ceil();
                     let twist = angle(links[1]) - angle(links[0]) - turns * std::f64::consts::TAU;
                     let moment = stiffness * (twist - free_angle);
@@ -129,19 +130,20 @@ impl Row<'_> {
         drives.map(|(index, drive)| (drive.link, self.read(&name(index, drive.joint)))).collect()
     }
 
-    /// Shaking force and moment as they are sampled, less those of the reactions and those of the momentum; power of
-    /// drives, loads, weights and inertia. Each is a share of the largest of its terms.
+    /// Five imbalances, each divided by its largest term.
+    /// Two compare the sampled shaking force and moment with the reactions, two compare them with the momentum.
+    /// The fifth is the total power of drives, loads, weights and inertia.
     fn imbalances(&self) -> [f64; 5] {
         let (case, loads, torques) = (self.case, self.loads(), self.torques());
         let sampled = (self.pair("frame", ["fx_N", "fy_N"]), self.read("frame.moment_N_m"));
-        // Forces and moments about the origin, and the largest of either.
+        // Sum of forces and moments about the origin, and the largest term of each.
         let (mut force, mut moment) = (sampled.0, sampled.1);
         let (mut largest, mut turning) = (force.norm(), moment.abs());
         let size = case.mechanism.size();
         let mut take = |own: Vec2, about: f64| {
             force -= own;
             moment -= about;
-            // The moment of a force through the origin is rounding at the mechanism's size.
+            // A force through the origin has a moment with a rounding error of the force times the mechanism's size.
             (largest, turning) = (largest.larger(own.norm()), turning.larger(about.abs()).larger(size * own.norm()));
         };
         for joint in case.mechanism.joints() {
@@ -159,7 +161,7 @@ impl Row<'_> {
         let on_frame = loads.iter().filter(|own| own.0 == GROUND);
         on_frame.for_each(|(_, place, own, couple)| take(*own, cross(*place, *own) + couple));
         let by_reactions = [force.norm() / largest, moment.abs() / turning];
-        // The same by momentum: F = sum of m (g - a) + loads.
+        // The same from momentum: F = sum of m (g - a) + loads.
         let (mut force, mut moment, mut power) = (sampled.0, sampled.1, 0.0);
         let (mut largest, mut turning, mut strongest) = (largest, turning, 0.0f64);
         let mut work = |own: f64| {
@@ -169,7 +171,7 @@ impl Row<'_> {
         let mut take = |own: Vec2, about: f64| {
             force -= own;
             moment -= about;
-            // The moment of a force through the origin is rounding at the mechanism's size.
+            // A force through the origin has a moment with a rounding error of the force times the mechanism's size.
             (largest, turning) = (largest.larger(own.norm()), turning.larger(about.abs()).larger(size * own.norm()));
         };
         for (index, body) in case.mechanism.links().entries().skip(1) {
@@ -193,7 +195,8 @@ impl Row<'_> {
     }
 }
 
-/// Largest imbalances over all rows; in the instant of starting loads act already against a motion that is not there.
+/// Largest imbalances over all rows.
+/// The starting instant of a free motion from rest is left out: the motion has no direction yet, but loads act.
 fn worst(case: &Case, all: &Trajectory) -> [f64; 5] {
     let mut worst = [0.0f64; 5];
     for row in 0..all.times().len() {
@@ -208,7 +211,7 @@ fn worst(case: &Case, all: &Trajectory) -> [f64; 5] {
     worst
 }
 
-/// The trajectory with one channel larger by a hundredth.
+/// The trajectory with the values of one channel increased by 1 %.
 fn spoiled(all: &Trajectory, name: &str) -> Trajectory {
     let spoiled = |(channel, values): (&Channel, &[f64])| -> Vec<f64> {
         let factor = if channel.to_string() == name { 1.01 } else { 1.0 };
@@ -224,7 +227,7 @@ fn scenarios() -> Vec<Scenario> {
 }
 
 #[test]
-fn sampled_reactions_moments_and_motions_balance_momentum_and_power_in_every_scenario() {
+fn sampled_channels_balance_momentum_and_power() {
     for scenario in scenarios() {
         let case = scenario.case.wanting(Wanted::ALL);
         for side in analytic::all() {
@@ -235,15 +238,15 @@ fn sampled_reactions_moments_and_motions_balance_momentum_and_power_in_every_sce
     }
 }
 
-/// Symptom: the sampler's moment on the frame was larger by a hundredth for all parties, and went through every file.
+/// Symptom: the sampler's moment on the frame was 1 % too large for all parties, and no file revealed it.
 #[test]
-fn regress_a_channel_that_is_sampled_a_hundredth_too_large_is_seen() {
+fn regress_a_sampling_error_of_one_percent_is_found() {
     let names = ["rotary_engine", "five_bar", "loads_of_all_sorts"];
     let (mut seen, mut unseen) = (0, Vec::new());
     for scenario in scenarios().into_iter().filter(|own| names.contains(&own.name.as_str())) {
         let case = scenario.case.wanting(Wanted::ALL);
         let right = analytic::all()[0].solve(&case).unwrap();
-        // What vanishes throughout is not changed by a factor.
+        // Channels that are zero throughout are skipped: a factor does not change them.
         for (channel, _) in right.iter().filter(|(_, values)| values.iter().any(|value| value.abs() > 1e-6)) {
             let name = channel.to_string();
             match worst(&case, &spoiled(&right, &name)).iter().any(|own| !(*own <= BOUND)) {
@@ -252,8 +255,10 @@ fn regress_a_channel_that_is_sampled_a_hundredth_too_large_is_seen() {
             }
         }
     }
-    // Points and slides of joints, angles of links that carry nothing by them, and reactions between moving links are
-    // in no balance of the whole: numbers from outside hold them.
+    // Some channels enter no balance of the whole mechanism: points and slides of joints, angles without a load, and
+    // reactions
+    // between moving links.
+    // Independent numbers check these channels.
     for must in ["frame.fx_N", "frame.fy_N", "frame.moment_N_m", "drive.torque_N_m", "joint.O.fx_N", "omega", "alpha"] {
         assert!(!unseen.iter().any(|name| name.contains(must)), "{must}: {unseen:?}");
     }

@@ -45,10 +45,10 @@ fn drawings_are_well_formed_and_hold_every_vector() {
     }
 }
 
-/// Letters do not overlap each other or any line. The boxes are as large as the letters themselves, a little smaller
-/// than the space kept free.
+/// Letters overlap neither each other nor a line.
+/// The boxes have the size of the letters, which is slightly smaller than the free space.
 #[test]
-fn letters_can_be_read() {
+fn letters_do_not_overlap() {
     let (mut letters, mut crossed) = (0, 0);
     for (name, degrees) in all().step_by(2) {
         let text = draw::plans(&plans(name, degrees), name, "");
@@ -77,7 +77,7 @@ fn letters_can_be_read() {
                 let gap = (centre - other).abs() - half - size;
                 assert!(gap.x > 0.0 || gap.y > 0.0, "{name} at {degrees}: letters at {centre:?} and {other:?}");
             }
-            // Shares of the line at which it enters the box and leaves it, along each axis.
+            // Parameters at which the line enters and leaves the box, along each axis.
             let inside = |[a, b]: &[Vec2; 2]| {
                 let [mut from, mut to] = [0.0f64, 1.0];
                 for axis in 0..2 {
@@ -102,8 +102,7 @@ fn letters_can_be_read() {
     assert_eq!(crossed, 0, "of {letters} letters");
 }
 
-/// The arrow of a vector is as long as its magnitude and the scale factor require, to the written hundredths of a
-/// millimetre.
+/// The arrow's length equals the vector's magnitude times the scale factor, to 0.01 mm, the last written digit.
 #[test]
 fn drawings_are_true_to_scale() {
     let plans = plans("crank_rocker", 70.0);

@@ -1,4 +1,4 @@
-//! Drawn graphs over the crank angle.
+//! Drawn graphs against the crank angle.
 
 use crate::common::assert_within;
 use std::f64::consts::TAU;
@@ -6,11 +6,11 @@ use std::f64::consts::TAU;
 use design::diagram::{CrankGraph, GraphPoint, Graphs};
 use design::draw;
 
-/// A cosine about 3 N over one turn from 90 deg on, in the direction `way`.
+/// A cosine with mean 3 N over one turn from 90 deg on, in the direction `way`.
 fn cosine(amplitude: f64, way: f64) -> Graphs {
     let start = TAU / 4.0;
     let points = (0..=360).map(|k| way * TAU * f64::from(k) / 360.0).map(|x| [start + x, 3.0 + amplitude * x.cos()]);
-    // The first mark is before the turn that is drawn.
+    // The first mark lies outside the drawn turn.
     let marks = [("least", -TAU / 2.0, -1.0), ("greatest", 0.0, 1.0)];
     let marks = marks.map(|(word, x, side)| GraphPoint { at: [start + way * x, 3.0 + side * amplitude], word });
     let (points, size) = (points.collect(), 3.0 + amplitude);
@@ -57,12 +57,12 @@ fn curves_are_true_to_scale_and_marks_lie_on_them() {
     }
 }
 #[test]
-fn rounding_is_no_course() {
+fn rounding_is_drawn_as_a_constant() {
     let mut graphs = cosine(1e-15, 1.0);
     assert!(graphs.graphs[0].is_constant());
     let text = draw::graphs(&graphs, "constant");
     assert!(text.contains(">constant 3.000<") && !text.contains("<circle") && !text.contains("least"), "{text}");
-    // Values around zero, next to values of size 3.
+    // A constant zero: the values are rounding errors around zero, but the graph's scale is 3.
     let graph = &mut graphs.graphs[0];
     graph.points.iter_mut().for_each(|point| point[1] -= 3.0);
     graph.marks.iter_mut().for_each(|mark| mark.at[1] -= 3.0);

@@ -18,8 +18,8 @@ fn motion(name: &str, channel: &str, divisions: usize) -> MotionDiagram {
     MotionDiagram::of(&case, &AssurSolver, &course, divisions).unwrap()
 }
 
-/// The pin of a uniformly turning crank moves as a sine. The chord method reduces it by the factor sin(h/2)/(h/2) and
-/// its square.
+/// The pin of a uniformly turning crank moves sinusoidally.
+/// The chord method reduces the velocity by the factor sin(h/2)/(h/2), and the acceleration by its square.
 #[test]
 fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
     for n in [12, 24, 48] {
@@ -30,7 +30,7 @@ fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
             let found = diagram.found.iter().find(|found| found.method == method).unwrap();
             let exact = &diagram.exact[method.gives()];
             for (&row, value) in found.rows.iter().zip(&found.values) {
-                // Rounding of positions (1e-15 of their range) over the interval, once or twice.
+                // Rounding error of positions (1e-15 of their range), divided by the interval once or twice.
                 let bound = 1e-15 * (n * n) as f64 * diagram.half_range(method.gives());
                 assert_within!((value - factor * exact[row]).abs(), bound, "{n} {method:?}");
             }
@@ -40,8 +40,8 @@ fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
 
 #[test]
 fn the_error_of_all_four_methods_is_of_second_order() {
-    // The number of divisions is so large that the next term, of fourth order, does not show. The motion of the class
-    // IV group changes most sharply by far.
+    // The number of divisions makes the next term of the error, of fourth order, negligible.
+    // The motion of the class IV group changes much more sharply than the others, so it needs more divisions.
     for (name, channel, divisions) in [
         ("crank_rocker", "point.B.x_m", 48),
         ("crank_rocker", "link.rocker.angle_rad", 48),
@@ -55,17 +55,18 @@ fn the_error_of_all_four_methods_is_of_second_order() {
             }
         }
     }
-    // Usual numbers of a draughtsman: 12 divisions, then 24 and 48.
+    // A draughtsman's usual numbers of divisions: 12, then 24 and 48.
     for found in &motion("crank_rocker", "link.coupler.angle_rad", 12).found {
         assert_within!((found.orders[1].unwrap() - 2.0).abs(), 0.05, "{:?}", found.orders);
     }
 }
 
-/// The example of a published graphical course: a piston of the two-stage compressor. Its velocity and acceleration are
-/// found from its displacement by chords, and back. Displacement, velocity and acceleration follow the closed form of
-/// its authors (phi clockwise from +y), and all four methods are computed on it by hand.
+/// The example of a published graphical course: a piston of the two-stage compressor.
+/// Chords give its velocity and acceleration from its displacement; graphical integration gives the reverse.
+/// All three quantities follow the authors' closed form (phi clockwise from +y).
+/// The test computes all four methods by hand from that closed form.
 #[test]
-fn a_piston_by_chords_errs_as_its_closed_form_says() {
+fn chord_errors_of_a_piston_match_the_closed_form() {
     let (crank, rod, omega) = (0.06, 0.24, 104.71975511965978);
     let at = |phi: f64| {
         let (s1, c1) = phi.sin_cos();
@@ -83,7 +84,7 @@ fn a_piston_by_chords_errs_as_its_closed_form_says() {
         for which in 0..3 {
             let gap = |row: usize| (diagram.exact[which][row] - at(angle(row))[which]).abs();
             let worst = (0..diagram.cranks.len()).map(gap).fold(0.0, f64::larger);
-            // Rounding of lengths of 0.3 m and of the values that follow from them.
+            // Rounding error of lengths of 0.3 m, and of the values computed from these lengths.
             assert_within!(worst, 1e-12 * scale(which), "{worst:e}");
         }
         let h = TAU / n as f64;
@@ -101,7 +102,7 @@ fn a_piston_by_chords_errs_as_its_closed_form_says() {
             .iter()
             .map(|found| {
                 for (k, value) in found.values.iter().enumerate() {
-                    // Rounding of displacements (1e-16 of 0.3 m) over the square of the step, at most.
+                    // At most the rounding error of displacements (1e-16 of 0.3 m), divided by the square of the step.
                     let bound = 1e-12 * scale(found.method.gives());
                     assert_within!((value - by_hand(found.method, k)).abs(), bound, "{:?} {k}", found.method);
                 }
@@ -121,7 +122,7 @@ fn a_piston_by_chords_errs_as_its_closed_form_says() {
 fn a_link_that_turns_uniformly_has_no_error() {
     let diagram = motion("crank_rocker", "link.crank.angle_rad", 12);
     for found in &diagram.found {
-        // The angle grows by 2 pi: the error is its rounding over the interval, once or twice.
+        // The angle grows by 2 pi. Its rounding error is divided by the interval once or twice.
         assert!(found.orders == [None; 2], "{found:?}");
         assert_within!(found.largest, 1e-11, "{found:?}");
         assert_within!(found.share, 1e-11, "{found:?}");
@@ -143,19 +144,19 @@ fn diagrams_are_well_formed_and_carry_their_errors() {
             )));
         }
         let circles = document.descendants().filter(|node| node.has_tag_name("circle")).count();
-        // One circle at every middle and every end except the first, and one in each of two captions.
+        // One circle at every midpoint, one at every end except the first, and one in each of two captions.
         assert_eq!(circles, 2 * n + 2);
     }
 }
 
 #[test]
-fn bad_questions_are_answered_with_the_way_out() {
+fn invalid_channels_are_refused_with_a_remedy() {
     let case = scenario("crank_rocker").case;
     for (channel, message, way_out) in [
         ("point.B.z_m", "no channel", "point.B.x_m"),
         ("point.Q.x_m", "no channel", "point.A.x_m"),
         ("link.roker.angle_rad", "no channel", "link.rocker.angle_rad"),
-        ("point.B.vx_m_s", "a derivative already", "point.B.x_m"),
+        ("point.B.vx_m_s", "already a derivative", "point.B.x_m"),
         ("joint.B.fx_N", "neither a position nor an angle", "point.B.x_m"),
         ("", "no channel", "point.B.x_m"),
     ] {

@@ -1,5 +1,6 @@
-//! Sliding pairs in plans and diagrams: known directions, Coriolis part and relative acceleration against numerical
-//! derivatives, and drawn guides.
+//! Sliding pairs in plans and diagrams.
+//! The tests check the known directions and the drawn guides.
+//! Numerical derivatives check the Coriolis component and the relative acceleration.
 
 use analytic::{AssurSolver, NewtonSolver};
 use design::draw;
@@ -15,7 +16,7 @@ use super::{Named, SLIDERS, angles, contours, degrees_of, longest, plans, plans_
 use crate::common::assert_within;
 use linkage::mechanism::LinkId;
 
-/// Joint, sliding point, and the name of the point under it on a moving guide.
+/// For each scenario: a joint, its sliding point, and the name of the coincident point on the moving guide.
 const MOVING: [(&str, &str, &str, &str); 3] =
     [("quick_return", "slot", "A", "A3"), ("scotch_yoke", "slot", "A", "A3"), ("tangent", "slot", "B", "B1")];
 
@@ -39,19 +40,22 @@ fn points_in_fixed_guides_move_along_them() {
             for plan in [&plans.velocity, &plans.acceleration] {
                 let vector = plan.vector(&format!("{}_{point}", plan.quantity.symbol())).unwrap();
                 assert!(vector.meaning.contains(", along the guide "), "{}", vector.meaning);
-                // The accuracy that the solvers promise for velocities and accelerations.
+                // Promised accuracy of the solvers' velocities and accelerations.
                 assert_within!(cross(axis, vector.value).abs(), 1e-11 * longest(plan), "{name} {point} at {degrees}");
             }
         }
     }
 }
 
-/// The place of the sliding point in the axes of the guide's link, differentiated numerically, gives the relative
-/// velocity and acceleration. The Coriolis part is 2 omega x that velocity. Neither the solvers' derivatives nor the
-/// slide's channels are used.
+/// Numerical differentiation of the sliding point's position, in the axes of the guide's link, gives the relative
+/// velocity
+/// and acceleration.
+/// The Coriolis component is 2 omega x the relative velocity.
+/// The test uses neither the solvers' derivatives nor the slide's channels.
 #[test]
-fn parts_along_and_across_a_moving_guide_are_those_of_numerical_differentiation() {
-    // Rounding of five places (1e-16 of them) over h^2 and truncation by h^4 are both below 1e-8 of the derivative.
+fn relative_and_coriolis_parts_match_numerical_derivatives() {
+    // Rounding error of five positions (1e-16 of each) divided by h^2, and truncation error of order h^4.
+    // Both are below 1e-8 of the derivative.
     let h = 2e-3f64;
     let mut worst = 0.0f64;
     for (name, joint, point, under) in MOVING {
@@ -89,9 +93,9 @@ fn parts_along_and_across_a_moving_guide_are_those_of_numerical_differentiation(
     assert_within!(worst, 1e-8, "{worst:e}");
 }
 
-/// A contour contains the sliding pair: without its relative vectors fewer contours close.
+/// A contour contains the sliding pair; without its relative vectors, fewer contours close.
 #[test]
-fn sliding_pairs_close_contours_of_their_own() {
+fn contours_with_sliding_pairs_need_their_relative_vectors() {
     for (name, _, point, under) in MOVING {
         for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
             let plans = plans_with(name, solver, degrees_of(name, 67.0));
@@ -111,7 +115,7 @@ fn sliding_pairs_close_contours_of_their_own() {
     }
 }
 
-/// Links that only slide have no vectors between their points, and letters are unique.
+/// A link that only slides has no vectors between its points. All letters are unique.
 #[test]
 fn links_that_never_turn_have_no_relative_vectors() {
     for name in SLIDERS {
@@ -137,10 +141,10 @@ fn links_that_never_turn_have_no_relative_vectors() {
     }
 }
 
-/// A slider-crank with other names: points have the names of points under a sliding point, and a rod slides through a
-/// block that only swings.
+/// A slider-crank with point names that collide with the plan's names for points under a sliding point.
+/// Its rod slides through a block that only rotates.
 #[test]
-fn a_rod_that_slides_through_a_swinging_block_closes_with_letters_of_its_own() {
+fn contours_of_a_swinging_block_close_with_unique_letters() {
     let text = r#"
 format = 1
 name = "swinging_block"
@@ -200,7 +204,7 @@ step_deg = 0.5
             let under = plan.tips.iter().find(|tip| tip.kind == TipKind::Coincident).unwrap();
             assert_eq!(under.letter, "k2'");
         }
-        // The block does not move away: the rod's point under it moves along the rod.
+        // The block does not translate, and the rod's point under it moves along the rod.
         let rod = scenario.case.mechanism.link_named("rod").unwrap();
         let along = state(&scenario.case, degrees).motions[rod].direction;
         let under = plans.velocity.vector("v_K2'").unwrap().value;
@@ -209,7 +213,7 @@ step_deg = 0.5
     }
 }
 
-/// Guides are as long as the slide on the grid, and drawn in the direction of their axis.
+/// A drawn guide is as long as the slide's travel over the grid, and has the direction of its axis.
 #[test]
 fn guides_in_the_diagram_span_the_travel() {
     for name in SLIDERS {
@@ -223,8 +227,8 @@ fn guides_in_the_diagram_span_the_travel() {
             let channel = format!("joint.{}.slide_m", joint.name);
             let (_, slide) = trajectory.iter().find(|(own, _)| own.to_string() == channel).unwrap();
             let (low, high) = slide.iter().fold((f64::MAX, f64::MIN), |(l, h), s| (l.smaller(*s), h.larger(*s)));
-            // The crank angle asked for may be between two angles of the grid, a degree apart: at the end of the travel
-            // this is a ten-thousandth of it.
+            // The extreme position may lie between two angles of the grid, a degree apart.
+            // The error is then at most 1e-4 of the travel.
             let near = |end: Vec2, way: f64| ((end - guide.origin).dot(&guide.axis) - way).abs() <= 1e-4 * (high - low);
             assert!(near(guide.ends[0], low) && near(guide.ends[1], high), "{name} {}", joint.name);
             assert_within!(cross(guide.axis, guide.at - guide.origin).abs(), 1e-12);

@@ -1,4 +1,5 @@
-//! The equations along the tree against those of all links at once. Both share only the components of the joints.
+//! The Newton-Euler equations along the spanning tree against the dense system of all links.
+//! The two share only the components of the joints.
 
 use crate::common::assert_within;
 use std::path::{Path, PathBuf};
@@ -14,7 +15,7 @@ use linkage::solver::State;
 use rapier_twin::newton_euler::NewtonEuler;
 use scenario::Scenario;
 
-/// Cases of all shipped scenarios and study variants, by name.
+/// All shipped scenarios and study variants, by name.
 fn shipped() -> Vec<(String, Case)> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
     let toml = |directory: &Path| {
@@ -27,8 +28,8 @@ fn shipped() -> Vec<(String, Case)> {
     files.iter().map(case).collect()
 }
 
-/// The equations along the tree in use, and along every tree of those that together cover all joints, if it has all
-/// links and all driven joints.
+/// The equations along the tree in use, and along every other tree with all links and all driven joints.
+/// The other trees are those of a set in which every joint belongs to some tree.
 fn along_all_trees(case: &Case) -> Vec<(SpanningTree, NewtonEuler)> {
     let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
     let masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
@@ -89,8 +90,8 @@ fn normal(joint: &Joint, state: &State) -> Option<Vec2> {
     Some(turned(state.motions[joint.first.link].arm(joint.axis_on(joint.first.link)?)))
 }
 
-/// A state near the start with open joints: every link is moved and turned independently, and has its own velocities
-/// and accelerations.
+/// A state near the start in which the joints do not close.
+/// Every link is displaced and rotated independently, and has independent velocities and accelerations.
 fn torn(case: &Case, numbers: &[f64]) -> State {
     let (mut state, size) = (State::at_start(case), case.mechanism.size());
     let mut next = numbers.iter().cycle();
@@ -127,10 +128,10 @@ fn flat(case: &Case, state: &State) -> Vec<f64> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
 
-    /// For every shipped mechanism: the solution fulfils the equations of all links to rounding, and equals that of the
-    /// dense system to the accuracy of the latter.
+    /// For every shipped mechanism, the solution satisfies the equations of all links to rounding error.
+    /// It equals the solution of the dense system to the accuracy of the dense system.
     #[test]
-    fn the_tree_gives_what_all_links_at_once_give(numbers in prop::collection::vec(-1.0f64..1.0, 97)) {
+    fn the_tree_solution_equals_the_dense_solution(numbers in prop::collection::vec(-1.0f64..1.0, 97)) {
         for (name, case) in shipped() {
             let mut state = torn(&case, &numbers);
             let (matrix, right) = dense(&case, &state);
@@ -143,7 +144,7 @@ proptest! {
             let mut known = right.clone();
             lu.solve(&mut known);
             let most = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.larger(value.abs()));
-            // Amplification of rounding: the largest entry of the inverse.
+            // Amplification of rounding error: the largest entry of the inverse matrix.
             let inverse = (0..n).map(|k| {
                 let mut column = vec![0.0; n];
                 column[k] = 1.0;
@@ -167,8 +168,9 @@ proptest! {
     }
 }
 
-/// The tested cases include several drives, slides as cut joints and as joints of the tree, open chains, loads, and
-/// equations that are solved in pairs or all at once.
+/// The tested cases include several drives, open chains and loads.
+/// They include prismatic joints as cut joints and as joints of the tree.
+/// Some of their equations are solved in pairs, others all at once.
 #[test]
 fn every_kind_of_joint_is_tested() {
     let mut seen = [0; 7];
@@ -191,9 +193,9 @@ fn every_kind_of_joint_is_tested() {
     assert!(seen.iter().all(|&count| count > 0), "{seen:?}");
 }
 
-/// A four-bar with all links on one line: nothing determines the force along it.
+/// All links of a four-bar on one line: the equations do not determine the force along this line.
 #[test]
-fn a_dead_point_is_said() {
+fn a_dead_point_is_reported() {
     let case = linkage::fixtures::turning(linkage::fixtures::four_bar());
     let mut state = State::at_rest(&case);
     for motion in &mut state.motions {

@@ -1,4 +1,5 @@
-//! What viewers are told: places, arrows, names, log and curves, against the closed form of the motion.
+//! The picture that viewers receive, against the closed form of the motion.
+//! The test covers positions, arrows, names, log and curves.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -19,10 +20,10 @@ use crate::common::assert_within;
 const SLOW: f64 = 30.0;
 /// The first instant (s).
 const START: f64 = 0.5;
-/// The engine is off by a millionth in the end, and pictures are in single precision.
+/// Tolerance: the engine's error at the end is 1e-6, and pictures are in single precision.
 const NEAR: f64 = 5e-6;
 
-/// Two turns that begin late, played slowly.
+/// Two turns that start at a later time, played slowly.
 fn run() -> Run {
     let times: Vec<f64> = (0..=80).map(|k| START + TAU / OMEGA * f64::from(k) / 40.0).collect();
     let entry = |time: f64, level: Level, text: &str| LogEntry { time, level, text: text.into() };
@@ -106,7 +107,7 @@ fn every_arrow_is_the_reaction_at_its_joint() {
     let size = run.mechanism.size();
     let forces = |time: u64| reactions(&run.mechanism, &at(time)).0;
     let largest = log_times(&run).into_iter().flat_map(forces).map(|force| force.norm()).fold(0.0, f64::larger);
-    // The longest arrow is two fifths of the mechanism's size.
+    // The longest arrow has 0.4 of the mechanism's size.
     let scale = 0.4 * size / largest;
     let told: f64 = metadata(&bytes)["force_scale_m_per_N"].parse().unwrap();
     assert_within!((told / scale - 1.0).abs(), NEAR, "{told} {scale}");
@@ -137,11 +138,11 @@ fn every_arrow_is_the_reaction_at_its_joint() {
 }
 
 #[test]
-fn the_log_is_said_at_its_time_and_with_its_weight() {
+fn log_messages_have_their_time_and_level() {
     let run = run();
     let (_directory, path, bytes) = written(&run);
     let told: Vec<(u64, Log)> = said(&bytes, "/log");
-    // Levels of the viewers: 2 for information, 3 for warnings, 4 for errors.
+    // Log levels of the viewers: 2 for information, 3 for warnings, 4 for errors.
     let wanted = [(7, 2, "agree"), (20, 3, "a small angle"), (80, 4, "disagree")];
     assert_eq!(told.len(), wanted.len());
     for ((time, own), (row, level, text)) in told.iter().zip(wanted) {
@@ -154,7 +155,7 @@ fn the_log_is_said_at_its_time_and_with_its_weight() {
     assert_eq!(load(&path).unwrap()[0].1.times(), run.reference.times());
 }
 
-/// Sides, rows and fields by their numbers, from which other programs read.
+/// Other programs read a recording by the numbers of its sides, rows and fields.
 #[test]
 fn samples_are_numbered_from_zero_and_fields_from_one() {
     let (_directory, _, bytes) = written(&run());
@@ -162,7 +163,7 @@ fn samples_are_numbered_from_zero_and_fields_from_one() {
     for message in mcap::MessageStream::new(&bytes).unwrap().map(Result::unwrap) {
         let topic = message.channel.topic.clone();
         if topic.starts_with("/reference/") || topic.starts_with("/engine/") {
-            // The key of a field is its number times eight, and its kind: 1 for doubles.
+            // Key of a Protobuf field: its number times eight plus its wire type, which is 1 for doubles.
             assert_eq!(message.data[0], 8 + 1, "{topic}");
             sequences.entry(topic).or_default().push(message.sequence);
         }
@@ -171,9 +172,10 @@ fn samples_are_numbered_from_zero_and_fields_from_one() {
     assert!(sequences.values().all(|own| own.iter().copied().eq(0..81)), "{:?}", sequences.keys());
 }
 
-/// A grid may list its instants in any order: samples are numbered and written by time, and read back as they were.
+/// A grid may list its instants in any order.
+/// Samples are written and numbered in the order of time, and are read back in the grid's order.
 #[test]
-fn rows_of_any_order_are_numbered_by_their_times() {
+fn unordered_rows_are_numbered_by_their_times() {
     let times: Vec<f64> = (0..40).map(|k| START + TAU / OMEGA * f64::from((7 * k + 3) % 40) / 40.0).collect();
     let run = Run { show: Show { slow: SLOW, ..Show::default() }, ..Run::over(times.clone()) };
     let (_directory, path, bytes) = written(&run);
@@ -195,7 +197,7 @@ fn rows_of_any_order_are_numbered_by_their_times() {
 }
 
 #[test]
-fn a_film_is_the_motion_the_forces_and_the_curves_of_its_recording() {
+fn a_film_has_motion_forces_and_curves_of_its_recording() {
     let run = run();
     let (_directory, path, bytes) = written(&run);
     let film = film(&path).unwrap();
@@ -211,7 +213,7 @@ fn a_film_is_the_motion_the_forces_and_the_curves_of_its_recording() {
             assert_within!(off, NEAR, "{name} {time}");
         }
     }
-    // The tips as the arrows have them.
+    // Tips of the arrows.
     let arrows: Vec<(u64, SceneUpdate)> = said(&bytes, "/mechanism/forces");
     for (row, (_, update)) in arrows.iter().enumerate() {
         for entity in &update.entities {
@@ -223,7 +225,7 @@ fn a_film_is_the_motion_the_forces_and_the_curves_of_its_recording() {
             assert!(own.iter().zip(wanted).all(|(a, b)| near(*a, b)), "{}: {own:?} {wanted:?}", entity.id);
         }
     }
-    // Curves: of both sides to the bit, of errors in single precision and small units.
+    // Values of the curves: those of the sides exactly, those of the errors in single precision and small units.
     assert!(film.view.plots.len() >= 2);
     for (plot, values) in film.view.plots.iter().zip(&film.values) {
         assert_eq!(plot.lines.len(), values.len());
@@ -243,9 +245,10 @@ fn a_film_is_the_motion_the_forces_and_the_curves_of_its_recording() {
     }
 }
 
-/// The moment of the drive is plotted first, then the largest reaction. A turn takes half of the recording.
+/// The drive's torque is plotted first, then the largest reaction.
+/// One turn lasts half of the recording.
 #[test]
-fn a_view_begins_with_what_tells_most_and_holds_all_that_is_drawn() {
+fn a_view_starts_with_the_main_plots_and_shows_everything() {
     let run = run();
     let sides = [
         RecordedSide { name: "reference", trajectory: &run.reference },
@@ -253,7 +256,7 @@ fn a_view_begins_with_what_tells_most_and_holds_all_that_is_drawn() {
     ];
     let (_directory, path, bytes) = written(&run);
     let links = said::<SceneUpdate>(&bytes, "/mechanism/links").remove(0).1;
-    // Ends of everything that is drawn, link by link over all instants.
+    // Bounds of everything drawn, link by link over all instants.
     let mut ends = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
     let mut take = |place: Vec2| ends = [ends[0].inf(&place), ends[1].sup(&place)];
     let places = |entity: &SceneEntity| -> Vec<Vec2> {
@@ -288,9 +291,10 @@ fn a_view_begins_with_what_tells_most_and_holds_all_that_is_drawn() {
     }
 }
 
-/// The later side is thinner, so that both are seen; pins are rings; and the robot's description has the same parts.
+/// The later side is thinner, so that both sides are visible. Pins are rings.
+/// The robot description has the same parts.
 #[test]
-fn both_sides_are_seen_and_the_robot_has_the_same_parts() {
+fn both_sides_are_visible_and_the_robot_has_the_same_parts() {
     let (_directory, path, bytes) = written(&run());
     let links = said::<SceneUpdate>(&bytes, "/mechanism/links").remove(0).1;
     let ids: Vec<&str> = links.entities.iter().map(|entity| entity.id.as_str()).collect();
@@ -311,7 +315,7 @@ fn both_sides_are_seen_and_the_robot_has_the_same_parts() {
             }
         }
     }
-    // Discs of a film have the radius of the cylinders, closed lines come back to where they began.
+    // Discs of a film have the radius of the cylinders, and closed lines end at their first point.
     let film = film(&path).unwrap();
     for (part, entity) in film.parts.iter().zip(&links.entities) {
         assert_eq!(part.frame, entity.frame_id);
@@ -329,7 +333,7 @@ fn both_sides_are_seen_and_the_robot_has_the_same_parts() {
     let mut all = mcap::MessageStream::new(&bytes).unwrap().map(Result::unwrap);
     let message = all.find(|message| message.channel.topic == "/robot_description").unwrap();
     let (head, text) = message.data.split_at(8);
-    // CDR: the number of bytes with the closing zero.
+    // CDR encoding: the length in bytes includes the closing zero.
     assert_eq!(u32::from_le_bytes([head[4], head[5], head[6], head[7]]) as usize, text.len());
     let (zero, text) = text.split_last().unwrap();
     let robot = roxmltree::Document::parse(std::str::from_utf8(text).unwrap()).unwrap();
@@ -352,7 +356,7 @@ fn both_sides_are_seen_and_the_robot_has_the_same_parts() {
                 let [a, b] = [k, (k + 1) % count].map(|k| Vec2::new(line.points[k].x, line.points[k].y));
                 let (at, turn, shape) = parts.next().unwrap();
                 let size = numbers(shape.attribute("size").unwrap());
-                // A box over the segment, round its ends by half of its thickness.
+                // A box along the segment; at each end it is longer by half of its thickness.
                 let ends = [-0.5, 0.5].map(|share| {
                     Vec2::new(at[0], at[1]) + rotated(unit(turn[2]), Vec2::new((size[0] - line.thickness) * share, 0.0))
                 });
@@ -370,9 +374,9 @@ fn both_sides_are_seen_and_the_robot_has_the_same_parts() {
     }
 }
 
-/// Fifty frames a second of log time, if there are so many instants, and the last instant always.
+/// Fifty frames per second of log time, if there are enough instants, and always the last instant.
 #[test]
-fn a_slow_picture_has_more_frames_and_ends_with_the_last_instant() {
+fn slow_motion_has_more_frames_and_ends_with_the_last_instant() {
     let times = turn(1_600);
     let positions = super::channels(&super::four_bar(), |channel| channel.kind.stage == Stage::Positions);
     let own = super::trajectory(times.clone(), positions, |value, _| value);
@@ -388,9 +392,9 @@ fn a_slow_picture_has_more_frames_and_ends_with_the_last_instant() {
     }
 }
 
-/// A killed run loses a second of log time at most: every second has a chunk of its own.
+/// A killed run loses at most a second of log time, because every second has a separate chunk.
 #[test]
-fn a_chunk_holds_a_second() {
+fn every_second_has_its_own_chunk() {
     let mut run = Run::over(turn(600));
     run.show.slow = 6.0 / run.reference.times()[599];
     let (_directory, _, bytes) = written(&run);
@@ -404,9 +408,9 @@ fn a_chunk_holds_a_second() {
     }
 }
 
-/// Fewer samples of the sides are fewer errors, too.
+/// If the sides have fewer samples, the errors have equally few.
 #[test]
-fn errors_are_thinned_as_their_sides() {
+fn errors_are_thinned_like_their_sides() {
     let mut run = Run::over(turn(101));
     run.show.hz = Some(10.0 / run.reference.times()[100]);
     let (_directory, path, bytes) = written(&run);
@@ -429,7 +433,7 @@ fn a_recording_with_an_incomplete_column_is_refused() {
     for (topic, words) in
         [("/engine/point/B", "lacks samples of point.B.x_m"), ("/engine/grid", "lacks samples of its grid")]
     {
-        // The same file without one message.
+        // The same file with one message removed.
         let other = directory.path().join("other.mcap");
         let mut writer = mcap::Writer::new(fs::File::create(&other).unwrap()).unwrap();
         let mut left = 5;
@@ -447,9 +451,9 @@ fn a_recording_with_an_incomplete_column_is_refused() {
     assert_eq!(load(&path).unwrap().len(), 2);
 }
 
-/// A verdict may have changed since; whatever else is another may not.
+/// The verdict in the older file may differ, but all other metadata must be equal.
 #[test]
-fn a_recording_takes_the_place_of_one_that_differs_in_its_verdict_only() {
+fn a_recording_replaces_one_that_differs_only_in_its_verdict() {
     let mut run = Run::over(turn(3));
     run.metadata = [("engine", "rapier"), ("engine_verdict", "agree")].map(|(k, v)| (k.into(), v.into())).into();
     let (_directory, path, _) = written(&run);
@@ -464,7 +468,7 @@ fn a_recording_takes_the_place_of_one_that_differs_in_its_verdict_only() {
     for (key, value, text, why) in [
         ("engine", "impulse", text, "its engine is \"rapier\", not \"impulse\""),
         ("record_hz", "10", text, "its record_hz is none, not \"10\""),
-        ("engine", "rapier", "name = \"other\"\n", "its scenario has another text"),
+        ("engine", "rapier", "name = \"other\"\n", "its scenario text differs"),
     ] {
         let found = asked(key, value, text);
         assert_eq!((found.path.as_path(), found.other.as_deref()), (Path::new(&second), Some(why)));

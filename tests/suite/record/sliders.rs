@@ -1,4 +1,4 @@
-//! Recordings of mechanisms with sliders: one topic per joint, and every mark of the sketch in the picture.
+//! Recordings of mechanisms with sliders: one topic per joint, and the picture contains every mark of the sketch.
 
 use crate::common::assert_within;
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,7 +20,7 @@ use scenario::Scenario;
 
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
 
-/// A scenario's reference on its own grid, and its recording.
+/// A scenario's case, its reference solution on its grid, its recording, and the solution read back.
 fn recorded(name: &str) -> (Case, Trajectory, Vec<u8>, Trajectory) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
     let case = Scenario::load(&path).unwrap().case;
@@ -53,7 +53,7 @@ fn entity(scene: &SceneUpdate, id: &str) -> SceneEntity {
 }
 
 #[test]
-fn every_channel_of_a_slider_is_read_back_from_one_topic_a_joint() {
+fn slider_channels_are_read_back_from_one_topic_per_joint() {
     for name in SLIDERS {
         let (case, written, bytes, back) = recorded(name);
         assert_eq!(back.channels().len(), written.channels().len(), "{name}");
@@ -78,7 +78,8 @@ fn every_channel_of_a_slider_is_read_back_from_one_topic_a_joint() {
     }
 }
 
-/// Every mark of the sketch is in the frame of its link, where the sketch has it; guides are as long as the travel.
+/// Every mark of the diagram is at its position in the frame of its link.
+/// A guide is as long as its slide's travel.
 #[test]
 fn every_mark_is_drawn_in_the_frame_of_its_link() {
     for name in SLIDERS {
@@ -137,7 +138,7 @@ fn every_mark_is_drawn_in_the_frame_of_its_link() {
     }
 }
 
-/// The robot's description as it is in the file.
+/// The robot description in the file.
 fn robot(bytes: &[u8]) -> Vec<u8> {
     let mut all = mcap::MessageStream::new(bytes).unwrap().map(Result::unwrap);
     let message = all.find(|message| message.channel.topic == "/robot_description").unwrap();

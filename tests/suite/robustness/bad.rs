@@ -1,4 +1,4 @@
-//! Thousands of bad scenarios: no panic, no hang, no error without its key.
+//! Thousands of bad scenarios: no panic, no hang, and every error message names its key.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -14,12 +14,12 @@ use crate::common::draws;
 use crate::common::entries;
 use crate::common::many::{each, number};
 
-/// Instants and turns of a proof: enough to begin everything that a proof begins.
+/// Limits of a proof, in instants and in revolutions: large enough to run every part of it.
 const INSTANTS: usize = 5;
 const TURNS: f64 = 1.5;
-/// Work of a search of settings, in steps.
+/// Work limit of the search for settings, in steps.
 const BUDGET: f64 = 2e4;
-/// How a scenario ended, in a few words.
+/// Outcome of a scenario, in a few words.
 fn ending(index: u64, bad: &Damaged) -> String {
     let scenario = match Scenario::parse(&bad.text, &bad.path) {
         Ok(scenario) => scenario,
@@ -28,7 +28,7 @@ fn ending(index: u64, bad: &Damaged) -> String {
             return format!("refused: {:?}", error.kind());
         }
     };
-    // What loads is solved as it stands, but only the first instants and turns of its grid.
+    // A scenario that loads is solved without changes, but only for the first instants and revolutions of its grid.
     let Some(scenario) = shortened(scenario) else { return "loads, with no instant near its start".into() };
     match prove(&scenario, &Options::default().budget(BUDGET)) {
         Ok(proof) => {
@@ -44,7 +44,7 @@ fn ending(index: u64, bad: &Damaged) -> String {
     }
 }
 
-/// What disagrees, number beside bound.
+/// The disagreeing values, each with its bound.
 fn disagreeing(proof: &Proof) -> Vec<String> {
     let checks = proof.all_checks().filter(|check| matches!(check.verdict, Verdict::Disagree { .. }));
     let channels = proof.engines.iter().flat_map(|engine| &engine.channels);
@@ -70,10 +70,11 @@ fn shortened(mut scenario: Scenario) -> Option<Scenario> {
     Some(scenario)
 }
 
-/// A quick share of them. `LINKPROOF_BAD_FROM` and `LINKPROOF_BAD_SCENARIOS` choose some by number,
-/// `LINKPROOF_BAD_TO` names a directory that they are written to.
+/// A part of the bad scenarios, for a quick test.
+/// `LINKPROOF_BAD_FROM` and `LINKPROOF_BAD_SCENARIOS` select scenarios by number.
+/// `LINKPROOF_BAD_TO` names a directory to which they are written.
 #[test]
-fn bad_scenarios_end_with_a_message_and_a_place() {
+fn bad_scenarios_end_with_a_message_and_a_position() {
     let count = number("LINKPROOF_BAD_SCENARIOS").unwrap_or(draws(100) as u64);
     let found = each(number("LINKPROOF_BAD_FROM").unwrap_or(0), count, |index| {
         let bad = damaged(1, index);

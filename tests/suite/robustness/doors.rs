@@ -1,5 +1,6 @@
-//! Hostile inputs to every door, through the built command: with 2 GB of memory and a minute of processor time each ends
-//! with an exit code and a message, and leaves every file alone that is not its own.
+//! Hostile inputs of every kind, passed to the built command.
+//! With 2 GB of memory and a minute of processor time, each run ends with an exit code and a message.
+//! Each run leaves all files of the user unchanged.
 #![cfg(target_os = "linux")]
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,12 +20,14 @@ use crate::common::many::{each, number};
 
 /// Seed of all attacks.
 const SEED: u64 = 1;
-/// Attacks of an ordinary run, as many at each door.
+/// Number of attacks in an ordinary run; every kind of input gets the same number.
 const FEW: u64 = 16 * DOORS.len() as u64;
-/// Memory (kB) and processor time (s) that a command may take. Two threads take the time twice as fast.
+/// Limits of memory (kB) and processor time (s) for a command.
+/// Two threads use processor time twice as fast.
 const MEMORY: u64 = 2_000_000;
 const SECONDS: u64 = 60;
-/// Time (s) after which a command is stopped that waits for something, many times what the slowest one takes.
+/// If a command takes longer than this elapsed time (s), it is stopped.
+/// The slowest command takes a small fraction of it.
 const PATIENCE: u64 = 900;
 
 static GOOD: LazyLock<Good> = LazyLock::new(|| {
@@ -62,7 +65,7 @@ static GOOD: LazyLock<Good> = LazyLock::new(|| {
     }
 });
 
-/// All files below a directory, with what is in them.
+/// All files below a directory, with their contents.
 fn files(root: &Path) -> BTreeMap<String, Vec<u8>> {
     let (mut found, mut open) = (BTreeMap::new(), vec![root.to_path_buf()]);
     while let Some(directory) = open.pop() {
@@ -78,14 +81,14 @@ fn files(root: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// How an attack ended: an exit code, and the processor time (s); or what went wrong.
+/// Outcome of an attack: exit code and processor time (s), or a description of the failure.
 fn ending(own: &Attack) -> Result<(i32, f64), String> {
     let place = Place::empty();
     for (name, bytes) in &own.files {
         fs::create_dir_all(place.path(name).parent().unwrap()).unwrap();
         fs::write(place.path(name), bytes).unwrap();
     }
-    // What a user may have where names are made up.
+    // Files of the user under names that the program chooses.
     for name in ["precious", "recordings/pendulum.foxglove.json", "recordings/crank_rocker.mcap", "crank_rocker.xml"] {
         fs::create_dir_all(place.path(name).parent().unwrap()).unwrap();
         fs::write(place.path(name), "mine").unwrap();
@@ -103,7 +106,7 @@ fn ending(own: &Attack) -> Result<(i32, f64), String> {
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
     let (input, mut to) = (own.standard_input.clone(), child.stdin.take().unwrap());
-    // Whoever reads nothing closes the pipe.
+    // If the command does not read its input, it closes the pipe, and the write fails.
     let feed = std::thread::spawn(move || drop(to.write_all(&input)));
     let output = child.wait_with_output().unwrap();
     feed.join().unwrap();
@@ -123,7 +126,7 @@ fn ending(own: &Attack) -> Result<(i32, f64), String> {
             return Err(format!("{name} is not what it was"));
         }
     }
-    // `times` tells minutes and seconds: of the shell, then of the command.
+    // `times` prints minutes and seconds: first those of the shell, then those of the command.
     let times = fs::read_to_string(told.path()).unwrap();
     let seconds = |word: &str| {
         let (minutes, seconds) = word.trim_end_matches('s').split_once('m')?;
@@ -133,9 +136,9 @@ fn ending(own: &Attack) -> Result<(i32, f64), String> {
     Ok((code, taken))
 }
 
-/// `LINKPROOF_HOSTILE_FROM` and `LINKPROOF_HOSTILE` choose some by number.
+/// `LINKPROOF_HOSTILE_FROM` and `LINKPROOF_HOSTILE` select attacks by number.
 #[test]
-fn hostile_inputs_end_in_little_time_and_memory_and_change_no_file_of_others() {
+fn hostile_inputs_stay_within_limits_and_change_no_other_files() {
     let usual = draws(FEW as usize) as u64;
     let (from, count) = (number("LINKPROOF_HOSTILE_FROM").unwrap_or(0), number("LINKPROOF_HOSTILE").unwrap_or(usual));
     let found = each(from, count, |index| {
@@ -163,25 +166,25 @@ fn hostile_inputs_end_in_little_time_and_memory_and_change_no_file_of_others() {
     println!("{count} hostile inputs from number {from}:");
     endings.iter().for_each(|((door, code), count)| println!("{count:6} {} with exit code {code}", DOORS[*door]));
     times.iter().take(10).for_each(|(seconds, what)| println!("{seconds:6.2} s {what:.300}"));
-    // A door at which everything is refused at once is no door that was tried.
+    // A kind of input counts as tested only if some of its inputs are not refused at once.
     let is_tried = |door: usize| endings.keys().any(|&(own, code)| own == door && code != 2);
     let untried: Vec<&str> = (0..DOORS.len()).filter(|&door| !is_tried(door)).map(|door| DOORS[door]).collect();
     assert!(untried.is_empty() || count < FEW || from > 0, "everything is refused at {untried:?}");
     assert!(failures.is_empty(), "{} of {count}:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// Names of values in the help that are no path of a file or directory.
+/// Names of values in the help that are not paths of files or directories.
 const NO_PATHS: &str = "KEY=NUMBER REFERENCE ENGINE S ACCURACY N ROUTE TIMES STEPS GB FROM:TO:STEP LINK,LINK=MODE DEG FACTOR HZ \
     [HOST:]PORT WORD EXPR CHANNEL NAME=EXPR NUMBER [CHANNEL=]SHARE CHANNEL=SIZE WHAT NAME SOLVER SHARE KIND PARTY FAMILY \
     TEMPLATE MM MPA POINT PIXELS X,Y KG_PER_M K RPM SHELL PAGE[#SECTION] WITH COMMAND";
-/// Options that name a file which is written, whatever is there.
-const WRITTEN: [&str; 8] = ["--output", "--json", "--junit", "--markdown", "--svg", "--csv", "--run-up", "--write-map"];
-/// The same options where the program makes up a name, so that it looks at what is there.
-const MADE: [&str; 2] = ["export --json", "man --output"];
-/// What reads no input of others: a directory that the program's own files go to.
+/// Options that name a file to be written, whatever exists there.
+const WRITTEN: [&str; 3] = ["--output", "--run-up", "--write-map"];
+/// Options that name a directory. The program chooses the file names in it, and therefore inspects existing files.
+const MADE: [&str; 4] = ["bench --output", "man --output", "run --output", "stress --output"];
+/// Arguments that read no untrusted input, only a directory for files that the program writes.
 const NO_INPUT: [&str; 1] = ["new --shipped"];
 
-/// Commands with their arguments as the help lists them: the name of an option or of a value, and the value's name.
+/// Collects the arguments of a command from its help: command, option or value, and name of the value.
 fn arguments(place: &Place, command: &str, found: &mut Vec<(String, String, String)>) {
     let help = place.ok(format!("{command} --help").trim());
     let section = |title: &'static str| {
@@ -204,9 +207,9 @@ fn arguments(place: &Place, command: &str, found: &mut Vec<(String, String, Stri
     }
 }
 
-/// The list of doors is made from what the command line says that it reads.
+/// Every argument that the command line describes as input has a kind of hostile input.
 #[test]
-fn every_argument_that_is_read_is_a_door() {
+fn every_argument_that_is_read_gets_hostile_input() {
     let mut listed = Vec::new();
     arguments(&Place::empty(), "", &mut listed);
     assert!(listed.len() > 100, "{}", listed.len());

@@ -1,4 +1,4 @@
-//! The bodies of the fuzz targets on inputs that are drawn here, so that neither drifts.
+//! Runs the bodies of the fuzz targets on random inputs, so that tests and fuzz targets stay in step.
 
 use proptest::prelude::*;
 
@@ -12,12 +12,12 @@ proptest! {
     #![proptest_config(config(300))]
 
     #[test]
-    fn any_text_is_a_scenario_or_an_error_with_its_place(text in "\\PC{0,60}|([a-z_.\\[\\]\"= 0-9\n]){0,200}") {
+    fn any_text_is_a_scenario_or_an_error_with_a_position(text in "\\PC{0,60}|([a-z_.\\[\\]\"= 0-9\n]){0,200}") {
         entries::scenario(&text);
     }
 
     #[test]
-    fn any_text_is_a_formula_or_a_fault_with_its_place(
+    fn any_text_is_a_formula_or_an_error_with_a_position(
         text in "\\PC{0,60}|(sin|cos|sqrt|atan2|phi|t|pi|[-+*/^(), .0-9]){0,80}",
     ) {
         entries::formula(&text);
@@ -35,16 +35,17 @@ proptest! {
 }
 
 #[test]
-fn damaged_texts_are_scenarios_or_errors_with_their_places() {
+fn damaged_texts_are_scenarios_or_errors_with_a_position() {
     for index in 0..draws(60) as u64 {
         let damaged = damaged(7, index);
         entries::scenario(&damaged.text);
     }
 }
 
-/// What fuzzing has found, by target: `fuzz/finds/TARGET/NAME`. docs/stories.md tells them.
+/// Inputs found by fuzzing, by target: `fuzz/finds/TARGET/NAME`.
+/// docs/stories.md describes them.
 #[test]
-fn what_fuzzing_has_found_stays_mended() {
+fn inputs_found_by_fuzzing_stay_fixed() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/finds");
     let mut count = 0;
     for target in ["scenario", "formula", "structure", "recording"] {

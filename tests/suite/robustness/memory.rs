@@ -1,4 +1,5 @@
-//! Memory of long runs: estimated before they begin, and no more than twice that.
+//! Memory of long runs is estimated in advance.
+//! The estimate and the measured value differ by at most a factor of two.
 #![cfg(target_os = "linux")]
 
 use std::process::{Command, Stdio};
@@ -12,7 +13,8 @@ use prover::run::memory;
 
 use crate::common::{by_night, shipped};
 
-/// Largest memory (bytes) of a command, which must succeed. The last reading is a few milliseconds old at most.
+/// Peak memory (bytes) of a command, which must succeed.
+/// It is read every few milliseconds.
 fn peak(arguments: &[&str]) -> f64 {
     let mut command = Command::cargo_bin("linkproof").unwrap();
     command.args(arguments).stdout(Stdio::null()).current_dir(env!("CARGO_MANIFEST_DIR"));
@@ -32,10 +34,10 @@ fn peak(arguments: &[&str]) -> f64 {
     most
 }
 
-/// Everything and positions alone; prescribed and free motion; with a table of the solution. By night a larger mechanism
-/// too.
+/// Runs with all channels and with positions alone, in prescribed and in free motion, and with a table of the solution.
+/// If `LINKPROOF_DRAWS` is above 1, the test adds a larger mechanism.
 #[test]
-fn a_run_needs_what_was_estimated() {
+fn a_run_uses_the_estimated_memory() {
     let every = "--crank-deg=0:360:0.0144";
     let runs = [("crank_rocker", every), ("crank_rocker_runup", "--times=0:0.5:0.00002"), ("ov7_base", every)];
     for (name, grid) in &runs[..if by_night() { 3 } else { 2 }] {
@@ -53,9 +55,9 @@ fn a_run_needs_what_was_estimated() {
     }
 }
 
-/// A run that is too large is refused before it begins, with three ways out.
+/// A run that is too large is refused in advance, with three remedies.
 #[test]
-fn a_run_that_needs_too_much_does_not_begin() {
+fn a_run_beyond_the_memory_limit_does_not_begin() {
     let scenario = shipped("crank_rocker.toml");
     let error = prove(&scenario, &Options::default().memory(1e6)).unwrap_err();
     assert_eq!(error.scenario_key(), Some("grid"));
@@ -66,7 +68,7 @@ fn a_run_that_needs_too_much_does_not_begin() {
         help.contains("fewer instants") && help.contains("fewer channels") && help.contains("more memory"),
         "{help}"
     );
-    // Without a word it is 4 GB.
+    // Without the option, the limit is 4 GB.
     let scenario = shipped("ov7_base.toml");
     let long = |instants: u32| {
         let mut scenario = scenario.clone();

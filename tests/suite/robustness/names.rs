@@ -1,4 +1,4 @@
-//! Hostile names and texts: they never leave the output folder, forge no line and break no format.
+//! Hostile names and texts do not leave the output folder, forge no line and break no format.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -12,7 +12,7 @@ use crate::common::entries::explains;
 
 const GOOD: &str = include_str!("../bad_scenarios/good.toml");
 
-/// Texts that are no name of anything.
+/// Texts that must be refused as names.
 fn hostile() -> Vec<String> {
     let short = [
         "",
@@ -84,9 +84,9 @@ fn no_hostile_text_becomes_a_name() {
     }
 }
 
-/// Titles, sources and names of published numbers may hold any letter that is seen.
+/// Titles, sources and names of published numbers may contain any visible character.
 #[test]
-fn no_text_holds_what_is_not_seen() {
+fn no_text_may_hold_invisible_characters() {
     for text in hostile().iter().filter(|text| text.contains(is_unseen) || text.len() > 10_000) {
         for (old, new) in [("title = \"A four-bar\"", "title = "), ("name = \"good\"", "name = \"good\"\nsource = ")] {
             let text = GOOD.replacen(old, &format!("{new}{}", quoted(text)), 1);
@@ -96,9 +96,9 @@ fn no_text_holds_what_is_not_seen() {
     }
 }
 
-/// What is refused is shown without the letters that make it dangerous, and not in full length.
+/// A refused text is shown shortened and without its dangerous characters.
 #[test]
-fn messages_show_no_letter_that_commands_a_terminal() {
+fn messages_show_no_terminal_control_characters() {
     let place = Place::new();
     for name in hostile() {
         for (old, new) in [("name = \"good\"", "name = NAME"), ("[links.coupler.points]", "[links.NAME.points]")] {
@@ -110,13 +110,13 @@ fn messages_show_no_letter_that_commands_a_terminal() {
             assert!(told.stdout.is_empty() && told.stderr.len() < 1 << 14, "{} bytes", told.stderr.len());
         }
     }
-    // A table that the scenario names is searched, but what never ends is not read.
+    // A scenario names an endless file as its table; the program finds it but does not read it.
     fs::write(place.path("bad.toml"), GOOD.replacen("table.csv", "/dev/zero", 1)).unwrap();
     #[cfg(unix)]
-    place.refused("run bad.toml --no-record", &["no regular file"]);
+    place.refused("run bad.toml --no-record", &["not a regular file"]);
     #[cfg(unix)]
     place.refused("run /dev/zero --no-record", &["/dev/zero", "64 MiB"]);
-    // A formula that is cut off within a letter of two bytes, and of three that nobody sees.
+    // The message cuts the formula within a character: one of two bytes, or an invisible one of three bytes.
     for letter in ["\u{e9}", "\u{202e}"] {
         for start in ["", "p", "ph"] {
             let text = format!("{start}{}", letter.repeat(12_000));
@@ -126,9 +126,9 @@ fn messages_show_no_letter_that_commands_a_terminal() {
     }
 }
 
-/// Text that is allowed and as bad as possible: every output stays in its form and its folder.
+/// Allowed text that is as bad as possible: every output keeps its format and stays in its folder.
 #[test]
-fn what_is_allowed_breaks_no_output() {
+fn allowed_text_breaks_no_output() {
     let place = Place::new();
     let title = "a \"b\" 'c' <d> &e; -- --> ]]> </svg> =1+1, %n $(x) {{y}} \\n ё 中 مرحبا |";
     let mut text = fs::read_to_string(place.path("scenarios/crank_rocker.toml")).unwrap();
@@ -136,7 +136,7 @@ fn what_is_allowed_breaks_no_output() {
     let old = text.lines().find(|line| line.starts_with("title")).unwrap().to_string();
     let text = text.replacen(&old, &format!("title = {}", quoted(title)), 1);
     let plain = text.replacen("name = \"crank_rocker\"", "name = \"plain\"", 1);
-    // Links, joints and points called as badly as is allowed.
+    // Links, joints and points with the worst allowed names.
     let odd = text.replacen("name = \"crank_rocker\"", "name = \"_\"", 1);
     let odd = odd.replace("links.crank", "links.\"-'ё中\"").replace("\"crank\"", "\"-'ё中\"");
     let odd = odd.replace("\nA = {", "\n\"--\" = {").replace("name = \"A\"", "name = \"--\"");

@@ -1,5 +1,5 @@
-//! Files that are replaced: those that the caller named, and those that this program wrote. Every command that makes a
-//! name up stands here, against what a user may have at that place.
+//! Commands replace only files that the user named, or that this program wrote.
+//! The test runs every command that chooses a file name, with various files of the user at that path.
 #![cfg(unix)]
 
 use std::collections::BTreeSet;
@@ -10,24 +10,24 @@ use std::process::Command;
 
 use crate::cli::tools::{Outcome, Place, listed};
 
-/// What a command does about a file that is not its own.
+/// Reaction of a command to a file of the user at its output path.
 #[derive(Clone, Copy, PartialEq)]
 enum Then {
-    /// It writes nothing there, and says so with exit code 2.
+    /// The command writes nothing there, and reports the file with exit code 2.
     Refuses,
-    /// It keeps the file, goes on, and says so.
+    /// The command keeps the file, continues, and reports the file.
     Keeps,
 }
 
-/// A command, a file whose name it makes up, and what it does about another one there. `SEALED` files are told from
-/// edited ones too.
+/// A command, the file whose name it chooses, and its reaction to a file of the user at that path.
+/// The last field says whether the file is `SEALED`: the command then also recognises its output after an edit.
 type Writer = (&'static str, &'static str, Then, bool);
 
 const BENCH: &str = "bench scenarios/five_bar.toml --out out --quick --engine rapier --only positions --budget 1e4";
 const STRESS: &str = "stress turns --quick --out out --page page.md";
 const RUN: &str = "run scenarios/pendulum.toml --route differences";
 
-const WRITERS: [Writer; 22] = [
+const WRITERS: [Writer; 23] = [
     ("run scenarios/pendulum.toml --route differences", "recordings/pendulum.mcap", Then::Keeps, false),
     ("run scenarios/pendulum.toml --route differences", "recordings/pendulum.foxglove.json", Then::Keeps, true),
     (
@@ -36,7 +36,8 @@ const WRITERS: [Writer; 22] = [
         Then::Refuses,
         true,
     ),
-    ("export scenarios/pendulum.toml --mjcf", "pendulum.xml", Then::Refuses, true),
+    ("draw scenarios/pendulum.toml", "pendulum.svg", Then::Refuses, true),
+    ("export scenarios/pendulum.toml", "pendulum.xml", Then::Refuses, true),
     ("export scenarios/pendulum.toml --json", "pendulum.json", Then::Refuses, true),
     (BENCH, "out/bench.json", Then::Refuses, true),
     (BENCH, "out/five_bar.csv", Then::Refuses, true),
@@ -57,8 +58,8 @@ const WRITERS: [Writer; 22] = [
     ("man -o out", "out/linkproof-run.1", Then::Refuses, true),
 ];
 
-/// Commands that write nothing, or only to files that the caller names.
-const NAMED: [&str; 18] = [
+/// Commands that write no file, or only files that the caller names.
+const NAMED: [&str; 17] = [
     "bearings",
     "check",
     "clearance",
@@ -66,7 +67,6 @@ const NAMED: [&str; 18] = [
     "completions",
     "diagram",
     "docs",
-    "draw",
     "drive",
     "help",
     "inspect",
@@ -79,19 +79,20 @@ const NAMED: [&str; 18] = [
     "tune",
 ];
 
-/// A place in which all of these commands can be run.
+/// A directory in which all of these commands can run.
 fn place() -> Place {
     let place = Place::new();
     place.ok(&format!("{RUN} --record seen"));
     fs::remove_file(place.path("seen/pendulum.foxglove.json")).unwrap();
-    // Rerun's library and viewer, as far as this program sees them.
+    // Stand-ins for Rerun's library and viewer that do only what this program needs.
     let script = "#!/bin/sh\nif [ \"$1\" = -m ]; then exit 0; fi\nprintf 'RRF2 linkproof pendulum' > \"$3\"\n";
     fs::write(place.path("rerun"), script).unwrap();
     fs::set_permissions(place.path("rerun"), fs::Permissions::from_mode(0o755)).unwrap();
     place
 }
 
-/// Runs a command with something in the way, and asserts that it is told, and what the exit code is.
+/// Runs a command with `what` at its output path.
+/// Asserts that the command reports it, and checks the exit code.
 fn meets(place: &Place, (command, file, then, _): Writer, what: &str) -> Outcome {
     let outcome = place.run(command);
     let told = format!("{}{}", outcome.stdout, outcome.stderr);
@@ -99,13 +100,16 @@ fn meets(place: &Place, (command, file, then, _): Writer, what: &str) -> Outcome
     assert!(told.contains(name), "{command}: {what} at {file} is not told: {told}");
     match then {
         Then::Refuses => assert_eq!(outcome.code, 2, "{command}: {what} at {file}: {told}"),
-        Then::Keeps => assert!(outcome.code == 0 && told.contains("kept"), "{command}: {what} at {file}: {told}"),
+        Then::Keeps => {
+            let is_kept = if file.ends_with(".mcap") { "is kept: " } else { "it is not overwritten;" };
+            assert!(outcome.code == 0 && told.contains(is_kept), "{command}: {what} at {file}: {told}");
+        }
     }
     outcome
 }
 
 #[test]
-fn nothing_is_replaced_that_is_not_ours_and_that_nobody_named() {
+fn foreign_files_are_replaced_only_if_named() {
     let mut seen = BTreeSet::new();
     for writer @ (command, file, _, is_sealed) in WRITERS {
         let place = place();
@@ -118,12 +122,12 @@ fn nothing_is_replaced_that_is_not_ours_and_that_nobody_named() {
             assert!(partial.is_none(), "{command}: {what} leaves {partial:?}");
         };
         fs::create_dir_all(at.parent().unwrap()).unwrap();
-        // A file of the user's.
+        // A file of the user.
         fs::write(&at, "mine").unwrap();
         meets(&place, writer, "a file of the user's");
         assert_eq!(fs::read_to_string(&at).unwrap(), "mine", "{command}: {file}");
         remove();
-        // A link to a file of the user's.
+        // A link to a file of the user.
         fs::write(place.path("precious"), "mine").unwrap();
         symlink(place.path("precious"), &at).unwrap();
         meets(&place, writer, "a link");
@@ -136,17 +140,17 @@ fn nothing_is_replaced_that_is_not_ours_and_that_nobody_named() {
         assert!(!place.path("elsewhere").exists(), "{command}: {file}");
         assert!(fs::symlink_metadata(&at).unwrap().is_symlink(), "{command}: {file}");
         remove();
-        // A pipe, which nobody reads.
+        // A pipe without a reader.
         assert!(Command::new("mkfifo").arg(&at).status().unwrap().success());
         meets(&place, writer, "a pipe");
         remove();
         no_more("what was refused");
-        // Nothing, and then its output.
+        // First nothing is at the output path, then the output of the first run.
         let first = place.run(command);
         assert_eq!(first.code, 0, "{command}: {}", first.stderr);
         let own = fs::read(&at).unwrap();
         match command.starts_with("new") {
-            // These do not replace their output either.
+            // Even its own output is not replaced by `new`.
             true => drop(meets(&place, writer, "its output")),
             false => assert_eq!(place.run(command).code, 0, "{command}: {file}"),
         }
@@ -167,9 +171,9 @@ fn nothing_is_replaced_that_is_not_ours_and_that_nobody_named() {
     }
 }
 
-/// Output of an earlier run gives way, though the present one differs.
+/// Output of an earlier run is replaced, even if the new output differs.
 #[test]
-fn an_older_output_gives_way_to_a_new_one() {
+fn an_older_output_is_replaced_by_a_new_one() {
     let place = place();
     let (page, film) = (format!("{RUN} --no-record --html out/"), format!("{RUN} --record seen"));
     for command in [&page, &film] {
@@ -184,10 +188,10 @@ fn an_older_output_gives_way_to_a_new_one() {
     }
 }
 
-/// Symptom: a link to nothing was replaced, and a file was made where nobody wanted it. Whoever names a link names its
-/// file, as with other programs.
+/// Symptom: a dangling link was replaced, and a file appeared at a path that the user had not named.
+/// A link that the user names means its target, as in other programs.
 #[test]
-fn a_link_that_is_named_is_followed_also_to_what_is_not_there_yet() {
+fn a_named_symlink_is_followed_even_to_a_missing_file() {
     for (command, file) in [
         ("run scenarios/pendulum.toml --route differences --no-record --json FILE", "own.json"),
         ("run scenarios/pendulum.toml --route differences --no-record --html FILE", "own.html"),
@@ -211,16 +215,16 @@ fn a_link_that_is_named_is_followed_also_to_what_is_not_there_yet() {
             assert!(!written.is_empty() && written != "an older file", "{command}");
             assert!(fs::symlink_metadata(place.path(file)).unwrap().is_symlink(), "{command}");
         }
-        // Links that lead in a circle.
+        // Links that form a cycle.
         fs::remove_file(place.path("second")).unwrap();
         symlink(file, place.path("second")).unwrap();
         place.refused(&command, &["links"]);
     }
 }
 
-/// Symptom: a user's file called `.linkproof-notes.partial` was deleted, as if a killed run had left it.
+/// Symptom: a user's file `.linkproof-notes.partial` was deleted as if it came from a killed run.
 #[test]
-fn what_a_user_calls_like_a_temporary_file_stays() {
+fn a_user_file_named_like_a_temporary_file_is_kept() {
     let place = place();
     for name in [".linkproof-notes.partial", ".linkproof-0123456789abcdef-01234567.partial"] {
         fs::write(place.path(name), "mine").unwrap();
@@ -231,9 +235,10 @@ fn what_a_user_calls_like_a_temporary_file_stays() {
     }
 }
 
-/// Whatever else writes a file would not know the rule: there is one way to write, and what peers are given.
+/// Files are written only through one common function, which obeys the overwriting rule.
+/// The only exceptions are the files given to peers and viewers.
 #[test]
-fn nothing_writes_past_the_one_place_for_the_rule() {
+fn files_are_written_only_through_the_common_function() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let crates = fs::read_dir(root.join("crates")).unwrap().map(|entry| entry.unwrap().path().join("src"));
     let mut open: Vec<PathBuf> = crates.chain([root.join("src")]).collect();
@@ -256,7 +261,7 @@ fn nothing_writes_past_the_one_place_for_the_rule() {
             }
         }
     }
-    // What peers and viewers are given lies in directories that were made for them.
+    // Files for peers and viewers are in directories created for them.
     let made = ["peer", "process", "viewer"].map(|file| format!("crates/lab/src/outside/{file}.rs"));
     let known = made.into_iter().chain(["crates/files/src/lib.rs".into()]).collect();
     assert_eq!(found, known);

@@ -1,4 +1,4 @@
-//! Recordings that nobody vouches for: what they say of their sizes, and where they point.
+//! Untrusted recordings with false sizes and false indices.
 
 use std::fs;
 use std::io::Cursor;
@@ -9,7 +9,7 @@ use mcap::records::MessageHeader;
 use crate::cli::tools::Place;
 use recording::read_bytes;
 
-/// Where the content of the first record of a code begins.
+/// Byte offset of the content of the first record with this code.
 fn content(file: &[u8], code: u8) -> usize {
     let mut at = mcap::MAGIC.len();
     while file[at] != code {
@@ -18,7 +18,7 @@ fn content(file: &[u8], code: u8) -> usize {
     at + 9
 }
 
-/// A file with one compressed chunk of so many messages of a mebibyte of zeros.
+/// A file with one compressed chunk of `messages` messages; each message is a mebibyte of zeros.
 fn zeros(messages: u32) -> Vec<u8> {
     let options = mcap::WriteOptions::new().chunk_size(None).calculate_chunk_crcs(false);
     let mut file = options.create(Cursor::new(Vec::new())).unwrap();
@@ -36,38 +36,35 @@ fn refusal(file: &[u8]) -> String {
     read_bytes(file, Path::new("zeros.mcap")).unwrap_err().to_string()
 }
 
-/// Symptom: a chunk of zeros in 31 kB was decompressed to a gigabyte, for 12 s.
+/// Symptom: a file of 31 kB with a chunk of zeros was decompressed to a gigabyte, which took 12 s.
 #[test]
-fn a_small_file_that_says_it_is_large_is_not_decompressed() {
+fn a_small_file_that_claims_a_large_size_is_not_decompressed() {
     let file = zeros(300);
     assert!(file.len() < 100_000, "{} bytes", file.len());
     let told = refusal(&file);
-    assert!(
-        told.contains("zeros.mcap has") && told.contains("says that it holds 31") && told.contains("134 MB"),
-        "{told}"
-    );
-    // Within the limit, the same is read to its end.
-    assert!(refusal(&zeros(20)).contains("holds no trajectory"));
+    assert!(told.contains("zeros.mcap has") && told.contains("claims to hold 31") && told.contains("134 MB"), "{told}");
+    // A similar file within the limit is read to its end.
+    assert!(refusal(&zeros(20)).contains("contains no trajectory"));
 }
 
-/// What it says of its size is believed only so far.
+/// Sizes stated in a file are trusted only up to a limit.
 #[test]
-fn a_file_that_says_it_is_small_is_read_no_further_than_that() {
+fn a_file_is_read_no_further_than_its_stated_size() {
     let mut file = zeros(300);
     let size = content(&file, mcap::records::op::CHUNK) + 16;
     file[size..size + 8].copy_from_slice(&1000u64.to_le_bytes());
     assert!(refusal(&file).contains("damaged"), "{}", refusal(&file));
-    // Twice as much as there is.
+    // Twice the actual size.
     let mut file = zeros(20);
     file[size..size + 8].copy_from_slice(&(41u64 << 20).to_le_bytes());
     assert!(refusal(&file).contains("damaged"), "{}", refusal(&file));
     file[size..size + 8].copy_from_slice(&u64::MAX.to_le_bytes());
-    assert!(refusal(&file).contains("says that it holds"), "{}", refusal(&file));
+    assert!(refusal(&file).contains("claims to hold"), "{}", refusal(&file));
 }
 
-/// Symptom: the index of an older recording pointed before its beginning, and the run that looked at it panicked.
+/// Symptom: the index of an older recording pointed outside the file, and the run that read the recording panicked.
 #[test]
-fn an_older_recording_that_points_anywhere_is_left_alone() {
+fn an_older_recording_with_a_bad_index_is_left_alone() {
     let place = Place::new();
     place.ok("run scenarios/pendulum.toml --route differences --record out");
     let path = place.path("out/pendulum.mcap");
@@ -82,25 +79,25 @@ fn an_older_recording_that_points_anywhere_is_left_alone() {
         assert!(told.contains("out/pendulum.mcap"), "{told}");
         assert_eq!(fs::read(&path).unwrap(), whole, "it is the same run, and ours");
     }
-    // Cut off anywhere in what describes it, it is somebody's file.
+    // If the metadata are cut off at any byte, the recording counts as a file of the user.
     for cut in [9, 30, content(&whole, mcap::records::op::METADATA) + 20] {
         fs::write(&path, &whole[..cut]).unwrap();
         let told = place.ok("run scenarios/pendulum.toml --route differences --record out");
-        assert!(told.contains("out/pendulum-2.mcap") && told.contains("no recording of a run"), "{told}");
+        assert!(told.contains("out/pendulum-2.mcap") && told.contains("not a recording of a run"), "{told}");
         assert_eq!(fs::read(&path).unwrap(), whole[..cut]);
     }
 }
 
-/// What never ends, and what is no file, is not read.
+/// Endless inputs and paths of non-regular files are not read.
 #[cfg(unix)]
 #[test]
-fn a_recording_is_a_regular_file() {
+fn only_regular_files_are_read_as_recordings() {
     let place = Place::new();
     assert!(std::process::Command::new("mkfifo").arg(place.path("pipe.mcap")).status().unwrap().success());
     std::os::unix::fs::symlink("/dev/zero", place.path("zero.mcap")).unwrap();
     for name in ["pipe.mcap", "zero.mcap"] {
-        place.refused(&format!("view {name} --with foxglove"), &[name, "no regular file"]);
-        place.refused(&format!("view {name} --with plotjuggler"), &[name, "no regular file"]);
-        place.refused(&format!("compare scenarios/pendulum.toml {name}"), &[name, "no regular file"]);
+        place.refused(&format!("view {name} --with foxglove"), &[name, "not a regular file"]);
+        place.refused(&format!("view {name} --with plotjuggler"), &[name, "not a regular file"]);
+        place.refused(&format!("compare scenarios/pendulum.toml {name}"), &[name, "not a regular file"]);
     }
 }

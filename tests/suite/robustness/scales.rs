@@ -1,6 +1,6 @@
-//! Correct mechanisms with one number that is far from all others: what is known of the rest goes by its digits.
+//! Correct mechanisms with one extreme number, so that the other numbers lose digits.
 //!
-//! Each was found among 10 000 bad scenarios as one that loads and yet disagreed.
+//! Each was found among 10 000 bad scenarios: it loads, and the proof disagreed.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use linkage::mechanism::Mechanism;
 use linkproof::{Options, Proof, Verdict, prove};
 use scenario::Scenario;
 
-/// A shipped scenario without its published numbers, with edits and another grid, proven with little work.
+/// Proof of a shipped scenario without its published numbers, with edits and another grid, and with little work.
 fn proven(file: &str, edits: &[(&str, &str)], grid: &str) -> Proof {
     prove(&shortened(file, edits, grid), &Options::default().budget(2e4)).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -28,7 +28,7 @@ fn shortened(file: &str, edits: &[(&str, &str)], grid: &str) -> Scenario {
     Scenario::parse(&text, &path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Asserts that no check whose name begins so disagrees, and that there is one.
+/// Asserts that no check with this prefix disagrees, and that at least one exists.
 fn holds(proof: &Proof, family: &str) {
     let mut checks = proof.all_checks().filter(|check| check.family.starts_with(family)).peekable();
     assert!(checks.peek().is_some(), "no check {family}");
@@ -38,20 +38,22 @@ fn holds(proof: &Proof, family: &str) {
     }
 }
 
-/// Symptom: the balancing moment of the sides differed by 2e-8 where 1e-10 is wanted, in the force on the frame.
-/// Cause: forces of 1e11 N in the joints cancel each other in it, and it was measured by what is left.
+/// Symptom: the balancing moments of the sides differed by 2e-8 where 1e-10 is required.
+/// Cause: forces of 1e11 N in the joints cancel in the force on the frame, and the difference was divided by the small
+/// remainder.
 #[test]
-fn a_force_on_the_frame_has_the_rounding_of_the_forces_that_it_sums() {
+fn a_frame_force_has_the_rounding_of_its_summands() {
     let edits = [("inertia_kg_m2 = 0.74\n", "inertia_kg_m2 = 1e8\n")];
     let grid = "from_deg = 0\nto_deg = 90\nstep_deg = 10";
     holds(&proven("crank_rocker.toml", &edits, grid), "assur against newton");
 }
 
-/// Symptom: positions differed by 1e-10 where 1e-12 is wanted. Cause: side 2 calculates with the places of mass
-/// centres, and a joint is as uncertain as the last digit of its distance from there. Scenario files may not have a
-/// mass centre so far away (`bad_scenarios::masses`), cases that are built in code may.
+/// Symptom: positions differed by 1e-10 where 1e-12 is required.
+/// Cause: side 2 computes with positions of mass centres.
+/// The uncertainty of a joint is therefore the rounding error of its distance from the mass centre.
+/// Scenario files may not have such a distant mass centre (`bad_scenarios::masses`), but cases built in code may.
 #[test]
-fn a_mass_centre_far_away_costs_digits_of_the_joints() {
+fn a_distant_mass_centre_costs_joint_accuracy() {
     for far in [1e3, 1e5, 1e6] {
         let grid = "from_deg = 0\nto_deg = 90\nstep_deg = 10";
         let case = shortened("crank_rocker.toml", &[], grid).case;
@@ -64,10 +66,10 @@ fn a_mass_centre_far_away_costs_digits_of_the_joints() {
     }
 }
 
-/// Symptom: the balancing moment from equilibrium and that from powers differed by 1e14 times itself. Cause: powers
-/// were divided by the nominal speed, which a motion under forces may be far from.
+/// Symptom: the balancing moments from equilibrium and from powers differed by a factor of 1e14.
+/// Cause: powers were divided by the nominal speed, but the speed of a free motion may be far from it.
 #[test]
-fn powers_of_a_free_motion_are_measured_by_the_speed_that_it_has() {
+fn powers_of_a_free_motion_are_divided_by_its_actual_speed() {
     for nominal in ["1e-30", "1e-6", "1e4"] {
         let speed = format!("speed_rpm = {nominal}");
         let edits = [("speed_rpm = 130", speed.as_str()), ("initial_speed_rpm = 0", "initial_speed_rpm = 10")];
@@ -77,10 +79,10 @@ fn powers_of_a_free_motion_are_measured_by_the_speed_that_it_has() {
     }
 }
 
-/// Symptom: an engine's speeds disagreed beyond bounds that its runs at three steps confirmed. Cause: the motor's
-/// moment brings the mechanism to its speed in 1e-11 s, which none of these steps sees.
+/// Symptom: an engine's speeds exceeded their bounds, although runs at three steps confirmed these bounds.
+/// Cause: the motor brings the mechanism to its speed within 1e-11 s, which all three steps are too long to resolve.
 #[test]
-fn steps_that_a_motion_outruns_disprove_nothing() {
+fn steps_too_coarse_for_a_motion_never_disagree() {
     let edits =
         [("torque_at_rest_N_m = 22.51", "torque_at_rest_N_m = 2.2e9"), ("slope_N_m_s = -0.0716", "slope_N_m_s = -7e6")];
     let proof = proven("crank_rocker_runup.toml", &edits, "from_s = 0\nto_s = 1e-4\nstep_s = 1e-5");

@@ -1,4 +1,4 @@
-//! Instants many turns away: the same numbers as near by, and without following every turn.
+//! Instants many revolutions away have the same values as nearby ones, and not every revolution is computed.
 
 use std::f64::consts::TAU;
 
@@ -8,20 +8,21 @@ use linkage::work::{Count, counted};
 
 use crate::common::{assert_within, shipped};
 
-/// Angles of a trajectory count the turns; everything else repeats.
+/// Asserts that `far` repeats `near`, except for the revolutions that its angles count.
 fn assert_repeats(near: &Trajectory, far: &Trajectory, turns: f64, what: &str) {
     for ((channel, near), (_, far)) in near.iter().zip(far.iter()) {
         let scale = near.iter().fold(1e-3, |most: f64, value| if value.abs() > most { value.abs() } else { most });
         for (near, far) in near.iter().zip(far) {
             let gone = match channel.kind.unit {
-                // Whole turns of the link for every turn of the crank, in a far instant as in the first turns.
+                // For each revolution of the crank, the link makes the same whole number of revolutions as in the first
+                // ones.
                 Unit::Radian => ((far - near) / TAU).round() * TAU,
                 _ => 0.0,
             };
             if channel.kind.unit == Unit::Radian {
                 assert_within!((gone / TAU).abs() % turns.abs(), 0.0, "{what}: {channel} turns {}", gone / TAU);
             }
-            // The crank angle itself has lost digits: 1e5 turns leave 1e-10 rad.
+            // The crank angle itself has lost digits: after 1e5 turns its rounding error is 1e-10 rad.
             assert_within!((far - near - gone).abs() / scale, 1e-7, "{what}: {channel} {near} {far}");
         }
     }
@@ -33,7 +34,7 @@ fn at(case: &Case, turns: f64) -> Case {
 }
 
 #[test]
-fn a_hundred_thousand_turns_away_all_is_as_near_by() {
+fn motion_and_work_are_the_same_after_1e5_turns() {
     for name in ["crank_rocker.toml", "ov7_base.toml", "fourth_class.toml", "quick_return.toml"] {
         let case = shipped(name).case;
         for solver in analytic::all() {
@@ -52,14 +53,15 @@ fn a_hundred_thousand_turns_away_all_is_as_near_by() {
     }
 }
 
-/// A branch that is another one after a turn is followed turn by turn: a parallelogram's change points are refused, a
-/// lawful motion has no whole turns, and two drives do not repeat together.
+/// Motions that do not repeat after a revolution are followed revolution by revolution.
+/// A parallelogram is refused at its change points, a motion law has no whole revolutions, and two drives do not repeat
+/// together.
 #[test]
-fn several_drives_are_followed_all_the_way() {
+fn several_drives_are_followed_turn_by_turn() {
     let case = shipped("five_bar.toml").case;
     let times: Vec<f64> = vec![0.0, 40.0 * TAU / case.crank().top_speed().abs()];
     let far = case.on(Grid::of_times(case.crank(), times.clone())).unwrap();
-    // The same way in small pieces.
+    // The same path, followed in small steps.
     let pieces: Vec<f64> = (0..=4000).map(|k| times[1] * f64::from(k) / 4000.0).collect();
     let close = case.on(Grid::of_times(case.crank(), pieces)).unwrap();
     for solver in analytic::all() {
@@ -76,9 +78,9 @@ fn several_drives_are_followed_all_the_way() {
     }
 }
 
-/// Symptom: a law that is steep for a moment made side 2 follow 1e18 turns.
+/// Symptom: a law with a brief steep part made side 2 follow 1e18 revolutions.
 #[test]
-fn a_law_that_is_steep_for_a_moment_ends() {
+fn a_briefly_steep_law_terminates() {
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/crank_rocker.toml")).unwrap();
     let text = text.split("[[oracle]]").next().unwrap().replacen("[motor]", "[unused]", 1);
     let start = text.find("[unused]").unwrap();
@@ -94,7 +96,7 @@ fn a_law_that_is_steep_for_a_moment_ends() {
     let scenario = scenario.unwrap_or_else(|error| panic!("{error}: {text}"));
     for solver in analytic::all() {
         if let Err(error) = solver.solve(&scenario.case) {
-            assert!(error.message().contains("turns on the way"), "{error}");
+            assert!(error.message().contains("turns until"), "{error}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Mechanisms in double-double: closed forms by hand, and the two ways against each other.
+//! Mechanisms in double-double arithmetic: against closed forms by hand, and the two methods against each other.
 
 use lab::stress::{FAMILIES, named};
 use linkage::drive::Load;
@@ -13,7 +13,7 @@ use prover::bounds::{difference, magnitudes};
 use crate::common::assert_within;
 use crate::common::random::for_each;
 
-/// Largest difference of any channel over the size of its numbers.
+/// Largest difference in any channel, divided by the size of the channel's values.
 fn apart(one: &Trajectory, two: &Trajectory) -> f64 {
     let sizes = magnitudes(one);
     let errors = difference(one, two).unwrap();
@@ -23,7 +23,8 @@ fn apart(one: &Trajectory, two: &Trajectory) -> f64 {
     errors.iter().zip(&sizes).map(of).fold(0.0, f64::larger)
 }
 
-/// Both are rounded to doubles at the end: they differ in the last digit at most, even next to a dead point.
+/// Both methods round their results to doubles.
+/// The results differ at most in the last digit, even near a dead point.
 #[test]
 fn closed_form_and_all_equations_agree_to_the_last_digit() {
     for (family, dial) in
@@ -36,9 +37,9 @@ fn closed_form_and_all_equations_agree_to_the_last_digit() {
     }
 }
 
-/// A slider-crank by the formulas of a textbook, in doubles.
+/// A slider-crank by textbook formulas, in doubles.
 #[test]
-fn a_slider_crank_is_that_of_the_textbook() {
+fn a_slider_crank_matches_the_textbook() {
     let (r, l, omega, mass) = (0.05, 0.17, 30.0, 2.0);
     let case = Case::builder()
         .ground(&[("O", [0.0, 0.0]), ("G", [0.0, 0.0])])
@@ -71,7 +72,7 @@ fn a_slider_crank_is_that_of_the_textbook() {
             let off = column(&format!("joint.guide.{name}"))[row] - own;
             assert_within!(off.abs() / size, 1e-15, "{name} at {t}: {off}");
         }
-        // The massless rod is a strut: its force along itself, and the power of the crank is that of the piston.
+        // The massless rod carries only a force along its axis; the crank's power equals the piston's power.
         let torque = mass * a * v / omega;
         assert_within!((column("drive.torque_N_m")[row] - torque).abs(), 1e-14, "torque at {t}");
         assert_within!((column("joint.B.fx_N")[row] - mass * a).abs(), 2e-13, "force at {t}");
@@ -84,7 +85,7 @@ fn a_slider_crank_is_that_of_the_textbook() {
 fn random_dyads_agree_with_the_sides() {
     for_each(12, |sample| {
         let case = sample.scenario.case.with(|parts| parts.loads.clear()).unwrap();
-        // Within its grid: beyond it a sample may come to a dead point.
+        // The instants lie within the grid; outside the grid a sample may reach a dead point.
         let times = (0..8).map(|k| 0.04 * f64::from(k) / case.crank().top_speed().abs()).collect();
         let case = case.on(linkage::case::Grid::of_times(case.crank(), times)).unwrap();
         let truth = precise::solve(&case).unwrap_or_else(|error| panic!("{error}"));
@@ -97,7 +98,7 @@ fn random_dyads_agree_with_the_sides() {
 }
 
 #[test]
-fn what_it_does_not_take_is_refused() {
+fn unsupported_cases_are_refused() {
     let case = (FAMILIES[0].setup)(1.0, 0, 0).unwrap().case;
     let refused = |case: &Case, part: &str| {
         let error = precise::solve(case).unwrap_err();

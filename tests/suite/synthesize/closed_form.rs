@@ -1,4 +1,4 @@
-//! Crank-rocker and slider-crank: their scenarios, followed over the whole turn.
+//! Scenarios of crank-rocker and slider-crank from their closed forms, followed over a whole turn.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -40,7 +40,7 @@ fn published() -> CrankRockerSpec {
 }
 
 #[test]
-fn the_published_crank_rocker_is_the_scenario_of_the_repository() {
+fn the_published_crank_rocker_equals_the_shipped_scenario() {
     let found = CrankRocker::of(published()).unwrap();
     let (own, shipped) = (case(&found.scenario(&sheet())), shipped("crank_rocker.toml").case);
     for (a, b) in own.mechanism.joints().iter().zip(shipped.mechanism.joints()) {
@@ -51,12 +51,13 @@ fn the_published_crank_rocker_is_the_scenario_of_the_repository() {
     assert_eq!(own.modes, shipped.modes);
 }
 
-/// The range of motion, by arc length on its own equations, has the extreme positions asked for, and no others.
+/// The mechanism has exactly the requested extreme positions.
+/// The range of motion, which checks them, uses arc length and independent equations.
 #[test]
-fn crank_rockers_have_their_extreme_positions() {
+fn crank_rockers_have_the_requested_extreme_positions() {
     let mut proven = 0;
     for k in 0..200u32 {
-        // The values are spread over the whole sensible range, without random numbers.
+        // Deterministic values spread over the whole sensible range, without random numbers.
         let part = |prime: f64| (f64::from(k) * prime.sqrt()).fract();
         let wish = CrankRockerSpec {
             crank_pivot: Vec2::new(0.3 * part(2.0), -0.2 * part(3.0)),
@@ -70,7 +71,7 @@ fn crank_rockers_have_their_extreme_positions() {
         let range = Range::of(&case).unwrap();
         assert_eq!(range.four_bar.unwrap().of_type, FourBarType::CrankRocker, "{found:?}");
         assert_eq!(range.extent, Extent::FullTurn(1));
-        // A linkage that is almost disassembled loses digits.
+        // A linkage close to its assembly limit loses digits, so it is skipped.
         if found.transmission < 0.05 {
             continue;
         }
@@ -85,7 +86,8 @@ fn crank_rockers_have_their_extreme_positions() {
         let least = range.groups[GroupId(0)].determinant;
         assert_within!((least.value.abs().asin() - found.transmission).abs(), 1e-6, "{least:?} {found:?}");
         assert!(same_angle(least.crank, found.transmission_at, 1e-6));
-        // From extreme to extreme the crank turns through pi + theta in one direction, pi - theta in the other.
+        // Between the extreme positions, the crank turns through pi + theta in one direction and pi - theta in the
+        // other.
         let way = (rocker.extremes[0].crank - rocker.extremes[1].crank).abs();
         let slower = way.larger(TAU - way);
         assert_within!((slower / (TAU - slower) - found.time_ratio).abs(), 1e-7);
@@ -95,7 +97,7 @@ fn crank_rockers_have_their_extreme_positions() {
 }
 
 #[test]
-fn slider_cranks_have_their_stroke() {
+fn slider_cranks_have_the_requested_stroke() {
     for (stroke, offset, given) in [
         (0.1, 0.0, Given::Rod(0.2)),
         (0.1, 0.03, Given::Rod(0.12)),
@@ -118,7 +120,7 @@ fn slider_cranks_have_their_stroke() {
                 assert_within!(state.motions[place].velocity.norm(), 1e-13, "{found:?}");
             }
         }
-        // It exceeds them nowhere else.
+        // The slider stays between its extreme positions everywhere.
         assert!(newton.iter().all(|state| {
             let x = state.motions[place].origin.x;
             x <= found.far[1] + 1e-13 && x >= found.near[1] - 1e-13
@@ -132,9 +134,9 @@ fn slider_cranks_have_their_stroke() {
     }
 }
 
-/// Just below the shortest rod found, the crank at the limit does not turn fully.
+/// If the rod is slightly shorter than the shortest rod found, the crank does not turn fully.
 #[test]
-fn the_shortest_rod_is_where_the_crank_stops_turning() {
+fn below_the_shortest_rod_the_crank_does_not_turn_fully() {
     let found = SliderCrank::of(0.1, 0.03, Given::Rod(0.0675)).unwrap();
     let turns = |rod: f64| Range::of(&case(&SliderCrank { rod, ..found }.scenario(&sheet()))).unwrap().extent;
     assert_eq!(turns(found.rod), Extent::FullTurn(1));

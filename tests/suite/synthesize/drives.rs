@@ -1,4 +1,4 @@
-//! The designed drives of the warp-knitting machine: the claims of their files, and the agreement of both sides.
+//! The designed drives of the warp-knitting machine: the claims in their files, and the agreement of both sides.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ fn top() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/ov7_drives")
 }
 
-/// Task of a drive with the dimensions of a scenario, and its motion.
+/// The task of a drive with the dimensions of a scenario, and the motion it achieves.
 fn measured(task: &str, scenario: Scenario) -> (Task, Achieved) {
     let TaskFile { task, .. } = TaskFile::load(&top().join(format!("{task}_task.toml"))).unwrap();
     let task = Task { case: scenario.case, ..task };
@@ -29,9 +29,9 @@ fn designed(name: &str) -> (Task, Achieved) {
     measured(name, Scenario::load(top().join(format!("{name}.toml"))).unwrap())
 }
 
-/// Largest motion in a dwell and largest travel in a wrong direction (shares of the stroke), distance of extreme
-/// positions and shortfall of dwells (deg), least transmission angle (deg): the figures in docs/synthesis.md, rounded
-/// up (the angle down).
+/// The figures in docs/synthesis.md, rounded up (the transmission angle down).
+/// They are: largest motion in a dwell and largest travel in a wrong direction (shares of the stroke), distance of
+/// extreme positions and shortfall of dwells (deg), smallest transmission angle (deg).
 const STATED: [(&str, [f64; 5]); 3] = [
     ("needle_bar", [0.0088, 0.0001, 0.2, 0.0, 33.0]),
     ("sinker", [0.0181, 0.0002, 0.8, 0.0, 38.1]),
@@ -51,8 +51,9 @@ fn the_designed_drives_keep_their_timing() {
         );
         assert!(found.unrest(&task) <= unrest && found.wrong() <= wrong, "{name}");
         assert!(degrees[0] <= late && degrees[1] <= short && degrees[2] >= transmission, "{name}: {degrees:?}");
-        // Every moving phase moves as required. The least displacement is weighed against the other goals, so it may be
-        // slightly missed.
+        // Every moving phase moves in the required direction.
+        // The search weighs the least displacement against the other goals, so the displacement may be slightly too
+        // small.
         for (phase, done) in task.timing.phases().iter().zip(&found.phases) {
             assert!(
                 done.displacement * phase.sense.sign() >= (phase.least - 2e-3) * phase.sense.sign().abs(),
@@ -71,9 +72,10 @@ fn both_sides_agree_on_the_designed_drives() {
     }
 }
 
-/// The curve that the search rates is the output as the second analytic side computes it, with its own equations.
+/// The output curve that the search rates equals the motion of the lever, computed by side 2 with independent
+/// equations.
 #[test]
-fn the_curve_is_the_motion_of_the_lever() {
+fn the_rated_curve_is_the_motion_of_the_lever() {
     for (name, _) in STATED {
         let (task, found) = designed(name);
         let rows: Vec<usize> = (0..found.turns.len()).step_by(100).collect();
@@ -85,7 +87,7 @@ fn the_curve_is_the_motion_of_the_lever() {
             .iter()
             .map(|state| state.motions[lever].direction)
             .collect();
-        // The comparison starts at the first row, because the curve begins anywhere in the stroke.
+        // The comparison is relative to the first row, because the curve's zero is arbitrary.
         for (&row, direction) in rows.iter().zip(&directions) {
             let turned = found.forward * found.stroke * (found.shares[row] - found.shares[0]);
             let [from, to] = [unit(0.0), unit(turned)];
@@ -97,8 +99,8 @@ fn the_curve_is_the_motion_of_the_lever() {
     }
 }
 
-/// The published drives of the eyelet needles keep the published timing of the eyelet needles roughly; sense and zero
-/// follow their conventions.
+/// The published drives of the eyelet needles keep the published timing approximately.
+/// Sign and zero follow the conventions of that timing.
 #[test]
 fn the_published_eyelet_needle_drives_keep_their_timing() {
     let (task, new) = measured("eyelet_needle", shipped("ov7_new.toml"));
@@ -107,7 +109,7 @@ fn the_published_eyelet_needle_drives_keep_their_timing() {
     assert!(new.phases[3].motion < 0.02 && new.phases[0].motion < 0.16, "{:?}", new.phases);
     assert!(new.transmission.is_none());
     assert_within!((new.stroke.to_degrees() - 5.5049).abs(), 1e-3);
-    // Its output is the printed one: a table angle of 0 and its neighbours, 30 degrees apart.
+    // The output follows the published table, whose angles start at 0 in steps of 30 degrees.
     let rocker = task.case.mechanism.link_named("rocker_75").unwrap();
     let times: Vec<f64> = (0..12).map(|k| task.case.crank().time_of(-f64::from(k) * 30f64.to_radians())).collect();
     let states = states(&AssurSolver, &task.case, &times).unwrap();
@@ -119,8 +121,8 @@ fn the_published_eyelet_needle_drives_keep_their_timing() {
     }
 }
 
-/// A class III group is searched too, from its rough place. The result keeps the timing better than the published
-/// dimensions.
+/// The search also handles a class III group, which starts from its approximate position.
+/// The result keeps the timing better than the published dimensions do.
 #[test]
 fn a_class_three_group_is_searched() {
     let TaskFile { mut task, .. } = TaskFile::load(&top().join("eyelet_needle_task.toml")).unwrap();

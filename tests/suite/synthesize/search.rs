@@ -1,4 +1,4 @@
-//! The search on problems whose answers are known.
+//! The search on problems with known solutions.
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -15,8 +15,8 @@ use scenario::Scenario;
 use crate::common::{assert_within, shipped};
 use linkage::mechanism::LinkId;
 
-/// The published crank-rocker's problem without its closed form: pivots and rocker are fixed, crank and coupler free,
-/// swing and timing wanted.
+/// The problem of the published crank-rocker, solved without its closed form.
+/// Pivots and rocker are fixed, crank and coupler are free, and swing and timing are required.
 const TASK: &str = r#"
 format = 1
 name = "recovered"
@@ -75,8 +75,9 @@ fn the_search_finds_the_lengths_of_the_closed_form() {
     let found = search(&task, 2, &mut |_| {}).unwrap();
     assert_within!(found.cost, 1e-7, "{found:?}");
     assert!(found.cost < found.random_cost, "{found:?}");
-    // The time ratio hardly depends on the lengths along the valley of equal swing: 0.5 mm of the crank are 0.064 deg
-    // of the crank angle between the extreme positions. The refinement ends where the cost is that small.
+    // Along the valley of equal swing, the time ratio hardly depends on the lengths.
+    // If the crank changes by 0.5 mm, the crank angle between the extreme positions changes by 0.064 deg.
+    // The refinement stops at a cost of this size.
     let expected = [known.crank, known.coupler, known.stretched.crank];
     for ((value, expected), within) in found.values.iter().zip(expected).zip([1e-3, 4e-3, 2e-2]) {
         assert_within!((value - expected).abs(), within, "{found:?} {known:?}");
@@ -101,16 +102,17 @@ fn results_depend_on_the_seed_and_not_on_the_threads() {
     assert_ne!(search(&task, 2, &mut |_| {}).unwrap().values, one.values);
 }
 
-/// The written scenario has the values found, rounded to the digits of a workshop, and is valid.
+/// The written scenario is valid and has the values found, rounded to workshop accuracy.
 #[test]
-fn the_scenario_written_has_the_values_found() {
+fn the_written_scenario_has_the_values_found() {
     let TaskFile { mut task, drawing } = task(TASK);
     task.stroke = [0.3, 0.9];
     task.bar = Some(3.0);
     let values = redraw::round_values(&task, &[0.031_234_567, 0.345_678_912, 1.234_567_89]);
     let text = redraw::redrawn(&task, &drawing.text, &values, "one\n\ntwo").unwrap();
     assert!(
-        text.starts_with("# one\n#\n# two\n# Left out") && text.contains("\n\nformat = 1\nname = \"recovered\"\n"),
+        text.starts_with("# one\n#\n# two\n# Not taken over from the drawing, because valid for its own dimensions")
+            && text.contains("\n\nformat = 1\nname = \"recovered\"\n"),
         "{text}"
     );
     let scenario = Scenario::parse(&text, "recovered.toml").unwrap();
@@ -121,15 +123,15 @@ fn the_scenario_written_has_the_values_found() {
     assert_within!((scenario.case.crank().zero.to_degrees() - 70.7355).abs(), 1e-9);
     assert_within!((links[LinkId(2)].mass - 3.0 * 0.345_679).abs(), 1e-6);
     assert_within!((links[LinkId(2)].inertia / links[LinkId(2)].mass - 0.345_679f64.powi(2) / 12.0).abs(), 1e-7);
-    // All of the file except dimensions stays.
+    // Only the dimensions differ from the drawing.
     assert_eq!(scenario.case.loads, drawing.case.loads);
     assert_eq!(scenario.case.mechanism.links()[LinkId(0)], drawing.case.mechanism.links()[LinkId(0)]);
 }
 
-/// Symptom: the scenario found disagreed in 210 of 339 numbers, and did not load in another directory. Cause: it kept
-/// the published numbers of its drawing, with the tables that they name.
+/// Symptom: the scenario found disagreed in 210 of 339 numbers, and did not load in another directory.
+/// Cause: it kept the published numbers of the original scenario, and their tables.
 #[test]
-fn regress_what_holds_for_the_drawing_only_is_not_written() {
+fn regress_numbers_of_the_drawing_are_not_written() {
     let TaskFile { mut task, drawing } = task(TASK);
     task.stroke = [0.3, 0.9];
     let more = "\n[[formula]]\nname = \"r\"\nexpression = \"0.026*sin(phi)\"\nchannel = \"point.A.y_m\"\n\
@@ -142,16 +144,17 @@ fn regress_what_holds_for_the_drawing_only_is_not_written() {
     let values = redraw::round_values(&task, &[0.03, 0.34, 1.2]);
     let written = redraw::redrawn(&task, &format!("{text}{more}"), &values, "found").unwrap();
     assert!(!drawing.oracles.is_empty());
-    // It loads anywhere, and says what is no longer there.
+    // The scenario loads in any directory, and states what was removed.
     let found = Scenario::parse(&written, "elsewhere/found.toml").unwrap();
     assert!(found.oracles.is_empty() && found.formulas.list.is_empty() && found.source.is_none());
-    let told = "# Left out of the drawing, because it holds for its own dimensions only: oracle, formula, source.\n";
-    assert!(written.starts_with(&format!("# found\n{told}")), "{written}");
+    let told = "Not taken over from the drawing, because valid for its own dimensions only: oracle, formula, source.\n";
+    assert!(written.starts_with(&format!("# found\n# {told}")), "{written}");
 }
 
-/// The extreme positions of the published crank-rocker end the two phases, at the crank angles of the range of motion.
+/// The two phases end at the extreme positions of the published crank-rocker, at the crank angles of its range of
+/// motion.
 #[test]
-fn what_is_measured_are_the_extreme_positions() {
+fn the_measured_phases_end_at_the_extreme_positions() {
     let TaskFile { task, .. } = task(TASK);
     // The turn begins in the stretched position.
     let case = task.case.with(|parts| {
@@ -170,23 +173,23 @@ fn what_is_measured_are_the_extreme_positions() {
     }
     assert!(found.unrest(&task) == 0.0);
     assert_within!(found.late(&task), 0.01 / 360.0 * TAU);
-    // With the other sense of the output, or another zero, the result is far from it.
+    // If the sign or the zero of the output is changed, the error is large.
     assert!(Achieved::of(&task, -1.0).unwrap().wrong() > 0.2);
     assert!(Achieved::of(&task, 1.0).unwrap().late(&task) > 0.1);
 }
 
 #[test]
-fn mistakes_in_the_file_are_answered() {
+fn mistakes_in_the_file_are_reported() {
     for (from, to, key, words) in [
         ("link = \"rocker\"", "link = \"rokcer\"", "output.link", "did you mean \"rocker\""),
         ("link = \"rocker\"", "link = \"ground\"", "output.link", "does not turn"),
-        ("forward = \"positive\"", "forward = \"up\"", "output.forward", "no sense of an output"),
+        ("forward = \"positive\"", "forward = \"up\"", "output.forward", "not a sense of an output"),
         ("sense = \"back\"", "sense = \"bakc\"", "phases[2].sense", "did you mean \"back\""),
         ("to_deg = 360, sense", "to_deg = 350, sense", "phases[2]", "ends at 350"),
         ("point = \"A\"\nfrom = \"O\"", "point = \"A\"\nfrom = \"X\"", "vary[1].from", "has no point \"X\""),
-        ("length = { from_mm = 10, to_mm = 60 }", "", "vary[1]", "nothing about this point varies"),
+        ("length = { from_mm = 10, to_mm = 60 }", "", "vary[1]", "no property of this point varies"),
         ("{ from_mm = 10, to_mm = 60 }", "{ from_mm = 60, to_mm = 10 }", "vary[1].length", "below the least"),
-        ("{ from_mm = 10, to_mm = 60 }", "{ from = 10, to_mm = 60 }", "vary[1].length.from", "carries no unit"),
+        ("{ from_mm = 10, to_mm = 60 }", "{ from = 10, to_mm = 60 }", "vary[1].length.from", "has no unit"),
         ("candidates = 20000", "candidates = 0", "search", "no candidates"),
         ("candidates = 20000", "candidates = -5", "search.candidates", "not negative"),
         ("scenario = \"crank_rocker.toml\"", "scenario = \"none.toml\"", "scenario", "cannot be read"),
@@ -205,7 +208,7 @@ fn mistakes_in_the_file_are_answered() {
 }
 
 #[test]
-fn a_search_that_finds_nothing_says_so() {
+fn an_unsuccessful_search_is_reported() {
     let TaskFile { mut task, .. } = task(TASK);
     task.effort = SearchEffort { seed: 1, candidates: 500, refined: 2, evaluations: 10 };
     task.transmission = 1.5;

@@ -1,5 +1,5 @@
-//! All settings of all Rapier engines on a dense grid, with which `tune` is compared: by a price model in the tests, by
-//! the clock in `benches/tune.rs`.
+//! All settings of all Rapier engines on a dense grid, for comparison with `tune`.
+//! The tests compare by the cost model, `benches/tune.rs` by measured time.
 
 use analytic::NewtonSolver;
 use linkage::case::Grid;
@@ -22,23 +22,23 @@ pub const REFERENCES: [&str; 8] = [
     "class3_group",
 ];
 
-/// Largest step in the search, in degrees of the crank: with it a turn has twelve steps, and six-point interpolation
-/// spans half a turn.
+/// Largest step in the search, in degrees of the crank.
+/// With this step a turn has twelve steps, and six-point interpolation spans half a turn.
 const COARSEST_DEG: f64 = 30.0;
-/// Steps coarser than one whose error is this many times the wanted one are not run. Errors grow with the step. Where
-/// they do not, parts of opposite sign cancel at one instant, but never by such a factor at all instants of all
-/// channels.
+/// If the error of a step exceeds the required error by this factor, larger steps are not run.
+/// Errors grow with the step, except where parts of opposite sign cancel at one instant.
+/// Such cancellation never reaches this factor at all instants of all channels.
 const HOPELESS: f64 = 30.0;
 
-/// The settings in the search.
+/// The settings in the exhaustive search.
 pub struct Space {
     /// Numbers of sweeps.
     pub sweeps: &'static [usize],
-    /// Factor from one step to the next.
+    /// Ratio of successive steps.
     pub factor: f64,
 }
 
-/// Settings that meet a wish.
+/// Settings that reach the required accuracy.
 pub struct Met {
     pub engine: Box<dyn Engine>,
     pub price: f64,
@@ -53,8 +53,8 @@ pub fn thinned(mut scenario: Scenario, every: usize) -> Scenario {
     scenario
 }
 
-/// Largest error over the scale in all channels that the case wants; infinite if the engine fails. The reference is not
-/// the analytic side that `tune` uses.
+/// Largest error divided by the scale, over all requested channels; infinite if the engine fails.
+/// The reference comes from the analytic side that `tune` does not use.
 pub fn error_of(scenario: &Scenario, truth: &Trajectory, engine: &dyn Engine) -> f64 {
     let Ok(found) = engine.solve(&scenario.case) else { return f64::INFINITY };
     let residuals = residuals(truth, &found).expect("both stand on one grid");
@@ -66,7 +66,7 @@ pub fn truth(scenario: &Scenario) -> Trajectory {
     NewtonSolver.solve(&scenario.case).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// All ways of setting the Rapier engines except the step: engine, route, extrapolation, substeps, sweeps.
+/// All settings of the Rapier engines except the step: engine, route, extrapolation, substeps, sweeps.
 fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
     let mut rows = Vec::new();
     for engine in prover::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error()) {
@@ -84,8 +84,10 @@ fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
     rows
 }
 
-/// The cheapest settings of each row of the space that cost less than `below` and meet the error `within`, the cheapest
-/// of all last, and the number of runs. Every row is searched from the finest affordable step to coarser ones.
+/// Searches every row of the space from the finest affordable step to larger ones.
+/// Returns the cheapest settings of each row that cost less than `below` and have at most the error `within`.
+/// The cheapest of all comes last.
+/// Also returns the number of runs.
 pub fn cheaper(
     scenario: &Scenario,
     within: f64,

@@ -1,5 +1,5 @@
-//! The result of `tune` against all of a space of settings, by the price model: for the tests, and with the whole space
-//! for `benches/tune.rs`.
+//! The result of `tune`, compared with all settings of a space by the cost model.
+//! The tests use a part of the space, `benches/tune.rs` the whole space.
 
 use lab::tune::{Tuning, WantedAccuracy, price_of, tune};
 use linkage::engine::Engine;
@@ -9,10 +9,10 @@ use scenario::Scenario;
 
 use super::exhaustive::{Space, cheaper, error_of, truth};
 
-/// Allowed factor from the cheapest price.
+/// Upper limit of the cost of the result, divided by the lowest cost.
 pub const FACTOR: f64 = 1.5;
 
-/// Tunes by the price model.
+/// Tunes by the cost model.
 pub fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Options) -> linkage::Result<Tuning> {
     let wish = WantedAccuracy { within, channels: channels.iter().map(|name| name.to_string()).collect() };
     let mut price = |engine: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {
@@ -22,9 +22,10 @@ pub fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Opti
     tune(scenario, &wish, options, &mut price, &mut |_| {})
 }
 
-/// Tunes all Rapier engines. The result must keep its error and its price when checked from outside, with the other
-/// analytic side. The space is searched for settings that cost less than the price of the result over `below`. The
-/// result may cost at most [`FACTOR`] times the cheapest of them.
+/// Tunes all Rapier engines.
+/// The other analytic side must confirm the promised error of the result, and the cost model its cost.
+/// The space is searched for settings that cost less than the cost of the result divided by `below`.
+/// The result may cost at most [`FACTOR`] times the cheapest of them.
 pub fn near_the_cheapest(scenario: &Scenario, within: f64, below: f64, space: &Space) {
     let name = &scenario.name;
     let engines = prover::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());

@@ -11,7 +11,8 @@ link 3 = CD, rocker 4 = O2D";
 const READING_4: &str = "Topology is our own reading (docs/variants60.md): crank 1 = O1A, coupler 2 = AB with point C on it, rocker 3 = O2B; \
 gamma is the angle at B between links 2 and 3, phi and theta are not used";
 
-/// Twelve decimals without zeros at the end: 1e-12 m, which the last bit of a sine does not change.
+/// Twelve decimals without trailing zeros.
+/// At a resolution of 1e-12 m, the last bit of a sine has no effect.
 pub fn number(value: f64) -> String {
     let text = format!("{value:.12}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
@@ -39,7 +40,7 @@ fn group(first: &str, second: &str, mode: &str) -> String {
     format!("[[start.groups]]\nlinks = [\"{first}\", \"{second}\"]\nmode = \"{mode}\"\n")
 }
 
-/// The statement of the title about the range; limits to 1e-6 deg.
+/// The words of the title about the range, with limits rounded to 1e-6 deg.
 pub fn range(plan: &Plan) -> String {
     match plan.limits {
         None => "turns fully".into(),

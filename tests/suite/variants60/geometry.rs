@@ -1,9 +1,11 @@
-//! The variants' own geometry: poses from the given angles, transmission angles by the law of cosines. It uses nothing
-//! of the solvers.
+//! Independent geometry of the variants: poses from the given angles, transmission angles by the law of cosines.
+//! It uses no code of the solvers.
 //!
 //! With the guide's direction t and normal n, the slider stays on its line where n . (B - A) = n . B0 - l1 sin(a -
-//! theta). Divided by l2, this is the cosine of the angle between rod and normal. The angle at D between link 3 and
-//! rocker 4 has the cosine (l3^2 + l4^2 - |C O2|^2) / 2 l3 l4. Either dyad is singular where its cosine is 1 or -1.
+//! theta).
+//! Divided by l2, this is the cosine of the angle between rod and normal.
+//! The angle at D between link 3 and rocker 4 has the cosine (l3^2 + l4^2 - |C O2|^2) / 2 l3 l4.
+//! Either dyad is singular where its cosine is 1 or -1.
 
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 
@@ -46,17 +48,17 @@ pub fn variants(csv: &str) -> Vec<Variant> {
     csv.lines().skip(1).map(line).collect()
 }
 
-/// Sense in which beta, gamma and phi are measured; 1 as in our reading.
+/// Directions in which beta, gamma and phi are measured; 1 is the direction in our reading.
 pub type Senses = [f64; 3];
 pub const OURS: Senses = [1.0; 3];
 
-/// Dependence of a dyad's transmission angle on the crank.
+/// Data for the dependence of the slider dyad's transmission angle on the crank.
 #[derive(Clone, Copy, Debug)]
 struct Slide {
     along: Vec2,
     /// n . B.
     line: f64,
-    /// 1 if B is ahead of A along the guide, else -1.
+    /// 1 if B is ahead of A along the guide, otherwise -1.
     sense: f64,
 }
 
@@ -76,7 +78,7 @@ fn degrees(angle: f64) -> Vec2 {
     unit(angle.to_radians())
 }
 
-/// Limit below which a value counts as singular: the rounding of a sine and a few products.
+/// A value below this limit counts as singular: it is the rounding error of a sine and a few products.
 const SINGULAR: f64 = 1e-12;
 
 impl Linkage {
@@ -96,7 +98,7 @@ impl Linkage {
         let o2 = d + degrees(lead + 180.0 + phi * v.phi) * l4;
         let along = degrees(v.theta);
         let ahead = along.dot(&(b - a));
-        // In a singular pose both senses are possible: the sense ahead is used.
+        // In a singular pose both directions are possible; the code takes B as ahead.
         let sense = if ahead < -SINGULAR { -1.0 } else { 1.0 };
         let slide = Some(Slide { along, line: cross(along, b), sense });
         Linkage { variant: v, a, b, c, d, o2, slide }
@@ -113,8 +115,9 @@ impl Linkage {
         cross(self.o2 - outer, self.d - outer) > 0.0
     }
 
-    /// Cosines of the transmission angles at crank angle `crank` (deg): rod to normal, and link 3 to rocker. Beyond a
-    /// limit of the first dyad the second has none.
+    /// Cosines of the transmission angles at crank angle `crank` (deg): between rod and normal, and between link 3 and
+    /// rocker.
+    /// Beyond a limit of the first dyad, the second cosine is infinite.
     pub fn cosines(&self, crank: f64) -> [f64; 2] {
         let [l1, l2, l3] = self.variant.lengths;
         let a = degrees(crank) * l1;
@@ -129,7 +132,7 @@ impl Linkage {
         [cosine, of_sides(l3, l4, a + rod * self.variant.ac)]
     }
 
-    /// Greatest cosine of the two.
+    /// The larger of the two cosines.
     fn worst(&self, crank: f64) -> f64 {
         self.cosines(crank).iter().fold(0.0, |max, cosine| cosine.abs().larger(max))
     }
@@ -139,8 +142,9 @@ impl Linkage {
         self.worst(crank).smaller(1.0).acos().to_degrees()
     }
 
-    /// Crank angles (deg) between which both transmission angles stay above `least` (deg), around `from`; `None` if
-    /// they do so over a whole turn. Steps of 0.01 deg: a peak between two of them is lower than 1e-7.
+    /// Interval of crank angles (deg) around `from` in which both transmission angles stay above `least` (deg).
+    /// `None` if they stay above it over a whole turn.
+    /// The search uses steps of 0.01 deg; a peak between two steps exceeds them by less than 1e-7.
     pub fn interval(&self, from: f64, least: f64) -> Option<[f64; 2]> {
         const STEP: f64 = 0.01;
         let bound = least.to_radians().cos();
@@ -161,8 +165,8 @@ impl Linkage {
         Some([end(-1.0)?, end(1.0)?])
     }
 
-    /// The next crank angle (deg) at which the cosine of the slider's dyad reaches 1 without exceeding it. Crank and
-    /// rod are both perpendicular to the guide, and branches cross there.
+    /// The next crank angle (deg) at which the cosine of the slider's dyad reaches 1 without exceeding it.
+    /// There, crank and rod are perpendicular to the guide, and two branches cross.
     pub fn change_point(&self, from: f64, sense: f64) -> Option<f64> {
         let [l1, l2, _] = self.variant.lengths;
         let line = self.slide?.line;
@@ -175,8 +179,8 @@ impl Linkage {
         ends.min_by(|x, y| (sense * x).total_cmp(&(sense * y)))
     }
 
-    /// Smallest of the transmission angles (deg) of each dyad between two crank angles (deg): the best of steps of 0.05
-    /// deg, then a golden section search between its neighbours.
+    /// Smallest transmission angle (deg) of each dyad between two crank angles (deg).
+    /// Steps of 0.05 deg find the smallest value; a golden section search between its neighbours refines it.
     pub fn least(&self, [from, to]: [f64; 2]) -> [f64; 2] {
         let count = ((to - from) / 0.05).ceil().larger(1.0);
         let at = |k: f64| from + (to - from) * (k / count).clamp(0.0, 1.0);

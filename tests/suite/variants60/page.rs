@@ -9,7 +9,7 @@ use super::plan::Plan;
 
 const MARKER: &str = "<!-- written by tests/suite/variants60.rs -->\n";
 
-/// The page with its generated part renewed.
+/// The page with a new generated part.
 pub fn renewed(page: &str, plans: &[Plan], scenarios: &[Scenario]) -> String {
     let (prose, _) = page.split_once(MARKER).expect("the page has its marker");
     format!("{prose}{MARKER}{}{}{}", counts(plans), senses(plans), table(plans, scenarios))
@@ -30,7 +30,7 @@ fn counts(plans: &[Plan]) -> String {
     )
 }
 
-/// Full turns among the variants with a slider for all eight senses of the three angles.
+/// For all eight combinations of directions of the three angles: the number of variants with a slider that turn fully.
 fn senses(plans: &[Plan]) -> String {
     let mut text = String::from("| beta | gamma | phi | turn fully, of those with a slider |\n|---|---|---|---|\n");
     let variants: Vec<&Variant> =
@@ -39,7 +39,7 @@ fn senses(plans: &[Plan]) -> String {
         let senses: Senses = [4, 2, 1].map(|bit| if k & bit == 0 { 1.0 } else { -1.0 });
         let turns = |v: &&&Variant| Linkage::of(v, senses).interval(v.alpha, 0.0).is_none();
         let count = variants.iter().filter(turns).count();
-        // In our reading beta counts clockwise, the others counter-clockwise.
+        // In our reading, beta is measured clockwise, and gamma and phi counter-clockwise.
         let words = [-senses[0], senses[1], senses[2]].map(|s| if s > 0.0 { "ccw" } else { "cw" });
         let ours = if k == 0 { " (our reading)" } else { "" };
         let _ = writeln!(text, "| {} | {} | {} | {count}{ours} |", words[0], words[1], words[2]);

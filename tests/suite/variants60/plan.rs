@@ -1,21 +1,22 @@
-//! The crank angles and steps for which a variant is solved.
+//! Crank angles and time steps at which a variant is solved.
 
 use super::geometry::{Linkage, OURS, Variant};
 use linkage::math::KeepNan;
 
-/// Transmission angle (deg) that the grid keeps if the crank cannot turn fully.
+/// If the crank cannot turn fully, the grid ends where the transmission angle falls to this value (deg).
 const LEAST: f64 = 15.0;
-/// The same if the given pose has less than that.
+/// The same limit for variants whose given pose has a smaller transmission angle.
 const SMALL: f64 = 10.0;
-/// Engine steps from the grid's ends to the limits. Near a limit the motion goes as the square root of the distance,
-/// which alone determines what a step is worth. With forty, one channel each of variants 15 and 35 stays inconclusive;
-/// with sixty none does.
+/// Number of engine steps between the ends of the grid and the limits of the crank.
+/// Near a limit the motion varies as the square root of the distance to it.
+/// This distance in steps alone determines the accuracy of a step.
+/// With forty steps, one channel each of variants 15 and 35 stays inconclusive; with sixty, all are decided.
 const STEPS_TO_LIMIT: f64 = 60.0;
-/// Engine step (deg) far from limits, and the unit of which steps are multiples.
+/// Engine step (deg) far from limits, and the smallest unit (deg): all steps are multiples of it.
 const ENGINE: [f64; 2] = [0.25, 0.01];
 /// Least number of instants in a grid.
 const FEWEST: f64 = 12.0;
-/// Slack of grid ends (deg): an end at a whole degree may be missed by rounding.
+/// Tolerance of grid ends (deg): rounding error may move an end off a whole degree.
 const SLACK: f64 = 1e-6;
 
 const NESTED: &str = "limits are limits of larger angles too";
@@ -28,14 +29,14 @@ pub struct Plan {
     pub limits: Option<[f64; 2]>,
     /// Smaller transmission angle of the given pose (deg).
     pub given: f64,
-    /// Transmission angle that the grid keeps (deg); 0 where the crank turns fully.
+    /// Smallest transmission angle (deg) that the grid allows; 0 if the crank turns fully.
     pub kept: f64,
     /// Crank angle of the start (deg): alpha, unless the given pose is outside the grid.
     pub start: f64,
     /// Crank angles (deg).
     pub grid: [f64; 2],
     pub grid_step: f64,
-    /// Smallest transmission angles on the grid (deg), one per dyad.
+    /// Smallest transmission angle of each dyad on the grid (deg).
     pub least: [f64; 2],
     /// Step of the engine (deg).
     pub engine_step: f64,

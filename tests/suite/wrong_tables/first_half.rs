@@ -1,4 +1,4 @@
-//! The half by which the diagnosis was mended.
+//! The half of the wrong tables with which the diagnosis was improved.
 
 use std::f64::consts::PI;
 
@@ -29,7 +29,7 @@ const PRESS: &[&str] =
 const SHAPER: &[&str] = &["link.guide.angle_rad", "link.ram.x_m", "joint.A.fx_N", "joint.B.fy_N", "drive.torque_N_m"];
 const PLACES: &[&str] = &["point.P.x_m", "point.P.y_m", "point.B.x_m", "point.B.y_m", "link.rocker.angle_rad"];
 
-/// Every column one row late; the first row stays.
+/// Moves the values of the named columns one row later; the first row stays.
 fn late(sheet: &mut Sheet, names: &[&str]) {
     for name in names {
         let before = sheet.of(name).clone();
@@ -37,7 +37,7 @@ fn late(sheet: &mut Sheet, names: &[&str]) {
     }
 }
 
-/// A pendulum by semi-implicit Euler steps of a millisecond.
+/// A pendulum computed with semi-implicit Euler steps of a millisecond.
 fn euler(sheet: &mut Sheet) {
     let step = 1e-3;
     let (mut angle, mut omega) = (sheet.of("link.rod.angle_rad")[0], 0.0);
@@ -177,7 +177,9 @@ pub(super) const TABLES: &[Wrong] = &[
                 (y[to] - y[from]) / (t[to] - t[from])
             });
         }),
-        named: &["differences of point.D.y_m over the row before and the one behind"],
+        named: &[
+            "finite differences of point.D.y_m (or of the corresponding channel) over the previous and the next row",
+        ],
     },
     Wrong {
         scenario: "crank_rocker",
@@ -208,14 +210,14 @@ pub(super) const TABLES: &[Wrong] = &[
             *sheet.of("point.B.x_m") = sheet.right("link.rocker.x_m");
             *sheet.of("point.B.y_m") = sheet.right("link.rocker.y_m");
         }),
-        named: &["the values of link.rocker.x_m in place of point.B.x_m", "the values of link.rocker.y_m in place of"],
+        named: &["the values of link.rocker.x_m instead of point.B.x_m", "the values of link.rocker.y_m instead of"],
     },
     Wrong {
         scenario: "norton",
         columns: PLACES,
         what: "angle of another link",
         make: Make::Values(|sheet| *sheet.of("link.rocker.angle_rad") = sheet.right("link.coupler.angle_rad")),
-        named: &["the values of link.coupler.angle_rad in place of link.rocker.angle_rad"],
+        named: &["the values of link.coupler.angle_rad instead of link.rocker.angle_rad"],
     },
     Wrong {
         scenario: "loaded_slider",
@@ -229,7 +231,7 @@ pub(super) const TABLES: &[Wrong] = &[
         columns: FOUR_BAR,
         what: "mm in one column",
         make: Make::Values(|sheet| sheet.each("point.D.y_m", |_, value| 1e3 * value)),
-        named: &["millimetres instead of metres, in point.D.y_m"],
+        named: &["another unit in point.D.y_m: millimetres instead of metres"],
     },
     Wrong {
         scenario: "crank_rocker",
@@ -257,7 +259,7 @@ pub(super) const TABLES: &[Wrong] = &[
         columns: FOUR_BAR,
         what: "coupler 1 % too long",
         make: Make::Text(&[("B = { x_m = 0.34707193189181", "B = { x_m = 0.3505426512108")]),
-        named: &["place of B on coupler, x: 0.35054"],
+        named: &["position of B on coupler, x: 0.35054"],
     },
     Wrong {
         scenario: "quick_return",
@@ -274,7 +276,7 @@ pub(super) const TABLES: &[Wrong] = &[
             let times = sheet.times.clone();
             sheet.each("link.rocker.angle_rad", |row, value| value + 1e-3 * times[row]);
         }),
-        named: &["grows with time, about in proportion", "`- 0.001*t`"],
+        named: &["grows with time, roughly in proportion", "`- 0.001*t`"],
     },
     Wrong {
         scenario: "pendulum",

@@ -1,4 +1,4 @@
-//! The half that was looked at when the first one was done.
+//! The half of the wrong tables that was run only after the work on the first half.
 
 use super::{Make, Sheet, Wrong, link};
 
@@ -25,7 +25,7 @@ const SIX_BAR: &[&str] = &["point.D.y_m", "joint.C.fx_N", "joint.D.fy_N", "drive
 const ENGINE: &[&str] = &["joint.O.fy_N", "joint.A.fx_N", "joint.B.fx_N", "drive.torque_N_m"];
 const PENDULUM: &[&str] = &["link.rod.angle_rad", "link.rod.omega_rad_s"];
 
-/// A pendulum by Runge-Kutta steps of 20 ms, which is too coarse.
+/// A pendulum computed with Runge-Kutta steps of 20 ms, which are too large.
 fn runge_kutta(sheet: &mut Sheet) {
     let step = 0.02;
     let rate = |[angle, omega]: [f64; 2]| [omega, -9.80665 * f64::cos(angle) / (1.0 / 6.0 + 0.5)];
@@ -33,7 +33,7 @@ fn runge_kutta(sheet: &mut Sheet) {
     let mut state = [sheet.of("link.rod.angle_rad")[0], 0.0];
     let mut found = [Vec::new(), Vec::new()];
     for row in 0..sheet.times.len() {
-        // Every second row is between two steps.
+        // Every second row lies between two steps.
         if row > 0 && row % 2 == 0 {
             let first = rate(state);
             let second = rate(plus(state, step / 2.0, first));
@@ -71,7 +71,7 @@ pub(super) const TABLES: &[Wrong] = &[
         columns: FOUR_BAR,
         what: "force of the next joint",
         make: Make::Values(|sheet| *sheet.of("joint.O.fx_N") = sheet.right("joint.A.fx_N")),
-        named: &["the values of joint.A.fx_N in place of joint.O.fx_N"],
+        named: &["the values of joint.A.fx_N instead of joint.O.fx_N"],
     },
     Wrong {
         scenario: "loaded_slider",
@@ -85,7 +85,7 @@ pub(super) const TABLES: &[Wrong] = &[
         columns: FOUR_BAR,
         what: "mm/s in one column",
         make: Make::Values(|sheet| sheet.each("point.D.vy_m_s", |_, value| 1e3 * value)),
-        named: &["millimetres instead of metres, in point.D.vy_m_s"],
+        named: &["another unit in point.D.vy_m_s: millimetres instead of metres"],
     },
     Wrong {
         scenario: "crank_rocker",
@@ -110,7 +110,9 @@ pub(super) const TABLES: &[Wrong] = &[
                 (x[row + 2] - 2.0 * x[row] + x[row - 2]) / (t[row + 2] - t[row]).powi(2)
             });
         }),
-        named: &["second differences of link.ram.x_m over 2 rows before and behind"],
+        named: &[
+            "second finite differences of link.ram.x_m (or of the corresponding channel) over 2 rows before and after",
+        ],
     },
     Wrong {
         scenario: "crank_rocker",
@@ -120,7 +122,9 @@ pub(super) const TABLES: &[Wrong] = &[
             let (x, t) = (sheet.of("point.D.x_m").clone(), sheet.times.clone());
             sheet.each("point.D.vx_m_s", |row, _| (x[row.max(1)] - x[row.max(1) - 1]) / (t[1] - t[0]));
         }),
-        named: &["differences of point.D.x_m over the row and the one before"],
+        named: &[
+            "finite differences of point.D.x_m (or of the corresponding channel) over the row and the previous one",
+        ],
     },
     Wrong {
         scenario: "norton",
@@ -176,7 +180,7 @@ pub(super) const TABLES: &[Wrong] = &[
         columns: SHAPER,
         what: "gravity of 10 m/s^2",
         make: Make::Text(&[("y_m_s2 = -9.81", "y_m_s2 = -10")]),
-        named: &["gravity: 10 m/s^2"],
+        named: &["gravity: 10 m/s²"],
     },
     Wrong {
         scenario: "crank_rocker_runup",
@@ -226,7 +230,7 @@ pub(super) const TABLES: &[Wrong] = &[
             let (x, y) = (sheet.right("frame.fx_N"), sheet.right("frame.fy_N"));
             sheet.each("frame.moment_N_m", |row, value| value - 0.15 * y[row] + 0.015 * x[row]);
         }),
-        named: &["frame.moment_N_m about another point, by (0.15, 0.015) m away"],
+        named: &["frame.moment_N_m taken about another point, (0.15, 0.015) m away"],
     },
     Wrong {
         scenario: "loaded_slider",
@@ -241,7 +245,7 @@ pub(super) const TABLES: &[Wrong] = &[
             let [right, up] = ["x_m", "y_m"].map(arm);
             sheet.each("joint.guide.moment_N_m", |row, value| value - right[row] * y[row] + up[row] * x[row]);
         }),
-        named: &["joint.guide.moment_N_m about"],
+        named: &["joint.guide.moment_N_m taken about"],
     },
     Wrong {
         scenario: "crank_rocker",
@@ -259,7 +263,7 @@ pub(super) const TABLES: &[Wrong] = &[
             sheet.each("point.P.x_m", |row, value| value - x[row]);
             sheet.each("point.P.y_m", |row, value| value - y[row]);
         }),
-        named: &["point.P.x_m less point.A.x_m", "point.P.y_m less point.A.y_m"],
+        named: &["point.P.x_m minus point.A.x_m", "point.P.y_m minus point.A.y_m"],
     },
     Wrong {
         scenario: "norton",
@@ -283,7 +287,7 @@ pub(super) const TABLES: &[Wrong] = &[
         columns: FOUR_BAR,
         what: "deg/s^2 in one column",
         make: Make::Values(|sheet| sheet.each("link.rocker.alpha_rad_s2", |_, value| value.to_degrees())),
-        named: &["degrees instead of radians, in link.rocker.alpha_rad_s2"],
+        named: &["another unit in link.rocker.alpha_rad_s2: degrees instead of radians"],
     },
     Wrong {
         scenario: "crank_rocker",
@@ -336,7 +340,7 @@ pub(super) const TABLES: &[Wrong] = &[
         columns: ENGINE,
         what: "rod as two masses",
         make: Make::Case(|parts| link(parts, "rod", |own| own.inertia = 0.8 * 0.045 * 0.110)),
-        named: &["moment of inertia of rod: 0.00396 kg m^2"],
+        named: &["moment of inertia of rod: 0.00396 kg·m²"],
     },
     Wrong {
         scenario: "crank_rocker",

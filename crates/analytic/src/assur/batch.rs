@@ -1,7 +1,7 @@
 //! Many poses of one case in one call.
 //!
-//! A case of driving links, RRR dyads and higher groups on pins, loaded by moments of resistance only, is solved for
-//! several crank angles at once: as many as fit into the machine's registers.
+//! Several crank angles are solved at once, as many as fit into the machine's registers.
+//! This applies to cases of driving links, RRR dyads and higher groups on pins, loaded by moments of resistance only.
 //! These poses are independent of each other.
 //! Any other case is solved pose by pose.
 
@@ -30,11 +30,11 @@ use linkage::error::Result;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Crank angle between two rows (rad) above which intermediate poses are checked too.
-/// It is at most [`PoseSolver`]'s step for poses in closed form.
+/// If the crank angles of two rows differ by more than this (rad), intermediate poses are checked too.
+/// The value is at most the step of [`PoseSolver`] for poses in closed form.
 const STEP: f64 = PI / 12.0;
 
-/// Angle (rad) above which the vector sine is not used: ten times the largest angle of a grid.
+/// Above this angle (rad) the vector sine is not used. The value is ten times the largest angle of a grid.
 const FAR: f64 = 1e7;
 
 /// Solves a case for many crank angles in one call, on the branch of its start pose.
@@ -46,11 +46,11 @@ pub struct Batch<'a> {
     anchors: Option<Anchors<'a>>,
     work: Vec<Eight>,
     arch: Arch,
-    /// Solves the poses that are not vectorised, and produces the error messages.
+    /// Solves the poses that are not vectorised and produces the error messages.
     poses: PoseSolver<'a>,
     /// Last crank angle reached (rad).
     crank: f64,
-    /// Number of poses solved singly so far.
+    /// Number of poses so far that were solved one by one.
     singly: usize,
 }
 
@@ -61,7 +61,7 @@ impl<'a> Batch<'a> {
     /// Those of [`PoseSolver::new`].
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
-        // The lanes keep the signs of the groups constant, but a change point changes them.
+        // Vectorised poses keep the signs of the groups constant, but a change point changes them.
         let groups = match case.crank().through {
             true => None,
             false => Groups::of(case, &poses.plan, Layout::of(case, false)),
@@ -88,25 +88,25 @@ impl<'a> Batch<'a> {
         self.groups.is_some()
     }
 
-    /// Number of poses solved one by one so far because the vectorised solution failed there.
+    /// Number of poses so far that were solved one by one because the vectorised solution failed.
     #[must_use]
     pub fn solved_singly(&self) -> usize {
         self.singly
     }
 
     /// Solves the poses at the crank angles `cranks` (rad, as the scenario states them), up to the stage `deepest`.
-    /// All poses have the angular velocity `omega` (rad/s) and angular acceleration `alpha` (rad/s^2) of the crank.
-    /// Within rounding error, the poses equal those of [`PoseSolver::solve`] at one crank angle after the other.
+    /// In all poses the crank has the angular velocity `omega` (rad/s) and the angular acceleration `alpha` (rad/s^2).
+    /// The poses equal those of [`PoseSolver::solve`] at the same crank angles in sequence, within rounding error.
     /// The first call starts from the start pose, later calls from the last crank angle reached.
-    /// Where poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits at every position in the
+    /// If poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits at every position in the
     /// list.
     /// Higher groups are followed from the start pose in steps of two degrees.
-    /// Near a dead point, and more than 50 000 steps away, their poses are solved one by one.
+    /// Their poses are solved one by one near a dead point, and more than 50 000 steps from the start pose.
     /// Between rows more than 15 degrees apart, intermediate poses are solved too.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`] at the first crank angle that cannot be reached; the poses before it are in
-    /// `out`.
+    /// Those of [`PoseSolver::solve`] at the first crank angle that cannot be reached. `out` then contains the poses
+    /// before it.
     pub fn solve(&mut self, cranks: &[f64], omega: f64, alpha: f64, deepest: Stage, out: &mut Poses) -> Result<()> {
         out.prepare(self.layout, cranks.len());
         if let Some(groups) = &self.groups {
@@ -116,7 +116,7 @@ impl<'a> Batch<'a> {
         }
         for (row, &crank) in cranks.iter().enumerate() {
             let is_placed = self.is_vectorised() && out.is_placed(row);
-            // Anchors already contain the intermediate poses.
+            // The anchors already contain the intermediate poses.
             if !(is_placed && (self.anchors.is_some() || (crank - self.crank).abs() <= STEP)) {
                 let deepest = if is_placed { Stage::Positions } else { deepest };
                 match self.walk(crank, omega, alpha, deepest) {
@@ -136,7 +136,7 @@ impl<'a> Batch<'a> {
         Ok(())
     }
 
-    /// Solves a crank angle with the pose solver, from the last angle reached.
+    /// Solves a crank angle with the pose solver, starting from the last crank angle reached.
     fn walk(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         if self.is_vectorised() {
             self.poses.solve(self.crank, omega, alpha, Stage::Positions)?;
@@ -145,7 +145,7 @@ impl<'a> Batch<'a> {
     }
 }
 
-/// The request to a batch.
+/// Input of one call: what to solve.
 #[derive(Clone, Copy, Debug)]
 struct Asked<'a> {
     cranks: &'a [f64],
@@ -237,12 +237,12 @@ mod tests {
         widths
     }
 
-    /// Each error is at most one unit in the last place of 1: at most half a unit from the standard library, the rest
-    /// from the vector functions.
+    /// Each error is at most one unit in the last place of 1. Of this unit, the standard library contributes at most
+    /// half; the vector functions contribute the rest.
     #[test]
-    fn units_are_those_of_the_standard_library() {
+    fn sines_and_cosines_match_the_standard_library() {
         for k in -400_000..400_000 {
-            // A tenth of the angles are multiples of a quarter turn, where sine or cosine is zero.
+            // One angle in ten is a multiple of a quarter turn, where sine or cosine is zero.
             let quarters = f64::from(k) * if k % 10 == 0 { 1.0 } else { 1.600_123_4 };
             let angles = [1.0, 1e-5, 3.0, 15.0, -1.0, -0.1, 7.3, 0.5].map(|share| quarters * share * PI / 2.0);
             let [cos, sin] = units(angles);
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn the_width_of_registers_does_not_show() {
+    fn results_do_not_depend_on_the_register_width() {
         for case in [turning(with_masses(&four_bar())), quadrilateral()] {
             let case = case.with(|parts| parts.gravity = Vec2::new(0.0, -9.81)).unwrap();
             let cranks: Vec<f64> = (0..500).map(|k| case.crank().start - 0.0123 * f64::from(k)).collect();

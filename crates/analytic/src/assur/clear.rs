@@ -1,4 +1,4 @@
-//! Refuses steps of [`PoseSolver`] that would pass over a change point.
+//! Refuses steps of [`PoseSolver`] over a change point.
 
 use super::PoseSolver;
 use super::watch::CLEAR;
@@ -6,11 +6,11 @@ use crate::assur::groups::{Misfit, OutOfReach, SINGULAR, SingularityDistance};
 use linkage::math::KeepNan;
 use linkage::mechanism::GroupId;
 
-/// Number of bisections that reduce an interval to rounding.
+/// Number of bisections after which the width of an interval is rounding error.
 const BISECTIONS: usize = 64;
 
 impl PoseSolver<'_> {
-    /// Checks the step to the pose just found, for which the stored bounds do not exclude a change point.
+    /// Checks the step to the pose just found. The stored bounds do not exclude a change point on this step.
     #[cold]
     pub(super) fn pass_closely(&mut self, target: f64) -> Result<(), OutOfReach> {
         self.gauges.pass_closely([self.crank, target], self.case, &self.plan, &self.state.motions)?;
@@ -18,7 +18,7 @@ impl PoseSolver<'_> {
         Ok(())
     }
 
-    /// Computes the clearances at a crank angle whose positions are known.
+    /// Computes the clearances at a crank angle; the positions there must be known.
     /// Returns whether a group may have passed a change point.
     fn find_clearances(&mut self, crank: f64, sense: f64) -> bool {
         let from = std::mem::replace(&mut self.crank, crank);
@@ -33,7 +33,7 @@ impl PoseSolver<'_> {
         may_pass
     }
 
-    /// Refuses a step that passes over a change point: there a clearance falls to zero and rises again.
+    /// Refuses a step over a change point, where a clearance falls to zero and rises again.
     #[inline]
     pub(super) fn keep_clear(&mut self, target: f64) -> Result<(), OutOfReach> {
         let step = target - self.crank;
@@ -53,7 +53,7 @@ impl PoseSolver<'_> {
         Ok(())
     }
 
-    /// Computes the clearances at the beginning of a step, for groups that have not been watched before.
+    /// Computes the clearances at the beginning of a step, for groups that were not watched before.
     #[cold]
     fn begin(&mut self, target: f64) -> Result<(), OutOfReach> {
         let (from, step) = (self.crank, target - self.crank);
@@ -66,7 +66,7 @@ impl PoseSolver<'_> {
         self.plan.positions(&self.inputs, &mut self.state.motions)
     }
 
-    /// Searches the step for change points, for every group that may have passed one.
+    /// Searches the step for the change point of every group that may have passed one.
     #[cold]
     fn keep_clear_closely(&mut self, target: f64) -> Result<(), OutOfReach> {
         let sense = target - self.crank;
@@ -75,7 +75,7 @@ impl PoseSolver<'_> {
             let seen = self.watch.groups[group];
             if seen.may_pass(sense) {
                 self.search(group, target, [seen.last, seen.now])?;
-                // The search has left another pose and its clearances: restore those of `target`.
+                // The search has changed the pose and the clearances: restore those of `target`.
                 self.turn(target);
                 self.plan.positions(&self.inputs, &mut self.state.motions)?;
                 self.find_clearances(target, sense);

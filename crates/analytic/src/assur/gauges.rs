@@ -3,18 +3,18 @@
 //! Where two branches of a dyad meet, its [gauge](crate::assur::groups::Step::gauge) is at an end of its range.
 //! Between two poses the gauge differs from linear interpolation by at most M h^2 / 8.
 //! Here h is the step and M a bound of the gauge's second derivative.
-//! If that band lies within the range, the dyad stays on one branch.
+//! If the gauge cannot leave its range even with this deviation, the dyad stays on one branch.
 //! For a dyad on the ground and on driving links of constant speed ratio, M is known.
-//! If its band is too wide, the step is divided until it is proven or the change point is found.
+//! If this is not enough for a proof, the step is divided until every part is proven or the change point is found.
 //! For a dyad on other dyads, M follows from the bounds of those dyads.
 //! These bounds grow from dyad to dyad and with the inverse of the dyads' sines.
-//! Where they do not suffice, the estimate of [`super::watch`] decides.
+//! Where these bounds give no proof, the estimate of [`super::watch`] decides.
 //! That estimate also serves dyads on higher groups, dyads on sliders of two guides, and several driving links of
 //! changing speed ratios.
 //!
-//! Bounds are kept for the next steps.
-//! Their band is wider than the step needs. They hold until a gauge leaves it, a step is longer, or the crank has gone
-//! far.
+//! Bounds are kept for later steps.
+//! The gauges may therefore vary within a band that is wider than the present step needs.
+//! The bounds hold until a gauge leaves its band, a step is longer, or the crank has moved too far.
 //! See docs/numerics/change_points.md.
 
 use crate::assur::groups::{Bound, Limit, Misfit, OutOfReach, SINGULAR, SolutionPlan};
@@ -22,13 +22,14 @@ use linkage::case::Case;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
-/// Distance from the stored band to an end of the range, as a share of the distance from the step's band.
+/// Ratio of two distances to an end of the gauge's range: that of the stored band to that of the band of the present
+/// step.
 const SPARE: f64 = 0.25;
-/// Factor for slightly longer steps: the steps of a grid are equal only within rounding error.
+/// Bounds are computed for steps longer by this factor. The steps of a grid are equal only within rounding error.
 const LONGER: f64 = 1.0 + 1e-6;
-/// Factor by which a gauge without an upper limit may grow.
+/// A gauge without an upper limit may grow by this factor while the bounds hold.
 const GROWN: f64 = 4.0;
-/// Number of steps after which a missing proof is tried again.
+/// After this many steps, a missing proof is tried again.
 const AGAIN: f64 = 16.0;
 
 /// A group with a gauge.
@@ -39,10 +40,10 @@ struct Watched {
     is_direct: bool,
     /// Whether the proof for this step is missing.
     is_open: bool,
-    /// Range of the gauge, from `low` to `high`, in which a step of the stored length is proven.
+    /// Range of the gauge, from `low` to `high`. A step of the stored length within this range is proven.
     low: f64,
     high: f64,
-    /// Gauge at the pose before the last and at the last pose; NaN before the first.
+    /// Gauges at the pose before the last and at the last pose; NaN before the first pose.
     before: f64,
     last: f64,
 }
@@ -59,7 +60,7 @@ pub(super) struct Gauges {
     left: f64,
 }
 
-/// One end of a step: crank angle, gauges of all watched groups, and pose. The pose is read at the far end only.
+/// One end of a step: crank angle, gauges of all watched groups, and pose. Only the pose at the far end is used.
 #[derive(Clone, Debug)]
 struct End {
     crank: f64,
@@ -100,13 +101,13 @@ impl Gauges {
         Gauges { watched: Vec::new(), ratios: Vec::new(), links: Vec::new(), reach: f64::INFINITY, left: f64::INFINITY }
     }
 
-    /// The groups proven not to pass a change point in this step; they need no estimate.
+    /// The groups proven not to pass a change point in this step. They need no estimate.
     pub(super) fn proven(&self) -> impl Iterator<Item = GroupId> {
         self.watched.iter().filter(|watched| !watched.is_open).map(|watched| watched.group)
     }
 
-    /// Records the pose that `plan` has just found, at a distance `step` of the crank (rad, unsigned) from the last
-    /// one.
+    /// Records the pose that `plan` has just found. `step` is the unsigned crank angle (rad) between the last pose and
+    /// this pose.
     /// Returns whether the stored bounds cover this step; if not, call [`Gauges::pass_closely`].
     #[inline(always)]
     pub(super) fn pass(&mut self, step: f64, plan: &SolutionPlan) -> bool {
@@ -127,10 +128,10 @@ impl Gauges {
         self.reach = -1.0;
     }
 
-    /// Checks the step between two crank angles (rad) with bounds for this step, and divides it where necessary.
+    /// Checks the step between two crank angles (rad) with bounds for this step, and divides the step where necessary.
     ///
     /// # Errors
-    /// [`Misfit::Passed`] with a change point. The last pose is then the pose before the step again.
+    /// [`Misfit::Passed`] with the change point. The last recorded pose is then again the pose before the step.
     #[cold]
     pub(super) fn pass_closely(
         &mut self,
@@ -150,7 +151,7 @@ impl Gauges {
         }
         if self.prove(&ends, plan, step * LONGER, SPARE) {
             if self.is_open() {
-                // Prove again without any reserve for later steps.
+                // Repeat the proof without a reserve for later steps.
                 self.prove(&ends, plan, step * LONGER, 1.0);
             }
             if self.is_open() {
@@ -174,7 +175,8 @@ impl Gauges {
 
     /// Whether the gauges of all direct groups stay within their ranges between two poses, for steps of length `step`
     /// (rad).
-    /// Stores the bounds of this proof. Their bands leave the share `share` of the remaining distance free.
+    /// Stores the bounds of this proof. Their bands leave the fraction `share` of the remaining distance to the range's
+    /// ends free.
     /// An indirect group without a proof is marked open.
     fn prove(&mut self, ends: &[End; 2], plan: &SolutionPlan, step: f64, share: f64) -> bool {
         let motions = &ends[1].motions;
@@ -202,7 +204,7 @@ impl Gauges {
         true
     }
 
-    /// Proves the step for direct groups alone, dividing it where necessary.
+    /// Proves the step for direct groups alone. Divides the step where necessary.
     fn divide(&self, case: &Case, plan: &mut SolutionPlan, ends: [End; 2]) -> Result<(), OutOfReach> {
         let (from, to) = (ends[0].crank, ends[1].crank);
         let step = (to - from).abs();
@@ -228,7 +230,7 @@ impl Gauges {
         let mut gauges = vec![f64::NAN; self.watched.len()];
         for (index, watched) in direct() {
             let group = &plan.steps()[watched.group];
-            // A group without a clearance gives NaN, which does not count as near.
+            // If a group has no clearance, its sine is NaN and does not count as near zero.
             if group.sine(&motions).is_some_and(|sine| sine < 10.0 * SINGULAR) {
                 return Err(passed(watched.group));
             }
@@ -241,14 +243,15 @@ impl Gauges {
     }
 }
 
-/// Returns the band in which a gauge stays over a step, and its largest deviation from linear interpolation.
-/// `least` and `most` are its values at the ends of the step. Returns `None` if the gauge may leave its range.
+/// Returns the band in which a gauge stays during a step, and its largest deviation from linear interpolation.
+/// `least` and `most` are the gauge's smaller and larger values at the ends of the step.
+/// Returns `None` if the gauge may leave its range.
 fn band(limit: Limit, [least, most]: [f64; 2], step: f64, share: f64) -> Option<(Limit, [f64; 2], f64)> {
     let bulge = limit.second * step * step / 8.0;
     let [start, end] = limit.range;
     let end = if end.is_finite() { end } else { GROWN * most };
     let (under, over) = (least - bulge - start, end - most - bulge);
-    // The negated comparison makes NaN prove nothing.
+    // The comparison is negated so that NaN gives no proof.
     if !(under > 0.0 && over > 0.0) {
         return None;
     }

@@ -28,7 +28,8 @@ use linkage::math::{KeepNan, Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{AssemblyMode, GROUND, GroupId, GroupKind, LinkId, Mechanism, PerGroup, Structure};
 use linkage::work::{Count, WorkTally};
 
-/// Largest ratio of squared distances from an expected pose at which the nearer of two configurations is accepted.
+/// Of two configurations, the nearer to an expected pose is accepted only if the ratio of the squared distances is
+/// below this value.
 const NEARER: f64 = 0.04;
 
 /// Driving link that turns about a joint with the ground or with an earlier driving link.
@@ -39,7 +40,7 @@ struct Driver {
     /// The joint in the link's frame and in the frame of its base.
     pivot: Vec2,
     place: Vec2,
-    /// Whether the joint is the origin of the link's frame, so that the arm is zero.
+    /// Whether the joint is the origin of the link's frame. The vector from the origin to the joint is then zero.
     at_origin: bool,
 }
 
@@ -106,7 +107,7 @@ impl Step {
         self.other().is_some()
     }
 
-    /// How far the group is from a singular pose: see [`SolutionPlan::clearances`].
+    /// Distance of the group from a singular pose: see [`SolutionPlan::clearances`].
     #[inline]
     pub(crate) fn clearance(&self, motions: &[Motion]) -> Option<SingularityDistance> {
         match self {
@@ -128,7 +129,7 @@ impl Step {
         }
     }
 
-    /// Gauge at the last pose: see [`bounds`]. NaN for groups without a gauge.
+    /// Gauge at the last pose: see [`bounds`]. NaN if the group has no gauge.
     #[inline]
     pub(in crate::assur) fn gauge(&self) -> f64 {
         // Most groups are RRR dyads.
@@ -144,9 +145,9 @@ impl Step {
         }
     }
 
-    /// Limit of the gauge over a step of the crank that begins or ends at the pose `motions`, while the gauge is at
-    /// most `farthest`.
-    /// `None` for groups without a gauge, and where the bounds of the links that carry the group are not known.
+    /// Limit of the gauge during a step of the crank that begins or ends at the pose `motions`.
+    /// The limit holds while the gauge is at most `farthest`.
+    /// `None` if the group has no gauge, or if the bounds of the links that carry the group are not known.
     pub(in crate::assur) fn limit(
         &self,
         links: &Bounds,
@@ -163,18 +164,19 @@ impl Step {
         }
     }
 
-    /// Writes the bounds of the group's links for a gauge that stays within `band`, where bounds exist.
+    /// Writes the bounds of the group's links, if they exist. They hold while the gauge stays within `band`.
     pub(in crate::assur) fn bound(&self, band: [f64; 2], step: f64, motions: &[Motion], links: &mut Bounds) {
         match self {
             Step::Rrr(dyad) => dyad.bound(band, links),
             Step::Rrp(dyad) => dyad.bound(band, step, motions, links),
             Step::Rpr(dyad) => dyad.bound(band, links),
-            // The travel of their sliders is unlimited.
+            // The travel of these groups' sliders is unlimited.
             Step::Prp(_) | Step::Rpp(_) | Step::Chain(_) => {}
         }
     }
 
-    /// Returns a dyad of two configurations in its other configuration, with its links; `None` for all other groups.
+    /// Returns a dyad with two configurations in its other configuration, together with its links; `None` for all other
+    /// groups.
     fn other(&self) -> Option<(Step, [LinkId; 2])> {
         match self {
             Step::Rrr(dyad) => Some((Step::Rrr(dyad.flipped()), dyad.links())),
@@ -193,7 +195,7 @@ pub struct SolutionPlan {
     tally: WorkTally,
 }
 
-/// A group that cannot be placed at some crank angle.
+/// A group that cannot be placed at a certain crank angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutOfReach {
     /// Index of the group in [`Structure::groups`].
@@ -203,7 +205,7 @@ pub struct OutOfReach {
 }
 
 impl SolutionPlan {
-    /// Treats the last pose as that of a driving angle larger by `way` (rad), a whole number of turns.
+    /// Treats the last pose as the pose at a driving angle that is larger by `way` (rad), a whole number of turns.
     pub(in crate::assur) fn skip(&mut self, way: f64) {
         for step in &mut self.steps {
             if let Step::Chain(chain) = step {
@@ -212,7 +214,7 @@ impl SolutionPlan {
         }
     }
 
-    /// Prepares a mechanism of this structure in these assembly modes (one per group).
+    /// Prepares a mechanism of this structure in these assembly modes (one mode per group).
     #[must_use]
     pub fn of(mechanism: &Mechanism, structure: &Structure, modes: &[AssemblyMode]) -> Self {
         let drivers = structure.drivers.iter().map(|&(link, joint)| {
@@ -249,7 +251,7 @@ impl SolutionPlan {
     /// Higher groups start from the last pose in `motions`.
     ///
     /// # Errors
-    /// The first group that cannot be placed.
+    /// The error names the first group that cannot be placed.
     #[inline]
     pub fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
         self.count_pose();
@@ -265,7 +267,8 @@ impl SolutionPlan {
     ///
     /// # Errors
     /// Those of [`SolutionPlan::positions`].
-    // A separate function is faster: inlined into its caller, dyads take a fifth more time with fewer instructions.
+    // A separate function is faster: if this code is inlined into its caller, dyads take a fifth more time although
+    // fewer instructions are executed.
     #[inline(never)]
     pub(crate) fn motions(
         &mut self,
@@ -313,7 +316,7 @@ impl SolutionPlan {
     /// The plan keeps these configurations.
     ///
     /// # Errors
-    /// Those of [`SolutionPlan::positions`]; [`Misfit::Singular`] where two configurations are about equally near.
+    /// Those of [`SolutionPlan::positions`]; [`Misfit::Singular`] if two configurations are about equally near.
     pub(crate) fn positions_like(
         &mut self,
         like: &[Motion],
@@ -352,7 +355,7 @@ impl SolutionPlan {
         Ok(())
     }
 
-    /// Positions of the driving links and of these groups, which depend on no other groups.
+    /// Computes the positions of the driving links and of the given groups, which must not depend on other groups.
     ///
     /// # Errors
     /// Those of [`SolutionPlan::positions`].
@@ -371,8 +374,8 @@ impl SolutionPlan {
         Ok(())
     }
 
-    /// Writes the bounds of the ground and of the driving links, which turn at these constant multiples of the crank's
-    /// speed.
+    /// Writes the bounds of the ground and of the driving links. Each driving link turns at a constant multiple of the
+    /// crank's speed, given in `ratios`.
     pub(in crate::assur) fn bound_drivers(&self, ratios: &[f64], links: &mut Bounds) {
         links.fill(None);
         links[GROUND] = Some(Bound::REST);
@@ -408,7 +411,7 @@ impl SolutionPlan {
     }
 
     /// Distance of every group from a singular pose at which two of its branches meet. Velocities must be known.
-    /// `None` for groups that watch the sign of a determinant themselves.
+    /// `None` for groups that monitor the sign of their own determinant.
     pub fn clearances<'a>(&'a self, motions: &'a [Motion]) -> impl Iterator<Item = Option<SingularityDistance>> + 'a {
         self.steps.iter().map(|step| step.clearance(motions))
     }

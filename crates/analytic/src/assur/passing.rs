@@ -3,10 +3,10 @@
 //!
 //! Along this branch all positions and transfer functions are smooth functions of the driving link's angle.
 //! Only the equations of the group are singular.
-//! Its sine, or the corresponding measure of the dyad, passes through zero linearly.
-//! The sign that the closed form keeps is the opposite one on the far side.
-//! In a [`Window`] around such an angle, results come from polynomials through poses on both sides, not from the
-//! equations of the pose.
+//! The sine of the transmission angle, or the corresponding measure of the dyad, passes through zero linearly.
+//! The closed form keeps the sign of this sine, but beyond the change point the opposite sign is correct.
+//! In a [`Window`] around the change point, the equations of the pose are not solved.
+//! The results come from polynomials through poses on both sides.
 //! See docs/numerics/change_points.md.
 
 mod forces;
@@ -22,41 +22,42 @@ use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 use window::Window;
 
-/// Largest estimated distance (rad) at which a change point is searched for.
+/// If the estimated distance to a change point is below this value (rad), the change point is searched for.
 /// The search thus comes before a step can lead into the window.
 const LOOK: f64 = 1.0;
-/// Multiple of the estimated distance within which a known change point is the estimated one, or lies before it.
-/// Change points behind the known one are then searched for from there.
+/// If a known change point is nearer than this multiple of the estimated distance, no search is made.
+/// The known change point is then the estimated one or lies before it.
+/// Change points beyond it are searched for from its window.
 const NEXT: f64 = 1.3;
-/// Distance (rad) up to which two change points count as one, at which several groups are singular.
+/// Two change points closer together than this (rad) count as one change point, at which several groups are singular.
 const SAME: f64 = 1e-6;
-/// Largest number of windows kept, the nearest ones. After many turns the others are found again.
+/// Largest number of windows kept; the nearest windows are kept. A discarded window is found again when it is needed.
 const MOST_WINDOWS: usize = 8;
-/// Largest number of remembered intervals without a change point. A motion of many small steps finds as many.
+/// Largest number of remembered intervals without a change point. A motion of many small steps produces this many.
 const MOST_CLEAR: usize = 256;
 
 /// The change points found so far in a mechanism with one driving link.
 #[derive(Debug)]
 pub(super) struct Passing {
-    /// Half width of the windows, as a share of the usual half width.
+    /// Ratio of the windows' half width to the usual half width.
     share: f64,
     windows: Vec<Window>,
-    /// Intervals of the driving link's angle (rad) in which a search in this direction has found nothing: group,
-    /// direction, ends.
+    /// Intervals of the driving link's angle (rad) in which a search found no change point: group, direction of the
+    /// search, ends.
     clear: Vec<(GroupId, f64, [f64; 2])>,
-    /// The window of the last pose, if it lies in one.
+    /// The window that contains the last pose; `None` if the pose lies outside all windows.
     inside: Option<usize>,
     motions: Vec<Motion>,
     /// Ends of windows from which the next change point has already been searched for.
     looked: Vec<f64>,
-    /// Angle of the last pose outside of windows, and the determinants of higher groups there.
+    /// Angle of the last pose outside all windows, and the determinants of the higher groups at this pose.
     last: (f64, Vec<Option<f64>>),
 }
 
 impl Passing {
     /// Starts without a known change point.
-    /// Windows have the share `share` of their usual half widths. Two runs with different shares show the remaining
-    /// error of the windows.
+    /// `share` is the ratio of the windows' half widths to the usual half widths.
+    /// Two runs with different ratios show the remaining error of the windows.
     pub(super) fn new(share: f64) -> Self {
         Passing {
             share,
@@ -69,13 +70,14 @@ impl Passing {
         }
     }
 
-    /// The window of the last pose placed, if it lies in one.
+    /// The window that contains the last placed pose; `None` if the pose lies outside all windows.
     pub(super) fn inside(&self) -> Option<&Window> {
         self.inside.map(|index| &self.windows[index])
     }
 
-    /// Places the mechanism with its driving link at the angle `to`, from the last pose at `from`, at most a step away.
-    /// In a window the plan itself is not placed.
+    /// Places the mechanism with its driving link at the angle `to`.
+    /// The last pose, at the angle `from`, must be at most one step away.
+    /// In a window the pose comes from the window, and the plan is not used.
     pub(super) fn place(
         &mut self,
         [from, to]: [f64; 2],
@@ -86,7 +88,7 @@ impl Passing {
             return Ok(());
         }
         let mut from = from;
-        // If the step leaves or passes over windows, continue on the branch of the nodes on that side.
+        // If the step leaves windows or passes over them, continue on the branch of the nodes on the far side.
         while let Some(index) = self.left([from, to]) {
             let window = &self.windows[index];
             let [end, before] = window.ends(to);
@@ -114,8 +116,8 @@ impl Passing {
         Ok(())
     }
 
-    /// The window that a step between two angles leaves or passes over; of several, the one nearest to the end of the
-    /// step.
+    /// The window that a step between two angles leaves or passes over. If there are several, the window nearest to the
+    /// end of the step.
     fn left(&self, [from, to]: [f64; 2]) -> Option<usize> {
         let over =
             |window: &Window| (from - window.at) * (to - window.at) <= 0.0 || (from - window.at).abs() < window.reach;
@@ -123,7 +125,7 @@ impl Passing {
         all.min_by(|(_, a), (_, b)| (a.at - to).abs().total_cmp(&(b.at - to).abs())).map(|(index, _)| index)
     }
 
-    /// Places the mechanism by the window at this angle, if there is one.
+    /// Places the mechanism by the window at this angle. Returns `false` if no window contains the angle.
     fn enter(&mut self, angle: f64, plan: &SolutionPlan, motions: &mut [Motion]) -> bool {
         self.inside = self.windows.iter().position(|window| (angle - window.at).abs() < window.reach);
         if let Some(window) = self.inside() {
@@ -154,7 +156,7 @@ impl Passing {
         let found: Vec<(GroupId, f64)> =
             plan.steps().ids().zip(plan.clearances(&self.motions)).filter_map(near).collect();
         self.last = (angle, plan.steps().ids().map(|group| plan.determinant(group)).collect());
-        // A forgotten interval is only searched again.
+        // If an interval is forgotten, it is searched again.
         let old = self.clear.len().saturating_sub(MOST_CLEAR);
         self.clear.drain(..old);
         for (group, ahead) in found {
@@ -198,13 +200,13 @@ pub(super) fn unbounded(at: InputValue) -> Error {
     error.help(WITHOUT_POLE)
 }
 
-/// Advice where reactions have a pole.
+/// Advice if reactions have a pole at the requested instant.
 const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;
 
 /// Advice for passing a pose that may be a change point.
 pub(super) fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
-        // The case passes change points already, or it has several drives and passes none.
+        // Either the case is already set to pass change points, or it has several drives, for which this is impossible.
         true => sentences::LET_THE_GRID_END_BEFORE_IT,
         false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }

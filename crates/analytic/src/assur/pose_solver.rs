@@ -18,9 +18,9 @@ use linkage::solver::State;
 use linkage::trajectory::Stage;
 use linkage::work;
 
-/// Rotation of the crank (rad) after which a link that starts at its dead centre shows its sense of rotation.
+/// A link that starts at its dead centre shows its sense of rotation after the crank has turned by this angle (rad).
 const NUDGE: f64 = 1e-7;
-/// How often a failing step is halved: down to a millionth of it.
+/// Largest number of times a failing step is halved. The last step is a millionth of the first.
 pub(super) const HALVINGS: u32 = 20;
 /// Explanation of a singular pose.
 const MEET: &str = sentences::THERE_THE_LINKS_OF_THE_GROUP;
@@ -32,15 +32,15 @@ pub struct PoseSolver<'a> {
     pub(super) plan: SolutionPlan,
     statics: Kinetostatics,
     pub(super) state: State,
-    /// Turns of the links, if the caller or a load needs their angles.
+    /// Whole turns of the links, if the caller or a load needs the links' angles.
     pub(super) turns: Option<Turns>,
-    /// Angles, angular velocities or accelerations of all driving links, as each stage needs them.
+    /// Angles, angular velocities or accelerations of all driving links, depending on the stage.
     pub(super) inputs: Vec<f64>,
-    /// Angular velocities and accelerations of all driving links, where all motions are found in one pass.
+    /// Angular velocities and accelerations of all driving links, for the solution in one pass.
     rates: [Vec<f64>; 2],
-    /// Whether the caller requests all motions in one pass at the target, for the rates `omega` and `alpha` of the
-    /// crank.
-    /// `has_motions` tells whether they are known at the present pose.
+    /// Whether the caller requests positions, velocities and accelerations in one pass at the target.
+    /// `omega` and `alpha` are the rates of the crank in this pass.
+    /// `has_motions` is true if the motions at the present pose are known.
     in_one_pass: bool,
     pub(super) omega: f64,
     alpha: f64,
@@ -51,7 +51,7 @@ pub struct PoseSolver<'a> {
     step: f64,
     pub(super) gauges: Gauges,
     pub(super) watch: Watch,
-    /// Change points, if the drive is set to pass them.
+    /// Change points; `None` unless the drive is set to pass them.
     pub(super) passing: Option<Passing>,
 }
 
@@ -103,8 +103,8 @@ impl<'a> PoseSolver<'a> {
         Ok(solver)
     }
 
-    /// The solver for a crank that has been seen to rotate fully.
-    /// If all poses have a closed form, change points are not searched for again.
+    /// Returns the solver for a crank that is known to rotate fully.
+    /// If all poses have a closed form, the solver no longer searches for change points.
     /// Higher groups follow their last pose and are still watched.
     pub(crate) fn turning_fully(mut self) -> Self {
         if self.plan.is_closed_form() && self.passing.is_none() {
@@ -113,15 +113,15 @@ impl<'a> PoseSolver<'a> {
         self
     }
 
-    /// The state at the crank angle `crank` (rad, as the scenario states it) for the crank's angular velocity
-    /// `omega` (rad/s) and acceleration `alpha` (rad/s^2).
-    /// Further drives have the speed ratios of that instant.
-    /// Only stages up to `deepest` are computed. Later stages keep old values, and so do the angles: see
-    /// [`PoseSolver::with_angles`].
+    /// The state at the crank angle `crank` (rad, as the scenario states it) for the crank's angular velocity `omega`
+    /// (rad/s) and acceleration `alpha` (rad/s^2).
+    /// Further drives have their speed ratios at that crank angle.
+    /// Only stages up to `deepest` are computed. Later stages keep their old values.
+    /// The links' angles also keep their old values: see [`PoseSolver::with_angles`].
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch, with the group and the angle at
-    /// which it fails.
+    /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch. The error states the group and the
+    /// angle at which it fails.
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         // Only a normal number has an inverse.
         self.in_one_pass = deepest >= Stage::Accelerations && omega.is_normal();
@@ -163,9 +163,9 @@ impl<'a> PoseSolver<'a> {
         Ok(&self.state)
     }
 
-    /// Rates and reactions near a change point.
-    /// `senses`, if given, are the angular velocities of the links. Loads that depend on a link's sense of rotation use
-    /// them.
+    /// Computes rates and reactions near a change point.
+    /// `senses`, if given, contains the angular velocities of the links, for loads that depend on a link's sense of
+    /// rotation.
     fn pass(&mut self, rates: [f64; 2], deepest: Stage, senses: Option<&[f64]>) -> Result<()> {
         if deepest >= Stage::Reactions && self.turns.is_some() && !self.case.loads.is_empty() {
             self.with_angles();
@@ -190,9 +190,9 @@ impl<'a> PoseSolver<'a> {
         found.map_err(|_| passing::unbounded(self.case.told(self.crank)))
     }
 
-    /// Like [`PoseSolver::solve`], at the instant at which the crank starts from rest with the acceleration `alpha`.
-    /// Loads that depend on a link's sense of rotation act against the beginning motion.
-    /// A link at its dead centre shows its sense a little later.
+    /// Like [`PoseSolver::solve`], for the instant at which the crank starts from rest with the acceleration `alpha`.
+    /// Loads that depend on a link's sense of rotation act against the motion that begins.
+    /// The sense of a link at its dead centre is taken from a slightly later pose.
     pub(crate) fn set_off(&mut self, crank: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         let sense = 1f64.copysign(alpha);
         let mut begun: Vec<f64> = Vec::new();
@@ -243,7 +243,7 @@ impl<'a> PoseSolver<'a> {
         self.step_to(target, HALVINGS)
     }
 
-    /// Writes the world angles of all driving links at a crank angle to the inputs.
+    /// Writes to the inputs the world angles of all driving links at a crank angle.
     #[inline(always)]
     pub(super) fn turn(&mut self, crank: f64) {
         self.inputs[0] = self.zero + crank;
@@ -252,7 +252,8 @@ impl<'a> PoseSolver<'a> {
         }
     }
 
-    /// Writes the crank's `rate` and those of further driving links, by their speed ratios, to the inputs.
+    /// Writes the rates of all driving links to the inputs: `rate` for the crank, and its multiples by the speed ratios
+    /// for further driving links.
     #[inline]
     pub(super) fn drive(&mut self, rate: f64) {
         drive(self.case, self.crank, rate, &mut self.inputs);
@@ -304,7 +305,7 @@ impl<'a> PoseSolver<'a> {
         Ok(())
     }
 
-    /// Takes one step, or two steps of half the size where a group cannot be followed over it.
+    /// Takes one step. If a group cannot be followed over it, takes two steps of half the size instead.
     fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
         work::spend(work::PLACED * self.case.structure.groups.len() as f64)?;
         match self.place(target) {
@@ -318,11 +319,12 @@ impl<'a> PoseSolver<'a> {
     }
 
     /// The last state with its links' angles (rad).
-    /// Turns are kept if they are [counted](PoseSolver::counting_turns); otherwise the angles are those at the
-    /// start of the case.
+    /// If turns are [counted](PoseSolver::counting_turns), the angles contain them.
+    /// Otherwise only driving links have their present angles; all other links have the angles of the start of the
+    /// case.
     pub fn with_angles(&mut self) -> &State {
         if let Some(turns) = &self.turns {
-            // The frame does not turn, and the crank's angle is an input.
+            // The frame does not turn, and the crank's angle is given as an input.
             let crank = self.case.crank().link;
             let links = self.state.angles.entries_mut().skip(1).filter(|(link, _)| *link != crank);
             links.for_each(|(link, angle)| *angle = turns.angle(link));
@@ -375,7 +377,7 @@ impl<'a> PoseSolver<'a> {
     }
 }
 
-/// The rates of all driving links at a crank angle, by their speed ratios, for the crank's `rate`.
+/// The rates of all driving links at a crank angle: the crank's `rate` times the speed ratios.
 #[inline(always)]
 fn drive(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
     rates[0] = rate;

@@ -1,9 +1,9 @@
-//! Side 1 for several degrees of freedom: Jourdain's principle with the transfer functions of every driving link,
-//! group by group.
+//! Side 1 for several degrees of freedom: Jourdain's principle with the transfer functions of every driving link, group
+//! by group.
 //!
-//! v_j and w_j are the first transfer functions of a link's mass centre and angle for driving link j alone.
+//! v_j and w_j are the first transfer functions of a link's mass centre and angle if only driving link j moves.
 //! Then A_ij = sum of m v_i . v_j + J w_i w_j, and A alpha = T + sum of v_i . (F - m a0) + w_i (M - J alpha0).
-//! a0 and alpha0 are the accelerations that remain when no free driving link accelerates.
+//! a0 and alpha0 are the accelerations of the link if no free driving link accelerates.
 //! See docs/numerics/forces.md.
 
 use super::forces::Kinetostatics;
@@ -30,7 +30,7 @@ pub(crate) struct TransferSide<'a> {
     statics: Kinetostatics,
     state: State,
     turns: Turns,
-    /// Largest turn of a driving link (rad) between two poses.
+    /// Largest rotation of a driving link (rad) between two poses.
     step: f64,
     /// Angles of the driving links at the last pose.
     at: Vec<f64>,
@@ -38,23 +38,23 @@ pub(crate) struct TransferSide<'a> {
     unit: Vec<f64>,
     /// Indices of the free drives.
     free: Vec<usize>,
-    /// First transfer functions of every link's mass centre and angle, link by link, for one free driving link
-    /// after the other.
+    /// First transfer functions of every link's mass centre and angle: all links for the first free driving link, then
+    /// all links for the next.
     transfer: Vec<(Vec2, f64)>,
     matrix: Lu,
     right: Vec<f64>,
     loads: Vec<Wrench>,
     /// Change points of a mechanism with one driving link. With several driving links, they are not passed.
     passing: Option<Passing>,
-    /// With several driving links: clearances of the groups at the last pose.
+    /// Clearances of the groups at the last pose; used only with several driving links.
     sines: Vec<Option<f64>>,
-    /// Held actions at the last accelerations.
+    /// Actions held constant at the last accelerations.
     held: Option<Held>,
 }
 
 impl<'a> TransferSide<'a> {
-    /// Starts at the start pose of a case. The windows around change points have the share `share` of their usual
-    /// widths.
+    /// Starts at the start pose of a case. `share` is the ratio of the widths of the windows around change points to
+    /// their usual widths.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if the start pose is singular.
@@ -105,8 +105,9 @@ impl<'a> TransferSide<'a> {
     }
 
     /// Refuses a step over a change point, where a clearance falls to zero and rises again.
-    /// Its slope at the end of the step then extrapolates to a negative clearance at the beginning.
-    /// A step over a near miss is refused too; smaller steps resolve it.
+    /// For such a step, extrapolation from the end of the step with the slope there gives a negative clearance at the
+    /// beginning.
+    /// A step over a near miss is refused too. With smaller steps, a near miss is no longer refused.
     fn keep_clear(&mut self) -> std::result::Result<(), OutOfReach> {
         for ((step, target), at) in self.unit.iter_mut().zip(&self.target).zip(&self.at) {
             *step = target - at;
@@ -124,7 +125,7 @@ impl<'a> TransferSide<'a> {
         Ok(())
     }
 
-    /// Velocities at the last pose.
+    /// Computes the velocities at the last pose.
     fn velocities(&mut self, omegas: &[f64]) {
         match self.passing.as_ref().and_then(Passing::inside) {
             Some(window) => window.rates(self.at[0], [omegas[0], 0.0], &self.plan, &mut self.state.motions),
@@ -132,7 +133,7 @@ impl<'a> TransferSide<'a> {
         }
     }
 
-    /// Accelerations at the last pose, after its velocities.
+    /// Computes the accelerations at the last pose. Its velocities must be known.
     fn accelerations(&mut self, omegas: &[f64], alphas: &[f64]) {
         match self.passing.as_ref().and_then(Passing::inside) {
             Some(window) => window.rates(self.at[0], [omegas[0], alphas[0]], &self.plan, &mut self.state.motions),
@@ -140,7 +141,7 @@ impl<'a> TransferSide<'a> {
         }
     }
 
-    /// Follows the branch to these angles of the driving links, in small turns.
+    /// Follows the branch to these angles of the driving links, in small steps.
     fn go_to(&mut self, angles: &[f64]) -> Result<()> {
         let farthest = self.at.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.larger((b - a).abs()));
         let parts = (farthest / self.step).ceil().larger(1.0) as usize;
@@ -152,7 +153,8 @@ impl<'a> TransferSide<'a> {
         Ok(())
     }
 
-    /// Moves from one share of a path to another, in two steps of half the size where a group cannot be followed.
+    /// Moves from the fraction `before` of a path to the fraction `share`.
+    /// If a group cannot be followed, takes two steps of half the size.
     fn step_to(&mut self, way: [&[f64]; 2], [before, share]: [f64; 2], halvings: u32) -> Result<()> {
         work::spend(work::PLACED * self.case.structure.groups.len() as f64)?;
         for ((target, &from), &to) in self.target.iter_mut().zip(way[0]).zip(way[1]) {

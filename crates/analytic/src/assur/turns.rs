@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::{LinkId, PerLink, Pose};
 
-/// Largest turn of a driving link between two poses (rad). Over such a step no link turns so far that its turns could
-/// be miscounted.
+/// Largest rotation of a driving link between two poses (rad). For larger steps, the turns of a link could be
+/// miscounted.
 pub(super) const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
-/// Largest turn of a driving link (rad) where Newton's method follows a group from pose to pose.
+/// Largest rotation of a driving link (rad) between two poses if Newton's method follows a group.
 pub(super) const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
-/// Counts the turns of every link. Between two poses no link may turn by half a turn or more.
+/// Counts the turns of every link. Between two poses, every link must turn by less than half a turn.
 #[derive(Clone, Debug)]
 pub(super) struct Turns {
     /// Direction of every link at the last pose.
@@ -19,17 +19,18 @@ pub(super) struct Turns {
 }
 
 impl Turns {
-    /// Starts from a pose whose angles keep their turns.
+    /// Starts from a pose whose angles include whole turns.
     pub(super) fn from(pose: &Pose, motions: &[Motion]) -> Self {
-        // The angle is compared with that of the direction: on the axis -x, rounding decides between -pi and pi.
+        // The whole turns follow from the difference between the pose's angle and the principal angle of its direction.
+        // The difference is rounded: on the axis -x, rounding decides whether the principal angle is -pi or pi.
         let whole = |angle: f64, direction: Vec2| ((angle - principal(direction)) / TAU).round();
         let directions: Vec<Vec2> = motions.iter().map(|motion| motion.direction).collect();
         let whole = pose.0.iter().zip(&directions).map(|(pose, direction)| whole(pose.angle, *direction)).collect();
         Turns { directions, whole }
     }
 
-    /// Counts a turn of each link that has passed the direction -x since the last pose, with the sign of its
-    /// rotation.
+    /// Updates the whole turns of each link that has passed the direction -x since the last pose: +1 for
+    /// counter-clockwise rotation, -1 for clockwise.
     #[inline]
     pub(super) fn count(&mut self, motions: &[Motion]) {
         for ((whole, last), motion) in self.whole.iter_mut().zip(&mut self.directions).zip(motions) {
@@ -47,12 +48,12 @@ impl Turns {
         }
     }
 
-    /// Adds whole turns to every link.
+    /// Adds a number of whole turns to every link.
     pub(super) fn add(&mut self, turns: &[f64]) {
         self.whole.iter_mut().zip(turns).for_each(|(whole, turns)| *whole += turns);
     }
 
-    /// Angles of all links at the last pose (rad), turns kept.
+    /// Angles of all links at the last pose (rad), with their whole turns.
     pub(super) fn angles(&self) -> impl Iterator<Item = f64> {
         self.whole.ids().map(|link| self.angle(link))
     }

@@ -1,10 +1,10 @@
 //! Watches the dyads for which [`super::gauges`] has no proof.
 //!
-//! A closed form keeps the sign of a dyad's sine. At a change point its branch therefore has a corner: the dyad's
+//! The closed form keeps the sign of a dyad's sine. At a change point its branch therefore has a corner: the dyad's
 //! clearance falls to zero and rises again.
-//! This is an estimate: the speeds of the carrying links between two poses are taken from the poses.
+//! The result is an estimate: the speeds of the carrying links between two poses are inferred from these poses.
 //! It misses a clearance that falls to zero, rises and falls again within one step.
-//! Behind a higher group, a step is 2 degrees.
+//! For dyads behind a higher group, a step is 2 degrees.
 //! See docs/numerics/change_points.md.
 
 use super::gauges::Gauges;
@@ -12,37 +12,39 @@ use crate::assur::groups::{SingularityDistance, SolutionPlan};
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::{PerGroup, PerLink};
 
-/// Clearance of a dyad below which a change point may lie within a step.
-/// From 0.8 to 0 and back, the links of the dyad turn by 106 deg relative to each other.
+/// If the clearance of a dyad is below this value, a change point may lie within a step.
+/// While the clearance goes from 0.8 to 0 and back, the links of the dyad turn by 106 deg relative to each other.
 /// At [`FAST`] this takes 7 deg of the crank.
-/// That is more than a step behind a higher group, but less than a step of 15 deg for dyads alone.
+/// This angle is larger than a step behind a higher group, but smaller than a step of 15 deg for dyads alone.
 const NARROW: f64 = 0.8;
-/// A clearance of this many times its change over the rest of the step is assumed not to fall to zero there.
-/// Near a change point the sine is linear in the crank angle. Its change over the next step equals that over the last,
-/// and 1 would suffice.
-/// Near a dead point the sine changes with the square root of the distance, at most (1 + root 2) times as fast.
-/// The rest is a reserve, not a proof.
+/// If a clearance exceeds this multiple of its expected change over the rest of the step, it is assumed to stay above
+/// zero.
+/// Near a change point the sine is linear in the crank angle. Its change over the next step equals that over the last
+/// step, and a factor of 1 would suffice.
+/// Near a dead point the sine is proportional to the root of the distance.
+/// Its change over the next step is then up to (1 + root 2) times that over the last step.
+/// The rest of the factor is a reserve, not a proof.
 pub(super) const CLEAR: f64 = 4.0;
-/// Largest expected rotation of a dyad's links relative to each other, per unit of crank rotation.
-/// It is an assumption, valid as long as no carrying link is 16 times as fast as the crank.
+/// Largest expected rotation of a dyad's links relative to each other, divided by the rotation of the crank.
+/// This is an assumption. It is valid if every carrying link is slower than 16 times the crank.
 const FAST: f64 = 16.0;
 
 /// Placeholder for a group without a clearance.
 const NONE: SingularityDistance = SingularityDistance { sine: f64::NAN, rate: f64::NAN };
 
-/// Clearances of one group. Rates are per unit of the crank angle; NaN if unknown.
+/// Clearances of one group. Rates are derivatives with respect to the crank angle; NaN if unknown.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
     pub(super) last: SingularityDistance,
     pub(super) now: SingularityDistance,
-    /// Change of the clearance over the last step, without sign.
+    /// Magnitude of the clearance's change over the last step.
     fall: f64,
-    /// Whether the group is watched here.
+    /// Whether the group is watched.
     is_watched: bool,
 }
 
 impl Seen {
-    /// Whether the clearance may have fallen to zero and risen again, on a step of the crank in this sense.
+    /// Whether the clearance may have fallen to zero and risen again. `sense` is the crank's direction in this step.
     #[inline]
     pub(super) fn may_pass(&self, sense: f64) -> bool {
         // An unknown rate may have any value.
@@ -58,7 +60,7 @@ pub(super) struct Watch {
     is_needed: bool,
     pub(super) motions: PerLink<Motion>,
     pub(super) groups: PerGroup<Seen>,
-    /// The last step of the crank (rad), without sign.
+    /// Magnitude of the last step of the crank (rad).
     step: f64,
 }
 
@@ -92,20 +94,20 @@ impl Watch {
         self.is_needed = self.groups.iter().any(|seen| seen.is_watched);
     }
 
-    /// Whether the clearance of a watched group is not known at the last pose.
+    /// Whether a watched group has an unknown clearance at the last pose.
     #[inline]
     pub(super) fn begins(&self) -> bool {
         self.groups.iter().any(|seen| seen.is_watched && seen.last.sine.is_nan())
     }
 
-    /// Whether a group is watched at all.
+    /// Whether at least one group is watched.
     #[inline]
     pub(super) fn is_needed(&self) -> bool {
         self.is_needed
     }
 
-    /// Reads the clearances from the velocities at this angular velocity of the crank. Returns whether a group may have
-    /// passed a change point.
+    /// Computes the clearances from velocities that belong to this angular velocity of the crank.
+    /// Returns whether a group may have passed a change point.
     #[inline]
     pub(super) fn see(&mut self, plan: &SolutionPlan, motions: &[Motion], omega: f64, sense: f64) -> bool {
         let per_unit = 1.0 / omega;
@@ -120,9 +122,10 @@ impl Watch {
     }
 
     /// Whether the positions alone show that no group passes a change point on this step of the crank.
-    /// Through a change point, the angle between the two links changes by at least the sum of both sines.
-    /// The sum must exceed the largest expected rotation, and many times the change over the last step, scaled to this
-    /// step.
+    /// A step through a change point changes the angle between the dyad's links by at least the sum of the sines at its
+    /// two ends.
+    /// The sum must exceed the largest expected rotation in this step.
+    /// It must also exceed `CLEAR` times the change over the last step, scaled to this step.
     #[inline]
     pub(super) fn is_far(&mut self, step: f64, plan: &SolutionPlan, motions: &[Motion]) -> bool {
         let (steps, mut is_far) = (CLEAR * step / self.step, true);

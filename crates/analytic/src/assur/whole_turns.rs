@@ -1,8 +1,8 @@
-//! Whole turns of the crank on the way to a distant crank angle.
+//! Whole turns of the crank during a motion to a distant crank angle.
 //!
 //! With one drive, a pose is a function of the crank angle and the branch.
-//! If one whole turn, followed in small steps, brings every link back, the next turns are the same.
-//! They are counted, not followed.
+//! If every link is back at its old pose after one whole turn in small steps, the next turns are the same.
+//! These turns are counted, not followed.
 //! See docs/numerics/change_points.md.
 
 use std::f64::consts::TAU;
@@ -11,21 +11,22 @@ use super::PoseSolver;
 use linkage::error::Result;
 use linkage::math::Motion;
 
-/// Number of crank turns from which a check for equal turns pays off.
+/// If at least this number of crank turns can be skipped, a check for equal turns pays off.
 const WORTH: f64 = 3.0;
-/// Largest difference of equal poses: of positions in sizes of the mechanism, of directions in rad.
-/// Branches as close as that are refused as singular.
+/// Two poses are equal if their differences are at most this large.
+/// Positions are compared in units of the mechanism's size, directions in rad.
+/// Branches that come this close to each other are refused as singular.
 const SAME: f64 = 1e-9;
 
 impl PoseSolver<'_> {
     /// Follows one whole turn towards the crank angle `target` and skips the turns equal to it.
     /// At most a few turns then remain.
-    /// No turn is skipped where a turn leads to another pose, or where other drives or change points make turns differ.
+    /// Does not skip turns if one turn leads to another pose, or if other drives or change points make turns differ.
     pub(super) fn skip_turns(&mut self, target: f64) -> Result<()> {
         let Some((whole, _)) = self.case.crank().input.period() else { return Ok(()) };
         let turns = ((target - self.crank).abs() / whole).floor() - 1.0;
         let repeats = self.case.drives.further().is_empty() && self.passing.is_none();
-        // Written so that NaN skips nothing.
+        // The comparison is negated so that NaN skips nothing.
         if !(repeats && turns >= WORTH) {
             return Ok(());
         }
@@ -46,7 +47,7 @@ impl PoseSolver<'_> {
         Ok(())
     }
 
-    /// Whether every link is where it was in these motions.
+    /// Whether every link has the same pose as in the motions `begun`.
     pub(crate) fn is_at(&self, begun: &[Motion]) -> bool {
         let size = self.case.mechanism.size();
         self.state.motions.iter().zip(begun).all(|(own, before)| {

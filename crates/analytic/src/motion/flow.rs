@@ -19,13 +19,13 @@ use linkage::mechanism::{JointSide, LinkId};
 use linkage::solver::State;
 use linkage::work::{Count, WorkTally};
 
-/// Largest turn of a driving link within a step (rad). The first trial of a step may lead anywhere; such a trial must
-/// be refused.
+/// Largest accepted rotation of a driving link within a step (rad). The first trial of a step may lead to any angle and
+/// is then refused.
 const FARTHEST: f64 = std::f64::consts::PI;
 /// A bound of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Bound {
-    /// The motion on which the load with this number depends reverses.
+    /// The motion whose sense determines the load with this number reverses.
     Sense(usize),
     /// The motor leaves its branch towards higher speeds.
     TooFast,
@@ -37,14 +37,15 @@ enum Bound {
     KnotAhead,
 }
 
-/// The bounds of every piece. Their indices follow those of the loads.
+/// The bounds of every piece. In the numbering of all bounds, they follow the bounds of the loads.
 const COMMON: [Bound; 4] = [Bound::TooFast, Bound::TooSlow, Bound::KnotBehind, Bound::KnotAhead];
-/// Share of the largest speed so far below which a link or point counts as at rest at the end of a piece.
+/// A link or point counts as at rest at the end of a piece if its speed is below this fraction of its largest speed so
+/// far.
 const AT_REST: f64 = 1e-11;
-/// Rotation of a driving link (rad) after which a link or point that starts at its dead centre shows its sense of
-/// motion.
+/// A link or point that starts at its dead centre shows its sense of motion after a driving link has turned by this
+/// angle (rad).
 const NUDGE: f64 = 1e-7;
-/// Largest number of iterations for the starting directions of points at rest, which depend on each other.
+/// Largest number of iterations for the starting directions of points at rest. These directions depend on each other.
 const ROUNDS: usize = 60;
 /// Number of bisections for the starting acceleration of a point.
 const HALVINGS: usize = 60;
@@ -58,10 +59,10 @@ pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
     y
 }
 
-/// Number of a load that depends on a sense of motion, and that motion.
+/// Number of a load that depends on a sense of motion, and the link or point with this motion.
 type Sensed = (usize, Senses);
 
-/// The motion whose sense a load depends on, unless its link never turns.
+/// The link or point whose sense of motion determines a load; nothing if this link never turns.
 fn sensed(case: &Case, load: &Load) -> Senses {
     match load.nature().senses {
         Senses::Link(link) if !case.can_turn(link) => Senses::Nothing,
@@ -69,19 +70,19 @@ fn sensed(case: &Case, load: &Load) -> Senses {
     }
 }
 
-/// A motion in pieces: first-order equations of the free driving links' angles and speeds.
+/// A motion in pieces. Its equations are of first order in the free driving links' angles and speeds.
 pub(super) struct Pieces<'a, const N: usize> {
     case: &'a Case,
     work: RefCell<Work<'a>>,
-    /// Loads that depend on a sense of motion, with the link or the point that moves.
+    /// Loads that depend on a sense of motion, and the link or point with this motion.
     sensed: Vec<Sensed>,
-    /// For every load: the largest speed so far of that link or point (rad/s or m/s).
+    /// For every load: the largest speed so far of the link or point that determines its sense (rad/s or m/s).
     fastest: RefCell<Vec<f64>>,
     /// Time at which the present piece began (s).
     entered: Cell<f64>,
     branch: Cell<Option<MotorBranch>>,
     knots: Knots,
-    /// Crank angles (rad) between which the loads' tables are smooth on the present piece.
+    /// Crank angles (rad) between which the loads' tables are smooth. They limit the present piece.
     smooth: Cell<[f64; 2]>,
     origin: Cell<[f64; N]>,
 }
@@ -117,7 +118,7 @@ impl Work<'_> {
         }
     }
 
-    /// Derivative of that velocity after the last call of [accelerate](side::Side::accelerate).
+    /// Derivative of the velocity of a link or point after the last call of [accelerate](side::Side::accelerate).
     fn second(&self, (_, senses): Sensed) -> Vec2 {
         match senses {
             Senses::Nothing => Vec2::zeros(),
@@ -126,7 +127,7 @@ impl Work<'_> {
         }
     }
 
-    /// Stores the sense of the present motion.
+    /// Stores the sense of the present motion of a link or point.
     fn take_sense(&mut self, own: Sensed) -> Result<()> {
         let rate = self.rate(own)?;
         match own.1 {
@@ -164,7 +165,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         }
     }
 
-    /// The driving links at time `t` in the state `y`.
+    /// Writes the driving links' angles and rates at time `t` in the state `y` to the inputs.
     fn put(&self, inputs: &mut Inputs, t: f64, y: &[f64; N]) {
         let mut free = 0;
         for (index, drive) in self.case.drives.iter().enumerate() {
@@ -198,11 +199,10 @@ impl<'a, const N: usize> Pieces<'a, N> {
         work.side.fill(&work.inputs, state)
     }
 
-    /// Chooses the senses and the motor's branch for the next piece: at the beginning of the motion, or after it has
-    /// reached a bound.
+    /// Chooses the senses and the motor's branch for the next piece, at the beginning of the motion or at a bound.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] where a resistance holds a link at rest, and those of the side.
+    /// [`ErrorKind::Numeric`] if a resistance holds a link at rest, and the errors of the side.
     pub(super) fn enter(&self, place: &mut Place<N>, bound: Option<usize>) -> Result<()> {
         let work = &mut *self.work.borrow_mut();
         let stood = match bound.map(|bound| self.bound(bound)) {
@@ -221,7 +221,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Sets the crank's speed exactly to this end of the motor's branch and chooses the branch beyond it.
-    /// Otherwise the same piece would be chosen again. No link or point stands still there.
+    /// Otherwise the same piece would be chosen again. The result is empty, because no link or point is at rest there.
     fn at_branch_end(&self, place: &mut Place<N>, end: usize, towards: f64) -> Vec<Sensed> {
         let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
         place.y[N / 2] = self.case.crank().sense() * speeds[end];
@@ -230,7 +230,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Chooses senses and branch at the beginning of the motion.
-    /// From rest the motor drives the crank. If the other forces then turn it back, power flows to the motor.
+    /// From rest the motor drives the crank. If other forces then turn the crank backwards, power flows to the motor.
     fn begin(&self, work: &mut Work, place: &Place<N>) -> Result<()> {
         self.choose_branch(place, 1.0);
         let stood = self.begin_senses(work, place)?;
@@ -248,7 +248,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(())
     }
 
-    /// Computes the accelerations at `place`, where the loads in `stood` have links or points at rest.
+    /// Computes the accelerations at `place`. The links or points of the loads in `stood` are at rest there.
     fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
         self.smooth.set(self.knots.around(self.crank(place.x, &place.y)));
@@ -282,9 +282,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(stood)
     }
 
-    /// The entries of `sensed` that stand still at the end of a piece: the entry of the bound, and all that stop with
-    /// it.
-    /// A point that has only turned away from its direction goes on.
+    /// The entries of `sensed` that stand still at the end of a piece: the entry of the bound, and every other entry
+    /// that stops at the same instant.
+    /// A point that has only changed its direction is not at rest.
     fn stopped(&self, work: &mut Work, place: &Place<N>, bound: usize) -> Result<Vec<Sensed>> {
         self.put(&mut work.inputs, place.x, &place.y);
         let mut stood = Vec::new();
@@ -308,7 +308,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Chooses the senses of the links and points at rest, whose loads are in `stood`.
-    /// Each starts in the direction in which it is accelerated without its resistances, if the resistances allow it.
+    /// The start direction of each is that of its acceleration without its resistances.
+    /// An error is returned if a resistance prevents this start.
     fn set_off(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         let before = work.held.clone();
         for &(index, _) in stood {
@@ -318,7 +319,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         self.accelerate(work, place.x, &place.y)?;
         let begun: Vec<Vec2> = stood.iter().map(|&own| work.second(own)).collect();
         let ahead = self.ahead(work, place, stood);
-        // At its own dead centre a link or a point has no acceleration, and its load does no work at first.
+        // A link or point at its dead centre has no acceleration, and its load does no work at first.
         let idle =
             |second: Vec2, k: usize, (after, rates): &(f64, Vec<Vec2>)| second.norm() * after < 0.5 * rates[k].norm();
         let is_idle = |k: usize| ahead.as_ref().is_some_and(|found| idle(begun[k], k, found));
@@ -353,9 +354,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
         }
     }
 
-    /// A short time (s), and the velocities after this time of the links and points at rest.
+    /// A short time (s), and the velocities of the links and points at rest after this time.
     /// The driving links keep their present accelerations.
-    /// `None` where nothing moves, or if the mechanism cannot reach that pose.
+    /// `None` if nothing moves, or if the mechanism cannot reach the pose after this time.
     fn ahead(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Option<(f64, Vec<Vec2>)> {
         let alphas: Vec<f64> = self.case.drives.free().map(|(index, _)| work.inputs.accelerations[index]).collect();
         let of = |k: usize| {
@@ -376,12 +377,12 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Some((after, rates.ok()?))
     }
 
-    /// Finds the directions in which points at rest start. The force on each point acts against its own starting
-    /// direction.
+    /// Finds the directions in which points at rest start. The force on each point acts against the starting direction
+    /// of this point.
     /// With several degrees of freedom, a force changes the direction of its point's acceleration.
     /// The acceleration is linear in the force: a(u) = a0 + B u with the direction u.
     /// The solution satisfies a(u) = s u with s > 0, so that |(s - B)^-1 a0| = 1.
-    /// This length falls with s. If it is below 1 at s = 0, the point is held.
+    /// The left side falls as s grows. If it is below 1 at s = 0, the force holds the point at rest.
     fn settle(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         for _ in 0..ROUNDS {
             let mut moved = 0.0f64;

@@ -1,10 +1,10 @@
-//! Motion decided by forces, with any number of degrees of freedom.
+//! Motion determined by forces, with any number of degrees of freedom.
 //! Each analytic side computes the accelerations of the driving links with its own equations.
-//! The shared integrator follows them in time.
+//! The shared integrator integrates these accelerations over time.
 //!
 //! The independent coordinates are the angles of the driving links (coordinate partitioning: Wehage and Haug 1982).
-//! Resistances and the losses of a reducer jump where a motion changes its sense.
-//! Their sense is constant within one piece of the motion. Pieces end exactly where a sense changes.
+//! Resistances and the losses of a reducer jump if a motion changes its sense.
+//! Each sense is constant within one piece of the motion. Pieces end exactly at the instant at which a sense changes.
 
 use super::flow::{self, Pieces};
 use super::march::{MOST_EMPTY, Pace, Place, Stop, march};
@@ -22,7 +22,7 @@ pub const MOST_FREEDOMS: usize = 4;
 /// Checks that a case can be solved as a free motion.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for instants before t = 0, and for mechanisms without any mass; [`ErrorKind::Unsupported`] for
+/// [`ErrorKind::Input`] for instants before t = 0, and for mechanisms without mass; [`ErrorKind::Unsupported`] for
 /// too many degrees of freedom.
 pub(crate) fn check(case: &Case) -> Result<()> {
     check_instants(case)?;
@@ -38,10 +38,10 @@ pub(crate) fn check(case: &Case) -> Result<()> {
     Ok(())
 }
 
-/// Follows the motion over the case's grid, with the error `accuracy` allowed in each step.
+/// Follows the motion over the case's grid. `accuracy` is the error allowed in each step.
 ///
 /// # Errors
-/// Those of [`check`] and of the side; [`ErrorKind::Numeric`] where a resistance holds the mechanism.
+/// Those of [`check`] and of the side; [`ErrorKind::Numeric`] if a resistance holds the mechanism.
 pub(crate) fn sweep(case: &Case, side: &mut dyn Side, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     check(case)?;
     match case.drives.free().count() {
@@ -52,7 +52,7 @@ pub(crate) fn sweep(case: &Case, side: &mut dyn Side, accuracy: f64, visit: Visi
     }
 }
 
-/// Adds the time (s) and the input to an error of the integration. Errors of a side already state the input.
+/// Adds the time (s) and the input to an error of the integration. Errors of a side already contain the input.
 fn located(error: Error, t: f64, at: InputValue) -> Error {
     if error.message().starts_with(at.input.noun()) {
         return error.at_time(t);

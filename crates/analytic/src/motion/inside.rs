@@ -1,11 +1,11 @@
 //! States inside a step of DOP853, at the requested instants.
 //!
-//! The method's own interpolant has order 7.
-//! It is a cubic H through the values and rates at both ends, plus s^2 (1 - s)^2 times a cubic C (Hairer, Norsett,
-//! Wanner, "Solving ordinary differential equations I", II.6).
+//! The interpolant of DOP853 has order 7.
+//! It is the sum of two terms (Hairer, Norsett, Wanner, "Solving ordinary differential equations I", II.6).
+//! The first is a cubic H through the values and rates at both ends. The second is s^2 (1 - s)^2 times a cubic C.
 //! The library exchanges s and 1 - s in C. Its value at s contains C at 1 - s, and has order 4.
 //! The factor of C is the same at s and 1 - s. The true value is therefore H(s) + (library(1 - s) - H(1 - s)).
-//! A test below checks the order. It fails once the library has corrected this.
+//! A test below checks the order. It will fail if the library corrects this error.
 //! See docs/numerics/forces.md.
 
 use std::cell::Cell;
@@ -15,7 +15,7 @@ use differential_equations::interpolate::Interpolation;
 use differential_equations::ode::ODE;
 use linkage::error::Result;
 
-/// Number of remembered evaluations. A step ends with one at its end and three inside it.
+/// Number of remembered evaluations. The last evaluations of a step are three inside the step and one at its end.
 const REMEMBERED: usize = 4;
 
 /// One evaluation: independent variable, state and rate.
@@ -37,7 +37,7 @@ impl<'f, F: Flow<N>, const N: usize> Remembering<'f, F, N> {
         }
     }
 
-    /// The rate at a place that was just evaluated.
+    /// The rate at `x` and `y`. It is not computed again if it was one of the last evaluations.
     pub(super) fn rate(&self, x: f64, y: &[f64; N]) -> [f64; N] {
         let mut known = self.known.iter().map(Cell::get);
         let found = known.find(|(place, state, _)| *place == x && state == y);
@@ -54,7 +54,7 @@ impl<F: Flow<N>, const N: usize> ODE<f64, [f64; N]> for Remembering<'_, F, N> {
     }
 }
 
-/// The targets that lie ahead.
+/// The remaining targets.
 pub(super) struct Targets<'t>(&'t [f64]);
 
 impl<'t> Targets<'t> {
@@ -75,7 +75,7 @@ impl<'t> Targets<'t> {
     }
 }
 
-/// Visits the parts of the method's last step between the targets in it, and takes these targets.
+/// Visits the parts into which the targets divide the method's last step. Removes these targets from the list.
 pub(super) fn parts<const N: usize, F: Flow<N>>(
     flow: &F,
     course: &Course<N>,
@@ -100,13 +100,13 @@ pub(super) struct Course<const N: usize> {
 }
 
 impl<const N: usize> Course<N> {
-    /// The share of the step that has passed at `x`.
+    /// The fraction of the step that lies before `x`.
     fn share(&self, x: f64) -> f64 {
         let [(from, _), (to, _)] = self.ends;
         (x - from) / (to - from)
     }
 
-    /// The cubic by the values and rates at both ends.
+    /// The cubic through the values and rates at both ends.
     fn cubic(&self, s: f64) -> [f64; N] {
         let [(from, y0), (to, y1)] = &self.ends;
         let [f0, f1] = &self.rates;
@@ -157,7 +157,7 @@ mod tests {
         }
     }
 
-    /// Largest error inside one step of the length `h`. The reference is steps that end there.
+    /// Largest error inside one step of the length `h`. The reference values are the ends of short steps.
     fn error(h: f64) -> f64 {
         let start = [0.3, 1.1];
         let mut method = a_step(&Swing, 0.0, &start, h).unwrap();
@@ -172,7 +172,7 @@ mod tests {
     }
 
     fn method_end(x: f64, start: [f64; 2]) -> [f64; 2] {
-        // Eight short steps, exact within rounding error at these lengths.
+        // Eight short steps. At these lengths they are exact within rounding error.
         (0..8).fold(start, |y, k| {
             let h = x / 8.0;
             *a_step(&Swing, h * f64::from(k), &y, h).unwrap().y()
@@ -180,11 +180,11 @@ mod tests {
     }
 
     #[test]
-    fn states_inside_a_step_are_of_order_seven() {
+    fn dense_output_converges_with_order_seven() {
         let ratio = error(0.8) / error(0.4);
-        // One step: the error falls with the eighth power of its length.
+        // The error of one step falls with the eighth power of its length.
         assert!(ratio > 150.0, "{ratio}");
-        // With the library's order 4, the error is 1e-5 here.
+        // With the library's order 4, this error would be 1e-5.
         assert!(error(0.4) < 1e-8, "{}", error(0.4));
     }
 }

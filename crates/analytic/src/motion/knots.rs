@@ -1,6 +1,6 @@
-//! The knots of the loads' tables, where a motion under forces ends a piece.
+//! The knots of the loads' tables. At each knot, a motion under forces ends a piece.
 //!
-//! Some derivative jumps at a knot, so a step over a knot has a lower order.
+//! At a knot a derivative jumps, so a step over a knot would have a lower order.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use linkage::math::KeepNan;
 /// The effect of the jump over this distance is far below rounding error.
 const BEYOND: f64 = 1e-9;
 
-/// Crank angles (rad, as the scenario states them) at which the loads' tables have knots.
+/// Crank angles (rad, as the scenario states them) of all knots of the loads' tables.
 #[derive(Debug)]
 pub(super) struct Knots(Vec<(Vec<f64>, f64)>);
 
@@ -29,7 +29,7 @@ impl Knots {
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
         for (knots, period) in &self.0 {
             for knot in knots {
-                // The last repetition of the knot that is not beyond the crank angle, and the next one.
+                // The last repetition of the knot at or before the crank angle, and the next repetition.
                 let last = knot + period * ((crank - knot) / period).floor();
                 ends = [ends[0].larger(last), ends[1].smaller(last + period)];
             }

@@ -1,8 +1,8 @@
-//! Steps of DOP853 that end exactly where a piece of the equation of motion ends.
+//! Steps of DOP853 that end exactly at the end of a piece of the equation of motion.
 //! Requested instants lie inside the steps and need no additional step.
 //!
-//! An eighth-order step over a kink is of first order only.
-//! So the equations are written piece by piece, and each piece continues smoothly beyond its ends.
+//! An eighth-order step over a kink is only of first order.
+//! Each piece therefore has its own equations, which continue smoothly beyond the ends of the piece.
 //! A step that leaves its piece is repeated until its end lies on the boundary.
 //! Hairer, Norsett, Wanner, "Solving ordinary differential equations I", II.5 (DOP853) and II.6 (discontinuities).
 
@@ -22,37 +22,43 @@ use linkage::work::{self, Count, WorkTally};
 /// Relative and absolute error allowed in each step, including the states inside it.
 /// The run-up of `crank_rocker` is then exact to 5e-12 rad, and to 1e-14 at its end.
 pub const ACCURACY: f64 = 1e-11;
-/// Share of the allowed error that a step's own estimate may have. The estimate refers to the end of the step.
+/// Tolerance for the error estimate of a step, divided by the allowed error. The estimate refers to the end of the
+/// step.
 /// Inside a step the order is lower by one, and errors are some hundred times larger.
-/// Those of `crank_rocker_runup` are 40 to 400 times an estimate.
+/// The errors inside the steps of `crank_rocker_runup` are 40 to 400 times an estimate.
 const ESTIMATED: f64 = 0.01;
-/// Smallest tolerance for an estimate.
-/// Below it, rounding shortens the steps, and many short steps add more rounding error than they save.
+/// Smallest tolerance for an error estimate.
+/// With a smaller tolerance, rounding shortens the steps. Many short steps then add more rounding error than truncation
+/// error is saved.
 const LEAST_ESTIMATED: f64 = 2e-15;
-/// Positions in a step, as shares of it, at which passed bounds are checked.
+/// Fractions of a step at which the bounds are checked.
 const LOOKED_AT: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
-/// Error allowed in the tighter runs, as a share of [`ACCURACY`]. These runs show the error of the others.
-/// Below this share, rounding error dominates.
+/// Error allowed in the tighter runs, divided by [`ACCURACY`]. The difference of the two runs shows the error of the
+/// normal runs.
+/// With a smaller value, rounding error dominates.
 pub(crate) const TIGHTER: f64 = 0.01;
-/// Width of the windows around change points in the tighter runs, as a share of the usual width.
-/// Other poses then carry the motion over a change point, and the difference shows that error too.
+/// Width of the windows around change points in the tighter runs, divided by the usual width.
+/// The tighter runs pass a change point with other poses, so that the difference of the runs also shows the error of
+/// the windows.
 pub(crate) const NARROWER: f64 = 0.8;
 /// Largest number of consecutive pieces of zero duration. With more, the motion is stuck at a kink.
 pub(crate) const MOST_EMPTY: usize = 8;
 /// Largest number of steps of one piece. A hundred turns of a mechanism take some ten thousand.
 const MOST_STEPS: usize = 3_000_000;
-/// Number of steps after which the total number of steps is predicted and compared with the largest one.
-/// If a motor is much too strong for what it moves, its decay limits the length of the steps, not the motion.
+/// After every such number of steps, the total number of steps is predicted. The march ends if it exceeds `MOST_STEPS`.
+/// This happens if a motor is much too strong for the machine. The motor's decay then limits the steps, not the motion.
 const PREDICTED: usize = 50_000;
-/// Steps below this share of the integration interval are short. A long sequence of them ends the march.
-/// They would never get past a singular pose, near which accelerations are rounding noise or errors.
+/// A step is short if its length is at most this fraction of the integration interval, or of its position if that is
+/// larger.
+/// A long sequence of short steps ends the march.
+/// Such steps would never pass a singular pose, near which accelerations are rounding errors or cannot be computed.
 const SHORTEST: f64 = 1e-9;
 const MOST_SHORT: usize = 400;
-/// Factor by which a step may be longer than planned to reach a target at once, so that no tiny step is left.
+/// A step may be longer than planned by this factor if it then reaches the last target. This avoids a tiny last step.
 const STRETCH: f64 = 1.001;
-/// Number of bisections of a step for a first estimate of where a bound is passed.
+/// Number of bisections of a step for a first estimate of the position of a bound.
 const BISECTIONS: usize = 40;
-/// Largest number of repetitions of a shortened step. Secants from the course inside the step take one or two.
+/// Largest number of repetitions of a shortened step. The secant method usually needs one or two.
 const CORRECTIONS: usize = 6;
 
 /// Why a march ended.
@@ -104,7 +110,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
         steps += 1;
         work::spend(1.0)?;
         let way = place.x - begun_at;
-        // Written so that NaN is refused.
+        // The comparison is negated so that NaN is refused.
         if steps % PREDICTED == 0 && !((last - begun_at) / way * steps as f64 <= MOST_STEPS as f64) {
             let why = sentences::of_steps_it_is_only_on_of(
                 &steps,
@@ -119,7 +125,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
             method.set_h(last - from);
         }
         let taken = method.step(&known);
-        // An error in a trial step only shortens the step; but steps that stay short do not get past it.
+        // An error in a trial step only shortens the step. If steps stay short, the error is reported.
         let fault = flow.fault();
         if let Err(why) = taken {
             return Err(fault.or(refused).unwrap_or_else(|| lost(from, &format!("{why:?}"))));
@@ -139,7 +145,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
         if let Some(beyond) = beyond(flow, &mut method)? {
             return end_on_bound(flow, place, &course, &mut method, beyond, &mut targets, visit);
         }
-        // A step that had to be short says nothing about the length of the next.
+        // If the end of the interval has shortened this step, its length does not limit the next step.
         place.h = if cut { wished.larger(method.h()) } else { method.h() };
         method.set_h(place.h);
         (place.x, place.y) = (if cut { last } else { method.t() }, *method.y());
@@ -154,8 +160,8 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     }
 }
 
-/// The first checked position in the last step that lies beyond a bound, with the state there.
-/// A bound that is passed twice within the step is detected inside it.
+/// The first checked position in the last step that lies beyond a bound, with its state.
+/// The checks inside the step also detect a bound that is passed twice within the step.
 fn beyond<const N: usize, F: Flow<N>>(flow: &F, method: &mut Method<N>) -> Result<Option<(f64, [f64; N])>> {
     let (from, to) = (method.t_prev(), method.t());
     for share in LOOKED_AT {
@@ -174,7 +180,8 @@ fn roughly<const N: usize>(method: &mut Method<N>, x: f64) -> Result<[f64; N]> {
     method.interpolate(x).map_err(|why| lost(x, &format!("{why:?}")))
 }
 
-/// Repeats the last step of a method so that it ends on the first bound that it passed before the position `beyond`.
+/// Repeats the last step of a method so that it ends on a bound.
+/// The bound is the first that the step passed before the position `beyond`.
 fn end_on_bound<const N: usize, F: Flow<N>>(
     flow: &F,
     place: &mut Place<N>,
@@ -195,7 +202,7 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
         }
     }
     let before = (place.x, place.y);
-    // A bound that was nearly reached at the beginning of the step needs no separate step.
+    // If the bound was nearly reached at the beginning of the step, no separate step is needed.
     if at - place.x > 8.0 * f64::EPSILON * at.abs() {
         let known = (beyond.0 - place.x, passed.1);
         let mut found = shortened(flow, before, at - place.x, known, passed.0)?;
@@ -207,7 +214,8 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
     Ok(Stop::Bound(passed.0))
 }
 
-/// Position in the last step, before `beyond`, at which the method passes a bound. It is as exact as the course.
+/// Position in the last step, before `beyond`, at which the method passes a bound. It is as accurate as the
+/// interpolation.
 fn crossing<const N: usize, F: Flow<N>>(
     flow: &F,
     course: &Course<N>,
@@ -222,8 +230,8 @@ fn crossing<const N: usize, F: Flow<N>>(
     Ok(low)
 }
 
-/// Takes a step of about the length `h` that ends on the bound, by secants between steps of that length.
-/// `known` holds a longer step and the margin at its end.
+/// Takes a step of about the length `h` that ends on the bound. Secants give the length of each repetition.
+/// `known` holds the length of a longer step and the margin at its end.
 fn shortened<const N: usize, F: Flow<N>>(
     flow: &F,
     (x, y): (f64, [f64; N]),
@@ -245,21 +253,21 @@ fn shortened<const N: usize, F: Flow<N>>(
 
 /// Largest number of pieces of one motion. A hundred turns of a mechanism under tables of loads take some thousand.
 const MOST_PIECES: usize = 3_000_000;
-/// Number of pieces after which the total number of pieces is predicted and compared with the largest one.
+/// After every such number of pieces, the total number of pieces is predicted and compared with `MOST_PIECES`.
 const JUDGED: usize = 5_000;
 
-/// Counts the pieces of a motion. A motion that runs away meets ever more of them.
+/// Counts the pieces of a motion. A motion whose speed grows without bound needs more and more pieces.
 #[derive(Debug, Default)]
 pub(crate) struct Pace(usize);
 
 impl Pace {
-    /// Counts a piece that ends at `x` on the way from 0 to `last`.
+    /// Counts a piece that ends at `x`, in a motion from 0 to `last`.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] where the motion would take too many pieces.
+    /// [`ErrorKind::Numeric`] if the motion would take too many pieces.
     pub(crate) fn piece(&mut self, x: f64, last: f64) -> Result<()> {
         self.0 += 1;
-        // Written so that NaN is refused.
+        // The comparison is negated so that NaN is refused.
         if self.0.is_multiple_of(JUDGED) && !(last / x * self.0 as f64 <= MOST_PIECES as f64) {
             let message = sentences::of_the_motion_has_gone_in_pieces(&last, &x, &self.0);
             return Err(Error::new(ErrorKind::Numeric, message)

@@ -21,24 +21,25 @@ pub(crate) struct Inputs {
     pub(crate) accelerations: Vec<f64>,
 }
 
-/// The actions besides gravity that keep their form during one piece of the motion.
+/// The actions besides gravity. Their form is constant during one piece of the motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Held {
     /// Moment of the motor on the crank (N m), counter-clockwise positive.
     pub(crate) motor: f64,
     /// Moment of inertia that turns with the crank (kg m^2): rotor and reducer.
     pub(crate) added: f64,
-    /// For every load that depends on the sense of a link: that sense (+1, -1, 0 for standstill). Not used for other
-    /// loads.
+    /// For every load that depends on the sense of a link: this sense (+1, -1, 0 for standstill). Entries of other
+    /// loads are unused.
     pub(crate) senses: Vec<f64>,
     /// For every load against the motion of a point: direction of this motion at the beginning of the present step.
-    /// It is a unit vector, or zero for standstill. Not used for other loads.
+    /// It is a unit vector, or zero for standstill. Entries of other loads are unused.
     pub(crate) ways: Vec<Vec2>,
 }
 
 impl Held {
-    /// Direction against which a load acts on a point with this velocity (m/s).
-    /// It turns with the velocity. Where the point reverses, it continues as if the point had not reversed.
+    /// Direction of motion against which a load acts on a point with this velocity (m/s).
+    /// The direction turns with the velocity. If the point reverses, the direction continues as if the point had not
+    /// reversed.
     fn way(&self, load: usize, velocity: Vec2) -> Vec2 {
         let held = self.ways[load];
         let now = sense_of(velocity);
@@ -47,7 +48,7 @@ impl Held {
     }
 }
 
-/// As [`Case::loads_on`], but with the held senses for the loads that depend on one.
+/// Like [`Case::loads_on`], but loads that depend on a sense use the held sense.
 pub(crate) fn loads_held(case: &Case, motions: &[Motion], angles: &[f64], held: &Held, out: &mut [Wrench]) {
     let moment = |index: usize, load: &Load, _, crank: f64| load.moment_in(held.senses[index], crank);
     case.loads_along(motions, angles, moment, |index, velocity| held.way(index, velocity), out);
@@ -85,7 +86,8 @@ pub(crate) trait Side {
     /// Angular velocity and acceleration of a link after the last call of [accelerate](Side::accelerate).
     fn link_rates(&self, link: LinkId) -> [f64; 2];
 
-    /// The complete state after the last call of [accelerate](Side::accelerate), with the turns of the links kept.
-    /// It includes reactions if they are requested.
+    /// Fills in the complete state after the last call of [accelerate](Side::accelerate). The links' angles keep their
+    /// turns.
+    /// The state includes reactions if they are requested.
     fn fill(&mut self, inputs: &Inputs, state: &mut State) -> Result<()>;
 }

@@ -17,33 +17,34 @@ pub(crate) trait Flow<const N: usize>: ODE<f64, [f64; N]> {
     /// Distance of the state from a bound, positive inside and negative beyond it.
     fn margin(&self, bound: usize, x: f64, y: &[f64; N]) -> f64;
 
-    /// Receives the beginning of every step.
+    /// Is called at the beginning of every step.
     fn begin(&self, x: f64, y: &[f64; N]);
 
-    /// The error of an evaluation since the last call, if there was one.
+    /// The error of an evaluation since the last call; `None` if all evaluations succeeded.
     fn fault(&self) -> Option<Error>;
 }
 
 /// One step: its beginning and its end.
 pub(crate) type Step<const N: usize> = [(f64, [f64; N]); 2];
 
-/// The rate of a state.
+/// The rate at a state.
 pub(super) fn rate<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N]) -> [f64; N] {
     let mut rate = [0.0; N];
     flow.diff(x, y, &mut rate);
     rate
 }
 
-/// State after one step of a given length.
+/// State after one step of the length `h`.
 pub(crate) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<[f64; N]> {
     Ok(*a_step(flow, x, y, h)?.y())
 }
 
-/// The method after one step of a given length, whatever its error estimate, because it is part of an accepted step.
+/// The method after one step of the length `h`. The error estimate is ignored, because the step is part of an accepted
+/// step.
 pub(super) fn a_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<Method<N>> {
     flow.begin(x, y);
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(1e6).atol(1e6).h0(h);
-    // The interval is longer than the step; otherwise rounding would shorten the step.
+    // The interval is longer than the step. Otherwise rounding would shorten the step.
     let begun = method.init(flow, x, x + 2.0 * h, y);
     checked(flow, begun, x)?;
     let taken = method.step(flow);
@@ -54,7 +55,7 @@ pub(super) fn a_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N],
     Ok(method)
 }
 
-/// Reports the flow's own error before the library's. An error in a trial step that was repeated does not count.
+/// Reports the flow's own error in preference to the library's error. An error in a repeated trial step does not count.
 pub(super) fn checked<const N: usize, F: Flow<N>, T, E: std::fmt::Debug>(
     flow: &F,
     answer: std::result::Result<T, E>,

@@ -1,13 +1,13 @@
 //! The Jacobian of all constraints, block by block.
 //!
-//! Ordered by driving links and groups, it is block-triangular.
+//! Ordered by driving links and groups, the Jacobian is block-triangular.
 //! A driving link does not depend on the groups, and a group does not depend on later groups.
 //! Elimination within the diagonal blocks alone keeps this structure.
-//! A group near a singular pose then cannot spoil results that do not depend on it.
-//! With one elimination over all rows, the rounding error of its large accelerations entered those of the crank's own
-//! pin.
+//! A group near a singular pose then does not affect the accuracy of results that do not depend on it.
+//! Elimination over all rows together brought the rounding error of this group's large accelerations into those of the
+//! crank's own pin.
 //! Every block also has its own determinant.
-//! The determinant of the whole matrix keeps its sign where two blocks change theirs.
+//! The determinant of the whole matrix would keep its sign if two blocks change theirs.
 
 use linkage::case::Case;
 use linkage::math::KeepNan;
@@ -22,16 +22,16 @@ struct Block {
     matrix: Lu,
     /// Euclidean norm of every column of the block.
     norms: Vec<f64>,
-    /// Entries of these rows in columns of earlier blocks.
+    /// Entries of the block's rows in columns of earlier blocks.
     beside: Vec<(usize, usize, f64)>,
     right: Vec<f64>,
 }
 
-/// A block-triangular square matrix: factored in place, again and again.
+/// A block-triangular square matrix. It is factored in place, and its storage is used again and again.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     blocks: Vec<Block>,
-    /// Block of every row and of every column, and the position in this block.
+    /// For every row and every column: its block, and its position in this block.
     of_row: Vec<(usize, usize)>,
     of_column: Vec<(usize, usize)>,
     solution: Vec<f64>,
@@ -94,16 +94,16 @@ impl Blocks {
         self.blocks.iter_mut().all(|block| block.matrix.factor())
     }
 
-    /// Smallest ratio of a block's determinant to the largest determinant that columns of these lengths can have.
-    /// All entries of a column have the same unit, unlike those of a row.
+    /// Smallest ratio of a block's determinant to the largest determinant possible with columns of the same lengths.
+    /// Columns are compared because all entries of a column have the same unit, unlike those of a row.
     pub(super) fn smallest_share(&self) -> f64 {
         self.shares().map(f64::abs).fold(f64::INFINITY, f64::smaller)
     }
 
-    /// These ratios for all blocks, with the signs of the determinants.
+    /// For every block: ratio of its determinant to the largest possible determinant, with the determinant's sign.
     pub(super) fn shares(&self) -> impl Iterator<Item = f64> + '_ {
         self.blocks.iter().map(|block| {
-            // The determinant itself could underflow.
+            // The product of all pivots could underflow, so each pivot is divided by a column norm first.
             let pivots = block.matrix.pivots().map(f64::abs);
             let share = pivots.zip(&block.norms).map(|(pivot, norm)| pivot / norm).product::<f64>();
             share * block.matrix.determinant_sign()
@@ -133,7 +133,7 @@ impl Blocks {
         b.copy_from_slice(solution);
     }
 
-    /// Solves A^T x = b for the factored matrix; `y` is replaced by `x`.
+    /// Solves A^T x = y for the factored matrix; `y` is replaced by `x`.
     pub(super) fn solve_transposed(&mut self, y: &mut [f64]) {
         let Blocks { blocks, solution, .. } = self;
         for Block { rows, columns, matrix, beside, right, .. } in blocks.iter_mut().rev() {

@@ -1,13 +1,15 @@
-//! The equations of every joint: residuals, rows of the Jacobian, and the terms of their second derivatives on the
-//! right-hand side.
+//! The equations of every joint: residuals, rows of the Jacobian, and the right-hand side for accelerations.
 //!
 //! Revolute: C = p2 - p1.
-//! On a line, with the axis e and its normal n = z x e on the first link and d = p2 - p1: C1 = n . d.
-//! Prismatic, besides: C2 = theta2 - theta1 - twist.
+//! For a point on a line, let e be the axis and n = z x e its normal, both on the first link, and d = p2 - p1.
+//! Then C1 = n . d.
+//! Prismatic, in addition: C2 = theta2 - theta1 - twist.
 //! As n' = -omega1 e, dC1/dtheta1 = -e . (d + r1) with r1 from the mass centre to p1.
-//! C1'' = 0 gives n . d'' = 2 omega1 e . d' + alpha1 e . d. Its first term and the centripetal terms of d'' are gamma.
-//! So the multiplier of C1 is a force along n that acts at p2 on both links, and that of C2 a moment (Haug, chapter
-//! 3.3).
+//! C1'' = 0 gives n . d'' = 2 omega1 e . d' + alpha1 e . d. The first term on the right and the centripetal terms of
+//! d'' form gamma.
+//! The multiplier of C1 is therefore a force along n that acts at p2 on both links. The multiplier of C2 is a moment.
+//! Derived here; the constraints are equations 3.3.10 and 3.3.13 of E. J. Haug, Computer Aided Kinematics and Dynamics
+//! of Mechanical Systems, vol. 1, Allyn and Bacon 1989.
 
 use super::system::System;
 use linkage::drive::Drive;
@@ -16,8 +18,8 @@ use linkage::math::{Vec2, turned};
 use linkage::mechanism::{GROUND, Joint, JointId, JointSide};
 
 impl System<'_> {
-    /// Residual and Jacobian of a drive's equation in `row`: the coordinate of its joint is the input `at`, counted as
-    /// [`Drive::world_angle`] does.
+    /// Residual and Jacobian of a drive's equation in `row`. The equation sets the coordinate of the drive's joint to
+    /// the input `at`, counted as in [`Drive::world_angle`].
     #[inline]
     pub(super) fn assemble_drive(&mut self, row: usize, drive: &Drive, at: f64) {
         match drive.input {

@@ -1,9 +1,10 @@
 //! Free motion of the whole mechanism: J q'' = gamma + E alpha with unknown accelerations alpha of the free driving
 //! links, found by embedding.
 //!
-//! V = J^-1 E has one column per drive. Then q'' = a0 + V alpha, and V^T J^T lambda = E^T lambda are the moments of the
-//! drives, which motor and rotor give: (V^T M V + added) alpha = T + V^T (Q - M a0).
-//! The multipliers then are the reactions (Haug, chapters 3 and 8).
+//! V = J^-1 E has one column per drive. Then q'' = a0 + V alpha.
+//! V^T J^T lambda = E^T lambda are the moments of the drives, which motor and rotor determine.
+//! The equations for alpha are (V^T M V + added) alpha = T + V^T (Q - M a0).
+//! The multipliers then are the reactions (Haug 1989, section 6.6, as in `solver`).
 //! See docs/numerics/forces.md.
 
 use super::passing::Passing;
@@ -20,8 +21,8 @@ use linkage::mechanism::LinkId;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Largest distance of a corrected angle or position from its prediction over one tracking step (rad, or share of the
-/// mechanism's size).
+/// Largest accepted difference between a corrected and a predicted coordinate in one tracking step.
+/// Angles are in rad; positions are divided by the mechanism's size.
 const JUMP: f64 = 10.0 * TRACKING_STEP;
 
 /// A system whose free driving links move under forces.
@@ -30,18 +31,18 @@ pub(super) struct Embedded<'a> {
     free: Vec<usize>,
     /// Columns V of all drives, one after the other.
     columns: Vec<f64>,
-    /// a0, then Q - M a0.
+    /// First a0, later Q - M a0.
     rest: Vec<f64>,
     force: Vec<f64>,
     matrix: Lu,
     right: Vec<f64>,
-    /// Held actions at the last accelerations near a change point.
+    /// Actions held constant at the last accelerations near a change point.
     held: Option<Held>,
     passing: Option<Passing>,
 }
 
 impl<'a> Embedded<'a> {
-    /// The equations of a system at its start pose, with its path through change points.
+    /// The equations of a system at its start pose. `passing` is its path through change points.
     pub(super) fn new(system: System<'a>, passing: Option<Passing>) -> Self {
         let n = system.q.len();
         let drives = system.inputs.len();
@@ -71,7 +72,7 @@ impl<'a> Embedded<'a> {
         }
     }
 
-    /// Follows the branch to the angles of the driving links, in small turns.
+    /// Follows the branch to the given angles of the driving links, in small steps.
     fn go_to(&mut self, angles: &[f64]) -> Result<()> {
         if let Some(passing) = &mut self.passing {
             passing.go_to(&mut self.system, angles[0])?;

@@ -1,7 +1,8 @@
-//! Side 2 through change points: where the determinant of a block passes through zero although the mechanism moves on,
-//! side 2 follows the branch with continuous velocities.
+//! Side 2 through change points: the determinant of a block passes through zero, but the mechanism moves on.
+//! Side 2 then follows the branch with continuous velocities.
 //!
-//! The path is followed over the crank angle, with the first and second derivatives of all coordinates by this angle.
+//! The path is followed as a function of the crank angle, with the first and second derivatives of all coordinates by
+//! this angle.
 //! In a [`Window`] around a change point, no system of equations is solved.
 //! The coordinates there are an osculating polynomial through poses on both sides. Its derivatives give velocities and
 //! accelerations.
@@ -22,39 +23,40 @@ use linkage::math::KeepNan;
 use spot::{Spot, place, walked};
 use window::Window;
 
-/// Largest estimated distance (rad) at which a change point is searched for.
+/// If the estimated distance to a change point is below this value (rad), the change point is searched for.
 const LOOK: f64 = 0.8;
-/// Turn of the crank (rad) that shows the slope of the determinants at the start.
+/// Rotation of the crank (rad) for the slopes of the determinants at the start.
 const PROBE: f64 = 1e-4;
-/// Multiple of the estimated distance within which a known change point is the estimated one, or lies before it.
-/// Change points behind the known one are then searched for from there.
+/// If a known change point is nearer than this multiple of the estimated distance, no search is made.
+/// The known change point is then the estimated one or lies before it.
+/// Change points beyond it are searched for from its window.
 const NEXT: f64 = 1.3;
-/// Distance (rad) up to which two change points count as one, at which several groups are singular.
+/// Two change points closer together than this (rad) count as one change point, at which several groups are singular.
 const SAME: f64 = 1e-6;
-/// Largest number of windows kept, the nearest ones.
+/// Largest number of windows kept; the nearest windows are kept.
 const MOST_WINDOWS: usize = 8;
-/// Largest number of remembered intervals without a change point. A motion of many small steps finds as many.
+/// Largest number of remembered intervals without a change point. A motion of many small steps produces this many.
 const MOST_CLEAR: usize = 256;
 
 /// The path of a mechanism with one driving link, and the change points found so far.
 #[derive(Clone, Debug)]
 pub(super) struct Passing {
     pub(super) spot: Spot,
-    /// Half width of the windows, as a share of the usual half width.
+    /// Ratio of the windows' half width to the usual half width.
     pub(super) share: f64,
     windows: Vec<Window>,
-    /// Intervals of the crank angle in which a search has found nothing: block, direction, ends.
+    /// Intervals of the crank angle in which a search found no change point: block, direction of the search, ends.
     clear: Vec<(usize, f64, [f64; 2])>,
     inside: Option<usize>,
 }
 
 impl Passing {
-    /// The path from the present pose of a system, whose Jacobian is factored there.
+    /// The path from the present pose of a system. The system's Jacobian must be factored at this pose.
     pub(super) fn from(system: &mut System) -> Self {
         Passing { spot: spot::spot(system), share: 1.0, windows: Vec::new(), clear: Vec::new(), inside: None }
     }
 
-    /// The window of the last pose, if it lies in one.
+    /// The window that contains the last pose; `None` if the pose lies outside all windows.
     pub(super) fn inside(&self) -> Option<&Window> {
         self.inside.map(|index| &self.windows[index])
     }
@@ -74,7 +76,7 @@ impl Passing {
                     let before = std::mem::replace(&mut self.spot, spot);
                     self.look(system, &before)?;
                     step = (2.0 * step).smaller(TRACKING_STEP);
-                    // A dead point exactly at the target shows only here.
+                    // Only this check finds a dead point exactly at the target.
                     if to == target && !self.enter(target) {
                         place(system, &self.spot)?;
                         return system.check_singular();
@@ -89,10 +91,10 @@ impl Passing {
         Ok(())
     }
 
-    /// Finds the slopes of the determinants at the first pose.
+    /// Computes the slopes of the determinants at the first pose.
     fn begin(&mut self, system: &mut System) -> Result<()> {
         self.spot.shares = system.jacobian.shares().collect();
-        // A change point may lie within a probe, on either side.
+        // A change point may lie within a probe on either side; the next probe then serves instead.
         let probes = [PROBE, -PROBE, 0.01 * PROBE, -0.01 * PROBE];
         let mut found = probes.iter().map(|probe| walked(system, &self.spot, self.spot.angle + probe));
         let before = match found.find(Result::is_ok) {
@@ -103,7 +105,7 @@ impl Passing {
         place(system, &self.spot)
     }
 
-    /// Places the mechanism by the window at this angle, if there is one.
+    /// Places the mechanism by the window at this angle. Returns `false` if no window contains the angle.
     fn enter(&mut self, angle: f64) -> bool {
         self.inside = self.windows.iter().position(|window| (angle - window.at).abs() < window.reach);
         if let Some(index) = self.inside {
@@ -112,7 +114,8 @@ impl Passing {
         self.inside.is_some()
     }
 
-    /// Leaves or passes over a window towards an angle: continues from the window's last pose on that side.
+    /// Leaves or passes over a window towards the angle `target`: the path continues from the window's last pose on
+    /// that side.
     fn leave(&mut self, target: f64) {
         let from = self.spot.angle;
         let over = |window: &&Window| {
@@ -131,7 +134,7 @@ impl Passing {
         if turned == 0.0 {
             return Ok(());
         }
-        // A forgotten interval is only searched again.
+        // If an interval is forgotten, it is searched again.
         let old = self.clear.len().saturating_sub(MOST_CLEAR);
         self.clear.drain(..old);
         for block in 0..self.spot.shares.len() {
@@ -170,5 +173,5 @@ impl Passing {
     }
 }
 
-/// Advice where reactions have a pole.
+/// Advice if reactions have a pole at the requested instant.
 const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;

@@ -4,8 +4,9 @@
 //! Constraints: two equations C = 0 per joint, and the given angle of the driving link.
 //! Positions follow by Newton's method, then velocities from J q' = rate of the drive.
 //! Accelerations follow from J q'' = gamma with the centripetal terms, and multipliers from M q'' = Q + J^T lambda.
-//! The multipliers are the reactions on the second links and the balancing moment (Haug,
-//! "Computer aided kinematics and dynamics of mechanical systems", 1989, chapters 3 and 8).
+//! The multipliers are the reactions on the second links and the balancing moment:
+//! E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, vol. 1, Allyn and Bacon 1989, sections 6.3
+//! and 6.6.
 
 use super::free::Embedded;
 use super::passing::Passing;
@@ -37,7 +38,8 @@ impl Solver for NewtonSolver {
         let mut system = System::new(case);
         let mut state = State::at_rest(case);
         let rows = case.grid.ascending();
-        // From the start in both directions: first the rows at and after t = 0, then those before it, backwards.
+        // The motion starts at t = 0 and is followed in both directions: first the rows at and after t = 0, then the
+        // earlier rows, backwards.
         let split = rows.partition_point(|&row| case.grid.times[row] < 0.0);
         let mut done = 0;
         let mut follow = |rows: &mut dyn Iterator<Item = usize>, system: &mut System| -> Result<()> {
@@ -66,7 +68,7 @@ impl Solver for NewtonSolver {
     }
 }
 
-/// Side 2 with another error allowed per step in the integration of motions under forces: see
+/// Side 2 with a chosen integration error per step for motions under forces: see
 /// [`AssurAt`](crate::AssurAt).
 #[derive(Clone, Copy, Debug)]
 pub struct NewtonAt(pub f64);

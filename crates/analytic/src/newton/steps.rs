@@ -1,5 +1,5 @@
-//! Follows the branch: Newton's method from a prediction, in small turns of the crank, then velocities, accelerations
-//! and multipliers.
+//! Follows the branch in small rotations of the crank. Newton's method corrects a prediction of each pose; then follow
+//! velocities, accelerations and multipliers.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -13,23 +13,23 @@ use linkage::solver::State;
 use linkage::trajectory::Stage;
 use linkage::work::{self, Count};
 
-/// Largest turn of the crank between two poses (rad). A prediction over this step stays on the branch.
+/// Largest rotation of the crank between two poses (rad). A prediction over this step stays on the branch.
 pub(super) const TRACKING_STEP: f64 = PI / 90.0;
 /// Number of times a failing step is halved.
 /// Near a dead point speeds grow without limit, and steps must shrink with the remaining distance.
 pub(super) const HALVINGS: u32 = 40;
-/// Largest velocity change of a link over a step that its acceleration does not explain, as a share of the largest
-/// velocity.
-/// Where two branches cross, the velocity jumps from one branch to the other, however small the step is.
+/// Largest accepted jump of a link's velocity over a step, divided by the largest velocity.
+/// The jump is the part of the change that the link's acceleration does not explain.
+/// Where two branches cross, the velocity jumps from one branch to the other, even if the step is very small.
 const VELOCITY_JUMP: f64 = 0.1;
-/// Ratio of a block's determinant to the largest one possible with columns of the same lengths, below which a pose is
-/// singular.
+/// A pose is singular if the ratio of a block's determinant to the largest possible determinant is below this value.
+/// The largest possible determinant is that of columns of the same lengths.
 /// For a dyad the ratio is about a tenth of the sine of its transmission angle.
-/// Angles are known to about the rounding error divided by this sine. Below the limit the sine itself is mostly
+/// The error of angles is about the rounding error divided by this sine. Below the limit the sine itself is mostly
 /// rounding error.
 const SINGULAR: f64 = 1e-8;
-/// Largest number of iterations. From a predicted pose, Newton's method converges in two or three.
-/// If it needs more, something is wrong.
+/// Largest number of iterations. From a predicted pose, Newton's method converges in two or three iterations.
+/// More iterations indicate an error.
 const MAX_ITERATIONS: usize = 12;
 
 impl System<'_> {
@@ -42,7 +42,7 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Follows the branch to time `t`, in small turns of the crank.
+    /// Follows the branch to time `t`, in small rotations of the crank.
     pub(super) fn go_to(&mut self, t: f64) -> Result<()> {
         self.skip_turns(t)?;
         self.follow_to(t)?;
@@ -54,15 +54,15 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Follows the branch to time `t`, positions to accelerations.
+    /// Follows the branch to time `t`; solves positions, velocities and accelerations.
     pub(super) fn follow_to(&mut self, t: f64) -> Result<()> {
         let turned = |drive: &Drive| match drive.constant_speed() {
             Some(_) => (drive.at(t).value - drive.at(self.time).value).abs(),
-            // The drive may move there and back in between.
+            // Between the two times the drive may move forwards and back. Its top speed bounds the total angle.
             None => drive.top_speed().abs() * (t - self.time).abs(),
         };
         let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
-        // For a law that reaches its top speed only for a moment, this angle has no other bound.
+        // If a law reaches its top speed only for a moment, nothing else limits this angle.
         if !(turn <= 2.0 * Grid::MOST_TURNS * TAU) {
             let turns = turn / TAU;
             return Err(self.lost(&sentences::up_to_turns_on_the_way_to_are_too(&format_args!("{turns:.1e}"), &t)));
@@ -72,11 +72,12 @@ impl System<'_> {
         for part in 1..parts as usize {
             self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
         }
-        // The last part ends at t itself, not at a rounded neighbour.
+        // The last part ends exactly at `t`, without rounding.
         self.step_to(t, HALVINGS)
     }
 
-    /// Takes one step from a prediction, or two steps of half the size where the branch cannot be followed over it.
+    /// Takes one step from a prediction. If the branch cannot be followed over it, takes two steps of half the size
+    /// instead.
     pub(super) fn step_to(&mut self, t: f64, halvings: u32) -> Result<()> {
         work::spend(work::PLACED * self.case.mechanism.links().len() as f64)?;
         let (from, dt) = (self.time, t - self.time);
@@ -89,8 +90,8 @@ impl System<'_> {
         self.set_time(t);
         self.predicted.copy_from_slice(&self.q);
         let followed = self.correct().and_then(|()| self.check_branch(dt)).and_then(|()| {
-            // Where branches cross, velocities and accelerations are mostly rounding error, and a check for jumps is a
-            // matter of luck.
+            // If branches cross here, velocities and accelerations are mostly rounding error. A check for jumps then
+            // gives random results.
             self.check_singular()?;
             self.differentiate();
             self.check_velocities(dt)
@@ -110,7 +111,7 @@ impl System<'_> {
     }
 
     /// Newton's method to rounding accuracy, from the pose in `q`.
-    /// The factored Jacobian is that of the last pose but one, which differs from the last pose by rounding error.
+    /// The factored Jacobian is that of the pose before the last correction. The two poses differ by rounding error.
     pub(super) fn correct(&mut self) -> Result<()> {
         self.tally.one(Count::Poses);
         let size = self.case.mechanism.size();
@@ -128,8 +129,8 @@ impl System<'_> {
                 self.q[i] -= step;
                 change = change.larger(step.abs() / if i % 3 == 2 { 1.0 } else { size });
             }
-            // Convergence is quadratic: once a change is below 1e-9, the next one is rounding error. One more step
-            // makes sure of it.
+            // Convergence is quadratic: after a change below 1e-9, the next change is rounding error. One more step
+            // makes sure of this.
             if change < 1e-14 || last.larger(change) < self.settled {
                 return Ok(());
             }
@@ -138,7 +139,7 @@ impl System<'_> {
         Err(self.lost(sentences::NEWTON_METHOD_DOES_NOT_CONVERGE))
     }
 
-    /// Residuals of all constraints and their Jacobian at the pose in `q`.
+    /// Computes the residuals of all constraints and their Jacobian at the pose in `q`.
     pub(super) fn assemble(&mut self) {
         self.jacobian.clear();
         let case = self.case;
@@ -151,7 +152,7 @@ impl System<'_> {
         }
     }
 
-    /// Velocities and accelerations from the factored Jacobian.
+    /// Computes velocities and accelerations from the factored Jacobian.
     pub(super) fn differentiate(&mut self) {
         self.tally.one(Count::Velocities);
         self.tally.one(Count::Accelerations);
@@ -178,7 +179,7 @@ impl System<'_> {
         }
     }
 
-    /// Solves J^T lambda = M q'' - Q, with the loads found last.
+    /// Solves J^T lambda = M q'' - Q with the last computed loads.
     pub(super) fn multipliers(&mut self) {
         for (link, body) in self.case.mechanism.links().entries().skip(1) {
             let i = 3 * (link.index() - 1);
@@ -191,7 +192,7 @@ impl System<'_> {
         self.jacobian.solve_transposed(&mut self.lambda);
     }
 
-    /// Refuses a pose beyond a singular one: every block keeps the sign of its determinant.
+    /// Refuses a pose beyond a singular pose: every block must keep the sign of its determinant.
     pub(super) fn check_signs(&self) -> Result<()> {
         if !self.jacobian.signs().eq(self.branch.iter().copied()) {
             return Err(self.lost(sentences::THE_MECHANISM_HAS_PASSED_A_DEAD));
@@ -201,7 +202,7 @@ impl System<'_> {
 
     /// Refuses a singular pose.
     pub(super) fn check_singular(&self) -> Result<()> {
-        // Written so that NaN is refused too.
+        // The comparison is negated so that NaN is refused too.
         if !(self.jacobian.smallest_share() > SINGULAR) {
             let error = self.lost(sentences::THE_POSE_IS_SINGULAR_THERE);
             return Err(error.or_help(way_through(self.case)));
@@ -209,10 +210,11 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Refuses a pose on another branch: one beyond a singular pose, or one far from the prediction.
+    /// Refuses a pose on another branch. Such a pose lies beyond a singular pose, or far from the prediction.
     pub(super) fn check_branch(&self, dt: f64) -> Result<()> {
         self.check_signs()?;
-        // Positions are checked too: where axes become parallel, a slider returns from infinity on the other side.
+        // Positions are checked too: if axes become parallel, a slider moves to infinity and returns from the opposite
+        // side.
         let size = self.case.mechanism.size();
         for (index, rate) in self.rate.iter().enumerate() {
             let allowed = (dt * rate).abs() + if index % 3 == 2 { TRACKING_STEP } else { size };
@@ -223,7 +225,8 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Refuses a step over which velocities jump: it has turned onto another branch at a change point.
+    /// Refuses a step over which velocities jump. In such a step, the motion has changed to another branch at a change
+    /// point.
     fn check_velocities(&self, dt: f64) -> Result<()> {
         let size = self.case.mechanism.size();
         let unit = |index: usize| if index % 3 == 2 { 1.0 } else { size };
@@ -268,7 +271,7 @@ impl System<'_> {
 /// Advice for passing a pose that may be a change point.
 fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
-        // The case passes change points already, or it has several drives and passes none.
+        // Either the case is already set to pass change points, or it has several drives, for which this is impossible.
         true => sentences::LET_THE_GRID_END_BEFORE_IT,
         false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }

@@ -10,7 +10,8 @@ use linkage::mechanism::{GROUND, Joint, JointSide, LinkId};
 use linkage::trajectory::Stage;
 use linkage::work::WorkTally;
 
-/// Change (rad, or share of the size) that ends Newton's method if two successive iterations stay below it.
+/// Newton's method ends if the changes of two successive iterations are below this value. Angles are in rad; positions
+/// are divided by the mechanism's size.
 const SETTLED: f64 = 1e-9;
 
 /// The equations of one case and the state for which they are solved.
@@ -22,8 +23,8 @@ pub(super) struct System<'a> {
     pub(super) q: Vec<f64>,
     pub(super) rate: Vec<f64>,
     pub(super) second: Vec<f64>,
-    /// Multipliers: those of the joints, as [`Mechanism::rows`](linkage::mechanism::Mechanism::rows) says, then those of
-    /// the drives.
+    /// Multipliers of the joints, in the order of [`Mechanism::rows`](linkage::mechanism::Mechanism::rows), then those
+    /// of the drives.
     pub(super) lambda: Vec<f64>,
     /// For every joint: see [`twist`].
     pub(super) twists: Vec<f64>,
@@ -32,13 +33,13 @@ pub(super) struct System<'a> {
     pub(super) branch: Vec<f64>,
     pub(super) residual: Vec<f64>,
     pub(super) predicted: Vec<f64>,
-    /// Coordinates, velocities and accelerations before the step, for a return to them.
+    /// Coordinates, velocities and accelerations before the step. They are restored if the step fails.
     pub(super) before: Vec<f64>,
     pub(super) rate_before: Vec<f64>,
     pub(super) second_before: Vec<f64>,
-    /// The driving links at the present time: angles in the world, angular velocities and accelerations.
+    /// The driving links at the present time: world angles, angular velocities and angular accelerations.
     pub(super) inputs: Vec<InputState>,
-    /// Motions and angles of all links, for their loads, and the loads themselves.
+    /// Motions and angles of all links, from which their loads follow, and the loads.
     pub(super) motions: Vec<Motion>,
     pub(super) angles: Vec<f64>,
     pub(super) loads: Vec<Wrench>,
@@ -82,7 +83,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Sets the time, and the driving links to the values of their laws at that time.
+    /// Sets the time, and sets the driving links to the values of their laws at that time.
     pub(super) fn set_time(&mut self, t: f64) {
         self.time = t;
         for (input, drive) in self.inputs.iter_mut().zip(self.case.drives.iter()) {
@@ -119,7 +120,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// World vector from a link's mass centre (the origin for the ground) to a point of it.
+    /// World vector from a link's mass centre (for the ground: the origin) to a point of the link.
     pub(super) fn arm(&self, link: LinkId, local: Vec2) -> Vec2 {
         if link == GROUND {
             return local;
@@ -150,14 +151,14 @@ impl<'a> System<'a> {
     }
 }
 
-/// State of a driving link by its law, with its angle in the world.
+/// State of a driving link according to its law, with the link's world angle.
 fn by_law(drive: &Drive, t: f64) -> InputState {
     let state = drive.at(t);
     InputState { value: drive.world_angle(state.value), ..state }
 }
 
-/// Angle of a joint's second link minus that of its first (rad) while the axes of a prismatic pair are parallel.
-/// Its whole turns are those of the start pose. 0 for a revolute joint, which does not use it.
+/// Angle of a joint's second link minus that of its first link (rad), if the axes of a prismatic joint are parallel.
+/// It contains the whole turns of the start pose. It is 0 for a revolute joint, which does not use it.
 fn twist(case: &Case, joint: &Joint) -> f64 {
     let Some(axes) = joint.kind.axes() else { return 0.0 };
     let [first, second] = axes.map(|axis| axis.y.atan2(axis.x));

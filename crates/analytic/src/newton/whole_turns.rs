@@ -1,8 +1,8 @@
-//! Whole turns of the crank on the way to a distant instant.
+//! Whole turns of the crank during a motion to a distant instant.
 //!
 //! With one drive, a pose is a function of the crank angle and the branch.
-//! If one whole turn, followed in small steps, brings every link back, the next turns are the same.
-//! They are not followed one by one.
+//! If every link is back at its old pose after one whole turn in small steps, the next turns are the same.
+//! These turns are not followed one by one.
 //! See docs/numerics/change_points.md.
 
 use std::f64::consts::TAU;
@@ -10,22 +10,24 @@ use std::f64::consts::TAU;
 use super::system::System;
 use linkage::error::Result;
 
-/// Number of crank turns from which a check for equal turns pays off.
+/// If at least this number of crank turns can be skipped, a check for equal turns pays off.
 const WORTH: f64 = 3.0;
-/// Largest difference of equal poses: of positions in sizes of the mechanism, of angles in rad.
-/// Branches as close as that are refused as singular.
+/// Two poses are equal if their differences are at most this large.
+/// Positions are compared in units of the mechanism's size, angles in rad.
+/// Branches that come this close to each other are refused as singular.
 const SAME: f64 = 1e-9;
 
 impl System<'_> {
     /// Follows one whole turn towards `t` and skips the turns equal to it. At most a few turns then remain.
-    /// No turn is skipped where a turn leads to another pose, or with several drives or another law.
+    /// Does not skip turns if one turn leads to another pose, with several drives, or without a constant speed of the
+    /// drive.
     pub(super) fn skip_turns(&mut self, t: f64) -> Result<()> {
         let [drive] = &self.case.drives.iter().collect::<Vec<_>>()[..] else { return Ok(()) };
         let Some(speed) = drive.constant_speed() else { return Ok(()) };
         let Some((whole, _)) = drive.input.period() else { return Ok(()) };
         let period = (whole / speed).abs().copysign(t - self.time);
         let turns = ((t - self.time) / period).floor() - 1.0;
-        // Written so that NaN skips nothing.
+        // The comparison is negated so that NaN skips nothing.
         if !(turns >= WORTH) {
             return Ok(());
         }

@@ -1,19 +1,19 @@
 //! Constraint equations of a mechanism without its drive. There is one equation fewer than coordinates, so that the
 //! solutions are curves.
 //!
-//! Coordinates of every moving link are x and y of the middle of its joints, and its angle.
-//! x and y are divided by the size of the mechanism, so that they compare with angles.
-//! Each kind of joint has one function with its rows.
+//! The coordinates of every moving link are x and y of the middle of its joints, and its angle.
+//! x and y are divided by the size of the mechanism, so that they are comparable with angles.
+//! One function per kind of joint writes the rows of the joint.
 
 use linkage::math::{ColumnVector, Matrix, Vec2, cross, rotated, unit};
 use linkage::mechanism::{GROUND, Group, Joint, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
-/// A driving link that is geared to the crank: its angle follows that of the crank.
+/// A driving link that is geared to the crank: its angle is a function of the crank angle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gearing {
     pub(super) crank: LinkId,
     pub(super) link: LinkId,
-    /// Turns of the link per turn of the crank, and the link's angle at the crank's angle zero (rad).
+    /// Turns of the link per turn of the crank, and the link's angle at crank angle zero (rad).
     pub(super) ratio: f64,
     pub(super) offset: f64,
 }
@@ -22,12 +22,13 @@ pub(super) struct Gearing {
 #[derive(Debug)]
 pub(super) struct Constraints<'a> {
     mechanism: &'a Mechanism,
-    /// World position of the coordinates' origin (m). With it, a mechanism far from the world's origin loses no digits.
+    /// World position of the coordinates' origin (m). It lies near the mechanism, so that no digits are lost far from
+    /// the world's origin.
     origin: Vec2,
     /// Length by which all lengths are divided (m).
     size: f64,
     gearings: Vec<Gearing>,
-    /// Middle of the joints of every link, in its frame (m).
+    /// For every link: middle of its joints, in the link's frame (m).
     middles: Vec<Vec2>,
 }
 
@@ -157,8 +158,8 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// Position of one side of a joint, and the vector to it from the middle of its link, in units of the mechanism's
-    /// size.
+    /// Position of a joint on one of its links, and the vector to it from the middle of this link. Unit: the
+    /// mechanism's size.
     fn point(&self, side: JointSide, q: &ColumnVector) -> (Vec2, Vec2) {
         if side.link == GROUND {
             return ((side.local - self.origin) / self.size, Vec2::zeros());
@@ -168,8 +169,8 @@ impl<'a> Constraints<'a> {
         (Vec2::new(q[at], q[at + 1]) + arm, arm)
     }
 
-    /// The part of a Jacobian that belongs to the joints and links of a group. It is square, with all x and y first,
-    /// then all angles.
+    /// The part of a Jacobian for the joints and links of a group. The part is square. Its columns are all x and y
+    /// first, then all angles.
     pub(super) fn block(&self, jacobian: &Matrix, group: &Group) -> Matrix {
         let joints = group.inner.iter().chain(&group.outer);
         let rows: Vec<usize> = joints.flat_map(|&joint| self.mechanism.rows(joint)).collect();

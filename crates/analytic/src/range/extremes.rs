@@ -1,7 +1,7 @@
 //! Extremes along the curve of poses: angles of links, determinants, condition numbers.
 //!
-//! A link is at an extreme position where its part of the tangent, and so its angular velocity, changes sign: a simple
-//! zero along the curve.
+//! At an extreme position of a link, the link's component of the tangent has a simple zero. This component, and thus
+//! the link's angular velocity, changes sign there.
 
 use linkage::math::KeepNan;
 use linkage::mechanism::{GroupId, LinkId};
@@ -11,8 +11,8 @@ use super::constraints::Constraints;
 use super::singularity::{Singularity, SingularityKind, ValueAtCrank};
 use super::tracking::{Point, Tracker};
 
-/// Bound on a tangent component times the square of the smallest singular value. Below it the component is rounding
-/// error, not motion.
+/// A link counts as at rest if its tangent component, times the square of the smallest singular value, is at most this
+/// value. The component is then rounding error.
 /// The error of a pose is the rounding error divided by the singular value.
 /// The error of its tangent is the error of the pose, divided by the singular value again.
 const STILL: f64 = 50.0 * f64::EPSILON;
@@ -24,7 +24,7 @@ pub struct ExtremePosition {
     pub crank: f64,
     /// Angle of the link (rad).
     pub angle: f64,
-    /// Whether the angle is greatest there; if not, it is smallest.
+    /// Whether the angle has a maximum there; otherwise it has a minimum.
     pub is_greatest: bool,
 }
 
@@ -35,8 +35,8 @@ pub struct LinkRange {
     pub link: LinkId,
     /// Smallest and greatest angle (rad, continued from that of the start pose), with their crank angles.
     pub angles: [ValueAtCrank; 2],
-    /// Whole turns of the link until the mechanism is back at its first pose, counter-clockwise positive for a crank
-    /// that turns counter-clockwise.
+    /// Whole turns of the link until the mechanism is back at its first pose. The sign is for a crank that turns
+    /// counter-clockwise: positive if the link then turns counter-clockwise.
     /// 0 for a link that rocks, or if the crank cannot turn fully.
     pub turns: i32,
     /// Extreme positions in ascending order of the crank angle.
@@ -56,7 +56,7 @@ fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: LinkId) -> L
     let mut add = |point: &Point, is_greatest: bool| {
         extremes.push(ExtremePosition { crank: tracker.crank_of(&point.q), angle: point.q[angle], is_greatest });
     };
-    // Indices of poses in which the link turns at all. Between two of them with different sense there is one extreme.
+    // Indices of the poses in which the link turns. Between two such poses with different sense there is one extreme.
     let moving: Vec<usize> =
         (0..points.len()).filter(|&k| rate(&points[k]).abs() * points[k].sigma.powi(2) > STILL).collect();
     for pair in moving.windows(2) {
@@ -69,7 +69,7 @@ fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: LinkId) -> L
         }
     }
     let last = points.len() - 1;
-    // A start in an extreme position is both first and last pose of a closed curve.
+    // On a closed curve, a start in an extreme position is both the first and the last pose.
     if let (true, Some(&first), Some(&end)) = (closed, moving.first(), moving.last())
         && first > 0
         && rate(&points[first]) * rate(&points[end]) < 0.0
@@ -121,7 +121,7 @@ fn refined(tracker: &Tracker, points: &[Point], closed: bool, place: usize, f: &
     }
 }
 
-/// Poses in which a group's determinant has a minimum below `bound` but not zero.
+/// Poses in which the magnitude of a group's determinant has a minimum below `bound` but above zero.
 pub(super) fn contacts(tracker: &Tracker, points: &[Point], closed: bool, bound: f64) -> Vec<Singularity> {
     let last = points.len() - 1;
     let groups = points[0].measures.len();
@@ -132,7 +132,7 @@ pub(super) fn contacts(tracker: &Tracker, points: &[Point], closed: bool, bound:
         for place in range {
             let before = size(&points[if place == 0 { last - 1 } else { place - 1 }]);
             let (here, after) = (size(&points[place]), size(&points[place + 1]));
-            // A sample near a deep minimum. The position of the minimum itself is found below.
+            // This sample is near a deep minimum. The position of the minimum itself is computed below.
             if here < before && here <= after && here < 10.0 * bound {
                 let lowest = refined(tracker, points, closed, place, &size);
                 let contact = Singularity {

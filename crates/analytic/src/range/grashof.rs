@@ -1,17 +1,17 @@
 //! Grashof's type of a four-bar.
 //!
-//! With the shortest link s, the longest l and the others p, q:
-//! if s + l < p + q, the shortest link turns fully against all others. The type depends on which link is shortest.
+//! The shortest link has the length s, the longest l, and the other two p and q.
+//! If s + l < p + q, the shortest link turns fully relative to all others. The type depends on which link is shortest.
 //! If s + l > p + q, no link turns fully.
-//! If both sums are equal, all joints can come into one line, where branches cross.
+//! If both sums are equal, all joints can lie on one line. Branches cross in this pose.
 //! (Grashof 1883; for example Hunt, "Kinematic geometry of mechanisms", 1978, section 4.1.)
 
 use crate::sentences;
 use linkage::case::Case;
 use linkage::mechanism::{GROUND, GroupKind, LinkId};
 
-/// Relative difference up to which the sums of lengths count as equal: the rounding of four lengths read from decimal
-/// numbers.
+/// Two sums of lengths count as equal if their relative difference is at most this value. It is the rounding error of
+/// four lengths read from decimal numbers.
 const EQUAL: f64 = 1e-14;
 
 /// Rotation of the links of a four-bar.
@@ -23,11 +23,11 @@ pub enum FourBarType {
     RockerCrank,
     /// The frame is the shortest (drag link): driving and output link turn fully.
     DoubleCrank,
-    /// The coupler is the shortest: driving and output link rock, the coupler turns fully against both.
+    /// The coupler is the shortest: driving and output link rock, the coupler turns fully relative to both.
     DoubleRocker,
-    /// No link turns fully against another: s + l > p + q.
+    /// No link turns fully relative to another: s + l > p + q.
     TripleRocker,
-    /// s + l = p + q: all joints come into one line.
+    /// s + l = p + q: all joints can lie on one line.
     ChangePoint,
 }
 
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_shortest_link_decides() {
+    fn the_shortest_link_decides_the_grashof_type() {
         for (place, expected) in
             [FourBarType::DoubleCrank, FourBarType::CrankRocker, FourBarType::DoubleRocker, FourBarType::RockerCrank]
                 .into_iter()
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_sums_are_equal_in_spite_of_rounding() {
+    fn equal_sums_are_detected_despite_rounding() {
         // Parallelogram, deltoid, and lengths whose sums differ in the last digit.
         for lengths in [[0.4, 0.1, 0.4, 0.1], [0.1, 0.1, 0.4, 0.4], [0.1, 0.2, 0.5, 0.4]] {
             assert_eq!(FourBar::of_lengths(lengths).of_type, FourBarType::ChangePoint, "{lengths:?}");

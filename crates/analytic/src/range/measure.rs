@@ -1,10 +1,10 @@
 //! Distance of a group from a singular pose: its determinant and its condition number.
 //!
-//! With x and y of the group's links eliminated (projection on the complement of their columns), there are as many
-//! equations as angles.
-//! Their columns are vectors of constant length, one per link. Divided by these lengths, the determinant is a pure
-//! number from -1 to 1.
-//! For a dyad the columns are the vectors from the outer joints to the inner one.
+//! x and y of the group's links are eliminated, by projection on the complement of their columns. There are then as
+//! many equations as angles.
+//! The remaining columns are vectors of constant length, one per link. With the columns divided by these lengths, the
+//! determinant is a dimensionless number from -1 to 1.
+//! For a dyad the columns are the vectors from the outer joints to the inner joint.
 //! Its determinant is the sine of the transmission angle mu (Alt 1932), and its condition number is cot(mu / 2) for mu
 //! up to 90 degrees.
 //! Groups with sliders keep all columns.
@@ -19,8 +19,8 @@ pub struct GroupCondition {
     /// Normalised determinant, from -1 to 1; zero in a singular pose.
     pub determinant: f64,
     /// Condition number (2-norm) of the normalised equations.
-    /// It is the factor from relative errors of position to relative errors of angular velocities.
-    /// [`f64::MAX`] where the equations are singular to the last digit.
+    /// It is the largest ratio of relative errors of angular velocities to relative errors of position.
+    /// [`f64::MAX`] if the equations are singular to working precision.
     pub condition: f64,
 }
 
@@ -38,7 +38,7 @@ pub(super) fn of(block: &Matrix, mechanism: &Mechanism, group: &Group, pose: &Po
 }
 
 /// Measures a group with sliders, in which x and y cannot be eliminated. All columns are divided by their lengths.
-/// A dyad keeps its own determinant, the sine of its transmission angle.
+/// For a dyad, the determinant is the sine of its transmission angle.
 fn of_sliding(block: &Matrix, sine: Option<f64>) -> GroupCondition {
     let sign = block.determinant().signum();
     let measure = of_columns(block.clone(), sign);
@@ -53,7 +53,7 @@ fn of_columns(mut matrix: Matrix, sign: f64) -> GroupCondition {
         }
     }
     let values = matrix.singular_values();
-    // For a matrix of zeros the quotient is NaN. Its condition number is then that of any singular matrix.
+    // For a matrix of zeros the quotient is NaN. The minimum then gives the condition number of a singular matrix.
     let condition = (values.max() / values.min()).smaller_number(f64::MAX);
     GroupCondition { determinant: sign * values.product(), condition }
 }
@@ -67,7 +67,7 @@ mod tests {
     use linkage::mechanism::{AssemblyMode, GroupId, JointId, StartGroup, Structure, first_pose};
 
     #[test]
-    fn a_dyad_has_its_transmission_angle_whatever_the_unit_of_length() {
+    fn dyad_measures_give_the_transmission_angle_in_any_length_unit() {
         let mechanism = four_bar();
         let structure = Structure::of(&mechanism, &[JointId(0)]).unwrap();
         let group = &structure.groups[GroupId(0)];

@@ -6,14 +6,14 @@ use linkage::mechanism::GroupId;
 /// Kind of a singular pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SingularityKind {
-    /// Limit of rotation of the crank: two configurations of a group meet, and none exists beyond.
+    /// Limit of rotation of the crank: two configurations of a group coincide, and no configuration exists beyond.
     /// The determinant goes to zero as the square root of the remaining crank angle.
     DeadPoint,
-    /// Branches cross: the determinant changes its sign, linear in the crank angle, and the crank can go on.
+    /// Branches cross: the determinant passes through zero linearly in the crank angle, and the crank need not reverse.
     ChangePoint,
     /// The two axes of an RPP or PRP dyad are parallel. Towards this pose its slides grow without bound.
     ParallelAxes,
-    /// Another branch comes so near that the determinant is below 1e-3, without changing its sign.
+    /// Another branch is so near that the determinant is below 1e-3 without changing its sign.
     BranchContact,
 }
 
@@ -37,7 +37,7 @@ pub struct Singularity {
     pub kind: SingularityKind,
     /// Crank angle (rad, as the scenario states it), to 1e-9 rad. For a contact, the angle of the smallest determinant.
     pub crank: f64,
-    /// The group whose determinant is zero: index in [`Structure::groups`](linkage::mechanism::Structure::groups).
+    /// The group with the zero determinant: index in [`Structure::groups`](linkage::mechanism::Structure::groups).
     pub group: GroupId,
     /// Normalised determinant of the group there: 0, except for a contact. The transmission angle of a dyad is its arc
     /// sine.

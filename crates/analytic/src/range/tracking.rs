@@ -1,12 +1,12 @@
 //! The curve of all poses of a mechanism, followed by arc length (pseudo-arclength continuation; Allgower and Georg,
 //! "Numerical continuation methods", 1990, chapters 2 to 4 and 8).
 //!
-//! Along the arc length a limit of rotation is a regular point: the crank's component of the tangent has a simple zero
-//! there.
-//! As a function of the crank angle the pose has a square root there.
+//! As a function of the arc length, a limit of rotation is a regular point: the crank's component of the tangent has a
+//! simple zero.
+//! As a function of the crank angle, the pose behaves like a square root at this point.
 //! Where branches cross, the rank of the equations drops.
 //! The smallest singular value of the Jacobian is a lower bound on the distance to another branch.
-//! Steps are kept below it, so that no step jumps to another branch.
+//! Steps are kept smaller than this value, so that no step jumps to another branch.
 
 use crate::sentences;
 use std::cell::{OnceCell, RefCell};
@@ -25,30 +25,31 @@ use linkage::math::{ColumnVector, KeepNan, Matrix, unit};
 use linkage::mechanism::{GroupId, LinkId};
 use linkage::work;
 
-/// Longest step: two degrees, where only the crank turns.
+/// Longest step. If only the crank turns, it is two degrees.
 const LONGEST: f64 = std::f64::consts::PI / 90.0;
-/// Largest number of inverse iterations for the smallest singular value, and the relative change at which it has settled.
+/// Largest number of inverse iterations for the smallest singular value, and the relative change that ends them.
 const MOST_ITERATIONS: usize = 60;
 const SETTLED: f64 = 1e-3;
 /// Largest ratio of a step to the smallest singular value.
-/// The derivatives of the equations are at most of order one in sizes of the mechanism, so that another branch is
-/// farther away.
+/// In units of the mechanism's size, the derivatives of the equations are at most of order one.
+/// Another branch is therefore farther away than such a step.
 const SAFE: f64 = 0.5;
-/// Smallest cosine of the angle between tangents of neighbouring poses: at most 0.25 rad.
+/// Smallest accepted cosine of the angle between the tangents of neighbouring poses. It allows an angle of 0.25 rad.
 const STRAIGHT: f64 = 0.969;
-/// Branches nearer than this to each other (in sizes and rad) count as meeting.
+/// Two branches count as meeting if their distance is below this value (in units of the mechanism's size and rad).
 /// Lengths rounded to 16 digits separate crossing branches by the square root of the rounding error, 1e-8.
 const MEET: f64 = 1e-6;
-/// Shortest step. Below it branches count as meeting.
+/// Shortest step. If a shorter step were needed, branches count as meeting.
 const SHORTEST: f64 = 1e-9;
-/// Largest number of steps to a zero along the curve; it takes about eight.
+/// Largest number of steps of the search for a zero along the curve; about eight are needed.
 const STEPS_TO_ZERO: usize = 60;
-/// Largest number of poses. A larger number means that something is wrong.
+/// Largest number of poses. More poses indicate an error.
 const MOST_POINTS: usize = 200_000;
-/// Work of one elimination, or of two solutions with a factored matrix, in the unit of budgets.
-/// It is divided by the square of the number of coordinates.
+/// Work of one elimination, or of two solutions with a factored matrix, divided by the square of the number of
+/// coordinates.
+/// The unit is that of work budgets.
 const SQUARE: f64 = 1e-3;
-/// Number of turns after which the search for the first pose ends.
+/// If the crank has turned this number of turns, the search for a return to the first pose ends.
 const MOST_TURNS: i32 = 12;
 
 /// A pose on the curve.
@@ -57,7 +58,7 @@ pub(super) struct Point {
     pub(super) q: ColumnVector,
     /// Unit vector along the curve.
     pub(super) tangent: ColumnVector,
-    /// Smallest singular value of the equations.
+    /// Smallest singular value of the Jacobian.
     pub(super) sigma: f64,
     /// Measures of each group.
     pub(super) measures: Vec<GroupCondition>,
@@ -79,16 +80,17 @@ pub(super) struct Track {
     pub(super) end: End,
 }
 
-/// Distance from the crank's pivot, in sizes of the mechanism, beyond which a link counts as going to infinity.
+/// A link counts as going to infinity if it is farther than this from the crank's pivot, in units of the mechanism's
+/// size.
 const FAR: f64 = 50.0;
 
-/// Distance in the same unit from which steps grow with the distance. In units of the mechanism's extent, they keep
-/// their length.
+/// Beyond this distance from the crank's pivot, in units of the mechanism's size, steps grow in proportion to the
+/// distance.
 const NEAR: f64 = 2.0;
-/// Change of the extrapolated pose with links at infinity when the nearest pose is left out (rad).
-/// Below this change, poses farther out give no more information.
+/// The extrapolation to links at infinity ends if it changes by less than this (rad) when the nearest pose is left out.
+/// Poses farther out would then give no more information.
 const AGREED: f64 = 1e-9;
-/// Growth of the extent between two such extrapolations.
+/// Growth factor of the extent between two extrapolations to links at infinity.
 const FARTHER: f64 = 1.2;
 /// Largest number of poses from which a singular pose is extrapolated.
 const MOST_KNOWN: usize = 9;
@@ -104,7 +106,7 @@ pub(super) struct Tracker<'a> {
     signs: Vec<f64>,
     /// Direction of the smallest singular value at the last pose. The search at the next pose starts from it.
     weakest: RefCell<ColumnVector>,
-    /// The error if the allowed work is used up. No further pose is then placed.
+    /// The error that the allowed work is used up. After it, no further pose is placed.
     over: OnceCell<Error>,
 }
 
@@ -142,17 +144,17 @@ impl<'a> Tracker<'a> {
         Ok((tracker, start))
     }
 
-    /// Takes the work of `squares` eliminations from the allowed work. `None` if that is used up.
+    /// Subtracts the work of `squares` eliminations from the allowed work. Returns `None` if that is used up.
     fn spend(&self, squares: usize) -> Option<()> {
         let size = self.constraints.coordinates() as f64;
         let spent = work::spend(SQUARE * squares as f64 * size * size);
         spent.map_err(|error| self.over.get_or_init(|| error).kind()).ok()
     }
 
-    /// Returns `found`, unless a pose was missing because the allowed work is used up.
+    /// Returns `found`, unless a pose is missing because the allowed work is used up.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] in that case, with the advice of a larger budget.
+    /// [`ErrorKind::Unsupported`] if the work is used up. The error advises a larger budget.
     pub(super) fn allowed<T>(&self, found: Result<T>) -> Result<T> {
         match self.over.get() {
             Some(error) => Err(error.clone()),
@@ -194,8 +196,8 @@ impl<'a> Tracker<'a> {
         let jacobian = self.constraints.at(&q).jacobian;
         let tangent = tangent(&jacobian, along);
         let (sigma, rounds) = smallest_singular_value(&bordered(&jacobian, &tangent), &mut self.weakest.borrow_mut());
-        // Two eliminations, for the tangent and here. If no more work is allowed, the caller learns this at the next
-        // pose.
+        // One elimination is for the tangent, one for the singular value. If the allowed work is used up, the next pose
+        // reports this.
         let _ = self.spend(2 + rounds);
         let groups = self.case.structure.groups.iter().zip(&self.signs);
         let pose = self.constraints.pose(&q);
@@ -207,7 +209,7 @@ impl<'a> Tracker<'a> {
         Point { q, tangent, sigma, measures }
     }
 
-    /// Newton's method from `q` on all equations and `across . (q - from) = distance`.
+    /// Solves all equations and `across . (q - from) = distance` by Newton's method from `q`.
     /// `None` if the first correction is longer than `most` or the method does not converge.
     fn correct(
         &self,
@@ -255,15 +257,16 @@ impl<'a> Tracker<'a> {
         Some(self.point(q, &near.tangent))
     }
 
-    /// Zero of `f` between the neighbours `a` and `b`, where `f` has different signs.
-    /// It is found by the Illinois method in the distance from `a`.
+    /// Zero of `f` between the neighbours `a` and `b`, at which `f` has different signs.
+    /// The Illinois method finds its distance from `a`.
     pub(super) fn zero(&self, a: &Point, b: &Point, f: impl Fn(&Point) -> f64) -> Point {
         let width = a.tangent.dot(&(&b.q - &a.q));
         let ends = [(0.0, f(a)), (width, f(b))];
         let nearer = usize::from(!(ends[0].1.abs() < ends[1].1.abs()));
         let mut best = ([a, b][nearer].clone(), ends[nearer].1.abs());
         let close = Close { value: 0.0, width: 1e-14 * width.abs() };
-        // A pose that cannot be corrected ends the search. The best result so far is as near as the equations allow.
+        // A pose that cannot be corrected ends the search. The best result so far is as accurate as the equations
+        // allow.
         let _ = root::regula_falsi(ends, close, STEPS_TO_ZERO, |at| {
             let point = self.advance(a, at).ok_or(())?;
             let value = f(&point);
@@ -275,7 +278,7 @@ impl<'a> Tracker<'a> {
         best.0
     }
 
-    /// Follows the curve. The crank first turns in the sense of `sense`.
+    /// Follows the curve. The sign of `sense` is the direction in which the crank turns first.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] if the curve does not end, and those of [`Tracker::allowed`].
@@ -336,10 +339,10 @@ impl<'a> Tracker<'a> {
     }
 
     /// Lower bound on the distance to another branch.
-    /// The smallest singular value is small where links are far away, even without a branch nearby: the axes that lead
-    /// these links are almost parallel.
-    /// It is therefore multiplied by the extent.
-    /// Groups without a far link do not grow with the extent; their determinants bound them.
+    /// The smallest singular value is small if links are far away, even without a branch nearby, because the axes that
+    /// guide these links are almost parallel.
+    /// The singular value is therefore multiplied by the extent.
+    /// Groups without a far link do not grow with the extent; their determinants bound the distance.
     fn clearance(&self, here: &Point) -> f64 {
         let extent = self.extent(&here.q);
         let all = here.sigma * extent;
@@ -352,8 +355,8 @@ impl<'a> Tracker<'a> {
         near.fold(all, |least, (_, measure)| least.smaller(measure.determinant.abs()))
     }
 
-    /// One step of at most `longest`, which passes no singular pose except one limit of rotation. `None` where branches
-    /// meet.
+    /// Takes one step of at most `longest`. The step passes no singular pose except one limit of rotation.
+    /// `None` if branches meet.
     fn step(&self, here: &Point, longest: f64) -> Option<(Point, f64)> {
         let mut step = longest.smaller(SAFE * self.clearance(here));
         while step >= SHORTEST {
@@ -372,8 +375,8 @@ impl<'a> Tracker<'a> {
     }
 
     /// The end of a track at a pose where branches meet. Near this pose the equations lose digits.
-    /// Along the branch, everything is a smooth function of the determinant that goes to zero.
-    /// So the pose at determinant zero is extrapolated from poses at a distance (Neville's scheme).
+    /// Along the branch, all quantities are smooth functions of the determinant that goes to zero.
+    /// The pose with determinant zero is therefore extrapolated from poses at a distance (Neville's scheme).
     fn met(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(self.lost(&last.q)) };
@@ -382,8 +385,8 @@ impl<'a> Tracker<'a> {
         let q = if known.len() < 3 { last.q.clone() } else { neville_at_zero(&known) };
         let moved = (&q - &last.q).norm();
         let q = if moved < 1e-3 { q } else { last.q.clone() };
-        // A dead point of several groups at once: the crank stands still on the curve, as at the dead point of a single
-        // group.
+        // This is a dead point of several groups at once. The crank stands still on the curve, as at the dead point of
+        // one group.
         let kind =
             if self.crank_rate(last).abs() < 1e-3 { SingularityKind::DeadPoint } else { SingularityKind::ChangePoint };
         let mut end = Point { q, ..last.clone() };
@@ -393,8 +396,8 @@ impl<'a> Tracker<'a> {
         Ok(Track { points, end: End::Limit(singularity) })
     }
 
-    /// Whether the pose with links at infinity is known to rounding accuracy, so that no singular pose lies in between.
-    /// This concerns the angles of all links, and the determinants, which must keep their signs.
+    /// Whether the pose with links at infinity is known to rounding accuracy. No singular pose then lies before it.
+    /// The test covers the angles of all links, and the determinants, which must keep their signs.
     fn is_settled(&self, points: &[Point]) -> bool {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return false };
@@ -408,8 +411,7 @@ impl<'a> Tracker<'a> {
         (&now - before).amax() < AGREED && (0..last.measures.len()).all(|other| other == group || keeps_sign(other))
     }
 
-    /// Quantities that stay finite where links go to infinity: determinants of all groups, then angles of all links
-    /// (rad).
+    /// Quantities that stay finite if links go to infinity: determinants of all groups, then angles of all links (rad).
     fn finite(&self, point: &Point) -> ColumnVector {
         let angles = self.case.mechanism.links().ids().skip(1).map(|link| point.q[Constraints::angle(link)]);
         let all: Vec<f64> = point.measures.iter().map(|measure| measure.determinant).chain(angles).collect();
@@ -417,8 +419,8 @@ impl<'a> Tracker<'a> {
     }
 
     /// The end of a track along which a slide grows without bound.
-    /// There too, the crank angle is a smooth function of the determinant.
-    /// So are the angles of all links and the measures of the other groups.
+    /// Along this track, the crank angle is a smooth function of the determinant that goes to zero.
+    /// The angles of all links and the measures of the other groups are also smooth functions of this determinant.
     fn escaped(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(self.lost(&last.q)) };
@@ -441,14 +443,14 @@ impl<'a> Tracker<'a> {
         Ok(Track { points, end: End::Limit(singularity) })
     }
 
-    /// A singular pose, for the group with the smallest determinant.
+    /// A singular pose, attributed to the group with the smallest determinant.
     pub(super) fn singularity(&self, kind: SingularityKind, at: &Point) -> Singularity {
         let group = weakest(&at.measures).unwrap_or(0);
         let determinant = if kind == SingularityKind::BranchContact { at.measures[group].determinant } else { 0.0 };
         Singularity { kind, crank: self.crank_of(&at.q), group: GroupId(group), determinant }
     }
 
-    /// Whether all links have the same pose again, up to whole turns.
+    /// Whether all links have the same pose at `a` and `b`, apart from whole turns.
     fn is_same(&self, a: &Point, b: &Point) -> bool {
         self.case
             .mechanism
@@ -461,7 +463,7 @@ impl<'a> Tracker<'a> {
 }
 
 /// The last regular poses, with the determinant of a group.
-/// The determinant nearest to zero comes first; each is more than 1.5 times the one before.
+/// The determinant nearest to zero comes first. Each following determinant is more than 1.5 times the preceding one.
 fn by_determinant(points: &[Point], group: GroupId) -> Vec<(f64, &Point)> {
     let mut known: Vec<(f64, &Point)> = Vec::new();
     for point in points.iter().rev().filter(|point| point.sigma > 1e-4) {
@@ -493,7 +495,7 @@ fn bordered(jacobian: &Matrix, row: &ColumnVector) -> Matrix {
 }
 
 /// A factored matrix. Every joint has two links, so few entries are nonzero, and elimination skips the zeros.
-/// The effort grows with the square of the number of links. That of a dense decomposition grows with the cube.
+/// The work grows with the square of the number of links. The work of a dense decomposition grows with the cube.
 fn factored(matrix: &Matrix) -> Option<Lu> {
     let mut lu = Lu::new(matrix.nrows());
     for (column, entries) in matrix.column_iter().enumerate() {
@@ -504,7 +506,7 @@ fn factored(matrix: &Matrix) -> Option<Lu> {
     lu.factor().then_some(lu)
 }
 
-/// A direction that is not orthogonal to any direction that occurs.
+/// A start direction for the iteration. It is not orthogonal to any direction that occurs.
 fn any_direction(n: usize) -> ColumnVector {
     ColumnVector::from_fn(n, |row, _| 1.0 + (row as f64).sin()).normalize()
 }
@@ -517,10 +519,10 @@ fn solved(matrix: &Matrix, mut right: ColumnVector) -> Option<ColumnVector> {
 
 /// Smallest singular value, by inverse iteration, and the number of iterations.
 /// The value is 0 for a matrix that is singular to working precision.
-/// The iteration starts from the direction `x` and leaves the direction of the singular value there.
+/// The iteration starts from the direction `x`. Afterwards, `x` is the direction of the singular value.
 fn smallest_singular_value(matrix: &Matrix, x: &mut ColumnVector) -> (f64, usize) {
     let Some(lu) = factored(matrix) else { return (0.0, 0) };
-    // Adds a little of every direction, so that none is missed.
+    // Adds a small component in every direction, so that the iteration can reach every direction.
     *x = (&*x + any_direction(matrix.nrows()) * 1e-3).normalize();
     let (mut largest, mut rounds) = (0.0f64, 0);
     for _ in 0..MOST_ITERATIONS {
@@ -542,8 +544,8 @@ fn smallest_singular_value(matrix: &Matrix, x: &mut ColumnVector) -> (f64, usize
     (1.0 / largest.sqrt(), rounds)
 }
 
-/// Unit vector that the Jacobian maps to zero, on the side of `along`; `along` itself if there are several such
-/// vectors.
+/// Unit vector that the Jacobian maps to zero, on the side of `along`. If there are several such vectors, returns
+/// `along`.
 fn tangent(jacobian: &Matrix, along: &ColumnVector) -> ColumnVector {
     let mut ahead = ColumnVector::zeros(along.len());
     ahead[along.len() - 1] = 1.0;
@@ -564,7 +566,7 @@ fn neville_at_zero(known: &[(f64, ColumnVector)]) -> ColumnVector {
     }
     row.swap_remove(0)
 }
-/// Further drives as gearings. With constant speeds the ratios are constant.
+/// Further drives as gearings. If the speeds are constant, their ratios to the crank's speed are constant.
 fn gearings(case: &Case) -> Vec<Gearing> {
     let crank = case.crank();
     let further = case.drives.further().iter().zip(case.drives.ratios(0.0).skip(1));

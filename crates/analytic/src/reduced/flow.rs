@@ -1,8 +1,9 @@
 //! The equation of motion on one piece, in two independent forms.
 //!
-//! In time, for run-ups, which begin at rest: phi' = omega, omega' = (M - omega^2 / 2 dI*/dphi) / I*.
-//! Over the crank angle, for steady regimes, where the interval and the positions of the kinks are known: with E = I*
-//! omega^2 / 2, dE/dphi = M and dt/dphi = 1 / omega.
+//! The first form is in time, for run-ups, which begin at rest: phi' = omega, omega' = (M - omega^2 / 2 dI*/dphi) / I*.
+//! The second form is a function of the crank angle, for steady regimes, in which the interval and the positions of the
+//! kinks are known.
+//! With E = I* omega^2 / 2, it is dE/dphi = M and dt/dphi = 1 / omega.
 //! The second form does not contain dI*/dphi, so that each form checks the other.
 
 use std::cell::{Cell, RefCell};
@@ -16,11 +17,11 @@ use linkage::drive::MotorBranch;
 use linkage::error::{Error, Result};
 use linkage::work::{Count, WorkTally};
 
-/// Largest distance of a stage of a step from the step's beginning (rad). The first trial of a step may lead anywhere;
-/// such a trial must be refused.
+/// Largest accepted distance (rad) from the beginning of a step to an evaluation in this step.
+/// The first trial of a step may lead to any angle and is then refused.
 const FARTHEST: f64 = std::f64::consts::TAU;
 
-/// The evaluation that both forms share.
+/// The evaluation of the forces, which both forms share.
 #[derive(Debug)]
 pub(crate) struct Forces<'m, 'a> {
     pub(crate) model: &'m ReducedModel<'a>,
@@ -29,7 +30,7 @@ pub(crate) struct Forces<'m, 'a> {
     /// Crank angle at which the present step began.
     origin: Cell<f64>,
     pub(crate) piece: Cell<Piece>,
-    /// Sense of the crank's speed: +1 or -1.
+    /// Direction of the crank's motion: +1 or -1.
     pub(crate) way: Cell<f64>,
     pub(crate) branch: Cell<Option<MotorBranch>>,
     tally: RefCell<WorkTally>,
@@ -54,13 +55,13 @@ impl<'m, 'a> Forces<'m, 'a> {
         self.tally.borrow_mut().one(Count::Evaluations);
     }
 
-    /// Begins a step at this crank angle, however far it is.
+    /// Begins a step at this crank angle, at any distance from the last step.
     pub(crate) fn begin_at(&self, crank: f64) {
         self.origin.set(crank);
     }
 
-    /// Reduced quantities on the present piece, with the inertia that turns with the crank.
-    /// NaN at crank angles too far away, so that the step is repeated. Also NaN after an error, which is kept.
+    /// Reduced quantities on the present piece, including the inertia that turns with the crank.
+    /// NaN if the crank angle is too far away; the step is then repeated. Also NaN after an error, which is stored.
     pub(crate) fn reduced(&self, crank: f64) -> Reduced {
         if !((crank - self.origin.get()).abs() <= FARTHEST) {
             return Reduced { inertia: f64::NAN, slope: f64::NAN, applied: f64::NAN };
@@ -95,7 +96,7 @@ impl<'m, 'a> Forces<'m, 'a> {
         self.fault.borrow_mut().take()
     }
 
-    /// Distances of the motor's speed from the bounds of its branch, positive inside.
+    /// Distances of the motor's speed from the two bounds of its branch, positive inside the branch.
     fn branch_margins(&self, omega: f64) -> [f64; 2] {
         let speed = self.model.sense * omega;
         self.branch.get().map_or([f64::INFINITY; 2], |branch| [branch.speeds[1] - speed, speed - branch.speeds[0]])
@@ -144,13 +145,13 @@ impl Flow<2> for InTime<'_, '_> {
     }
 }
 
-/// Kinetic energy, time, and the derivative of the energy with respect to its initial value, over the crank angle
-/// counted in the sense of motion.
+/// Kinetic energy, time, and the derivative of the energy with respect to its initial value.
+/// They are functions of the crank angle, which is counted in the sense of motion.
 #[derive(Debug)]
 pub(crate) struct OverAngle<'m, 'a>(pub(crate) Forces<'m, 'a>);
 
 impl OverAngle<'_, '_> {
-    /// Speed of the crank (rad/s) at the position `x` on the path, where the energy is `energy` (J).
+    /// Speed of the crank (rad/s) at the position `x`, for the energy `energy` (J).
     pub(crate) fn speed(&self, x: f64, energy: f64) -> f64 {
         let way = self.0.way.get();
         way * (2.0 * energy / self.0.reduced(way * x).inertia).sqrt()

@@ -1,5 +1,5 @@
-//! The mechanism reduced to its driving link: moment of inertia and moment of resistance
-//! as functions of the crank angle.
+//! The mechanism reduced to its driving link: moment of inertia and moment of resistance as functions of the crank
+//! angle.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -17,8 +17,8 @@ use linkage::mechanism::{Link, LinkId};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-/// Reduced moment of inertia (kg m^2): twice the kinetic energy divided by the square of the driving link's speed,
-/// I* = sum of m (v / omega_1)^2 + J (omega / omega_1)^2.
+/// Reduced moment of inertia (kg m^2): twice the kinetic energy divided by the square of the driving link's speed, I* =
+/// sum of m (v / omega_1)^2 + J (omega / omega_1)^2.
 #[must_use]
 pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
     let energy = |(body, motion): (&Link, &Motion)| {
@@ -41,26 +41,26 @@ pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
 /// The period of the reduced quantities, and their kinks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kinks {
-    /// Crank angle after which the mechanism is back at its first pose, under the same loads (rad).
-    /// It is one turn, or several with higher groups and with tables over several turns.
+    /// Crank angle (rad) after which the mechanism is back at its first pose, under the same loads.
+    /// It is one turn, or several turns with higher groups and with tables that cover several turns.
     /// `None` if the crank cannot turn fully.
     pub period: Option<f64>,
-    /// Crank angles (rad) of the kinks: where a loaded link reverses, so that its load changes its sense, and at the
-    /// points of load tables.
-    /// Ascending, over one period that begins at the start, or over all angles that can be reached.
+    /// Crank angles (rad) of the kinks. At a kink, a loaded link reverses, so that its load changes its sense, or a
+    /// load table has a point.
+    /// The angles are ascending. They cover one period that begins at the start, or all angles that can be reached.
     pub cranks: Vec<f64>,
-    /// Crank angles (rad) that can be reached, if there are limits.
+    /// Limits of the crank angles that can be reached (rad); `None` if there are no limits.
     pub limits: Option<[f64; 2]>,
-    /// Whether one of the limits is a change point.
+    /// Whether at least one of the limits is a change point.
     pub meets: bool,
 }
 
-/// Largest number of turns after which the reduced quantities may repeat.
+/// Largest number of turns in one period of the reduced quantities.
 const MOST_TURNS: u32 = 1000;
 /// Number of Newton steps that improve a crank angle from 1e-9 rad to rounding accuracy.
 const POLISHING: usize = 3;
 
-/// How far a crank turns, and the crank angles (rad) at which links with sensed loads reverse.
+/// Rotation of a crank, and the crank angles (rad) at which links with sensed loads reverse.
 struct Reach {
     turns: Option<u32>,
     limits: Option<[f64; 2]>,
@@ -81,7 +81,7 @@ impl Reach {
         let mut reversals = Vec::new();
         for link in range.links.iter().filter(|link| sensed.contains(&link.link)) {
             for extreme in &link.extremes {
-                // A flat extreme keeps its first estimate.
+                // At a flat extreme, the first estimate is kept.
                 reversals.push(root::polished(extreme.crank, POLISHING, 1e-6, |crank| -> Result<(f64, f64)> {
                     let motion = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions[link.link];
                     Ok((motion.omega, motion.alpha))
@@ -95,8 +95,8 @@ impl Reach {
 /// Kinks of the reduced quantities of a case.
 ///
 /// # Errors
-/// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables that
-/// repeat together only after more than a thousand turns.
+/// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables whose
+/// common period exceeds a thousand turns.
 pub fn kinks(case: &Case) -> Result<Kinks> {
     if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
         let message = sentences::reduced_quantities_are_asked_for_but_a_load(&load.sort());
@@ -108,7 +108,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     let start = case.crank().start;
     let within = |crank: f64, period: f64| {
         let inside = (crank - start).rem_euclid(period);
-        // A rounding error before the start is allowed.
+        // Rounding may place a kink slightly before the start.
         start + if period - inside < 1e-12 { 0.0 } else { inside }
     };
     let Reach { turns, limits, meets, reversals: mut cranks } = match FullTurn::of(case, &sensed) {
@@ -150,8 +150,8 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     Ok(Kinks { period, cranks, limits, meets })
 }
 
-/// Means of the reduced quantities over one turn of the crank, or over as many turns as bring the mechanism back to its
-/// first pose.
+/// Means of the reduced quantities over the turns of the crank after which the mechanism is back at its first pose.
+/// This is usually one turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Means {
     /// Mean reduced moment of inertia (kg m^2).
@@ -160,11 +160,12 @@ pub struct Means {
     pub resistance: f64,
 }
 
-/// Longest panel of the quadrature (rad), on eight nodes each.
-/// A quantity whose nearest singularity is a tenth of a radian off the real axis is integrated to 1e-16.
+/// Longest panel of the quadrature (rad). Each panel has eight nodes.
+/// The quadrature error is 1e-16 for a quantity whose nearest singularity is a tenth of a radian off the real axis.
 const PANEL: f64 = PI / 90.0;
 
-/// Means over one turn at the drive's top speed, with the motion of the given solver. Gauss's rule between the kinks.
+/// Means over one turn at the drive's top speed, with the motion of the given solver. Gauss's rule is applied between
+/// kinks.
 ///
 /// # Errors
 /// Those of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.

@@ -11,8 +11,8 @@ use linkage::mechanism::{GROUND, LinkId};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Distance from a limit of rotation at which a motion ends (rad). At the limit the reduced moment of inertia grows
-/// without bound.
+/// A motion ends at this distance from a limit of rotation (rad). At the limit the reduced moment of inertia would be
+/// infinite.
 const LIMIT_MARGIN: f64 = 1e-4;
 
 /// Reduced quantities at one crank angle.
@@ -20,8 +20,9 @@ const LIMIT_MARGIN: f64 = 1e-4;
 pub struct Reduced {
     /// Reduced moment of inertia I* (kg m^2), without that of motor, reducer and flywheel.
     pub inertia: f64,
-    /// Its derivative dI*/dphi (kg m^2): twice the sum of m v . a + J omega alpha for a crank with the speed 1 rad/s
-    /// and the acceleration 0 rad/s^2.
+    /// Derivative dI*/dphi of the reduced moment of inertia (kg m^2).
+    /// It is twice the sum of m v . a + J omega alpha for a crank with the speed 1 rad/s and the acceleration 0
+    /// rad/s^2.
     pub slope: f64,
     /// Moment of gravity and loads reduced to the crank (N m), counter-clockwise positive.
     pub applied: f64,
@@ -51,32 +52,34 @@ impl Piece {
     }
 }
 
-/// A mechanism of one degree of freedom under forces: the coefficients of its equation of motion
-/// `omega^2 / 2 dI*/dphi + I* domega/dt = M`, and the crank angles at which they have kinks.
+/// A mechanism of one degree of freedom under forces: the coefficients of its equation of motion `omega^2 / 2 dI*/dphi
+/// + I* domega/dt = M`, and the crank angles at which they have kinks.
 #[derive(Clone, Debug)]
 pub struct ReducedModel<'a> {
     pub(crate) case: &'a Case,
     masses: Vec<Mass>,
-    /// Loads that change with the sense of a link's rotation, and these links.
+    /// Each load that depends on the sense of a link's rotation, with this link.
     sensed: Vec<(LinkId, Load)>,
     /// Loads that depend only on the pose.
     steady: Vec<Load>,
     kinks: Kinks,
-    /// Crank angles between pieces: the kinks of one period, or its start if there are no kinks.
+    /// Crank angles of the boundaries between pieces. They are the kinks of one period, or its start if there are no
+    /// kinks.
     /// If the motion has limits, these are included.
     boundaries: Vec<f64>,
-    /// Sense of the transfer function of each link in `sensed`, on each piece of one period: +1 or -1, one piece after
-    /// the other.
+    /// Sense of the transfer function of each link in `sensed`, on each piece of one period: +1 or -1.
+    /// The values of the first piece come first, then those of the next piece.
     senses: Vec<f64>,
     pub(crate) motor: Option<Motor>,
-    /// Sense in which the motor drives the crank: that of the scenario's prescribed speed.
+    /// Sense in which the motor drives the crank. It is that of the prescribed speed in the scenario.
     pub(crate) sense: f64,
     /// Moment of inertia that turns with the crank: motor and reducer reduced to it, and a flywheel (kg m^2).
     pub(crate) added: f64,
 }
 
 impl<'a> ReducedModel<'a> {
-    /// The model of a case. Its motor drives in the sense of the prescribed speed, which is not used otherwise.
+    /// The model of a case. Its motor drives in the sense of the prescribed speed. The model does not use the value of
+    /// this speed.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] for mechanisms of several degrees of freedom, [`ErrorKind::Input`] for mechanisms
@@ -115,12 +118,12 @@ impl<'a> ReducedModel<'a> {
         Ok(model)
     }
 
-    /// A pose solver of the case that uses what the model knows about the rotation of the crank.
+    /// A pose solver of the case. If the model knows that the crank turns fully, the solver uses this.
     pub(crate) fn guided<'p>(&self, poses: PoseSolver<'p>) -> PoseSolver<'p> {
         if self.kinks.period.is_some() { poses.turning_fully() } else { poses }
     }
 
-    /// The same model with a flywheel on the crank's shaft (kg m^2).
+    /// The same model with a flywheel on the crank's shaft. `inertia` is its moment of inertia (kg m^2).
     /// A negative value removes inertia; the total must stay positive.
     #[must_use]
     pub fn with_flywheel(&self, inertia: f64) -> Self {
@@ -151,9 +154,10 @@ impl<'a> ReducedModel<'a> {
         Ok(())
     }
 
-    /// Angle (rad) to subtract so that the crank angle stays small. Small angles keep their last digits.
-    /// Going up, it is the period if `crank` is at the end of the last piece.
-    /// Going down, it is minus the period if `crank` is at the beginning of the first piece. Otherwise it is zero.
+    /// Angle (rad) to subtract so that the crank angle stays small and loses no digits.
+    /// If the crank moves upwards and `crank` is at the end of the last piece, it is the period.
+    /// If the crank moves downwards and `crank` is at the beginning of the first piece, it is minus the period.
+    /// Otherwise it is zero.
     pub(crate) fn wrap(&self, crank: f64, way: f64) -> f64 {
         let first = self.boundaries[0];
         match self.kinks.period {
@@ -163,7 +167,7 @@ impl<'a> ReducedModel<'a> {
         }
     }
 
-    /// Crank angle of a boundary, numbered through all periods.
+    /// Crank angle of a boundary. Boundaries of all periods are numbered continuously.
     fn boundary(&self, index: i64) -> f64 {
         let all = &self.boundaries;
         let count = all.len() as i64;
@@ -173,12 +177,12 @@ impl<'a> ReducedModel<'a> {
         }
     }
 
-    /// The piece above the boundary with the same number.
+    /// The piece that begins at the boundary with the number `index` and lies above it.
     fn piece(&self, index: i64) -> Piece {
         Piece { index, ends: [self.boundary(index), self.boundary(index + 1)] }
     }
 
-    /// The piece at `crank`. At a boundary, the piece in the direction `way` (+1 or -1). `None` beyond a limit.
+    /// The piece at `crank`. At a boundary, it is the piece in the direction `way` (+1 or -1). `None` beyond a limit.
     pub(crate) fn piece_at(&self, crank: f64, way: f64) -> Option<Piece> {
         let all = &self.boundaries;
         let (turns, inside) = match self.kinks.period {
@@ -190,7 +194,7 @@ impl<'a> ReducedModel<'a> {
         };
         let below = all.iter().filter(|&&boundary| boundary <= inside).count() as i64 - 1;
         let count = all.len() as i64;
-        // Rounding may have shifted the crank by one piece.
+        // Rounding may have selected the neighbouring piece.
         let guess = below + turns * count;
         let holds = |piece: &Piece| match way > 0.0 {
             true => crank >= piece.ends[0] && crank < piece.ends[1],
@@ -200,9 +204,9 @@ impl<'a> ReducedModel<'a> {
         (guess - 1..=guess + 1).filter(allowed).map(|index| self.piece(index)).find(holds)
     }
 
-    /// Reduced quantities at `crank` (rad) while the crank turns in the sense of `way`.
+    /// Reduced quantities at `crank` (rad) while the crank turns in the direction `way`.
     /// `way` is +1, -1, or 0 for standstill, where loads that depend on a sense do not act.
-    /// Beyond its ends the piece continues smoothly.
+    /// Beyond its ends the piece is continued smoothly.
     pub(crate) fn on_piece(&self, poses: &mut PoseSolver, crank: f64, way: f64, piece: Piece) -> Result<Reduced> {
         let state = self.at_unit_speed(poses, crank)?;
         let count = self.sensed.len();
@@ -228,7 +232,8 @@ impl<'a> ReducedModel<'a> {
         Ok(found)
     }
 
-    /// Moment of inertia reduced to the crank at its start angle, with what turns with the crank (kg m^2).
+    /// Moment of inertia reduced to the crank at its start angle (kg m^2), including everything that turns with the
+    /// crank.
     ///
     /// # Errors
     /// Those of [`ReducedModel::at`].
@@ -242,7 +247,7 @@ impl<'a> ReducedModel<'a> {
         Ok(poses.last(self.steady.iter().any(Load::needs_angles)))
     }
 
-    /// Contribution of masses, gravity and steady loads: virtual powers at a crank speed of 1 rad/s.
+    /// Contribution of masses, gravity and steady loads: their virtual powers at a crank speed of 1 rad/s.
     fn of_pose(&self, state: &State, crank: f64) -> Reduced {
         let mut found = self.of_masses(&state.motions);
         let (motions, angles) = (&*state.motions, &*state.angles);

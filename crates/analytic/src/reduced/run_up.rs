@@ -17,9 +17,9 @@ use linkage::trajectory::{Channel, Stage, Trajectory};
 pub struct CrankState {
     /// Time (s).
     pub t: f64,
-    /// Crank angle (rad, as the scenario states it), turns kept.
+    /// Crank angle (rad, as the scenario states it), including whole turns.
     pub crank: f64,
-    /// Crank angle without the completed whole periods, so that no digits are lost after many turns (rad).
+    /// Crank angle (rad) without the completed periods. It loses no digits after many turns.
     pub within: f64,
     /// Angular velocity of the crank (rad/s).
     pub omega: f64,
@@ -28,7 +28,7 @@ pub struct CrankState {
     /// Static moment of the motor on the crank (N m), counter-clockwise positive. The moment that accelerates rotor and
     /// reducer is not subtracted.
     pub motor: f64,
-    /// Moment that the crank's shaft passes on to the mechanism (N m): that of the motor minus the moment that
+    /// Moment that the crank's shaft transmits to the mechanism (N m): that of the motor minus the moment that
     /// accelerates rotor, reducer and flywheel.
     pub shaft: f64,
 }
@@ -38,9 +38,9 @@ pub struct CrankState {
 pub enum RunUpEnd {
     /// At the last requested instant.
     Reached,
-    /// At a standstill held by loads and losses, at this time (s) and crank angle (rad).
+    /// At a standstill, held by loads and losses. The fields are time (s) and crank angle (rad).
     Held(f64, f64),
-    /// Before a limit of rotation, at this time (s) and crank angle (rad).
+    /// Before a limit of rotation. The fields are time (s) and crank angle (rad).
     Limit(f64, f64),
 }
 
@@ -63,7 +63,7 @@ pub fn motion(model: &ReducedModel, omega: f64, times: &[f64], accuracy: f64) ->
 }
 
 /// Like `motion`, up to the stage `deepest`.
-/// For stages before the accelerations, acceleration and moments are not computed and are zero.
+/// If `deepest` is before the accelerations, acceleration and moments are not computed and are zero.
 pub(crate) fn followed(
     model: &ReducedModel,
     omega: f64,
@@ -81,7 +81,7 @@ struct Runner<'m, 'a> {
     flow: InTime<'m, 'a>,
     /// Present state; the crank angle is without the completed periods.
     place: Place<2>,
-    /// Completed periods, as an angle of the crank (rad).
+    /// Crank angle (rad) of all completed periods together.
     gone: f64,
     /// Whether accelerations are requested at the instants.
     is_accelerated: bool,
@@ -156,12 +156,12 @@ impl<'m, 'a> Runner<'m, 'a> {
         }
     }
 
-    /// Chooses sense, piece and branch for the next part of the motion. Returns the end, if the motion does not
-    /// continue.
+    /// Chooses sense, piece and branch for the next part of the motion. If the motion does not continue, returns its
+    /// end.
     fn enter(&mut self) -> Result<Option<RunUpEnd>> {
         let (t, [crank, omega]) = (self.place.x, self.place.y);
-        // From standstill the crank starts in the direction in which it is accelerated against the resistance of that
-        // direction.
+        // From standstill, the crank starts in a direction if it is accelerated in this direction. The resistance
+        // against this direction is included.
         let ways: &[f64] = if omega == 0.0 { &[1.0, -1.0] } else { &[omega.signum()] };
         for &way in ways {
             let Some(piece) = self.flow.0.model.piece_at(crank, way) else {
@@ -194,7 +194,7 @@ impl<'m, 'a> Runner<'m, 'a> {
         Ok(Some(RunUpEnd::Held(t, crank + self.gone)))
     }
 
-    /// Whether the crank could start clockwise from rest. Piece, sense and branch stay as they are.
+    /// Whether the crank could start clockwise from rest. Piece, sense and branch are unchanged afterwards.
     fn starts_back(&self, crank: f64) -> bool {
         let forces = &self.flow.0;
         let before = (forces.piece.get(), forces.way.get(), forces.branch.get());
@@ -210,19 +210,19 @@ impl<'m, 'a> Runner<'m, 'a> {
         back
     }
 
-    /// Adds the instant at which a motion is held, if it is requested.
+    /// Adds the instant at which a motion is held, if this instant is requested.
     fn held(&self, times: &[f64], found: &mut Vec<CrankState>, end: RunUpEnd) {
         if let RunUpEnd::Held(t, crank) = end
             && times.get(found.len()) == Some(&t)
         {
-            // The force that holds the crank balances the motor.
+            // The forces that hold the crank balance the motor.
             let motor = self.flow.0.motor_moment(0.0);
             found.push(CrankState { t, crank, within: crank - self.gone, omega: 0.0, alpha: 0.0, motor, shaft: motor });
         }
     }
 }
 
-/// The crank at a state, with `gone` (rad) of completed periods added.
+/// The crank at a state. `gone` (rad), the angle of the completed periods, is added.
 fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64, is_accelerated: bool) -> CrankState {
     if !is_accelerated {
         return CrankState { t, crank: crank + gone, within: crank, omega, alpha: 0.0, motor: 0.0, shaft: 0.0 };
@@ -233,13 +233,13 @@ fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64, is_accele
 }
 
 /// Kinetostatics of a motion: the state at every instant, up to the stage that the case requests.
-/// The model is that of the motion. The case may have another grid and request less.
+/// The model must be that of the motion. The case may have another grid and request fewer channels.
 pub(crate) fn states(model: &ReducedModel, case: &Case, motion: &[CrankState], visit: Visit) -> Result<()> {
     let mut poses = model.guided(PoseSolver::counting_turns(case)?);
     let deepest = case.wanted.deepest();
     for (row, instant) in motion.iter().enumerate() {
         poses.solve(instant.crank, instant.omega, instant.alpha, deepest)?;
-        // At the instant of starting from rest, loads act against the motion that begins.
+        // At the instant of starting from rest, loads act against the motion that is about to begin.
         if instant.omega == 0.0 && instant.alpha != 0.0 && deepest >= Stage::Reactions {
             visit(row, poses.set_off(instant.crank, instant.alpha, deepest)?)?;
             continue;
@@ -259,7 +259,8 @@ pub struct RunUp {
     pub trajectory: Trajectory,
     /// How it ended.
     pub end: RunUpEnd,
-    /// Largest reaction times the mechanism's size (N m): the reference for moments where none acts on the crank.
+    /// Largest reaction times the mechanism's size (N m). It is the reference for moments if no moment acts on the
+    /// crank.
     natural: f64,
 }
 
@@ -275,7 +276,7 @@ impl RunUp {
             times: motion.iter().map(|instant| instant.t).collect(),
             inputs: motion.iter().map(|instant| instant.crank).collect(),
         };
-        // Forces decide this motion, so the law of the crank must not limit its time.
+        // Forces determine this motion, so the law of the crank must not limit its time.
         let case = model.case.at_top_speed().on(grid)?;
         let mut sampler = Sampler::new(&case);
         let (mut natural, size) = (0.0f64, case.mechanism.size());
@@ -289,8 +290,8 @@ impl RunUp {
     }
 
     /// Largest difference between the shaft's moment and the moment from the crank's equilibrium.
-    /// It is divided by the largest moment, or by the largest reaction times the mechanism's size.
-    /// It compares the equation of motion with the reactions, which do not use reduced quantities.
+    /// The difference is divided by the largest moment, or by the largest reaction times the mechanism's size.
+    /// The check compares the equation of motion with the reactions, which do not use reduced quantities.
     /// `None` if the balancing moment is not requested.
     #[must_use]
     pub fn power_residual(&self) -> Option<f64> {

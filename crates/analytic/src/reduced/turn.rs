@@ -1,7 +1,7 @@
-//! A crank that turns fully, and where links reverse on the way.
+//! A crank that turns fully, and the crank angles at which links reverse.
 //!
 //! The poses of one whole turn are enough, because the pose solver itself refuses dead points and change points.
-//! The limits of other cranks come from the [range of motion](crate::range), which costs many times as much.
+//! The limits of other cranks come from the [range of motion](crate::range), whose analysis costs many times as much.
 
 use std::f64::consts::TAU;
 
@@ -12,16 +12,17 @@ use linkage::math::root;
 use linkage::mechanism::{LinkId, PerLink};
 use linkage::trajectory::Stage;
 
-/// Number of poses in one turn of the crank, three degrees apart.
-/// The slopes reveal even two reversals between neighbouring poses.
+/// Number of poses in one turn of the crank. They are three degrees apart.
+/// Even two reversals between neighbouring poses are detected, from the slopes.
 const POSES: u32 = 120;
-/// Turns after which the search for the first pose ends, as in the range of motion.
+/// If the crank has turned this number of turns, the search for a return to the first pose ends. The range of motion
+/// has the same limit.
 const MOST_TURNS: u32 = 12;
-/// Angular velocity of a link, for a crank with 1 rad/s, below which it is rounding error and not motion.
+/// If the crank turns with 1 rad/s and a link turns more slowly than this, its angular velocity is rounding error.
 const STILL: f64 = 1e-11;
-/// Step of Newton's method (rad) at or below which it ends. The method converges quadratically.
+/// Newton's method ends if its step (rad) is at most this value. The method converges quadratically.
 const SETTLED: f64 = 1e-9;
-/// Largest number of halvings of the interval between two poses where a link slows down and speeds up again.
+/// An interval between two poses in which a link slows down and speeds up again is halved at most this number of times.
 const HALVINGS: u32 = 20;
 
 /// A crank that turns fully.
@@ -29,12 +30,13 @@ const HALVINGS: u32 = 20;
 pub(super) struct FullTurn {
     /// Turns of the crank after which the mechanism is back at its first pose.
     pub(super) turns: u32,
-    /// Crank angles (rad) at which one of the requested links reverses, from the start on over these turns.
+    /// Crank angles (rad) at which one of the requested links reverses, from the start until the mechanism is back at
+    /// its first pose.
     pub(super) reversals: Vec<f64>,
 }
 
-/// Angular velocity of a link at a crank angle, for a crank with 1 rad/s, and its derivative with respect to that
-/// angle.
+/// Angular velocity of a link at a crank angle, for a crank with 1 rad/s, and the derivative of this velocity with
+/// respect to the crank angle.
 #[derive(Clone, Copy, Debug)]
 struct Rate {
     crank: f64,
@@ -43,8 +45,8 @@ struct Rate {
 }
 
 impl FullTurn {
-    /// Turns the crank of a case from its start on until the mechanism is back at its first pose.
-    /// `None` if it does not come back, or if this is in doubt.
+    /// Turns the crank of a case from its start until the mechanism is back at its first pose.
+    /// `None` if the mechanism does not come back, or if this is uncertain.
     pub(super) fn of(case: &Case, links: &[LinkId]) -> Option<Self> {
         if case.crank().through {
             return None;
@@ -87,8 +89,8 @@ fn reversals_of(
     reversals: &mut Vec<f64>,
 ) -> Result<()> {
     let moving = || rates.iter().filter(|rate| rate.omega.abs() > STILL);
-    // If the link is at rest at the start, the interval there extends from the last pose of a period to the first of
-    // the next.
+    // If the link is at rest at the start, the interval that contains the start begins at the last pose of a period and
+    // ends at the first pose of the next.
     let is_still = rates.first().is_some_and(|rate| !(rate.omega.abs() > STILL));
     let next = moving().next().filter(|_| is_still).map(|first| Rate { crank: first.crank + period, ..*first });
     let all: Vec<Rate> = moving().copied().chain(next).collect();
@@ -118,7 +120,7 @@ fn between(
         reversals.extend(found);
         return Ok(());
     }
-    // The tangents at both ends meet beyond zero only where the link may have reversed twice.
+    // The link may have reversed twice only if the tangents at both ends intersect beyond zero.
     let at = (b.omega - a.omega + a.slope * a.crank - b.slope * b.crank) / (a.slope - b.slope);
     let is_dip = a.omega * a.slope < 0.0 && b.omega * b.slope > 0.0;
     if halvings > 0 && is_dip && (a.omega + a.slope * (at - a.crank)) * a.omega <= 0.0 {
@@ -136,7 +138,7 @@ mod tests {
     use linkage::fixtures::{four_bar, turning};
 
     #[test]
-    fn reversals_are_those_of_the_range_of_motion() {
+    fn reversals_match_the_range_of_motion() {
         let case = turning(four_bar());
         let links: Vec<LinkId> = case.mechanism.links().ids().skip(1).collect();
         let found = FullTurn::of(&case, &links).unwrap();

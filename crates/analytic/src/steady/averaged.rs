@@ -2,16 +2,17 @@
 
 use linkage::drive::{Motor, MotorLaw};
 
-/// Relative amount by which rounding may put a steady speed beyond the end of the motor's line.
+/// Rounding may put a steady speed beyond the end of the motor's line. A relative excess of up to this value is
+/// accepted.
 const SAME: f64 = 1e-12;
 
 /// Motion from rest under `I domega/dt = M0 - B omega - R`.
-/// I and R are the means of inertia and resistance over the turn, used instead of their variation.
-/// M0 - B omega is the motor's straight line on the crank.
+/// I and R are the means of inertia and resistance over the turn. Their variation is neglected.
+/// M0 - B omega is the straight line of the motor's moment on the crank.
 /// Then omega = omega_s (1 - exp(-t / T)) with T = I / B and omega_s = (M0 - R) / B.
 ///
-/// A linear law of the motor gives B = -slope ratio^2 efficiency, as long as the motor drives.
-/// Speeds and angles count positive in the motor's sense.
+/// A linear law of the motor gives B = -slope ratio^2 efficiency while the motor drives.
+/// Speeds and angles are positive in the motor's sense.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Averaged {
     /// Time constant T (s). After this time the speed is 1 - 1 / e = 63.2 % of the steady speed.
@@ -24,8 +25,8 @@ impl Averaged {
     /// The model of a motor with a moment of inertia on the crank (kg m^2, including rotor, reducer and flywheel) and a
     /// moment of resistance (N m, positive where the motor must work against it).
     ///
-    /// `None` where this closed form does not exist: the law is not linear, or the motor does not start against
-    /// the resistance.
+    /// `None` where this closed form does not exist: the law is not linear, or the motor does not start against the
+    /// resistance.
     /// Also `None` where the resistance drives the motor beyond its no-load speed through a reducer with losses: the
     /// line has a bend there.
     #[must_use]

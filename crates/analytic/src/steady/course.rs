@@ -1,4 +1,4 @@
-//! Reduced quantities over the turn: their course and their extremes.
+//! Reduced quantities as functions of the crank angle, and their extremes.
 
 use crate::PoseSolver;
 use crate::reduced::means::no_turn;
@@ -45,7 +45,7 @@ impl ReducedModel<'_> {
 
     fn row(&self, poses: &mut PoseSolver, crank: f64) -> Result<ReducedRow> {
         let found = self.at(poses, crank, self.sense)?;
-        // Positive against the motion, whichever way the crank turns.
+        // The moment is positive against the motion, in either direction of the crank.
         let resistance = -self.sense * found.applied;
         Ok(ReducedRow { crank, inertia: found.inertia, slope: found.slope, resistance })
     }
@@ -71,7 +71,7 @@ impl ReducedModel<'_> {
         let count = (period / SAMPLE_STEP).ceil();
         let start = self.case.crank().start;
         let mut cranks: Vec<f64> = (0..=count as usize).map(|k| start + period * (k as f64 / count)).collect();
-        // A kink may be an extreme, and it has no flat top.
+        // A kink may be an extreme. The curve is not flat at such an extreme.
         cranks.extend(&self.kinks().cranks);
         cranks.sort_by(f64::total_cmp);
         let mut poses = PoseSolver::new(self.case)?;

@@ -13,9 +13,9 @@ use crate::reduced::model::{Piece, ReducedModel};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
 
-/// Largest number of Newton steps of the shooting method; it takes three to six.
+/// Largest number of Newton steps of the shooting method. It usually needs three to six.
 const MOST_SHOTS: usize = 60;
-/// Relative change of the energy over a period that counts as zero.
+/// If the relative change of the energy over a period is at most this value, it counts as zero.
 const CLOSED: f64 = 2e-14;
 
 /// Speed of the crank at a crank angle.
@@ -38,13 +38,13 @@ pub struct Regime {
     pub turns: f64,
     /// Mean angular velocity over time (rad/s): the turns divided by the period.
     pub mean_speed: f64,
-    /// Angular velocity at the start of the case (rad/s).
+    /// Angular velocity of the crank at the start of the case (rad/s).
     pub start_speed: f64,
-    /// Where the crank is fastest.
+    /// The largest speed of the crank and its crank angle.
     pub fastest: SpeedAtCrank,
     /// Where it is slowest.
     pub slowest: SpeedAtCrank,
-    /// Share of a small deviation of the energy that remains after a period.
+    /// Ratio of a small deviation of the energy at the end of a period to the deviation at the beginning.
     /// It is below 1; otherwise the motion would not be stable.
     pub multiplier: f64,
     /// The crank at the requested crank angles.
@@ -54,7 +54,7 @@ pub struct Regime {
 }
 
 impl Regime {
-    /// Coefficient of non-uniformity: (fastest - slowest) / mean over time, of the absolute speeds.
+    /// Coefficient of non-uniformity of the absolute speeds: (fastest - slowest) / (mean over time).
     #[must_use]
     pub fn non_uniformity(&self) -> f64 {
         (self.fastest.omega.abs() - self.slowest.omega.abs()) / self.mean_speed.abs()
@@ -81,8 +81,8 @@ impl ReducedModel<'_> {
         let resistance = self.sense * means.resistance;
         let guess = motor.steady_speed(resistance).filter(|&speed| speed > 0.0);
         let Some(speed) = guess else { return Err(means::no_steady_speed(resistance)) };
-        // The search starts at the mean energy, not at the mean speed: the mechanism is fast where its reduced inertia
-        // is small.
+        // The search starts at the mean energy, not at the mean speed, because the mechanism is fast where its reduced
+        // inertia is small.
         let mut energy = (means.inertia + self.added) * speed * speed / 2.0;
         let mut share = 0.0;
         for _ in 0..MOST_SHOTS {
@@ -123,7 +123,8 @@ impl<'m, 'a> Turn<'m, 'a> {
         Ok(Turn { flow, start: model.sense * model.case.crank().start, period })
     }
 
-    /// Energy, time and remaining share of a deviation at the end of a period that begins with `energy` (J).
+    /// Energy and time at the end of a period that begins with `energy` (J), and the ratio of a small deviation of the
+    /// energy at the end to that at the beginning.
     /// The visited steps are divided at the targets.
     fn run(
         &self,
@@ -137,14 +138,14 @@ impl<'m, 'a> Turn<'m, 'a> {
         forces.begin_at(way * self.start);
         let mut place = Place { x: self.start, y: [energy, 0.0, 1.0], h: 0.0 };
         // The speed at which a branch has just ended.
-        // If it were computed from the energy, it would have a rounding error in one direction or the other.
+        // A speed computed from the energy would have a rounding error and might lie on the wrong side of the end.
         let mut reached: Option<f64> = None;
         let mut empty = 0;
         while place.x < last {
             let piece = forces.model.piece_at(way * place.x, way).ok_or_else(|| stalled(way * place.x))?;
             forces.piece.set(piece);
             let end = if way > 0.0 { piece.ends[1] } else { -piece.ends[0] };
-            // The branch for the speeds that follow.
+            // Selects the branch of the motor's law for the speeds that follow.
             let omega = reached.take().unwrap_or_else(|| self.flow.speed(place.x, place.y[0]));
             forces.branch.set(forces.model.branch(omega, way));
             let alpha = forces.acceleration(way * place.x, omega);
@@ -156,7 +157,7 @@ impl<'m, 'a> Turn<'m, 'a> {
             let stop = march(&self.flow, &mut place, &targets, accuracy, visit)
                 .map_err(|error| if error.kind() == ErrorKind::Numeric { stalled(way * from) } else { error })?;
             if let Stop::Bound(bound) = stop {
-                // Sets the energy exactly to the speed at which the next branch begins.
+                // Sets the energy exactly to the speed at which the present branch ends and the next begins.
                 let speeds = forces.branch.get().map_or([0.0; 2], |branch| branch.speeds);
                 let speed = speeds[1 - bound];
                 place.y[0] = forces.reduced(way * place.x).inertia * speed * speed / 2.0;
@@ -195,7 +196,8 @@ impl<'m, 'a> Turn<'m, 'a> {
             Ok(())
         };
         let [_, period, _] = self.run(energy, &targets, accuracy, &mut visit)?;
-        // Every target is the end of a visited step. Both ends of the period are the same state.
+        // Every target is the end of a visited step. The state at the end of the period is the same as at its
+        // beginning.
         for &crank in cranks {
             let at = extremes.iter().find(|at| at.crank == crank);
             let ends = [self.start, last].map(|end| (way * crank - end).abs() < 1e-9);
@@ -223,7 +225,7 @@ fn extreme(
     here: &dyn Fn(&OverAngle, f64, f64) -> SpeedAtCrank,
 ) -> Result<SpeedAtCrank> {
     let mut found = low;
-    // At an extreme the speed is flat, so half the digits of the angle are enough.
+    // At an extreme the speed changes only with the square of the angle, so half the digits of the angle are enough.
     root::halved([0.0, end - x], 30, |h| -> Result<bool> {
         found = here(flow, x + h, one_step(flow, x, &y, h)?[0]);
         Ok(found.alpha * low.alpha > 0.0)

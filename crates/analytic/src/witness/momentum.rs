@@ -1,4 +1,4 @@
-//! Momentum of the whole mechanism: the shaking force and moment without any reaction.
+//! Momentum of the whole mechanism: the shaking force and moment, computed without reactions.
 
 use linkage::case::Case;
 use linkage::math::{Vec2, cross};
@@ -6,7 +6,7 @@ use linkage::solver::State;
 
 /// Shaking force (N) and shaking moment about the origin (N m) from d'Alembert's principle for all moving links
 /// together.
-/// Inner reactions cancel, and so do loads between two links, including loads between a link and the frame.
+/// Inner reactions cancel. Loads between two links also cancel, including loads between a link and the frame.
 /// The frame carries F = sum of m (g - a) + loads and M = sum of r x m (g - a) - J alpha + loads.
 #[must_use]
 pub fn shaking(case: &Case, state: &State) -> (Vec2, f64) {

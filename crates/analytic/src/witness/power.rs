@@ -1,4 +1,4 @@
-//! Balance of powers: the balancing moment without any reaction.
+//! Balance of powers: the balancing moment, computed without reactions.
 
 use linkage::case::Case;
 use linkage::math::Motion;

@@ -1,12 +1,12 @@
-//! Published methods for the class III group of order 3: a base link on three leads, all pairs revolute.
+//! Published methods for the class III group of order 3: a base link on three leads, all joints revolute.
 //!
-//! They compute quantities that the two solvers compute too, with independent equations:
+//! The methods compute quantities that the two solvers also compute, but with independent equations:
 //! first transfer functions by Cramer's rule ([`cramer`]), the exchange of the driving link ([`class_change`]), and
 //! reactions by the singular Assur point ([`assur_point`]) or by all equations of equilibrium at once
 //! ([`linear_system`]).
 //!
 //! In these modules lead i goes from its foot A_i, the outer joint, to its head B_i, the joint with the base link.
-//! Arrays of three are in the order of [`Triad::leads`]. Arrays of four are the three leads and then the base link.
+//! Arrays of three are in the order of [`Triad::leads`]. Arrays of four contain the three leads and then the base link.
 
 pub mod assur_point;
 pub mod class_change;
@@ -21,14 +21,14 @@ use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::{Group, JointId, JointSide, LinkId, Mechanism};
 use linkage::solver::State;
 
-/// One of the three leads of the group.
+/// One of the three leads, which connect the base link to the rest of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriadLead {
     /// The link.
     pub link: LinkId,
     /// Its outer joint.
     pub outer: JointId,
-    /// Its joint with the base link.
+    /// Joint of the lead with the base link.
     pub inner: JointId,
     /// The outer joint on the link that is known before the group.
     pub support: JointSide,
@@ -51,8 +51,8 @@ pub struct Triad {
 
 impl Triad {
     /// Reads a group as a base link on three leads. `None` for any other group.
-    /// Also `None` where a pair on one of the group's links is not revolute, because it would also transmit a moment.
-    /// This includes pairs with later groups.
+    /// Also `None` if a joint on one of the group's links is not revolute, because it would also transmit a moment.
+    /// This includes joints with later groups.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Option<Self> {
         let touching = mechanism.joints().iter().filter(|joint| group.links.iter().any(|&l| joint.on(l).is_some()));

@@ -1,8 +1,8 @@
 //! Distance of two bodies at the middle of a part of the range, with a lower bound over the whole part.
 //!
-//! parry2d computes the nearest points. The bound uses only their direction.
-//! Along any fixed direction, the distance of two convex parts is that of their extreme corners.
-//! These corners move uniformly up to a proven error.
+//! parry2d computes the nearest points. The bound uses only the direction between these points.
+//! Along a fixed direction, two convex parts are as far apart as their extreme corners.
+//! Up to a proven error, every corner moves uniformly.
 //! A wrong pair of nearest points therefore weakens the bound but never invalidates it.
 
 use linkage::math::{KeepNan, Vec2, turned};
@@ -14,12 +14,11 @@ use parry2d_f64::shape::{ConvexPolygon, Segment, Shape};
 use super::tube::{Slice, Track};
 use scenario::clearance::Outline;
 
-/// Largest distance that is computed, as a multiple of the mechanism's size.
+/// Nearest points are not computed beyond this distance, a multiple of the mechanism's size.
 const FAR: f64 = 1e9;
 
-/// Distance of two parts, as a multiple of the mechanism's size. Below it the direction of their nearest points alone
-/// is
-/// too inaccurate.
+/// If two convex parts are nearer than this multiple of the mechanism's size, the normals of their sides are tried too.
+/// The direction between their nearest points is then too inaccurate.
 const CLOSE: f64 = 1e-5;
 
 /// Outline of a body, prepared for distance queries.
@@ -39,7 +38,7 @@ struct Piece {
     shape: Box<dyn Shape>,
 }
 
-/// Solid placed over a part of the range.
+/// Solid with its motion over a part of the range.
 pub struct PlacedSolid {
     pose: Pose,
     pieces: Vec<PlacedPiece>,
@@ -48,7 +47,7 @@ pub struct PlacedSolid {
 struct PlacedPiece {
     corners: Vec<Track>,
     centre: Vec2,
-    /// Largest displacement of a corner from the middle (m).
+    /// Largest displacement of a corner from its position at the middle of the part (m).
     moves: f64,
 }
 
@@ -56,17 +55,18 @@ struct PlacedPiece {
 #[derive(Clone, Copy, Debug)]
 pub struct Gap {
     /// Upper bound of the distance at the middle (m).
-    /// It is 0 if the two meet, and infinite if all pieces are farther apart than the requested distance.
+    /// It is 0 if the bodies meet. It is infinite if all convex parts are farther apart than the requested distance.
     pub now: f64,
     /// Nearest points at the middle, on the first and the second body (m).
     pub points: [Vec2; 2],
-    /// Lower bound of the distance over the part (m), possibly negative; proven only if the slice is sound.
+    /// Lower bound of the distance over the part of the range (m). It may be negative.
+    /// It is proven only if the slice is sound.
     pub least: f64,
 }
 
 impl Solid {
-    /// Prepares an outline of a link. parry2d receives lengths in units of `scale` (m), since its tolerances are
-    /// absolute.
+    /// Prepares an outline of a link for distance queries.
+    /// parry2d receives lengths in units of `scale` (m), because its tolerances are absolute.
     #[must_use]
     pub fn new(link: LinkId, outline: &Outline, scale: f64) -> Self {
         let pieces = outline.parts().iter().map(|part| Piece::new(part, scale)).collect();
@@ -79,7 +79,7 @@ impl Solid {
         self.pieces.len()
     }
 
-    /// Places the solid over a part of the range.
+    /// Computes the solid's pose at the middle of a part of the range, and the motion of its corners over the part.
     #[must_use]
     pub fn placed(&self, slice: &Slice) -> PlacedSolid {
         let tube = &slice.tubes[self.link];
@@ -116,8 +116,9 @@ impl Piece {
     }
 }
 
-/// Computes the distance of two solids over a part of the range. Nearest points are computed only for pieces that can
-/// come nearer than `enough` (m); `asked` counts these pairs.
+/// Computes the distance of two solids over a part of the range.
+/// Nearest points are computed only for pairs of pieces that can come nearer than `enough` (m).
+/// `asked` counts these pairs.
 #[must_use]
 pub fn gap(
     [a, b]: [&Solid; 2],
@@ -158,8 +159,8 @@ pub fn gap(
                 ask((p - q) / core);
             }
             if core < CLOSE * a.scale {
-                // For points this close, the direction is only rounding error.
-                // If the two parts can be separated, the normal of a side separates them.
+                // The direction between points this close is only rounding error.
+                // If the two parts can be separated, the normal of one of their sides separates them.
                 normals(&own.corners, -1.0, &mut ask);
                 normals(&other.corners, 1.0, &mut ask);
             }
@@ -169,7 +170,7 @@ pub fn gap(
     found
 }
 
-/// Returns the nearest points of two pieces at the middle (m); one common point where they meet.
+/// Returns the nearest points of two pieces at the middle (m). If the pieces meet, both points are the same.
 fn closest(pieces: [&Piece; 2], placed: [&PlacedPiece; 2], places: [&PlacedSolid; 2], scale: f64) -> [Vec2; 2] {
     let shapes = pieces.map(|piece| &*piece.shape);
     match query::closest_points(&places[0].pose, shapes[0], &places[1].pose, shapes[1], FAR) {
@@ -183,7 +184,8 @@ fn closest(pieces: [&Piece; 2], placed: [&PlacedPiece; 2], places: [&PlacedSolid
     }
 }
 
-/// Passes the normals of a convex part's sides to `ask`: outward for `sign` 1, inward for -1, and both for a segment.
+/// Calls `ask` with the normals of a convex part's sides: outward for `sign` 1, inward for -1.
+/// A segment has both normals.
 fn normals(corners: &[Track], sign: f64, ask: &mut impl FnMut(Vec2)) {
     let count = corners.len();
     for k in 0..count {
@@ -194,8 +196,9 @@ fn normals(corners: &[Track], sign: f64, ask: &mut impl FnMut(Vec2)) {
     }
 }
 
-/// Lower bound of the distance of two convex parts along `normal`, within `half` of the middle (m): the smallest
-/// projection of the first's corners minus the largest of the second's. It is a concave function of the crank angle.
+/// Lower bound of the distance of two convex parts along `normal` (m), for crank angles within `half` of the middle.
+/// It is the smallest projection of the first part's corners minus the largest projection of the second part's corners.
+/// This difference is a concave function of the crank angle.
 fn apart(first: &[Track], second: &[Track], normal: Vec2, half: f64) -> f64 {
     let at = |by: f64| {
         let low = first.iter().map(|corner| normal.dot(&corner.at) + normal.dot(&corner.rate) * by - corner.error);

@@ -1,7 +1,8 @@
-//! Smallest distances and first meetings of pairs over the range, by bisection of the parts not yet proven clear.
+//! Smallest distances and first meetings of pairs over the range.
 //!
-//! A part of the range is halved until it is proven that no distance in it is smaller than the smallest found so far.
-//! The search ends when every part is proven, so no instant is skipped. Parts left at the smallest size are reported.
+//! The search halves a part of the range until it proves that no distance in the part is below the smallest one found.
+//! It ends when every part is proven, so no instant is skipped.
+//! Parts of the smallest size that remain unproven are reported.
 
 use linkage::error::Result;
 use linkage::math::extremum::golden;
@@ -10,22 +11,22 @@ use linkage::math::{KeepNan, Vec2};
 use super::gap::{Gap, PlacedSolid, Solid, gap};
 use super::tube::{MOST_HALVINGS, RangePart, Slice, Tubes};
 
-/// Golden-section steps that refine the smallest distance found; also the largest number of times it may leave its
-/// bracket.
+/// Number of golden-section steps that refine the smallest distance found.
+/// The second constant limits the number of brackets that are searched one after another.
 const REFINEMENTS: usize = 30;
 const STRIDES: usize = 8;
-/// Halvings beyond [`MOST_HALVINGS`] that enclose a first meeting.
+/// Number of halvings beyond [`MOST_HALVINGS`] that are allowed for enclosing a first meeting.
 const FURTHER: u32 = 6;
 
-/// Part of the range, whether its bounds are proven, and the bound of every unfinished pair (m).
+/// A part of the range, whether its bounds are proven, and the lower bound of each unfinished pair's distance (m).
 type Bounds = (RangePart, bool, Vec<(usize, f64)>);
 
 /// Smallest distance of a pair over the range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Smallest {
-    /// Smallest distance found (m), at `crank` and between `points`; 0 where the two meet.
+    /// Smallest distance found (m), at `crank` and between `points`; 0 if the bodies meet.
     pub distance: f64,
-    /// Lower bound of the distance over the range (m), except over parts without a proof.
+    /// Lower bound of the distance over the range (m). It excludes parts of the range without a proof.
     pub least: f64,
     /// Crank angle of the smallest distance (rad).
     pub crank: f64,
@@ -37,7 +38,8 @@ pub struct Smallest {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
     /// Two crank angles (rad), in the direction of motion, that enclose the meeting.
-    /// The distance is proven larger up to the first one, and is reached at the second one.
+    /// Up to the first angle, the distance is proven to be larger than the given one.
+    /// At the second angle, the given distance is reached.
     pub cranks: [f64; 2],
     /// Point of the meeting at the second crank angle (m, world).
     pub place: Vec2,
@@ -57,7 +59,7 @@ pub struct DistanceSearch<'a, 'c> {
     pub asked: usize,
     /// Number of pairs of pieces that may still be examined.
     pub budget: usize,
-    /// Ranges of crank angles (rad) over which nothing is proven.
+    /// Ranges of crank angles (rad) for which nothing is proven.
     pub open: Vec<[f64; 2]>,
 }
 
@@ -83,7 +85,7 @@ impl DistanceSearch<'_, '_> {
         let mut parts: Vec<(RangePart, Vec<usize>)> =
             self.tubes.parts().map(|part| (part, (0..pairs.len()).collect())).collect();
         while !parts.is_empty() {
-            // All pairs are evaluated at this size first: a small distance found here saves later halvings.
+            // All parts of this size are evaluated first. A small distance found here saves later halvings.
             let mut bounds: Vec<Bounds> = Vec::with_capacity(parts.len());
             for (part, alive) in parts {
                 let slice = self.tubes.at(part)?;
@@ -137,7 +139,7 @@ impl DistanceSearch<'_, '_> {
         Ok(best)
     }
 
-    /// Records a part over which nothing is proven.
+    /// Records a part of the range for which nothing is proven.
     fn leave(&mut self, part: RangePart) {
         self.open.push(self.tubes.ends(part));
     }
@@ -187,7 +189,8 @@ impl DistanceSearch<'_, '_> {
                 clear = Some(to);
                 continue;
             }
-            // A part with proven bounds is halved until the motion within it is less than the contact distance.
+            // If the bounds are proven, a part is halved until the motion within it is smaller than the contact
+            // distance.
             let narrow = part.halvings >= MOST_HALVINGS + if slice.sound { FURTHER } else { 0 };
             if narrow {
                 for crank in [slice.crank, to] {

@@ -2,9 +2,10 @@
 //!
 //! The plane is divided into squares. A square that is proven neither covered nor free is divided into four.
 //! A square is covered if it lies inside the outline at one instant or if a side of the outline passes over it.
-//! A square is free if the outline stays away from it over every part of the range, by the bounds of [`super::gap`].
-//! The remaining squares lie on the border. They give the error bound of the area.
-//! Their covered share is computed for a straight border.
+//! A square is free if the outline stays away from it during every part of the range. The bounds of [`super::gap`]
+//! prove this.
+//! The remaining squares lie on the border of the area and determine its error bound.
+//! Their covered fraction is computed as if the border were straight.
 
 #[cfg(test)]
 mod tests;
@@ -16,24 +17,28 @@ use linkage::mechanism::LinkId;
 use super::tube::{MOST_HALVINGS, RangePart, Track, Tube, Tubes};
 use scenario::clearance::Outline;
 
-/// Largest displacement of the outline's border over a part of the range, as a share of a square's half diagonal.
+/// Upper limit of the displacement of the outline's border during a part of the range, divided by a square's half
+/// diagonal.
+/// If the displacement is larger, the part is halved.
 const SPREAD: f64 = 0.5;
-/// Width of a window in widths of its part of the range; also the number of ancestors whose windows are tried.
+/// Width of a window divided by the width of its part of the range.
+/// The second constant is the number of parts whose windows are tried: the part itself and its ancestors.
 const WINDOW: f64 = 4.0;
 const ANCESTORS: usize = 4;
-/// Share of a square's half diagonal below which a border counts as not crossing the square.
+/// If the outline's border moves less than this fraction of a square's half diagonal, no window is tried for the
+/// square.
 const CROSSING: f64 = 0.02;
-/// Largest number of halvings of the first square.
+/// Upper limit of the number of successive divisions of the first square.
 const MOST_DIVISIONS: usize = 24;
 
 /// A swept area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
-    /// Area (m2), computed with a straight border in every square that the border crosses.
+    /// Area (m2). Within every square that the border crosses, the border is taken as straight.
     pub value: f64,
     /// Proven lower bound: covered area (m2).
     pub least: f64,
-    /// Proven upper bound: covered area with the squares on the border (m2).
+    /// Proven upper bound: area of the covered squares and of the squares on the border (m2).
     pub most: f64,
 }
 
@@ -54,11 +59,11 @@ struct Node {
     sides: Vec<[Track; 2]>,
     parent: Option<u32>,
     halves: Option<u32>,
-    /// Sides over a wider part around the same middle, computed on demand.
+    /// Sides over a wider part of the range around this part, computed on demand.
     window: Option<Window>,
 }
 
-/// Sides of an outline over a part of the range; empty if nothing is proven about them.
+/// Sides of an outline with their motion over a part of the range; empty if nothing is proven for the part.
 struct Window {
     half: f64,
     sides: Vec<[Track; 2]>,
@@ -68,7 +73,8 @@ struct Window {
 enum Square {
     Covered,
     Free,
-    /// On the border: the parts of the range that come near, and the covered share for a straight border.
+    /// On the border: the parts of the range during which the outline is near, and the covered fraction for a straight
+    /// border.
     Border(Vec<u32>, f64),
 }
 
@@ -81,7 +87,7 @@ pub struct Sweep<'a, 'c> {
     rounding: f64,
     /// Number of tests of a square against a part of the range.
     pub tests: usize,
-    /// Ranges of crank angles (rad) left out of the area because nothing is proven over them.
+    /// Ranges of crank angles (rad) that the area leaves out, because nothing is proven for them.
     pub open: Vec<[f64; 2]>,
 }
 
@@ -92,7 +98,8 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Sweep { tubes, outline, link, nodes: Vec::new(), rounding, tests: 0, open: Vec::new() }
     }
 
-    /// Computes the area to the relative tolerance `wanted`, or as accurately as `budget` tests allow.
+    /// Computes the area to the relative tolerance `wanted`.
+    /// If this takes more than `budget` tests, the area is less accurate.
     ///
     /// # Errors
     /// Those of the pose solver.
@@ -146,7 +153,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(found)
     }
 
-    /// Returns both corners of a box around all positions.
+    /// Returns the lower left and upper right corners of a box that contains the outline at all its positions.
     fn bounds(&self, nodes: &[u32]) -> [Vec2; 2] {
         let radius = self.outline.radius();
         let mut ends = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
@@ -180,9 +187,9 @@ impl<'a, 'c> Sweep<'a, 'c> {
         self.outline.sides().map(|side| side.map(|end| tube.point(end))).collect()
     }
 
-    /// Whether a side passes over a disc within a wider part of the range.
-    /// The part is centred on the middle of a node or of one of its ancestors.
-    /// A wider part is needed because over a short one a side moves only into a small square, not across it.
+    /// Whether a side passes over a disc during a window: a wider part of the range around a node or one of its
+    /// ancestors.
+    /// A wider part is needed because during a short part a side moves only into a small square, not across it.
     fn is_passed(&mut self, node: u32, centre: Vec2, about: f64) -> Result<bool> {
         let mut next = Some(node);
         for _ in 0..ANCESTORS {
@@ -212,7 +219,8 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(Window { half: slice.half, sides })
     }
 
-    /// Returns the halves of a part, in order, computing them once; `None` if nothing is proven over a half.
+    /// Returns the two halves of a part in order. They are computed only once.
+    /// `None` if nothing is proven for one of the halves.
     fn halves(&mut self, node: u32) -> Result<Option<[u32; 2]>> {
         if let Some(first) = self.nodes[node as usize].halves {
             return Ok(Some([first, first + 1]));
@@ -229,7 +237,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
 
     fn judge(&mut self, centre: Vec2, half: f64, near: &[u32]) -> Result<Square> {
         let about = half * std::f64::consts::SQRT_2 + self.rounding;
-        // Coarse parts first: if one covers the square, the halves of all other parts are not needed.
+        // Coarse parts come first. If one of them covers the square, the halves of all other parts are not needed.
         let (mut ahead, mut next) = (near.to_vec(), 0);
         let (mut kept, mut crossing, mut lowest) = (Vec::new(), Vec::new(), (f64::INFINITY, Vec2::new(1.0, 0.0)));
         while let Some(&index) = ahead.get(next) {
@@ -241,7 +249,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
                 return Ok(Square::Covered);
             }
             let away = rotated(node.tube.frame().1, away);
-            // The nearest point of the border moves away from the square or towards it.
+            // The border's point that is nearest to the square moves away from the square or towards it.
             let border = node.tube.point(node.tube.local(centre - away * (now + self.outline.radius())));
             let swing = away.dot(&border.rate).abs() * node.half;
             if self.least(node, centre) > about {
@@ -273,8 +281,8 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(if kept.is_empty() { Square::Free } else { Square::Border(kept, share(lowest.0, lowest.1, half)) })
     }
 
-    /// Lower bound of the body's distance from a point over a part of the range (m); negative if the body may cover the
-    /// point.
+    /// Lower bound of the body's distance from a point over a part of the range (m).
+    /// It is negative if the body may cover the point.
     fn least(&self, node: &Node, place: Vec2) -> f64 {
         let mut least = f64::INFINITY;
         for part in &node.parts {
@@ -296,7 +304,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
 }
 
 /// Returns the point of a convex part (point, segment or counter-clockwise polygon) that is nearest to `place`.
-/// Returns `place` itself if it lies inside.
+/// Returns `place` if it lies inside the convex part.
 fn nearest(part: &[Track], place: Vec2) -> Vec2 {
     let count = part.len();
     let side = |k: usize| [part[k].at, part[(k + 1) % count].at];
@@ -315,9 +323,10 @@ fn nearest(part: &[Track], place: Vec2) -> Vec2 {
     best.1
 }
 
-/// Whether a side passes over a whole disc within a part of the range.
-/// The disc lies on one side of it at the start and on the other at the end, and always between the side's ends.
-/// Every point of the disc is then on the side at some instant.
+/// Whether a side of the outline passes over a whole disc during a part of the range.
+/// The disc must be left of this line at the start and right of it at the end, or vice versa.
+/// Throughout, the disc must lie between the two ends of the line.
+/// Every point of the disc then lies on the line at some instant.
 fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool {
     let error = from.error + to.error;
     let signed = |by: f64| {
@@ -325,12 +334,12 @@ fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool 
         cross(b - a, centre - a) / (b - a).norm()
     };
     let [before, after] = [signed(-half), signed(half)];
-    // A line whose ends are hardly farther apart than their errors has no proven direction.
+    // If the ends of a line are hardly farther apart than their errors, its direction is not proven.
     let sure = about + 2.0 * error;
     if !(before.abs() > sure && after.abs() > sure && before * after < 0.0) {
         return false;
     }
-    // (centre - a) . (b - a) is a quadratic function over the part; likewise from the other end.
+    // (centre - a) . (b - a) is a quadratic function of the crank angle. The same holds with a and b exchanged.
     let beyond = |a: &Track, b: &Track| {
         let (own, along) = (centre - a.at, b.at - a.at);
         let (moved, turned) = (-a.rate, b.rate - a.rate);
@@ -347,7 +356,8 @@ fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool 
     longest > 4.0 * error && beyond(from, to) && beyond(to, from)
 }
 
-/// Returns the share of a square with half side `half` where `value` + `away` . (place - centre) <= 0.
+/// Returns the fraction of a square in which `value` + `away` . (place - centre) <= 0.
+/// `half` is half the length of the square's side.
 fn share(value: f64, away: Vec2, half: f64) -> f64 {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec2::new(x, y) * half);
     let mut kept: Vec<Vec2> = Vec::with_capacity(6);

@@ -42,7 +42,7 @@ fn four_bar() -> Case {
     case.build().unwrap()
 }
 
-/// Question with all links as capsules, and walls.
+/// Clearance question in which every link consists of capsules, and with these walls.
 fn question(case: &Case, radius: f64, walls: &[(&str, Outline)]) -> ClearanceQuestion {
     let links = case.mechanism.links().entries().skip(1);
     let mut bodies: Vec<ClearanceBody> = links
@@ -72,7 +72,7 @@ fn of<'a>(asked: &ClearanceQuestion, found: &'a ClearanceResult, names: [&str; 2
 }
 
 #[test]
-fn a_lever_over_a_wall() {
+fn smallest_distances_to_a_floor_are_exact() {
     let case = slider_crank();
     let asked = question(&case, 0.01, &[("floor", line(&[(-1.0, -0.15), (1.0, -0.15)], 0.005))]);
     let found = find(&case, &asked, &mut |_| ()).unwrap();
@@ -89,12 +89,12 @@ fn a_lever_over_a_wall() {
     assert_eq!(found.smallest().unwrap().bodies, crank.bodies);
 }
 
-/// The crank's end passes the nail within a ten-thousandth of a degree.
+/// The crank's end touches the nail during less than a millionth of a degree.
 #[test]
 fn a_thin_crossing_between_two_instants_is_found() {
     let (case, radius) = (slider_crank(), 1e-7);
     let at = 77.123_456_f64.to_radians();
-    // The near side of the nail lies 1e-13 m inside the circle of the crank's end.
+    // The near side of the nail lies 1e-13 m inside the circle that the crank's rounded end describes.
     let nail = Vec2::new(at.cos(), at.sin()) * (0.1 + 2.0 * radius - 1e-13);
     let mut asked = question(&case, radius, &[("nail", line(&[(nail.x, nail.y)], radius))]);
     asked.pairs.retain(|pair| *pair == [0, 3]);
@@ -110,33 +110,35 @@ trait MaxZero {
     fn max_zero(self) -> f64;
 }
 impl MaxZero for f64 {
-    /// Sets a distance below a billionth of the size to zero.
+    /// Returns the distance, or zero if the distance is below a billionth of the mechanism's size.
     fn max_zero(self) -> f64 {
         if self < 3e-10 { 0.0 } else { self }
     }
 }
 
 #[test]
-fn the_first_meeting_is_where_the_distance_falls_to_nothing() {
+fn a_collision_begins_where_the_distance_reaches_zero() {
     let (case, radius) = (slider_crank(), 0.01);
     let asked = question(&case, radius, &[("post", line(&[(0.0, 0.09)], 0.004))]);
     let found = find(&case, &asked, &mut |_| ()).unwrap();
     let crank = of(&asked, &found, ["crank", "post"]);
     let meeting = crank.collision.unwrap();
-    // The post lies 0.014 m from the crank's line at sin(90 deg - a) = 0.014 / 0.09.
+    // At the crank angle a of the first contact, the post lies 0.014 m from the crank's line: sin(90 deg - a) = 0.014 /
+    // 0.09.
     let expected = (0.014_f64 / 0.09).acos();
     assert!((meeting.cranks[1] - expected).abs() < 1e-7, "{} {expected}", meeting.cranks[1]);
-    // The pair is proven clear up to a crank angle just before.
+    // The pair is proven clear up to a crank angle just before the contact.
     assert!(meeting.cranks[0] <= expected && expected - meeting.cranks[0] < 1e-5, "{meeting:?}");
     assert_eq!(crank.smallest.distance, 0.0);
     assert_eq!(found.first_collision().unwrap().0.bodies[1], crank.bodies[1]);
-    // They meet at the border of the post.
+    // The contact lies on the border of the post.
     assert!(((meeting.place - Vec2::new(0.0, 0.09)).norm() - 0.004).abs() < 1e-6, "{meeting:?}");
 }
 
-/// Of two posts the one met first is reported, whatever their order in the question and the sense of the crank.
+/// Of two posts, the post that the crank meets first is reported.
+/// The order of the posts in the question and the sense of the crank do not matter.
 #[test]
-fn the_first_of_all_collisions_is_the_first_on_the_way() {
+fn the_first_collision_is_the_first_in_motion_order() {
     for sense in [1.0, -1.0] {
         let case = slider_crank();
         let law = linkage::drive::MotionLaw::ConstantSpeed(10.0 * sense);
@@ -159,10 +161,10 @@ fn the_first_of_all_collisions_is_the_first_on_the_way() {
         assert!(found.pairs.iter().all(|pair| pair.collision.is_some()));
         assert_eq!(first.bodies, [0, 4]);
         assert!((meeting.cranks[1].abs() - 0.5 * PI).abs() < 0.1, "{meeting:?}");
-        // Areas need hardly any pose beyond those for distances.
+        // Swept areas need fewer additional poses than the distances.
         assert!(found.work.positions < found.work.poses, "{:?}", found.work);
     }
-    // Where branches cross, the next turn may take the other branch.
+    // If change points are passed, the next turn may follow another branch. The range is then not limited to one turn.
     let smooth = slider_crank().with(|parts| parts.drives.crank_mut().through = true).unwrap();
     let grid = linkage::case::Grid::of_inputs(smooth.crank(), vec![0.0, 3.0 * PI]);
     assert_eq!(range(&smooth.on(grid).unwrap()).unwrap(), [0.0, 3.0 * PI]);
@@ -170,7 +172,7 @@ fn the_first_of_all_collisions_is_the_first_on_the_way() {
 
 /// A lever of zero width, ten times as long as the mechanism, passes a point almost instantly.
 #[test]
-fn a_long_lever_is_found_where_it_meets() {
+fn the_collision_of_a_long_thin_lever_is_located() {
     let case = slider_crank();
     let mut asked = question(&case, 0.01, &[("post", line(&[(3.9 * 1f64.cos(), 3.9 * 1f64.sin())], 0.0))]);
     asked.bodies[0].outline = line(&[(0.0, 0.0), (4.0, 0.0)], 0.0);
@@ -180,9 +182,9 @@ fn a_long_lever_is_found_where_it_meets() {
     assert!(found.open.is_empty() && (meeting.cranks[1] - 1.0).abs() < 1e-9, "{meeting:?}");
 }
 
-/// The proven bound allows for rounding errors: those of the nearest points and of both tracks.
+/// The proven bound includes the rounding errors of the nearest points and of both tracks.
 #[test]
-fn a_distance_is_proven_but_for_rounding() {
+fn a_proven_distance_allows_for_rounding() {
     let case = slider_crank();
     let asked = question(&case, 0.01, &[("post", line(&[(0.0, 0.3)], 0.01))]);
     let mut tubes = Tubes::new(&case, [0.0, TAU], asked.extent()).unwrap();
@@ -196,9 +198,10 @@ fn a_distance_is_proven_but_for_rounding() {
     assert!(found.now > expected - 0.01 && found.now - found.least >= 1.99 * rounding, "{found:?} {rounding}");
 }
 
-/// A polygon given in either sense has counter-clockwise corners, the same cover by parts and the same distances.
+/// The corners of a polygon may be given in either sense. They are stored counter-clockwise.
+/// The convex parts cover the same area, and the distances are the same.
 #[test]
-fn a_polygon_is_the_same_in_either_sense() {
+fn the_orientation_of_a_polygon_does_not_matter() {
     let angle = [(0.0, 0.0), (0.3, 0.0), (0.3, 0.1), (0.1, 0.1), (0.1, 0.4), (0.0, 0.4)].map(|(x, y)| Vec2::new(x, y));
     let mut back = angle;
     back.reverse();
@@ -215,10 +218,10 @@ fn a_polygon_is_the_same_in_either_sense() {
     }
 }
 
-/// The rounding error of a position grows with its distance from the origin, both for a body and for a link.
-/// At a thousand metres, a double resolves a thousand times its epsilon.
+/// The rounding error of a position grows with the distance from the origin. This holds for a body and for a link.
+/// At a distance of 1000 m, the error is above a thousand times the epsilon of a double.
 #[test]
-fn rounding_goes_with_the_farthest_place() {
+fn rounding_grows_with_the_farthest_position() {
     let case = slider_crank();
     let near = question(&case, 0.01, &[]);
     let mut far = question(&case, 0.01, &[("post", line(&[(0.0, 1e3)], 0.01))]);
@@ -233,18 +236,17 @@ fn rounding_goes_with_the_farthest_place() {
 }
 
 #[test]
-fn parts_that_touch_are_put_together_in_the_order_of_the_motion() {
+fn adjacent_intervals_are_merged_in_motion_order() {
     let open = || vec![[3.0, 4.0], [1.0, 2.0], [2.0, 2.5], [3.0, 3.5]];
     assert_eq!(merged(open(), [0.0, 5.0]), [[1.0, 2.5], [3.0, 4.0]]);
     let back = open().into_iter().map(|[a, b]| [-a, -b]).collect();
     assert_eq!(merged(back, [0.0, -5.0]), [[-1.0, -2.5], [-3.0, -4.0]]);
 }
 
-/// Excluded pairs: two parts of the housing, joined links, which touch at their joint, and pairs that the question
-/// names.
-/// These pairs may be named in either order.
+/// Excluded pairs are two parts of the housing, two joined links, and pairs that the question names.
+/// Joined links touch at their joint. A named pair may be given in either order.
 #[test]
-fn pairs_that_cannot_meet_are_not_asked_for() {
+fn pairs_that_need_no_check_are_excluded() {
     let case = four_bar();
     let asked = question(&case, 0.01, &[("floor", line(&[(0.0, -1.0)], 0.0)), ("wall", line(&[(1.0, 0.0)], 0.0))]);
     let all = [[0, 2], [0, 3], [0, 4], [1, 3], [1, 4], [2, 3], [2, 4]];
@@ -279,10 +281,10 @@ fn pairs_that_cannot_meet_are_not_asked_for() {
     assert!(!are_joined(&mechanism, [1, 5].map(LinkId)) && !are_joined(&mechanism, [3, 5].map(LinkId)));
 }
 
-/// Without rounding of the outlines, the direction of the nearest points is lost where two corners come close.
-/// The normals of their sides remain.
+/// Without rounding of the outlines, the direction between the nearest points is lost where two corners come close.
+/// The normals of the sides at these corners remain usable.
 #[test]
-fn sharp_corners_meet() {
+fn collisions_of_sharp_corners_are_found() {
     let case = slider_crank();
     let corners = |places: &[(f64, f64)]| places.iter().map(|&(x, y)| Vec2::new(x, y)).collect::<Vec<Vec2>>();
     let blade = Outline::polygon(&corners(&[(0.0, -0.01), (0.1, -0.01), (0.12, 0.0), (0.1, 0.01)]), 0.0).unwrap();
@@ -293,13 +295,13 @@ fn sharp_corners_meet() {
     let found = find(&case, &asked, &mut |_| ()).unwrap();
     assert!(found.open.is_empty(), "{:?}", found.open);
     let meeting = found.pairs[0].collision.unwrap();
-    // The tip at 0.12 m reaches the side from (0, 0.1) to (0.3, 0.11).
+    // The crank's tip at 0.12 m reaches the block's side from (0, 0.1) to (0.3, 0.11).
     let tip = Vec2::new(meeting.cranks[1].cos(), meeting.cranks[1].sin()) * 0.12;
     assert!((tip.y - 0.1 - tip.x * 0.01 / 0.3).abs() < 1e-8, "{meeting:?}");
 }
 
 #[test]
-fn swept_areas_are_closed_forms() {
+fn swept_areas_match_closed_forms() {
     let (case, radius) = (slider_crank(), 0.02);
     let found = find(&case, &question(&case, radius, &[]), &mut |_| ()).unwrap();
     let near = |(_, area): (usize, Area), expected: f64| {
@@ -307,17 +309,18 @@ fn swept_areas_are_closed_forms() {
         assert!(area.error() < 3e-3 * expected, "{area:?} {expected}");
         assert!((area.value - expected).abs() < 5e-4 * expected, "{area:?} {expected}");
     };
-    // The crank sweeps a disc, the piston's disc a strip with round ends.
+    // The crank sweeps a disc. The piston is a disc and sweeps a strip with round ends.
     near(found.swept[0], PI * 0.12 * 0.12);
     near(found.swept[2], 0.2 * 0.04 + PI * 0.02 * 0.02);
-    // Over 70 deg the crank sweeps a sector, a band of the border's length times the radius, and the disc.
+    // Over 70 deg the swept area is a sector, a band along the sector's border, and a disc.
+    // The band is as wide as the rounding radius.
     let part = case.on(linkage::case::Grid::of_inputs(case.crank(), vec![0.3, 0.3 + PI * 70.0 / 180.0])).unwrap();
     let found = find(&part, &question(&case, radius, &[]), &mut |_| ()).unwrap();
     let turn = PI * 70.0 / 180.0;
     near(found.swept[0], turn / 2.0 * 0.01 + (0.2 + 0.1 * turn) * radius + PI * radius * radius);
 }
 
-/// A link of zero width covers what its line passes over.
+/// A link of practically zero width sweeps the area that its line passes over.
 #[test]
 fn a_thin_link_sweeps_an_area() {
     let case = slider_crank();
@@ -325,14 +328,16 @@ fn a_thin_link_sweeps_an_area() {
     let (_, area) = found.swept[0];
     let expected = PI * 0.01;
     assert!((area.least..=area.most).contains(&expected) && area.error() < 6e-3 * expected, "{area:?} {expected}");
-    // Half of the rod's border is an envelope, which stays wide within the allowed work.
+    // Half of the border of the rod's area is an envelope. With the allowed number of tests, its error bound stays
+    // wide.
     let (_, thin) = found.swept[1];
     assert!(thin.error() < 0.05 * thin.value, "{thin:?}");
 }
 
-/// Tubes contain the true poses at every crank angle between, and neighbouring tubes overlap.
+/// A tube contains the true poses at every crank angle of its part of the range, ends included.
+/// Neighbouring tubes therefore overlap.
 #[test]
-fn tubes_hold_the_motion() {
+fn tubes_contain_the_motion() {
     for case in [slider_crank(), four_bar()] {
         let mut tubes = Tubes::new(&case, [0.2, 0.2 + TAU], 0.0).unwrap();
         let parts: Vec<_> = tubes.parts().flat_map(|part| part.halves()).collect();
@@ -359,10 +364,10 @@ fn tubes_hold_the_motion() {
     }
 }
 
-/// At a dead point nothing is proven, and the result says so.
+/// At a singular pose nothing is proven, and the result reports this.
 #[test]
-fn a_singular_pose_is_left_open() {
-    // Parallelogram at its change point, passed smoothly.
+fn a_singular_pose_is_reported_as_unproven() {
+    // Parallelogram that passes smoothly through its change point.
     let case = Case::builder()
         .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.0])])
         .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])

@@ -2,8 +2,8 @@
 //!
 //! Over the interval, a uniform motion approximates the motion of each link.
 //! Its reference point moves along a straight line, and its angle changes in proportion to the crank angle.
-//! The deviation of the true motion is bounded group by group, for all crank angles of the interval at once
-//! (Krawczyk 1969; Moore 1977).
+//! The deviation of the true motion is bounded group by group, for all crank angles of the interval at once (Krawczyk
+//! 1969; Moore 1977).
 //! Let x be the poses of a group's links, F(x) = 0 its joint equations and x0 the uniform motion.
 //! Let A be an inverse of the derivative of F at the middle.
 //! Then T(x) = x - A F(x) maps the box |x - x0| <= r into itself and contracts if
@@ -28,19 +28,20 @@ use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned};
 use linkage::mechanism::{GROUND, Group, Joint, LinkId};
 use linkage::trajectory::Stage;
 
-/// Largest width of a first part of the range (rad).
+/// Upper limit of the width of the first parts, into which the range is divided at the beginning (rad).
 const FIRST: f64 = std::f64::consts::PI / 24.0;
-/// Largest number of halvings of a first part, down to about 1.5e-8 of it.
+/// Upper limit of the number of halvings of a first part. The smallest part has about 1.5e-8 of its width.
 pub const MOST_HALVINGS: u32 = 26;
-/// Largest number of trials, and the factor by which each trial widens the box.
+/// Upper limit of the number of trials to find a box that contains the motion.
+/// The second constant is the factor by which each trial widens the box.
 const TRIALS: usize = 12;
 const WIDER: f64 = 1.1;
-/// Rounding error of a position, as a share of the lengths that enter it.
+/// Rounding error of a position, divided by the lengths from which the position is computed.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
-/// Number of cached slices; further slices are recomputed on demand.
+/// Upper limit of the number of cached slices. Slices beyond this limit are recomputed on demand.
 const KEPT: usize = 20_000;
 
-/// Part of the range: a first part, halved `halvings` times.
+/// Part of the range that results from a first part by `halvings` halvings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RangePart {
     /// Number of halvings.
@@ -86,7 +87,7 @@ pub struct Tube {
     rate: Vec2,
     direction: Vec2,
     spin: f64,
-    /// Error bounds of the reference point (m) and of the angle (rad).
+    /// Error bound of the reference point (m). The next field is the error bound of the angle (rad).
     off: f64,
     twist: f64,
     half: f64,
@@ -163,7 +164,7 @@ pub struct Tubes<'a> {
 impl<'a> Tubes<'a> {
     /// Creates the tubes for the range between two crank angles (rad, in the direction of motion).
     /// `extent` is the largest distance of a queried point from the origin of its frame (m).
-    /// The bound on rounding errors grows with it.
+    /// The bound on rounding errors grows with `extent`.
     ///
     /// # Errors
     /// Those of [`PoseSolver::new`].
@@ -188,7 +189,7 @@ impl<'a> Tubes<'a> {
         })
     }
 
-    /// First parts of the range.
+    /// Parts into which the range is divided first.
     pub fn parts(&self) -> impl DoubleEndedIterator<Item = RangePart> + use<> {
         (0..self.first).map(|index| RangePart { halvings: 0, index })
     }
@@ -251,9 +252,9 @@ impl<'a> Tubes<'a> {
             *tube = Tube { centre, at, rate, direction, spin, off: rounding, twist: ROUNDING, half };
         }
         for drive in case.drives.iter() {
-            // The crank turns uniformly about its pivot on the ground. Drives on moving links are free, and with
-            // several degrees of
-            // freedom a single angle does not determine the pose.
+            // The crank turns uniformly about its pivot on the ground.
+            // A drive on a moving link does not occur here: it is free, and a single angle does not determine a pose
+            // with several degrees of freedom.
             let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
             let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
             (tube.centre, tube.at, tube.rate) = (pivot, motion.point(pivot), Vec2::zeros());
@@ -263,7 +264,8 @@ impl<'a> Tubes<'a> {
     }
 }
 
-/// Widens the tubes of a group's links until they provably contain its motion. Returns whether that succeeds.
+/// Widens the tubes of a group's links until they provably contain the motion of the group.
+/// Returns whether the proof succeeds.
 fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: f64) -> bool {
     let size = 3 * group.links.len();
     let joints: Vec<&Joint> =
@@ -292,7 +294,7 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
             let [x, y, twist] = [0, 1, 2].map(|k| radii[3 * index + k]);
             (tubes[link].off, tubes[link].twist) = (x.hypot(y), twist);
         }
-        // Change of every equation over the box.
+        // Bound on the change of every equation over the box.
         let mut change = vec![0.0; size];
         let mut row = 0;
         for joint in &joints {
@@ -320,8 +322,8 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
 }
 
 /// Writes the derivative of a joint's two equations at the middle into `derivative`.
-/// Writes their largest residual under the uniform motion into `open`.
-/// Links of the group move uniformly; other links are anywhere in their tubes.
+/// Writes the largest residual of these equations under the uniform motion into `open`.
+/// Links of the group move uniformly. Other links may be anywhere in their tubes.
 fn equations(
     joint: &Joint,
     tubes: &[Tube],
@@ -376,7 +378,7 @@ fn equations(
     }
 }
 
-/// Bounds the change of the derivative of a joint's two equations over the tubes, times the radii of the box.
+/// Bounds |F' - F'(middle)| r (docs/clearance.md) over the tubes, for a joint's two equations and the box `radii`.
 fn changes(
     joint: &Joint,
     tubes: &[Tube],

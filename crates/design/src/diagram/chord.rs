@@ -1,9 +1,10 @@
 //! The chord method and its inverse, graphical integration.
 //!
-//! The slope of the chord over an interval is the mean of the derivative over it.
-//! Taken as the derivative at the middle of the interval, it has the error h^2 f'''/24 and terms of higher order.
+//! The slope of the chord over an interval is the mean of the derivative over this interval.
+//! As an approximation of the derivative at the middle of the interval, it has the error h^2 f'''/24 and terms of
+//! higher order.
 //! For a sine of angular frequency k, the slope is exactly sin(k h/2) / (k h/2) times the derivative.
-//! In the inverse, the value at the middle times the interval is the increment.
+//! In the inverse, the increment is the value at the middle times the length of the interval.
 
 /// Returns the midpoints of the intervals between `places`.
 #[must_use]
@@ -18,8 +19,9 @@ pub fn slopes(places: &[f64], values: &[f64]) -> Vec<f64> {
     places.windows(2).zip(values.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect()
 }
 
-/// Returns the values at `places` of a function with the value `start` at the first place.
-/// Its derivatives at the midpoints are `rates`.
+/// Integrates a function that has the value `start` at the first of `places` and the derivatives `rates` at the
+/// midpoints.
+/// Returns the values at `places`.
 #[must_use]
 pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
     let mut sum = start;
@@ -31,7 +33,7 @@ pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
 }
 
 /// Returns the slopes of a curve that is periodic over `places` and has the values `rates` at the midpoints.
-/// The slopes are those at the inner places and at the last one.
+/// Slopes are given at the inner places and at the last place.
 #[must_use]
 pub fn closed_slopes(places: &[f64], rates: &[f64]) -> Vec<f64> {
     let mut middles = middles(places);
@@ -53,7 +55,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sine_comes_out_smaller_by_its_known_factor() {
+    fn the_chord_method_reduces_a_sine_by_its_known_factor() {
         for (n, k) in [(12, 1.0), (12, 3.0), (48, 5.0)] {
             let x = places(n);
             let half = k * TAU / n as f64 / 2.0;
@@ -62,7 +64,7 @@ mod tests {
             let velocity = slopes(&x, &sine);
             let acceleration = closed_slopes(&x, &velocity);
             assert_eq!((velocity.len(), acceleration.len()), (n, n));
-            // Rounding of the sines, amplified by the two divisions by h.
+            // Rounding error of the sines, amplified by the two divisions by h.
             let bound = |order: i32| 8.0 * f64::EPSILON * (n as f64 / TAU * 2.0).powi(order);
             for (x, v) in middles(&x).iter().zip(&velocity) {
                 assert!((v - factor * k * (k * x).cos()).abs() <= bound(1), "{v}");
@@ -74,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn integration_takes_the_chords_back() {
+    fn integration_inverts_the_chord_method() {
         let x = [0.0, 0.1, 0.35, 0.4, 1.0];
         let f = [2.0, -1.0, 0.5, 7.0, 3.0];
         for (back, value) in integral(f[0], &x, &slopes(&x, &f)).iter().zip(f) {
@@ -84,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_gives_nothing() {
+    fn empty_input_gives_empty_output() {
         assert!(slopes(&[], &[]).is_empty() && closed_slopes(&[], &[]).is_empty());
         assert_eq!(integral(3.0, &[1.0], &[]), [3.0]);
     }

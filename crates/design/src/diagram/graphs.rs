@@ -29,7 +29,7 @@ pub struct CrankGraph {
     /// Lowest and highest point on paper.
     pub marks: [GraphPoint; 2],
     /// Reference size for the range of values.
-    /// If the range is below a billionth of it, the range is rounding error and the quantity is constant.
+    /// A range below a billionth of this size is rounding error, and the quantity counts as constant.
     pub size: f64,
 }
 

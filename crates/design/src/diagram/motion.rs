@@ -15,14 +15,14 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, ChannelSubject, Stage};
 use std::f64::consts::TAU;
 
-/// Allowed number of divisions of the turn. Fewer do not show the motion; more only take time.
+/// Allowed number of divisions of the turn. Fewer divisions do not show the motion; more divisions only take time.
 pub const DIVISIONS: std::ops::RangeInclusive<usize> = 4..=1000;
-/// Smallest number of points of the exact curves.
+/// Lower limit of the number of points of the exact curves.
 const CURVE: usize = 720;
-/// Smallest scale of a derivative, as a share of its natural scale.
+/// Lower limit of a derivative's scale, divided by its natural scale.
 /// The errors of a nearly constant derivative come from the displacement.
 const SMALLEST: f64 = 1e-3;
-/// Share of the half range below which errors are rounding errors and give no order.
+/// If an error is below this fraction of its scale, it is rounding error and no order is computed from it.
 const ROUNDING: f64 = 1e-11;
 /// Suffixes of a channel and its two derivatives.
 const ENDINGS: [[&str; 3]; 3] =
@@ -119,13 +119,13 @@ pub struct MethodResult {
     pub rms: f64,
     /// Largest error divided by half the range of the exact curve.
     /// The divisor is at least a thousandth of the natural scale.
-    /// The natural scale is the displacement's half range times the crank's angular velocity, once for the velocity and
-    /// twice
-    /// for the acceleration.
+    /// For the velocity, the natural scale is the displacement's half range times the crank's angular velocity.
+    /// For the acceleration, it is the displacement's half range times the square of this angular velocity.
     pub share: f64,
-    /// Observed orders of the error's root mean square.
-    /// The first is from `divisions` to twice as many, the second from these to four times as many.
-    /// `None` where the error is rounding error.
+    /// Observed orders of convergence of the root mean square error.
+    /// The first order compares `divisions` with twice as many divisions.
+    /// The second compares twice as many with four times as many.
+    /// `None` if the error is rounding error.
     pub orders: [Option<f64>; 2],
 }
 
@@ -136,7 +136,7 @@ pub struct MotionDiagram {
     pub course: MotionCurve,
     /// Number of divisions of the turn.
     pub divisions: usize,
-    /// Number of rows per division, even.
+    /// Number of rows per division. It is even.
     pub stride: usize,
     /// Crank angle of every row (rad, as the scenario defines it).
     pub cranks: Vec<f64>,
@@ -165,7 +165,7 @@ impl MotionDiagram {
             let message = sentences::THE_CHORD_METHOD_DIVIDES_A_TURN;
             return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::GIVE_THE_DRIVE_A_CONSTANT));
         }
-        // The midpoints of divisions, half divisions and quarter divisions are all rows.
+        // Every midpoint of a division, a half division or a quarter division is a row.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
         let sense = case.crank().sense();
@@ -194,7 +194,7 @@ impl MotionDiagram {
             let largest = errors[0].iter().fold(0.0f64, |most, error| most.larger(error.abs()));
             let orders = [order(size[0], size[1]), order(size[1], size[2])];
             let [(rows, values), ..] = runs;
-            // A curve without motion has neither scale nor error.
+            // For a curve without motion, both scale and error are zero.
             let share = share(largest, scale);
             MethodResult { method, rows, values, largest, rms: size[0], share, orders }
         });
@@ -215,7 +215,7 @@ fn scales(exact: &[Vec<f64>; 3], period: f64) -> [f64; 3] {
     [0, 1, 2].map(|order| half_range(&exact[order as usize]).larger(natural(order)))
 }
 
-/// Returns the rows and values that a method yields with divisions of `stride` rows.
+/// Applies a method to divisions of `stride` rows. Returns the rows and the values there.
 fn apply(method: Method, stride: usize, times: &[f64], exact: &[Vec<f64>; 3]) -> (Vec<usize>, Vec<f64>) {
     let ends: Vec<usize> = (0..times.len()).step_by(stride).collect();
     let middles: Vec<usize> = (stride / 2..times.len()).step_by(stride).collect();

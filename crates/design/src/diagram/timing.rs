@@ -13,7 +13,7 @@ pub struct Stretch {
     pub rests: bool,
     /// Achieved motion, in a few characters.
     pub figure: String,
-    /// Smallest required travel: the achieved share of the stroke at the start, and the required share at the end.
+    /// Smallest required travel, as a line: achieved fraction of the stroke at the start, required fraction at the end.
     pub least: [f64; 2],
 }
 
@@ -22,7 +22,7 @@ pub struct Stretch {
 pub struct TimingDiagram {
     /// Achieved curve: crank angle (rad) and share of the stroke.
     pub curve: Vec<[f64; 2]>,
-    /// Required curve, likewise; empty if only senses of motion are required.
+    /// Required curve, in the same form; empty if only senses of motion are required.
     pub wanted: Vec<[f64; 2]>,
     /// Phases.
     pub stretches: Vec<Stretch>,

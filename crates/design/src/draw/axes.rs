@@ -50,7 +50,7 @@ pub fn framed(sheet: &DrawnFigure, margin: f64, title: &str) -> String {
 /// Vertical axis between two round values.
 #[derive(Clone, Copy, Debug)]
 pub struct ValueAxis {
-    /// Ends of the axis, in steps.
+    /// Lower end of the axis, in multiples of `step`. The next field is the upper end.
     bottom: f64,
     up: f64,
     /// Value between two grid lines.
@@ -104,7 +104,7 @@ fn number(value: f64, step: f64) -> String {
     if value == 0.0 {
         return "0".into();
     }
-    // Some multiples of a round number differ from the round value by rounding error.
+    // A computed multiple of a round number may differ from the round value by a rounding error.
     let round: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     format!("{round:e}")
 }

@@ -19,7 +19,7 @@ use scenario::clearance::{ClearanceQuestion, Outline};
 const ROOM: Vec2 = Vec2::new(150.0, 150.0);
 /// Number of positions drawn for a link's swept area.
 const POSITIONS: usize = 240;
-/// Opacity of swept areas and of outlines.
+/// Opacity of swept areas. The second constant is that of outlines.
 const SWEPT: f64 = 0.2;
 const OUTLINE: f64 = 0.45;
 /// Smallest line width (mm).
@@ -48,7 +48,7 @@ pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &Cle
     let scale = fit(extent(asked, &all), ROOM);
     let sketch = Sketch::of(&case.mechanism, &travels, scale).with_drives(&case.mechanism, &case.drives);
     let sketch = sketch.without(&[MarkRole::MassCentre, MarkRole::MassQuarter]);
-    // The walls show the fixed housing; a guide's mark would suggest walls elsewhere.
+    // The walls show the fixed housing. The symbol of a fixed guide would suggest further walls.
     let has_housing = asked.bodies.iter().any(|body| !body.moves());
     let sketch = if has_housing { sketch.without(&[MarkRole::Bore, MarkRole::Rail, MarkRole::Hatch]) } else { sketch };
     let places: Vec<LinkPlacement> = here.iter().map(|own| LinkPlacement::Here(pose_of(own))).collect();

@@ -9,12 +9,13 @@ use linkage::math::{KeepNan, Vec2};
 
 /// Length of the crank angle axis (mm): two degrees per millimetre for one turn.
 const LONG: f64 = 180.0;
-/// Largest height of a graph, and distances between graphs (mm).
+/// Upper limit of the height of a graph (mm). The second constant holds the distances between graphs (mm).
 const HIGH: f64 = 56.0;
 const ROOM: Room = Room { gap: 3.0, left: 22.0, between: 6.0 };
-/// Space above and below a curve for the labels of its extremes, as a share of its range.
+/// Space above and below a curve for the labels of its extremes, divided by the curve's range.
 const ASIDES: f64 = 0.2;
-/// If an extreme is nearer than this to an end of the axis (mm), its label starts or ends at the extreme.
+/// If an extreme is nearer than this to an end of the axis (mm), its label is not centred.
+/// The label then starts or ends at the extreme.
 const ASIDE: f64 = 28.0;
 /// Line at the mean.
 const MEAN: Style = Style { colour: COLOURS[1], width: 0.3, dash: "2 1.2" };
@@ -73,7 +74,7 @@ fn panel(graph: &CrankGraph, [start, end]: [f64; 2]) -> DrawnFigure {
 fn angles(figure: &mut DrawnFigure, [start, end]: [f64; 2], height: f64) {
     let (from, to) = (start.to_degrees(), end.to_degrees());
     let every = 30.0 * ((to - from).abs() / 360.0).ceil().larger(1.0);
-    // An angle beyond an end by rounding counts as the end.
+    // An angle that exceeds an end by a rounding error counts as the end.
     let [first, last] = [(from.smaller(to) / every - 1e-9).ceil(), (from.larger(to) / every + 1e-9).floor()];
     for k in 0..=(last - first).larger(0.0) as u32 {
         let degrees = (first + f64::from(k)) * every + 0.0;

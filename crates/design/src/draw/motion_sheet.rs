@@ -10,7 +10,7 @@ use linkage::math::statistics::ends;
 
 /// Length of the crank angle axis (mm): two degrees per millimetre.
 const LONG: f64 = 180.0;
-/// Largest height of a diagram, and distances between diagrams (mm).
+/// Upper limit of the height of a diagram (mm). The second constant holds the distances between diagrams (mm).
 const HIGH: f64 = 60.0;
 const ROOM: Room = Room { gap: 3.4, left: 28.0, between: 10.0 };
 /// Chords of the displacement.
@@ -18,7 +18,7 @@ const CHORDS: Style = Style { colour: COLOURS[0], width: 0.25, dash: "1.5 1" };
 /// Font size and line distance of the legend (mm).
 const TEXT: f64 = 3.3;
 const LINE: f64 = 5.0;
-/// Largest number of points of a curve on paper; more would not be visible.
+/// Upper limit of the number of points of a curve on paper. More points would not be visible.
 const POINTS: usize = 361;
 
 /// Returns the diagrams as an SVG document with `title` above them.

@@ -1,5 +1,5 @@
 //! Sheet of a mechanism's plans: kinematic diagram, velocity plan and acceleration plan below each other.
-//! Each has its table below it. The narrow sheet keeps its letters legible at the width of a web page.
+//! Each plan has its table below it. The sheet is narrow, so that letters stay legible at the width of a web page.
 
 use super::scheme_figure;
 use crate::plan::Plans;
@@ -13,16 +13,18 @@ use drawing::paper::style::{BLACK, GREY, colour, significant};
 use drawing::paper::table::LegendTable;
 use linkage::math::{KeepNan, Vec2, cross, turned};
 
-/// Margin of the sheet, distance between plans, and distance between a figure and its table (mm).
+/// Margin of the sheet (mm).
+/// The next constants are the distance between plans and the distance between a figure and its table (mm).
 const MARGIN: f64 = 8.0;
 const GAP: f64 = 12.0;
 const SPACE: f64 = 6.0;
-/// Height of the sheet's title and of a column's heading (mm).
+/// Height of the sheet's title (mm). The second constant is the height of a column's heading (mm).
 const TITLE: f64 = 18.0;
 const HEADING: f64 = 15.0;
 /// Points closer to each other on paper than this (mm) share one label.
 const ONE: f64 = 0.7;
-/// Distance between arrows that would coincide (mm), and the common length above which they are drawn apart (mm).
+/// Distance at which arrows that would coincide are drawn beside each other (mm).
+/// The second constant is the common length above which they are drawn beside each other (mm).
 const APART: f64 = 0.8;
 const SHARED: f64 = 1.0;
 /// Length below which an arrow is drawn as a point (mm).
@@ -139,7 +141,7 @@ fn figure(plan: &VectorPlan) -> DrawnFigure {
     figure
 }
 
-/// Shifts an arrow sideways, with its length kept, until it coincides with none of the arrows drawn before it.
+/// Shifts an arrow sideways, with its length kept, until it no longer coincides with an arrow drawn before.
 fn beside(ends: [Vec2; 2], drawn: &[[Vec2; 2]]) -> [Vec2; 2] {
     let along = (ends[1] - ends[0]).normalize();
     let aside = turned(along) * APART;
@@ -150,7 +152,7 @@ fn beside(ends: [Vec2; 2], drawn: &[[Vec2; 2]]) -> [Vec2; 2] {
         let common = high.smaller((ends[1] - ends[0]).norm()) - low.larger(0.0);
         other.iter().all(|at| off(at) < APART / 2.0) && common > SHARED
     };
-    // The shifts alternate between both sides, with growing distance.
+    // The shifts go alternately to both sides, with growing distance.
     let shifts =
         (0..=2 * drawn.len()).map(|k| f64::from(k.div_ceil(2) as u32) * if k.is_multiple_of(2) { 1.0 } else { -1.0 });
     let mut places = shifts.map(|shift| ends.map(|end| end + aside * shift));

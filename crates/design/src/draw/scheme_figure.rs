@@ -9,9 +9,9 @@ use drawing::picture::Picture;
 use drawing::{Lettering, Mark, MarkRole};
 use linkage::math::Vec2;
 
-/// Share of the natural scale below which an angular velocity or acceleration is rounding error.
+/// An angular velocity or acceleration below this fraction of its natural scale is rounding error.
 const ROUNDING: f64 = 1e-12;
-/// Distance from the leads' ends (mm) beyond which a singular point is not drawn.
+/// A singular point is drawn only if each lead has an end that is nearer to it than this (mm).
 const NEAR: f64 = 120.0;
 
 /// Draws the mechanism; the world origin is the figure's origin.
@@ -50,8 +50,8 @@ pub fn scheme(scheme: &Scheme) -> DrawnFigure {
     picture.finish(1)
 }
 
-/// Returns a singular point on paper and the lines that meet in it, each from the lead's farther end; `None` if it lies
-/// too far away.
+/// Returns a singular point on paper and the two lines that meet in it. Each line starts at the farther end of a lead.
+/// `None` if the point is too far away.
 fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2; 2]; 2])> {
     let named = |name: &String| scheme.points.iter().find(|(own, _)| own == name).map(|(_, at)| at / scheme.scale);
     let at = point.at / scheme.scale;
@@ -66,7 +66,8 @@ fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2
 /// Table of the links with their numbers, angular velocities and angular accelerations.
 pub fn table(scheme: &Scheme) -> LegendTable {
     let driver = scheme.links.iter().find(|link| link.number == scheme.driver).map_or(0.0, |link| link.omega.abs());
-    // At a dead point the values are only rounding error. They are compared with the crank's speed and its square.
+    // At a dead point the values are only rounding error.
+    // The natural scale is the crank's speed for an angular velocity, and its square for an angular acceleration.
     let shown = |value: f64, scale: f64| significant(if value.abs() > ROUNDING * scale { value } else { 0.0 });
     let row = |link: &SchemeLink| {
         let (omega, alpha) = (shown(link.omega, driver), shown(link.alpha, driver * driver));

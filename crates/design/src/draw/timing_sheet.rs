@@ -15,7 +15,7 @@ const LONG: f64 = 180.0;
 const HIGH: f64 = 80.0;
 /// Height of the strip of phases above the stroke (mm).
 const STRIP: f64 = 11.0;
-/// Left margin with the numbers of the axis, and the other margins (mm).
+/// Space left of the axis for its numbers (mm). The second constant is the margin of the sheet (mm).
 const LEFT: f64 = 14.0;
 const MARGIN: f64 = 12.0;
 /// Required motion.
@@ -94,5 +94,8 @@ fn legend(figure: &mut DrawnFigure, diagram: &TimingDiagram) {
         left += 62.0;
     };
     entry(solid(COLOURS[0], 0.5), sentences::ACHIEVED_SHARE_OF_THE_STROKE);
-    entry(WANTED, if diagram.wanted.is_empty() { sentences::WANTED_REST_OR_AT_LEAST_SO } else { "wanted, cycloidal" });
+    entry(
+        WANTED,
+        if diagram.wanted.is_empty() { sentences::WANTED_REST_OR_AT_LEAST_SO } else { "required, cycloidal" },
+    );
 }

@@ -12,26 +12,26 @@ use linkage::math::root::{self, Close};
 pub struct Flywheel {
     /// Moment of inertia (kg m^2); 0 if no flywheel is needed.
     pub inertia: f64,
-    /// The steady motion with it.
+    /// The steady motion with this flywheel.
     pub regime: Regime,
 }
 
-/// Largest flywheel as a multiple of the first guess: sixty doublings.
-/// Beyond it the required coefficient counts as unreachable.
+/// Upper limit of the flywheel divided by the first guess: sixty doublings.
+/// If a larger flywheel would be needed, the required coefficient counts as unreachable.
 const LARGEST: f64 = (1u64 << 60) as f64;
-/// Limit of regula falsi steps; it takes about eight.
+/// Upper limit of the number of regula falsi steps. About eight steps are needed.
 const STEPS: usize = 80;
-/// Relative deviation of the coefficient that is accepted.
+/// Accepted relative deviation of the coefficient of non-uniformity.
 const CLOSE: f64 = 1e-12;
 
 impl Flywheel {
     /// The flywheel with which the steady motion has the coefficient of non-uniformity `wanted`.
-    /// If the coefficient is already smaller, the flywheel has no inertia.
-    /// It is found by regula falsi (Illinois); each step solves for the exact steady motion.
+    /// If the coefficient is already smaller without a flywheel, the flywheel has no inertia.
+    /// Regula falsi (Illinois) finds the inertia. Each step solves for the exact steady motion.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a coefficient that is not positive.
-    /// [`ErrorKind::Numeric`] for one that no flywheel reaches.
+    /// [`ErrorKind::Numeric`] for a coefficient that no flywheel reaches.
     /// Those of [`ReducedModel::regime`].
     pub fn of(model: &ReducedModel, wanted: f64, accuracy: f64) -> Result<Self> {
         if !(wanted > 0.0 && wanted.is_finite()) {

@@ -24,7 +24,7 @@ pub struct CatalogueMotor {
     pub power: f64,
     /// Speed at the rated power (rad/s).
     pub rated_speed: f64,
-    /// Speed without load (rad/s), above the rated one.
+    /// Speed without load (rad/s), above the rated speed.
     pub synchronous_speed: f64,
     /// Breakdown torque divided by rated torque, if the catalogue states it.
     pub breakdown: Option<f64>,
@@ -37,8 +37,9 @@ impl CatalogueMotor {
         self.power / self.rated_speed
     }
 
-    /// The stable part of its characteristic: the straight line through the rated point and synchronous speed,
-    /// M = M_n (omega_s - omega) / (omega_s - omega_n).
+    /// The stable part of the motor's characteristic.
+    /// It is the straight line through the rated point and synchronous speed, M = M_n (omega_s - omega) / (omega_s -
+    /// omega_n).
     #[must_use]
     pub fn law(&self) -> MotorLaw {
         let slope = -self.rated_torque() / (self.synchronous_speed - self.rated_speed);
@@ -54,7 +55,8 @@ impl CatalogueMotor {
 }
 
 /// The motor with the smallest rated power that is not below `power` (W).
-/// Of equal motors, the first in the catalogue is taken. `None` if all are too weak.
+/// If several motors have this rated power, the first in the catalogue is taken.
+/// `None` if all motors are too weak.
 #[must_use]
 pub fn weakest_sufficient(motors: &[CatalogueMotor], power: f64) -> Option<&CatalogueMotor> {
     motors.iter().filter(|motor| motor.power >= power).min_by(|a, b| a.power.total_cmp(&b.power))
@@ -67,7 +69,7 @@ pub struct MotorChoice {
     pub peak: (f64, f64),
     /// Mean reduced moment of resistance (N m).
     pub mean: f64,
-    /// Required magnitude of the crank's speed (rad/s): that of the scenario.
+    /// Required magnitude of the crank's speed (rad/s). The scenario states this speed.
     pub wanted: f64,
     /// Power on the crank's shaft at the peak (W).
     pub power: f64,
@@ -87,7 +89,7 @@ impl MotorChoice {
     /// The weakest motor of the catalogue with enough power for the peak, at the crank's speed in the scenario.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for an efficiency that is not above 0 and at most 1, or if every motor is too weak.
+    /// [`ErrorKind::Input`] for an efficiency of 0 or less or above 1, or if every motor is too weak.
     /// [`ErrorKind::Numeric`] if the mechanism needs no motor, or the motor has no steady speed.
     /// Those of [`ReducedModel::of`] and of its extremes.
     pub fn of(case: &Case, catalogue: &[CatalogueMotor], efficiency: f64) -> Result<Self> {
@@ -158,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn the_published_line() {
+    fn rated_data_give_the_published_torque_line() {
         let motor = motor("a", 0.55, 2745.0);
         // The printed values are 1.913 N m, 22.51 N m and -0.0716 N m s.
         assert!((motor.rated_torque() - 1.913).abs() < 5e-4);
@@ -170,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn the_weakest_that_is_strong_enough() {
+    fn the_weakest_sufficient_motor_is_chosen() {
         let all =
             [motor("big", 2.2, 2850.0), motor("b", 0.75, 2840.0), motor("a", 0.55, 2745.0), motor("c", 0.55, 1390.0)];
         let name = |power| weakest_sufficient(&all, power).map(|motor| motor.name.as_str());

@@ -4,29 +4,32 @@
 //!
 //! - The plane is XOY. Every body's frame is that of its link, in the start pose.
 //!   `ref` makes the joint coordinates those of the mechanism.
-//!   They are the angle of the child minus that of its parent, and the slide of a prismatic joint as in its channel.
+//!   The coordinate of a hinge is the angle of the child minus that of its parent.
+//!   The coordinate of a slide is that of the prismatic joint's channel.
 //! - A joint that closes a loop is a `connect` of two sites.
 //!   Its third row, along z, is zero in a planar mechanism: it costs a little and has no effect.
 //! - A drive is a rotor ([`MjcfModel::rotor`]) on the driven hinge.
 //!   Its inertia is so large that the speed is practically constant: it changes by 1e-9.
 //!   This holds with any integrator and at any step.
-//!   A velocity actuator of that stiffness diverges (`implicitfast` solves the constraints without its damping).
+//!   A velocity actuator of the same stiffness diverges, because `implicitfast` solves the constraints without the
+//! actuator's damping.
 //!   A softer actuator lags.
 //!   The rotor does not enter the interaction forces that sensors read.
 //!   The torque sensor of the hinge therefore reads the driving moment.
 //! - A free link has no rotor except that of its motor.
 //!   The motor is an actuator whose moment falls with the speed.
-//!   With losses it becomes two actuators: one drives, the other brakes.
+//!   A motor with losses becomes two actuators: one drives, the other brakes.
 //! - Moments, forces and torsional springs and dampers are actuators.
 //!   They act on a hinge, on a site, or on a fixed tendon whose length is an angle or a difference of angles.
 //!   Springs and dampers between points are spatial tendons.
 //! - A moment that resists the rotation of a link is dry friction.
-//!   It acts in the link's hinge if that is on the ground, else in a fixed tendon whose length is the link's angle.
-//!   At rest it holds the link, where [`Load::Resistance`](linkage::drive::Load::Resistance) is zero.
-//! - Constraints are as stiff as a step permits.
+//!   It acts in the link's hinge if that hinge is on the ground.
+//!   Otherwise it acts in a fixed tendon whose length is the link's angle.
+//!   Dry friction holds a link at rest, whereas [`Load::Resistance`](linkage::drive::Load::Resistance) is zero at rest.
+//! - Constraints are as stiff as the time step permits.
 //!   With `solref="1e-9 0.5"` MuJoCo raises the time constant to twice the step (`refsafe`).
 //!   That gives b = 1/h and k = 1/h^2, so a gap is closed in one step.
-//!   The file is therefore valid for any step, and the error is of second order in it.
+//!   The file is therefore valid for any step, and the error is of second order in the step.
 
 mod effects;
 mod forces;

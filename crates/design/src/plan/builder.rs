@@ -1,4 +1,4 @@
-//! Computes the vectors of a plan from the motions of the links, pair of points by pair of points.
+//! Computes the vectors of a plan from the motions of the links, for one pair of points after another.
 
 use super::names::{Named, NamedPoint, fixed_guide, pair, pivot, primed};
 use super::sliding::Slide;
@@ -9,7 +9,7 @@ use linkage::math::{KeepNan, Motion, Vec2, turned};
 use linkage::mechanism::{LinkId, Mechanism};
 use linkage::solver::State;
 
-/// Length on paper (mm) below which a tangential part counts as zero: the link turns uniformly.
+/// A tangential part shorter than this on paper (mm) counts as zero: the link turns uniformly.
 pub(crate) const NOTHING: f64 = 1e-9;
 
 /// A point of a link.
@@ -87,7 +87,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Returns the direction known in advance for the vector of a point of `link`.
+    /// Describes the direction of the vector of a point of `link`, if the direction is known in advance.
+    /// Otherwise the text is empty.
     fn direction(&self, link: LinkId, name: &str) -> String {
         match (self.quantity, pivot(self.mechanism, link), fixed_guide(self.mechanism, link)) {
             (Quantity::Velocity, Some((_, pivot)), _) => sentences::perpendicular_to(&pair(&pivot, name)),
@@ -96,7 +97,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Vectors from the pole for the points of moving guides that coincide with the sliding points.
+    /// Adds the absolute vectors of the points of moving guides that coincide with the sliding points.
     fn coincident(&mut self) {
         let (pole, symbol, word) = (self.quantity.pole(), self.quantity.symbol(), self.quantity.word());
         for slide in self.slides {
@@ -135,9 +136,10 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Vectors of a prismatic joint on a moving guide: the relative velocity, or the Coriolis part and the relative
-    /// acceleration.
-    /// A fixed guide adds only the direction of the absolute vectors, and a revolute joint adds nothing.
+    /// Adds the vectors of a prismatic joint on a moving guide.
+    /// In a velocity plan this is the relative velocity.
+    /// In an acceleration plan these are the Coriolis part and the relative acceleration.
+    /// A fixed guide and a revolute joint add no vector.
     fn sliding(&mut self) {
         let mut number = 0;
         for slide in self.slides {
@@ -167,7 +169,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds the end of a vector, with as many primes as make its letter unique. Returns the letter.
+    /// Adds the end of a vector. Its letter gets as many primes as make it unique. Returns the letter.
     fn tip(&mut self, letter: String, kind: TipKind, at: Vec2) -> String {
         let letter = primed(letter, |letter| self.tips.iter().any(|tip| tip.letter == letter));
         self.tips.push(Tip { letter: letter.clone(), kind, at });
@@ -179,7 +181,8 @@ impl<'a> Builder<'a> {
         self.tips.iter().find(|tip| tip.letter == letter).map_or_else(Vec2::zeros, |tip| tip.at)
     }
 
-    /// Normal and tangential parts of every relative acceleration, and of every acceleration about a ground pivot.
+    /// Adds the normal and tangential parts of every relative acceleration, and of every acceleration about a ground
+    /// pivot.
     fn split(&mut self, scale: f64) {
         let mut number = 0;
         for link in self.mechanism.links().ids().skip(1) {
@@ -215,10 +218,9 @@ impl<'a> Builder<'a> {
     }
 
     /// Pairs of points of a link.
-    /// First come its ground pivot with every other point, and then the moving points with each other.
-    /// Last come the points that coincide with sliding points. Each is paired with the link's pivot or, without a
-    /// pivot, with
-    /// its moving points.
+    /// The first pairs join the link's ground pivot and every other point. The next pairs join two moving points.
+    /// The last pairs contain a point that coincides with a sliding point.
+    /// It is paired with the link's pivot or, without a pivot, with the link's moving points.
     /// A link that never turns has no pairs: all its points have the same motion.
     fn pairs(&self, link: LinkId) -> Vec<(On<'a>, On<'a>)> {
         if !self.mechanism.can_turn(link) {
@@ -264,7 +266,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Direction along the guide of a joint, for a vector's meaning.
+/// Words for the direction along the guide of a joint, used in the meaning of a vector.
 fn along(joint: &str) -> String {
     sentences::along_the_guide(&joint)
 }

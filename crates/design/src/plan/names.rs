@@ -18,8 +18,8 @@ pub struct Named {
 pub struct NamedPoint {
     /// Name and letter.
     pub named: Named,
-    /// A link that contains the point, and its position on it (m). A link on a ground pivot or in a fixed guide is
-    /// preferred.
+    /// A link that contains the point, and the point's position on this link (m).
+    /// A link on a ground pivot or in a fixed guide is preferred.
     pub side: JointSide,
     /// Whether the point belongs to the ground.
     pub fixed: bool,
@@ -85,7 +85,7 @@ mod tests {
     use linkage::fixtures::{four_bar, link, mechanism};
 
     #[test]
-    fn every_point_has_its_own_letter_and_the_pole_too() {
+    fn points_and_pole_have_distinct_letters() {
         let letters = |all: Vec<NamedPoint>| all.into_iter().map(|place| place.named.letter).collect::<Vec<_>>();
         assert_eq!(letters(places(&four_bar(), &["p"])), ["o", "c", "a", "b"]);
         let links = vec![
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_belongs_to_a_link_hinged_to_the_ground_where_there_is_one() {
+    fn a_shared_point_belongs_to_the_link_hinged_to_the_ground() {
         let all = places(&four_bar(), &["p"]);
         assert_eq!(all.iter().map(|place| place.side.link.index()).collect::<Vec<_>>(), [0, 0, 1, 3]);
     }

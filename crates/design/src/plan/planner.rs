@@ -2,18 +2,18 @@
 //!
 //! All absolute vectors start in the pole.
 //! For the plane motion of a rigid link, v_B = v_A + omega x AB and a_B = a_A + alpha x AB - omega^2 AB.
-//! The vector between the ends of two absolute vectors is therefore the relative one.
+//! The vector between the ends of two absolute vectors is therefore the relative vector.
 //! The image of a link in the velocity plan is the link turned by 90 deg and enlarged omega times.
 //! In the acceleration plan it is turned by 180 deg - atan2(alpha, omega^2) and enlarged sqrt(alpha^2 + omega^4) times.
 //! These are Mehmke's and Burmester's theorems.
 //!
 //! A point A that slides on a moving guide of link 3 coincides with a point A3 of that link.
-//! In the guide's axes A moves along the guide by s(t).
-//! Differentiation in fixed axes gives v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e,
-//! with e the guide's unit vector and omega its angular velocity (Coriolis 1835).
+//! In the guide's axes, the position of A along the guide is s(t).
+//! Differentiation in fixed axes gives v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e.
+//! Here e is the guide's unit vector and omega its angular velocity (Coriolis 1835).
 //!
-//! Each vector comes from the motion of its link, and those along a guide from the slide.
-//! No vector is computed as the difference of two others, so the closure of the polygons is a result.
+//! Every vector is computed from the motion of its link, and a vector along a guide from the slide.
+//! The difference of two other vectors is never used, so the closure of the polygons is a result.
 
 use super::builder::Builder;
 use super::names::{Named, NamedPoint, places};
@@ -45,8 +45,7 @@ pub struct Plans {
 impl Plans {
     /// Draws the plans of a state with motions up to accelerations.
     /// `solver` finds the travel of the sliders on the case's grid. The travel sets the length of the guides in the
-    /// kinematic
-    /// diagram.
+    /// kinematic diagram.
     #[must_use]
     pub fn of(case: &Case, solver: &dyn Solver, state: &State, crank: f64) -> Self {
         let planner = Planner::of(&case.mechanism);
@@ -63,7 +62,7 @@ impl Plans {
         Plans { crank, scheme, velocity, acceleration, points }
     }
 
-    /// Keeps the plans of the points and links in `names`.
+    /// Keeps only the vectors of the points and links in `names`.
     /// A point keeps its vectors; a link keeps all its points and its mass centre.
     ///
     /// # Errors
@@ -91,7 +90,7 @@ impl Plans {
     }
 }
 
-/// Plans of a mechanism at any state; letters and slides are determined once.
+/// Plans of a mechanism at any state. Letters and slides are determined only once.
 #[derive(Debug)]
 pub struct Planner<'a> {
     mechanism: &'a Mechanism,

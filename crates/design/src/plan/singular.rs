@@ -2,13 +2,14 @@
 //!
 //! Two base links have the outer joints A and K; two leads BD and CE connect them.
 //! S = BD x CE is taken as a point of either base link.
-//! Its velocity component along each lead equals that of the lead's end, since rotation adds no component along a line
+//! Its velocity component along a lead equals that of the lead's end, since rotation adds no component along a line
 //! through S.
 //! Two components determine a vector, so S has equal velocities on both base links:
 //! v_S = v_A + omega2 x AS = v_K + omega5 x KS.
-//! Both sides have a known direction, so v_S is the intersection of two lines.
+//! The directions of omega2 x AS and omega5 x KS are known, so v_S is the intersection of two lines.
 //! The accelerations of S on the two base links differ by d.
-//! Along the lead BD (unit vector u), d u = omega5^2 (D - S) u - omega2^2 (B - S) u - omega3^2 |BD|; likewise along CE.
+//! Along the lead BD (unit vector u), d u = omega5^2 (D - S) u - omega2^2 (B - S) u - omega3^2 |BD|.
+//! The same holds along CE.
 //! Then a_A + ... + d = a_K + ... has the same construction.
 
 use crate::sentences;
@@ -17,7 +18,8 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, JointId, LinkId, Mechanism};
 
-/// Sine of the angle below which two lines count as parallel: their intersection then has too few correct digits.
+/// If the sine of the angle between two lines is below this limit, the lines count as parallel.
+/// Their intersection would have too few correct digits.
 const PARALLEL: f64 = 1e-9;
 
 /// Singular point of a group, with the motion computed through it.
@@ -64,7 +66,7 @@ impl SingularPoint {
         if !(dead.abs() > PARALLEL) {
             return Err(wrong(&leads, " x ", |names| sentences::the_singular_point_lies_in_line(&names)));
         }
-        // turned(arm1) w1 - turned(arm2) w2 = r, multiplied by the arm that eliminates one unknown.
+        // Solves turned(arm1) w1 - turned(arm2) w2 = r. The dot product with one arm eliminates one unknown.
         let spins = |r: Vec2| {
             let turn = turned(arms[0]).dot(&arms[1]);
             [r.dot(&arms[1]) / turn, r.dot(&arms[0]) / turn]
@@ -81,7 +83,7 @@ impl SingularPoint {
             omegas[1].powi(2) * d - omegas[0].powi(2) * b - omega.powi(2) * lead.length
         };
         let components = [along(first, lead_omegas[0]), along(second, lead_omegas[1])];
-        // Vector with these components along two oblique directions.
+        // Vector that has these components along two oblique directions.
         let step = (turned(first.along) * components[1] - turned(second.along) * components[0]) / slant;
         let centripetal = |side: usize| outer[side][2] - arms[side] * omegas[side].powi(2);
         let alphas = spins(centripetal(1) - centripetal(0) - step);
@@ -143,7 +145,7 @@ fn parts(mechanism: &Mechanism, group: &Group, motions: &[Motion]) -> Option<([B
     Some((bases, [leads.next()??, leads.next()??]))
 }
 
-/// Error for the leads, which are named side by side with `between` between them.
+/// Error about the two leads. The message contains both leads, separated by `between`.
 fn wrong(leads: &[Lead; 2], between: &str, message: impl FnOnce(String) -> String) -> Error {
     let names = leads.each_ref().map(|lead| super::names::pair(&lead.names[0], &lead.names[1]));
     Error::new(ErrorKind::Geometry, message(names.join(between))).help(sentences::TAKE_A_CRANK_ANGLE_A_LITTLE)

@@ -48,7 +48,8 @@ impl Slide {
     }
 }
 
-/// Returns all prismatic joints. A sliding point without a name takes that of its joint and is added to `places`.
+/// Returns all prismatic joints.
+/// A sliding point without a name takes the name of its joint and is added to `places`.
 pub fn slides(mechanism: &Mechanism, places: &mut Vec<NamedPoint>) -> Vec<Slide> {
     let mut all = Vec::new();
     // Mass centres keep their letters.
@@ -79,7 +80,7 @@ pub fn slides(mechanism: &Mechanism, places: &mut Vec<NamedPoint>) -> Vec<Slide>
     all
 }
 
-/// Returns `name` and its letter, with as many primes as make both unique.
+/// Returns `name` and its letter. Both get as many primes as make them unique.
 fn unused(name: String, places: &[NamedPoint], others: &[Named]) -> Named {
     let name = primed(name, |name| {
         let letter = name.to_lowercase();
@@ -91,7 +92,7 @@ fn unused(name: String, places: &[NamedPoint], others: &[Named]) -> Named {
 }
 
 /// Smallest and largest distance of every slide from the joint's point on its guide (m).
-/// They cover the case's grid, as far as the solver gets, and `state`.
+/// The distances are taken at `state` and on the case's grid, as far as the solver can follow the motion.
 pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]) -> Vec<[f64; 2]> {
     let mut travels: Vec<[f64; 2]> = slides.iter().map(|slide| [slide.way(&case.mechanism, state); 2]).collect();
     if slides.is_empty() {
@@ -105,7 +106,7 @@ pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]
         Ok(())
     };
     let case = case.wanting(Wanted::of(&[Stage::Positions]));
-    // If the crank cannot reach the grid's end, the travel found so far counts.
+    // If the crank cannot reach the end of the grid, the travel up to the last solved instant is used.
     let _ = solver.each(&case, &mut visit);
     travels
 }

@@ -4,9 +4,9 @@ use drawing::paper::scale::factor;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::LinkId;
 
-/// Largest length (mm) of the longest vector of a plan.
+/// Upper limit of the length of a plan's longest vector (mm).
 pub(super) const ROOM: f64 = 100.0;
-/// Smallest scale factor of a plan of selected vectors, as a share of the full plan's.
+/// Lower limit of the scale factor of a plan of selected vectors, divided by the scale factor of the full plan.
 const FINEST: f64 = 1e-3;
 
 linkage::words! {
@@ -61,8 +61,7 @@ linkage::words! {
         /// End of a normal part: n and a running number.
         Normal = "between",
         /// Point of a moving guide's link that coincides with a sliding point. Its name is the letter of that point and
-        /// the
-        /// number of the link: a3.
+        /// the number of the link: a3.
         Coincident = "coincident",
         /// End of a Coriolis part: k and a running number.
         Coriolis = "between",
@@ -90,7 +89,7 @@ linkage::words! {
         MassCentre = "centre",
         /// Relative vector of two points of one link.
         Relative = "relative",
-        /// Normal part of an acceleration: omega^2 l, from the point towards the other one.
+        /// Normal part of an acceleration: omega^2 l. That of a_BA points from B to A.
         Normal = "normal",
         /// Tangential part of an acceleration: alpha l, perpendicular to the line through both points.
         Tangential = "tangential",
@@ -117,7 +116,7 @@ pub struct Vector {
     pub start: Vec2,
     /// Components in world axes (SI).
     pub value: Vec2,
-    /// Number of the link whose motion it comes from.
+    /// Number of the link from whose motion the vector is computed.
     pub link: LinkId,
     /// Meaning in words.
     pub meaning: String,
@@ -137,7 +136,7 @@ pub struct VectorPlan {
 }
 
 impl VectorPlan {
-    /// Keeps only the vectors between the pole and these letters, at a separate scale.
+    /// Keeps only the vectors between the pole and these letters. The plan gets a new scale.
     /// Ends of normal and Coriolis parts and coincident points stay if all their vectors stay.
     pub(super) fn keep(&mut self, letters: &[String]) {
         let pole = self.quantity.pole();
@@ -154,7 +153,7 @@ impl VectorPlan {
         let is_touched = |tip: &Tip| kept.iter().any(|own| own.from == tip.letter || own.to == tip.letter);
         let tips = self.tips.iter().filter(|tip| is_chosen(&tip.letter) || is_touched(tip)).cloned().collect();
         let longest = kept.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger);
-        // Vectors that are only rounding error stay short.
+        // The lower limit of the scale keeps vectors short that are only rounding error.
         self.scale = factor(longest, ROOM).larger(self.scale * FINEST);
         (self.vectors, self.tips) = (kept, tips);
     }

@@ -12,7 +12,7 @@ use linkage::mechanism::GroupKind;
 
 /// Rows per turn.
 const ROWS: usize = 7200;
-/// Half width of the band about a dwell (share of the stroke). The dwell ends where the output leaves the band.
+/// Half width of the band about a dwell (fraction of the stroke). The dwell ends where the output leaves the band.
 pub const BAND: f64 = 0.01;
 
 /// Achieved motion in one phase.
@@ -20,17 +20,17 @@ pub const BAND: f64 = 0.01;
 pub struct PhaseDone {
     /// Displacement from its beginning to its end, forward positive (share of the stroke).
     pub displacement: f64,
-    /// Largest minus smallest position (share of the stroke); in a dwell it should be zero.
+    /// Largest minus smallest position (fraction of the stroke). In a dwell it should be zero.
     pub motion: f64,
     /// Distance travelled in the wrong sense (share of the stroke); 0 in a dwell.
     pub wrong: f64,
     /// Position of the output at the end of the phase (share of the stroke).
     pub level: f64,
     /// Crank angle (rad) at which the phase actually ends.
-    /// Between two motions it is the extreme position.
-    /// At a dwell it is where the output leaves or enters the band of half width [`BAND`] about the middle of the
-    /// dwell.
-    /// `None` between two motions in one sense, and if there is no such point nearby.
+    /// Between two motions in opposite senses, this is the extreme position.
+    /// At the beginning or end of a dwell, it is where the output enters or leaves the band.
+    /// The band has the half width [`BAND`] about the mean of the dwell's largest and smallest output.
+    /// `None` between two phases of the same sense, and if there is no such crank angle nearby.
     pub end: Option<f64>,
 }
 
@@ -39,7 +39,8 @@ pub struct PhaseDone {
 pub struct Achieved {
     /// Stroke of the output (rad or m).
     pub stroke: f64,
-    /// Smallest transmission angle of any dyad over the turn (rad); `None` with higher groups, which have none.
+    /// Smallest transmission angle of any dyad over the turn (rad).
+    /// `None` if the mechanism has higher groups, for which no transmission angle is defined.
     pub transmission: Option<f64>,
     /// The phases, in their order.
     pub phases: Vec<PhaseDone>,
@@ -56,7 +57,7 @@ impl Achieved {
     /// `forward` is the sense of the output that counts as forward (+1 or -1).
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if it cannot be assembled over the whole turn, or if its output turns fully.
+    /// [`ErrorKind::Geometry`] if the mechanism cannot be assembled over the whole turn, or if its output turns fully.
     pub fn of(task: &Task, forward: f64) -> Result<Self> {
         let turns: Vec<f64> = (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect();
         let as_drawn = Task { places: Vec::new(), ..task.clone() };
@@ -82,9 +83,8 @@ impl Achieved {
         Ok(found)
     }
 
-    /// Achieved motion as in [`Achieved::of`]. If the task leaves the sense of the output open, the sense that is
-    /// closer to
-    /// the timing is taken.
+    /// Achieved motion as in [`Achieved::of`].
+    /// If the task leaves the sense of the output open, the sense whose motion is closer to the timing is taken.
     ///
     /// # Errors
     /// Those of [`Achieved::of`].
@@ -97,7 +97,7 @@ impl Achieved {
         Ok(if wrong(&ahead) <= wrong(&back) { ahead } else { back })
     }
 
-    /// Every phase as achieved and as required, with the sense of the next phase.
+    /// Every phase as achieved and as required, together with the sense of the next phase.
     fn with_next<'a>(&'a self, task: &'a Task) -> impl Iterator<Item = (&'a PhaseDone, &'a Phase, Sense)> {
         let phases = task.timing.phases();
         let next = phases.iter().cycle().skip(1).map(|phase| phase.sense);
@@ -117,8 +117,8 @@ impl Achieved {
         self.phases.iter().map(|phase| phase.wrong).fold(0.0, f64::larger)
     }
 
-    /// Largest deviation (rad) of an extreme position from its required crank angle, the limit between two opposite
-    /// motions.
+    /// Largest deviation (rad) of an extreme position from its required crank angle.
+    /// The required crank angle is the limit between two opposite motions.
     #[must_use]
     pub fn late(&self, task: &Task) -> f64 {
         let turns = self.with_next(task).filter(|(_, phase, next)| phase.sense.sign() * next.sign() < 0.0);
@@ -126,7 +126,8 @@ impl Achieved {
         apart.fold(0.0, f64::larger)
     }
 
-    /// Largest shortfall of a dwell at either end (rad): the output is outside [`BAND`] although it should dwell.
+    /// Largest crank angle (rad), at either end of a dwell, over which the output is outside [`BAND`] although it
+    /// should dwell.
     /// A dwell that is longer than required does not count.
     #[must_use]
     pub fn short(&self, task: &Task) -> f64 {
@@ -139,12 +140,12 @@ impl Achieved {
         self.with_next(task).filter_map(missing).fold(0.0, f64::larger)
     }
 
-    /// The share at any row; rows continue over several turns.
+    /// The output at any row (fraction of the stroke). Row numbers continue over several turns.
     fn at(&self, row: i64) -> f64 {
         self.shares[row.rem_euclid(ROWS as i64) as usize]
     }
 
-    /// The least and the greatest share from one row to another.
+    /// The smallest and the largest output from one row to another (fraction of the stroke).
     fn ends(&self, from: i64, to: i64) -> [f64; 2] {
         ends((from..=to).map(|row| self.at(row)))
     }
@@ -186,7 +187,7 @@ impl Achieved {
 
     /// Row at which the output leaves the band about its dwell.
     /// The band is centred between the dwell's extremes.
-    /// The search starts in the middle of the dwell between the rows `from` and `to`. It goes towards `to` and beyond.
+    /// The search starts in the middle between the rows `from` and `to`. It goes towards `to` and beyond.
     fn leaves(&self, from: i64, to: i64, way: i64) -> Option<f64> {
         let (first, last) = (from.min(to), from.max(to));
         let [low, high] = self.ends(first, last);
@@ -199,8 +200,8 @@ impl Achieved {
         (row != outside).then_some(row as f64)
     }
 
-    /// The extreme position nearest to a row, within a quarter of a turn: a maximum for `sign` +1.
-    /// Between rows it is interpolated by a parabola through three rows.
+    /// The extreme position nearest to a row, within a quarter of a turn. For `sign` +1 it is a maximum.
+    /// A parabola through three rows interpolates between rows.
     fn extreme(&self, to: i64, sign: f64) -> Option<f64> {
         let value = |row: i64| sign * self.at(row);
         let is_top = |row: &i64| value(*row) >= value(row - 1) && value(*row) > value(row + 1);

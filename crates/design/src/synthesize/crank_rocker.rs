@@ -2,7 +2,7 @@
 //!
 //! In the extreme positions crank and coupler are in line: stretched, `|O B1| = OA + AB`; folded, `|O B2| = AB - OA`.
 //! With both positions of B given, the two lengths are half the sum and half the difference of the two distances.
-//! Source: Artobolevsky, "Theory of mechanisms and machines", synthesis of the four-bar from two extreme positions.
+//! Derived here. Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -38,7 +38,7 @@ pub struct RockerExtreme {
     pub crank: f64,
 }
 
-/// A crank-rocker that has the wanted extreme positions.
+/// A crank-rocker that has the required extreme positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrankRocker {
     /// The requirements.
@@ -49,13 +49,13 @@ pub struct CrankRocker {
     pub coupler: f64,
     /// Extreme position in which crank and coupler are stretched.
     pub stretched: RockerExtreme,
-    /// Extreme position in which they are folded.
+    /// Extreme position in which crank and coupler are folded.
     pub folded: RockerExtreme,
     /// Assembly mode of the dyad (coupler, rocker).
     pub mode: AssemblyMode,
     /// Smallest transmission angle of the turn (rad), between coupler and rocker at B, at most a right angle.
     pub transmission: f64,
-    /// Crank angle (rad) at which it is smallest: the crank is on the line of the pivots.
+    /// Crank angle (rad) of the smallest transmission angle. The crank is then on the line of the pivots.
     pub transmission_at: f64,
     /// Time of the slower swing divided by that of the faster one, at a constant speed of the crank.
     pub time_ratio: f64,
@@ -90,8 +90,8 @@ impl CrankRocker {
         }
         let lengths = [frame.norm(), crank, coupler, wish.rocker];
         let found = FourBar::of_lengths(lengths).of_type;
-        // The triangles O, B, C of both positions make the crank the shortest link, and let it turn fully.
-        // Only rounding can put them on one line.
+        // In both extreme positions, O, B and C form a triangle. So the crank is the shortest link and turns fully.
+        // Only rounding errors can put O, B and C on one line.
         if found != FourBarType::CrankRocker {
             let message = sentences::an_extreme_position_lies_on_the_line(&told, &found.name());
             return Err(Error::new(ErrorKind::Geometry, message).help(sentences::MOVE_A_PIVOT_OR_TURN_THE_EXTREME));
@@ -138,7 +138,7 @@ fn check(wish: &CrankRockerSpec) -> Result<()> {
 }
 
 /// Smallest transmission angle (rad) of a four-bar (frame, crank, coupler, rocker), and its crank angle (rad).
-/// It has its extremes where the crank is on the line of the pivots (Alt 1932).
+/// The transmission angle has its extremes where the crank is on the line of the pivots (Alt 1932).
 /// A is then nearest to C, or farthest from it.
 fn transmission([frame, crank, coupler, rocker]: [f64; 4], line: Vec2) -> (f64, f64) {
     let at = |distance: f64| {
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn the_published_lengths() {
+    fn the_published_lengths_are_reproduced() {
         let found = CrankRocker::of(published()).unwrap();
         assert!((found.crank - 0.025_995_627_740_337).abs() < 1e-12, "{}", found.crank);
         assert!((found.coupler - 0.347_071_931_891_81).abs() < 1e-12, "{}", found.coupler);
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn the_order_of_the_extreme_positions_and_a_mirror_change_nothing_else() {
+    fn swapped_or_mirrored_extremes_give_the_same_lengths() {
         let wish = published();
         let first = CrankRocker::of(wish).unwrap();
         let other = CrankRocker::of(CrankRockerSpec { extreme: wish.extreme + wish.swing, swing: -wish.swing, ..wish })
@@ -192,20 +192,20 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_says_so() {
+    fn impossible_requests_are_refused_with_the_reason() {
         let wish = published();
         for (bad, kind, words) in [
             (CrankRockerSpec { swing: 0.0, ..wish }, ErrorKind::Input, "the swing is 0 deg"),
             (CrankRockerSpec { rocker: -1.0, ..wish }, ErrorKind::Input, "length is -1 m"),
             (CrankRockerSpec { rocker_pivot: Vec2::zeros(), ..wish }, ErrorKind::Input, "one point"),
             (CrankRockerSpec { extreme: f64::NAN, ..wish }, ErrorKind::Input, "not finite"),
-            // B symmetric about the line of the pivots: equal distances.
+            // The two positions of B are symmetric about the line of the pivots, so both distances are equal.
             (
                 CrankRockerSpec { rocker_pivot: Vec2::new(0.15, 0.0), extreme: -0.3, swing: 0.6, ..wish },
                 ErrorKind::Geometry,
                 "no length",
             ),
-            (CrankRockerSpec { extreme: -0.3, swing: 1.0, ..wish }, ErrorKind::Geometry, "goes between"),
+            (CrankRockerSpec { extreme: -0.3, swing: 1.0, ..wish }, ErrorKind::Geometry, "passes between"),
         ] {
             let error = CrankRocker::of(bad).unwrap_err();
             assert!(error.kind() == kind && error.message().contains(words), "{bad:?}: {error}");

@@ -28,7 +28,7 @@ impl DraftContents {
         text
     }
 
-    /// A link that is one bar, from its first point at its origin along its x axis.
+    /// Text of a link that is one bar. The bar lies along the link's x axis, with its first point at the origin.
     fn bar(&self, name: &str, points: [&str; 2], length: f64) -> String {
         let mass = self.bar * length;
         format!(

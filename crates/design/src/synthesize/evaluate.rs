@@ -9,20 +9,20 @@ use linkage::mechanism::assembly::transmission_sine;
 use linkage::mechanism::{Mechanism, PerLink, Pose, first_pose};
 use linkage::solver::State;
 
-/// Poses that are tried first: most candidates that cannot be assembled fail in one of them.
+/// Number of poses that are tried first. Most candidates that cannot be assembled fail in one of these poses.
 const PROBES: usize = 8;
 /// Largest step (rad) between poses that are found by continuation.
 const FOLLOWED: f64 = PI / 90.0;
 
-/// Computes the turn of one candidate after another. The loop over the poses does not allocate.
+/// Computes the motion of one candidate after another over a turn. The loop over the poses does not allocate.
 #[derive(Clone, Debug)]
 pub(super) struct Evaluator<'a> {
     task: &'a Task,
     mechanism: Mechanism,
     motions: PerLink<Motion>,
-    /// Pose of the last motions, for dyads with prismatic joints.
+    /// Pose of the last motions. It is needed for dyads with prismatic joints.
     pose: Pose,
-    /// Output at the crank angles of the last run, without jumps.
+    /// Output at the crank angles of the last run. Angles have no jumps by a full turn.
     pub(super) curve: Vec<f64>,
     /// Smallest transmission sine of any dyad so far.
     pub(super) sine: f64,
@@ -49,11 +49,12 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Computes the output at the crank angles `turns` into `curve`.
-    /// They are in rad from crank angle zero in the sense of rotation, ascending; the last is a turn after the first.
-    /// The crank's zero is at the world direction `zero` (rad).
+    /// These angles (rad) are measured from crank angle zero in the sense of rotation, and ascend.
+    /// The last angle is a turn after the first. The crank's zero is at the world direction `zero` (rad).
     ///
     /// # Errors
-    /// The share of poses reached, if the mechanism cannot be assembled over the whole turn, or if the output turns fully.
+    /// If the mechanism cannot be assembled over the whole turn, or if the output turns fully: the fraction of poses
+    /// reached.
     pub(super) fn run(&mut self, values: &[f64], zero: f64, turns: &[f64]) -> Result<(), f64> {
         self.dimension(values);
         let case = &self.task.case;
@@ -71,7 +72,7 @@ impl<'a> Evaluator<'a> {
         self.unwind()
     }
 
-    /// Dyads only: poses do not depend on each other.
+    /// Computes the output of a mechanism of dyads only, whose poses do not depend on each other.
     fn probe_and_place(
         &mut self,
         mut plan: SolutionPlan,
@@ -96,7 +97,8 @@ impl<'a> Evaluator<'a> {
         Ok(())
     }
 
-    /// Higher groups: from the start pose in small steps. After the turn the output must be at its start again.
+    /// Computes the output of a mechanism with higher groups, in small steps from the start pose.
+    /// After the turn the output must have its first value again.
     fn follow(
         &mut self,
         mut plan: SolutionPlan,

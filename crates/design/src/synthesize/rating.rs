@@ -1,9 +1,9 @@
 //! Deviation of an output from the required motion: one number, zero for a perfect output.
 //!
-//! The output is expressed as a share of its stroke, so that neither amplitude nor offset matters.
-//! The cost is a sum of squares of such shares.
-//! They measure motion in dwells, distances in the wrong sense, missed levels, and moving phases that hardly move.
-//! They also measure extreme positions that deviate from the limits of their phases.
+//! The output is divided by its stroke, so that neither amplitude nor offset matters.
+//! The cost is a sum of squares of such fractions of the stroke.
+//! Its terms are motion in dwells, distances in the wrong sense, missed levels, and moving phases that hardly move.
+//! Another term is the deviation of extreme positions from the limits of their phases.
 //! A cost of 1e-4 is about one hundredth of the stroke.
 
 use std::f64::consts::TAU;
@@ -12,14 +12,14 @@ use crate::synthesize::task::{Phase, Sense, Task, Timing};
 use linkage::math::KeepNan;
 use linkage::math::statistics::ends;
 
-/// Weight of motion in the wrong sense, and of a moving phase that moves too little, relative to the motion in a dwell.
+/// Weight, relative to motion in a dwell, of motion in the wrong sense and of a moving phase that moves too little.
 const WRONG: f64 = 4.0;
-/// Crank angle (rad, 20 deg) by which the output's rate is multiplied at the limit between two opposite motions.
-/// The product counts as a share of the stroke.
+/// At the limit between two opposite motions, the output's rate is multiplied by this crank angle (rad, 20 deg).
+/// The product counts as a fraction of the stroke.
 const LATE: f64 = TAU / 18.0;
-/// Distance (rad, 0.25 deg) from a limit to the rows that give the rate at the limit.
+/// Distance (rad, 0.25 deg) between a limit of a phase and the two rows from which the rate at the limit is computed.
 const BESIDE: f64 = TAU / 1440.0;
-/// Weight of violated limits, relative to shares of the stroke.
+/// Weight of violated limits in the cost, relative to fractions of the stroke.
 const LIMIT: f64 = 10.0;
 
 /// Computes the cost of outputs that are sampled at certain crank angles.
@@ -30,15 +30,15 @@ pub(super) struct Rater<'a> {
     pub(super) turns: Vec<f64>,
     /// Row at which each phase ends.
     ends: Vec<usize>,
-    /// The wanted curve, if it is to be followed.
+    /// The required curve; empty if the output need not follow it.
     wanted: Vec<f64>,
-    /// The output over two turns, so that a turn may begin at any row.
+    /// The output over two turns, so that any row can be the beginning of the turn.
     twice: Vec<f64>,
     span: f64,
 }
 
 impl<'a> Rater<'a> {
-    /// Divides the turn into `count` equal parts. Limits of phases are at the nearest row.
+    /// Divides the turn into `count` equal parts. A limit of a phase is moved to the nearest row.
     pub(super) fn even(timing: &'a Timing, count: usize) -> Self {
         let turns: Vec<f64> = (0..=count).map(|row| TAU * (row as f64 / count as f64)).collect();
         let phases = timing.phases();
@@ -81,7 +81,7 @@ impl<'a> Rater<'a> {
         self.span = high - low;
         let share = |value: &f64| (value - low) / self.span;
         self.twice.clear();
-        // The last row is the first of the next turn.
+        // The last row of a turn is the first row of the next turn.
         self.twice.extend(curve[..curve.len() - 1].iter().map(share));
         self.twice.extend(curve.iter().map(share));
         self.twice.push(share(&curve[1]));
@@ -124,7 +124,7 @@ impl<'a> Rater<'a> {
         cost
     }
 
-    /// Addition to the cost for a stroke outside its limits, and for a transmission sine below its limit.
+    /// Addition to the cost if the stroke is outside its limits, or the transmission sine is below its limit.
     pub(super) fn excess(&self, task: &Task, sine: f64) -> f64 {
         let [least, most] = task.stroke;
         let short = if least > 0.0 { (1.0 - self.span / least).larger(0.0) } else { 0.0 };
@@ -134,7 +134,7 @@ impl<'a> Rater<'a> {
     }
 }
 
-/// Motion in a dwell: the square of its range plus twelve times its variance.
+/// Cost of motion in a dwell: the square of the output's range plus twelve times its variance.
 /// For a uniform drift the second term equals the first.
 fn unrest(values: impl Iterator<Item = f64>) -> f64 {
     let (mut count, mut sum, mut squares, mut low, mut high) = (0.0, 0.0, 0.0, f64::INFINITY, f64::NEG_INFINITY);
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn the_wanted_curve_costs_nothing_whatever_its_size_shift_and_sense() {
+    fn the_requested_curve_costs_nothing_at_any_scale_and_shift() {
         let timing = timing();
         for mut rater in [Rater::even(&timing, 72), Rater::fitted(&timing, 0.02)] {
             let turns = rater.turns.clone();

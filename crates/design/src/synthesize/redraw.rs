@@ -1,4 +1,4 @@
-//! A drawing with other dimensions: the text of its scenario, changed only where dimensions are.
+//! Rewrites the text of a drawing's scenario with other dimensions.
 
 use crate::sentences;
 use toml_edit::{DocumentMut, InlineTable, Item, TableLike, value};
@@ -8,7 +8,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Link, LinkId};
 
-/// Parts per millimetre and per degree to which dimensions are rounded: the accuracy of a workshop.
+/// Number of steps per millimetre and per degree to which dimensions are rounded: the accuracy of a workshop.
 const DECIMALS: [f64; 2] = [1e3, 1e4];
 
 /// A number rounded to a multiple of 1 / `parts`.
@@ -28,14 +28,14 @@ pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
 }
 
 /// Sections of a drawing that are valid for its original dimensions only.
-/// These are the published numbers with their tables, the claims of formulas, and the source of the dimensions.
+/// They are the published numbers with their tables, the claims of formulas, and the source of the dimensions.
 const OWN: [&str; 3] = ["oracle", "formula", "source"];
 
 /// The text of the drawing `text`, with the dimensions that `values` (SI) give the task.
-/// It gets the task's name, and `comment` at the top.
-/// What is valid only for the drawing's original dimensions is left out, and the comment says so.
-/// If the task states the mass of bars, every link gets the masses of slender bars from its first point to each of the
-/// others.
+/// The new text has the task's name, and `comment` at the top.
+/// Sections that are valid only for the original dimensions are left out, and the comment names them.
+/// If the task states the mass of bars, every link gets the masses of slender bars.
+/// These bars join the link's first point to each of its other points.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the text is not the scenario from which the task was read.
@@ -91,7 +91,7 @@ fn foreign(name: &str) -> Error {
         .help(sentences::GIVE_THE_TEXT_OF_THE_SCENARIO)
 }
 
-/// The table of a link; the ground has its own table.
+/// The table of a link. The ground has a separate table.
 fn link_table<'a>(document: &'a mut DocumentMut, link: LinkId, name: &str) -> Result<&'a mut dyn TableLike> {
     let item = match link {
         GROUND => document.get_mut("ground"),
@@ -107,7 +107,7 @@ fn flat(place: Vec2) -> InlineTable {
     )
 }
 
-/// Masses of slender bars of `bar` (kg/m) from the first point of a link to each of the others.
+/// Writes the masses of slender bars of `bar` (kg/m) that join the first point of a link to each of its other points.
 fn weigh(table: &mut dyn TableLike, body: &Link, bar: f64) {
     let first = body.points[0].local;
     let bars: Vec<Vec2> = body.points[1..].iter().map(|point| point.local - first).collect();

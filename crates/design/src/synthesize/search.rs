@@ -1,9 +1,10 @@
-//! Random search over lengths and pivots, and refinement of the best.
+//! Random search over lengths and pivots, and refinement of the best candidates.
 //!
 //! Candidates are drawn uniformly within their bounds.
-//! Each block of them has its own random stream (ChaCha, by Bernstein).
+//! Every block of candidates has a separate random stream (ChaCha, by Bernstein).
 //! The result therefore depends on the seed and not on the number of threads.
-//! The best are refined by an evolution strategy with one parent and one child and the one-fifth rule (Rechenberg 1973).
+//! An evolution strategy refines the best candidates, with one parent, one child and the one-fifth rule (Rechenberg
+//! 1973).
 //! This strategy can cross kinks and edges.
 //! Linear approximation within a trust region follows (COBYLA, Powell 1994).
 
@@ -21,18 +22,19 @@ use candidate::{Candidate, even, free_zero, of_share, values};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::threads::{cores, made};
 
-/// Equal parts of the turn on which the cost of random candidates is computed.
+/// Number of equal parts of the turn for the cost of random candidates.
 const COARSE: usize = 72;
 /// Candidates per random stream.
 const BLOCK: usize = 4096;
 /// Number of blocks between two calls of `progress`.
-/// It is a constant, so that the number of threads does not decide which candidates are kept.
+/// It is constant, so that the candidates that are kept do not depend on the number of threads.
 const ROUND: usize = 16;
 /// Largest number of threads.
 const MOST_THREADS: usize = 256;
-/// Share of the progress for the random candidates.
+/// Fraction of the progress that the random candidates take.
 const RANDOM_SHARE: f64 = 0.5;
-/// Shifts of the crank's zero are tried in steps of this many rows, then row by row about the best.
+/// Shifts of the crank's zero are tried in steps of this many rows.
+/// Then the shifts around the best one are tried row by row.
 const STRIDE: usize = 3;
 
 /// Random candidates are dropped if their stroke or transmission sine violates its limits by more than this factor.
@@ -50,7 +52,8 @@ pub struct SearchResult {
     pub cost: f64,
     /// Cost of the best candidate before refinement, on a coarser grid.
     pub random_cost: f64,
-    /// Number of random candidates, and of those that assemble over the whole turn and are at least near the limits.
+    /// Number of random candidates.
+    /// The second entry counts those that assemble over the whole turn and nearly keep the limits.
     pub candidates: [usize; 2],
     /// Costs of all refined candidates, ascending.
     pub refined: Vec<f64>,
@@ -103,7 +106,8 @@ fn none(task: &Task) -> Error {
     Error::new(ErrorKind::Numeric, message).help(sentences::DRAW_MORE_CANDIDATES_NARROW_THE_BOUNDS)
 }
 
-/// Keeps the `count` candidates of lowest cost, in order. Of equal ones, the one drawn first comes first.
+/// Keeps the `count` candidates of lowest cost, in order.
+/// Of two candidates with equal cost, the candidate that was drawn first comes first.
 fn keep(candidates: &mut Vec<Candidate>, count: usize) {
     candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.number.cmp(&b.number)));
     candidates.truncate(count);
@@ -129,7 +133,7 @@ impl<'a> Random<'a> {
         }
     }
 
-    /// The best candidates of a block, and the number that could be assembled.
+    /// The best candidates of a block, and the number of its candidates that assemble and nearly keep the limits.
     fn block(&mut self, block: usize) -> (Vec<Candidate>, usize) {
         let effort = &self.task.effort;
         let mut rng = ChaCha8Rng::seed_from_u64(effort.seed);
@@ -152,8 +156,8 @@ impl<'a> Random<'a> {
         (best, assembled)
     }
 
-    /// Cost and sense of a candidate; the crank's zero is chosen here if it is free.
-    /// `None` if it cannot be assembled, or is far outside the limits.
+    /// Cost and sense of a candidate. If the crank's zero is free, it is chosen here.
+    /// `None` if the candidate cannot be assembled, or is far outside the limits.
     fn rate(&mut self, shares: &mut [f64]) -> Option<(f64, f64)> {
         if let Some(zero) = self.zero {
             shares[zero] = 0.0;
@@ -208,7 +212,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_candidates_are_kept_in_the_order_in_which_they_were_drawn() {
+    fn equal_candidates_are_kept_in_the_order_of_drawing() {
         let candidate = |cost, number| Candidate { shares: Vec::new(), forward: 1.0, cost, number };
         let mut all = vec![candidate(2.0, 0), candidate(1.0, 7), candidate(1.0, 3), candidate(f64::NAN, 1)];
         keep(&mut all, 3);
@@ -216,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn random_numbers_are_even_and_repeat() {
+    fn random_numbers_are_uniform_and_repeatable() {
         // The seed of a task determines its result, in every version of the library.
         let draw = || {
             let mut rng = ChaCha8Rng::seed_from_u64(5);

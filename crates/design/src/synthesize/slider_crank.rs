@@ -1,7 +1,7 @@
 //! Slider-crank from stroke and offset, and the rod's length or the time ratio, in closed form.
 //!
-//! With crank r, rod l and offset e (distance of the crank's pivot from the slider's line) the stroke is
-//! `s = sqrt((l + r)^2 - e^2) - sqrt((l - r)^2 - e^2)`.
+//! With crank r, rod l and offset e (distance of the crank's pivot from the slider's line) the stroke is `s = sqrt((l +
+//! r)^2 - e^2) - sqrt((l - r)^2 - e^2)`.
 //! Squaring twice gives an equation that is linear in r^2: `r^2 = s^2 (4 (l^2 - e^2) - s^2) / (4 (4 l^2 - s^2))`.
 //! The crank turns fully if l > r + |e|.
 //! At equality `l = (|e| + sqrt(e^2 + s^2)) / 2`; no shorter rod is possible.
@@ -85,7 +85,7 @@ impl SliderCrank {
     }
 }
 
-/// The crank for a rod.
+/// Length of the crank for a length of the rod (m).
 fn crank_of(stroke: f64, e: f64, rod: f64) -> Result<f64> {
     if !(rod > 0.0 && rod.is_finite()) {
         return Err(wrong("rod", sentences::the_rod_length_is(&rod), sentences::GIVE_A_LENGTH_GREATER_THAN_ZERO));
@@ -99,7 +99,7 @@ fn crank_of(stroke: f64, e: f64, rod: f64) -> Result<f64> {
     Ok((s * (4.0 * (rod - e * e) - s) / (4.0 * (4.0 * rod - s))).sqrt())
 }
 
-/// Crank and rod for a time ratio.
+/// Lengths of crank and rod for a time ratio (m).
 fn of_time_ratio(stroke: f64, e: f64, ratio: f64) -> Result<(f64, f64)> {
     if !(ratio >= 1.0 && ratio.is_finite()) {
         let help = sentences::GIVE_THE_TIME_OF_THE_SLOWER;
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_central_one_has_half_the_stroke_as_its_crank() {
+    fn the_crank_of_a_central_slider_crank_is_half_the_stroke() {
         let found = SliderCrank::of(0.1, 0.0, Given::Rod(0.2)).unwrap();
         assert!((found.crank - 0.05).abs() < 1e-16 && (found.time_ratio - 1.0).abs() < 1e-15);
         assert!((found.pressure - 0.25f64.asin()).abs() < 1e-15);
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn the_limits_told_are_the_limits() {
+    fn the_reported_limits_are_sharp() {
         let (stroke, offset) = (0.1, 0.03);
         let told = |given| SliderCrank::of(stroke, offset, given).unwrap_err().way_out().unwrap().to_string();
         let number = |text: String| {
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_says_so() {
+    fn invalid_requests_are_refused_with_the_reason() {
         for (stroke, offset, given, words) in [
             (0.0, 0.0, Given::Rod(1.0), "the stroke is 0 m"),
             (0.1, f64::NAN, Given::Rod(1.0), "the offset is NaN"),

@@ -1,5 +1,6 @@
 //! Input of a synthesis, in SI units and world axes.
-//! It has a structure with a starting drawing, the variable dimensions, the wanted motion of a link or point, and constraints.
+//! It consists of a structure with a starting drawing, the variable dimensions, the required motion, and constraints.
+//! The required motion is that of a link or point.
 
 mod timing;
 
@@ -67,7 +68,7 @@ impl TaskNumber {
 pub struct PointPosition {
     /// The point, and the joints that move with it.
     pub handle: Handle,
-    /// Point of the same link from which length and angle are measured. Without it the entries are x and y.
+    /// Point of the same link from which length and angle are measured. `None` if the entries are x and y.
     pub from: Option<usize>,
     /// x and y (m), or length (m) and angle (rad) in the link's frame.
     pub entries: [TaskNumber; 2],
@@ -108,19 +109,19 @@ pub struct Task {
     pub title: String,
     /// Structure and starting drawing.
     pub case: Case,
-    /// Start values of its groups, in the order of the structure.
+    /// Start values of the mechanism's groups, in the order of the structure.
     pub starts: Vec<StartGroup>,
     /// The variable quantities.
     pub variables: Vec<Variable>,
-    /// Positions that depend on the variables, in the order in which they must be set.
+    /// Positions that depend on the variables, in the order in which the positions must be set.
     pub places: Vec<PointPosition>,
     /// World direction of the crank at crank angle zero (rad).
     pub zero: TaskNumber,
     /// The output quantity.
     pub output: OutputQuantity,
-    /// Sense of the output that counts as forward: +1 or -1; `None` leaves it to the search.
+    /// Sense of the output that counts as forward: +1 or -1. `None` if the search chooses the sense.
     pub forward: Option<f64>,
-    /// The wanted motion of the output.
+    /// The required motion of the output.
     pub timing: Timing,
     /// Smallest and largest permitted stroke of the output (rad or m).
     pub stroke: [f64; 2],
@@ -128,11 +129,11 @@ pub struct Task {
     pub transmission: f64,
     /// Effort of the search.
     pub effort: SearchEffort,
-    /// Mass of the links found, per metre of their length (kg/m). Without it links keep the masses of the drawing.
+    /// Mass of the links found, per metre of their length (kg/m). `None` if the links keep the masses of the drawing.
     pub bar: Option<f64>,
 }
 
-/// Largest number of random candidates, of refinements, and of evaluations per refinement.
+/// Upper limit of the numbers of random candidates, of refinements, and of evaluations per refinement.
 /// A larger number is most likely mistyped.
 pub const MOST: usize = 1_000_000_000;
 
@@ -141,8 +142,7 @@ impl Task {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] for mechanisms with several degrees of freedom, or if a transmission angle is limited
-    /// for
-    /// groups that have none.
+    /// for groups that have none.
     /// [`ErrorKind::Input`] if nothing may vary or the effort is zero.
     pub fn check(&self) -> Result<()> {
         let wrong = |kind: ErrorKind, key: &str, message: &'static str, help: &'static str| {

@@ -1,5 +1,5 @@
-//! Synthesis files: the dimensions of a drawing that may vary, and the wanted motion of its output. docs/synthesis.md
-//! describes the format.
+//! Synthesis files: the dimensions of a drawing that may vary, and the required motion of its output.
+//! docs/synthesis.md describes the format.
 
 use crate::sentences;
 use std::path::Path;
@@ -18,7 +18,7 @@ use scenario::source::Source;
 use scenario::unit::{ANGLE, LENGTH, MASS_PER_LENGTH, UnitFamily};
 use scenario::words::suggestion;
 
-/// Least displacement of a moving phase (share of the stroke), unless the file states another one.
+/// Default of the smallest displacement of a moving phase (fraction of the stroke).
 const LEAST: f64 = 0.1;
 
 /// A task, and the drawing from which it starts.
@@ -59,7 +59,8 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
 
     let beside = root.source().path.parent().unwrap_or(Path::new("")).join(&file);
     let drawing = Scenario::load(&beside).map_err(|error| {
-        // A missing drawing is an error of this file. An error in the drawing has its own position.
+        // A missing drawing is an error in the synthesis file. An error inside the drawing already has a position
+        // there.
         if error.place().is_some() {
             error
         } else {
@@ -173,7 +174,7 @@ fn read_output(mut table: TomlTable, mechanism: &Mechanism) -> Result<(OutputQua
     Ok((found, forward))
 }
 
-/// Limits of the stroke, a quantity of this family, and the smallest transmission angle.
+/// Limits of the stroke in units of `family`, and the smallest transmission angle.
 fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily) -> Result<([f64; 2], f64)> {
     let Some(mut table) = table else { return Ok(([0.0, f64::INFINITY], 0.0)) };
     let transmission = table.optional_quantity("transmission", &ANGLE, Sign::NotNegative)?.unwrap_or(0.0);

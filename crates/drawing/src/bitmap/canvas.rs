@@ -132,7 +132,7 @@ mod tests {
     use crate::paper::figure::solid;
 
     #[test]
-    fn what_overlaps_in_a_group_is_no_darker() {
+    fn overlaps_within_a_group_are_not_darker() {
         let square = |from: f64| {
             [(0.0, 0.0), (4.0, 0.0), (4.0, -4.0), (0.0, -4.0)].map(|(x, y)| Vec2::new(x + from, y - 3.0)).to_vec()
         };
@@ -143,7 +143,7 @@ mod tests {
         figure.group(group, 0.5, "two squares".into());
         let bitmap = bitmap(&figure, [10.0, 10.0], 100).unwrap();
         let grey = |x: usize| bitmap.rgba[4 * (50 * 100 + x)];
-        // Beside both squares, in the first one, in both.
+        // Outside both squares, in the first square only, in both squares.
         assert_eq!(grey(5), 255);
         assert!(grey(20).abs_diff(128) <= 1 && grey(20) == grey(40), "{} {}", grey(20), grey(40));
     }

@@ -22,11 +22,11 @@ pub fn to_png(bitmap: &Bitmap) -> Result<Vec<u8>> {
     pixmap.encode_png().map_err(|error| unwritten("the PNG", &error))
 }
 
-/// An animated GIF that repeats forever; every frame lasts `hundredths` of a second. All frames have the same size.
+/// An animated GIF that repeats forever. Every frame lasts `hundredths` of a second. All frames have the same size.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for frames of more than 65535 pixels in width or height; [`ErrorKind::Io`] if the picture
-/// cannot be encoded.
+/// [`ErrorKind::Input`] for frames of more than 65535 pixels in width or height.
+/// [`ErrorKind::Io`] if the picture cannot be encoded.
 pub fn to_gif(frames: &[Bitmap], hundredths: u16) -> Result<Vec<u8>> {
     let Some(first) = frames.first() else { return Ok(Vec::new()) };
     let (Ok(width), Ok(height)) = (u16::try_from(first.width), u16::try_from(first.height)) else {
@@ -55,7 +55,7 @@ pub fn to_webp(frames: &[Bitmap], milliseconds: u32) -> Result<Vec<u8>> {
     let three = |number: u32| number.to_le_bytes()[..3].to_vec();
     let size = [three(first.width - 1), three(first.height - 1)].concat();
     // No crate writes the container of an animation.
-    // Its flags mark it as animated; background and endless loop follow.
+    // The flags mark the file as animated; background and endless loop follow.
     let mut body = chunk(*b"VP8X", &[&[0b0000_0010, 0, 0, 0], &size[..]].concat());
     body.extend(chunk(*b"ANIM", &[255, 255, 255, 255, 0, 0]));
     for frame in frames {
@@ -63,8 +63,8 @@ pub fn to_webp(frames: &[Bitmap], milliseconds: u32) -> Result<Vec<u8>> {
         image_webp::WebPEncoder::new(&mut still)
             .encode(&frame.rgba, frame.width, frame.height, image_webp::ColorType::Rgba8)
             .map_err(|error| unwritten("the WebP", &error))?;
-        // The single chunk of the still picture follows its header of twelve bytes. The frame replaces the previous
-        // one.
+        // The only chunk of the still picture follows its header of twelve bytes.
+        // The frame replaces the previous frame.
         let place = [vec![0; 6], size.clone(), three(milliseconds), vec![0b0000_0010]].concat();
         body.extend(chunk(*b"ANMF", &[&place[..], &still[12..]].concat()));
     }

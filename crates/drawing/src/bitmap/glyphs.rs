@@ -8,7 +8,7 @@ use linkage::math::Vec2;
 
 /// DejaVu Sans Condensed, Latin and Greek: see `font/LICENSE`.
 const FONT: &[u8] = include_bytes!("../../font/DejaVuSansCondensed.ttf");
-/// Slant of an italic letter, and outline thickness of a bold one in font sizes.
+/// Slant of an italic letter, and outline thickness of a bold letter divided by the font size.
 const LEAN: f64 = 0.2;
 const BOLD: f64 = 0.045;
 

@@ -1,20 +1,20 @@
-//! Poses of links as near to closed as possible: least squares of all gaps, after Levenberg and Marquardt.
+//! Poses of links with the smallest gaps: least squares of all gaps, after Levenberg and Marquardt.
 
 use linkage::math::{ColumnVector, KeepNan, Matrix, Vec2, cross, rotated, unit};
 use linkage::mechanism::{Joint, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
-/// Weight of joints with placed links, so that the gaps appear between the other links.
+/// Weight of the gaps at placed links; it is large, so that the remaining gaps lie between the other links.
 const HELD: f64 = 1000.0;
-/// Number of start directions of the links, and steps from each.
-/// More than `FEW` links have fewer starts, which limits the time; of more than `MOST`, none is placed.
+/// Number of start directions of the links, and number of steps from each.
+/// More than `FEW` links have fewer starts, to limit the time. If more than `MOST` links are missing, none is placed.
 const STARTS: usize = 12;
 const STEPS: usize = 60;
 const FEW: usize = 12;
 const MOST: usize = 30;
-/// Step of the difference quotients, in radians and in sizes of the mechanism.
+/// Step of the difference quotients, in radians and as a fraction of the mechanism's size.
 const TINY: f64 = 1e-7;
 
-/// Poses of the links `missing`, with all others at `pose`.
+/// Poses of the links `missing`; all other links stay at `pose`.
 pub fn nearest(mechanism: &Mechanism, pose: &Pose, missing: &[LinkId]) -> Vec<(LinkId, LinkPose)> {
     let problem = Problem { mechanism, pose, missing, size: mechanism.size() };
     if missing.len() > MOST {
@@ -34,7 +34,7 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// The pose of a missing link: its unknowns are x and y in sizes of the mechanism, and its angle.
+    /// The pose of a missing link: its unknowns are x and y, divided by the mechanism's size, and its angle.
     fn pose_of(&self, unknowns: &ColumnVector, k: usize) -> LinkPose {
         let origin = Vec2::new(unknowns[3 * k], unknowns[3 * k + 1]) * self.size;
         LinkPose { origin, angle: unknowns[3 * k + 2] }
@@ -47,7 +47,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Start values: links turned by multiples of the same angle, each at a neighbour that is placed.
+    /// Start values. The links are turned by multiples of the same angle, and each lies at a placed neighbour.
     fn start(&self, number: usize) -> ColumnVector {
         let mut unknowns = ColumnVector::zeros(3 * self.missing.len());
         for (k, &link) in self.missing.iter().enumerate() {
@@ -68,7 +68,7 @@ impl Problem<'_> {
         unknowns
     }
 
-    /// Gaps of all joints on missing links, in sizes of the mechanism.
+    /// Gaps of all joints on missing links, divided by the mechanism's size.
     fn gaps(&self, unknowns: &ColumnVector) -> ColumnVector {
         let mut gaps = Vec::new();
         for joint in self.mechanism.joints() {
@@ -92,7 +92,7 @@ impl Problem<'_> {
         ColumnVector::from_vec(gaps)
     }
 
-    /// Unknowns with the least squares of the gaps that one start leads to, and the sum of the squares.
+    /// Unknowns with the smallest sum of squared gaps for this start, and that sum.
     fn solved(&self, start: usize) -> (ColumnVector, f64) {
         let mut at = self.start(start);
         let mut gaps = self.gaps(&at);

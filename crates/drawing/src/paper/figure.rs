@@ -1,12 +1,12 @@
-//! A figure consists of lines, shapes and text, in millimetres with y upwards.
-//! They are stored until they are written as SVG.
+//! A figure: lines, shapes and text, in millimetres with y upwards.
+//! They are stored until the figure is written as SVG.
 
 use svg::node::Blob;
 use svg::node::element::{Circle, Group, Line, Path, Title};
 
 use linkage::math::{KeepNan, Vec2, turned};
 
-/// Control characters: start of a subscript, start of a superscript, end of either.
+/// Control characters: start of a subscript, start of a superscript, end of a sub- or superscript.
 const SUB: char = '\u{1}';
 const SUP: char = '\u{2}';
 const END: char = '\u{3}';
@@ -14,10 +14,10 @@ const END: char = '\u{3}';
 const LETTER: f64 = 0.56;
 /// Size of sub- and superscripts divided by the font size.
 const SMALL: f64 = 0.72;
-/// Distance by which subscripts are lowered and superscripts raised, divided by the font size.
+/// Downward shift of subscripts and upward shift of superscripts, divided by the font size.
 const LOW: f64 = 0.28;
 const HIGH: f64 = 0.36;
-/// Length of an arrow head (mm), and its largest length as a share of the arrow.
+/// Length of an arrow head (mm), and its largest fraction of the arrow's length.
 const HEAD: f64 = 2.8;
 const HEAD_SHARE: f64 = 0.45;
 
@@ -27,7 +27,7 @@ pub fn sub(text: &str) -> String {
     format!("{SUB}{text}{END}")
 }
 
-/// A name such as `a_BA^n` or a unit such as `m/s^2` with its sub- and superscripts.
+/// Converts a name such as `a_BA^n` or a unit such as `m/s^2` to text with sub- and superscripts.
 #[must_use]
 pub fn scripted(name: &str) -> String {
     let split = |text: &str| match text.rsplit_once('^') {
@@ -62,7 +62,7 @@ pub fn width(text: &str, size: f64) -> f64 {
     sum
 }
 
-/// Distance (mm) that a text extends to the left of its position.
+/// Length (mm) of the part of a text to the left of its position.
 fn left(text: &str, set: &Type) -> f64 {
     match set.anchor {
         "middle" => width(text, set.size) / 2.0,
@@ -191,7 +191,7 @@ impl DrawnFigure {
         self.ink.push(Ink::Text { at, text, set });
     }
 
-    /// All of another figure as one element of this opacity, with a name that appears when the mouse points at it.
+    /// Adds another figure as one element of this opacity, with a name that appears when the mouse points at it.
     /// Overlaps inside the element are not darker.
     pub fn group(&mut self, other: DrawnFigure, opacity: f64, name: String) {
         if let Some(bounds) = other.low {
@@ -330,7 +330,7 @@ pub(crate) fn pieces(text: &str, size: f64) -> Vec<Piece> {
     pieces
 }
 
-/// Written as a string, because an element inside a text must not be separated by white space.
+/// Written as a string: white space must not separate an element inside a text from its neighbours.
 fn text_element(at: Vec2, text: &str, set: &Type) -> String {
     let size = set.size;
     let mut shift = 0.0;
@@ -359,7 +359,7 @@ fn text_element(at: Vec2, text: &str, set: &Type) -> String {
     let face =
         if set.italic { " font-family=\"Liberation Serif, Times New Roman, serif\" font-style=\"italic\"" } else { "" };
     let weight = if set.bold { " font-weight=\"bold\"" } else { "" };
-    // Not all viewers centre a text of several pieces; the estimated width works in all of them.
+    // Some viewers do not centre a text of several pieces. The estimated width works in all viewers.
     let pieces = text.contains([SUB, SUP]);
     let x = at.x - if pieces { left(text, set) } else { 0.0 };
     let anchor =
@@ -377,9 +377,9 @@ fn text_element(at: Vec2, text: &str, set: &Type) -> String {
 mod tests {
     use super::*;
 
-    /// The wall of a cylinder is open at one end, and the cylinder hides whatever lies beneath it.
+    /// The wall of a cylinder is open at one end, and the cylinder hides everything beneath it.
     #[test]
-    fn an_open_line_may_cover_what_lies_beneath() {
+    fn an_open_curve_can_be_filled_and_stay_open() {
         let mut figure = DrawnFigure::default();
         let corners = vec![Vec2::zeros(), Vec2::new(1.0, 0.0), Vec2::new(1.0, 1.0)];
         figure.curve(corners.clone(), Some(Tint::opaque("white")), solid("#000000", 0.5));

@@ -1,4 +1,4 @@
-//! Letters at points, placed so that they touch neither lines nor each other.
+//! Places labels at points so that they touch neither lines nor each other.
 //! Each label takes the position of lowest cost around its anchor, in a few rounds.
 
 use super::figure::{DrawnFigure, Type, solid, width, words};
@@ -12,20 +12,20 @@ const AIR: f64 = 0.5;
 const DIRECTIONS: usize = 32;
 /// Distances tried (mm), nearest first.
 const DISTANCES: [f64; 9] = [0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0];
-/// Largest number of rounds. After these, labels no longer move in practice.
+/// Largest number of rounds. In practice, labels no longer move after so many rounds.
 const ROUNDS: usize = 6;
-/// Largest distance (mm) of points whose labels may conflict.
+/// Largest distance (mm) between two points whose labels may exchange positions.
 const NEIGHBOURS: f64 = 12.0;
 
-/// Largest total number of comparisons of labels with their surroundings. Beyond it, labels take their first position.
+/// Upper limit of all comparisons of labels with their surroundings. Beyond it, labels take their first position.
 /// A drawing of hundreds of links has no space for their names anyway.
 const MOST_COMPARED: usize = 200_000_000;
-/// Lower limit of that number for one of many drawings made together, such as frames.
+/// Smallest share of these comparisons for one of many drawings made together, such as frames.
 const LEAST_COMPARED: usize = 10_000_000;
 
 /// Font size of labels (mm).
 pub const LETTER: f64 = 4.2;
-/// Labels farther than this from their point (mm) are connected with it by a line.
+/// If a label is farther than this from its point (mm), a line connects the label with the point.
 const FAR: f64 = 3.2;
 
 /// A label to be placed; paper coordinates (mm), y upwards.
@@ -37,7 +37,7 @@ pub struct PlacedLabel {
     pub away: Vec2,
     /// Width and height of its box (mm).
     pub size: Vec2,
-    /// Radius (mm) around the anchor that its mark covers.
+    /// Radius (mm) of the area around the anchor that is covered by its mark.
     pub clear: f64,
 }
 
@@ -50,7 +50,7 @@ pub struct Obstacles {
     pub discs: Vec<(Vec2, f64)>,
 }
 
-/// Centres of the labels' boxes in one of several drawings that are made together and share the work.
+/// Centres of the labels' boxes in one of several drawings made together, which share the allowed work.
 #[must_use]
 pub fn place_among(labels: &[PlacedLabel], obstacles: &Obstacles, drawings: usize) -> Vec<Vec2> {
     place_within(labels, obstacles, (MOST_COMPARED / drawings.max(1)).max(LEAST_COMPARED))
@@ -79,8 +79,8 @@ fn place_within(labels: &[PlacedLabel], obstacles: &Obstacles, most: usize) -> V
     places.into_iter().zip(labels).map(|(place, label)| place.unwrap_or(label.anchor)).collect()
 }
 
-/// Lets neighbours exchange positions if that lowers their total cost.
-/// A single label would not leave a position that only it can take.
+/// Lets neighbouring labels exchange positions if this lowers their total cost.
+/// A single label could not leave a position that only this label can take.
 /// Each pair uses two of the calls in `left`.
 fn trade(labels: &[PlacedLabel], places: &mut [Option<Vec2>], obstacles: &Obstacles, left: &mut usize) {
     let both = |a: usize, b: usize, places: &[Option<Vec2>]| {
@@ -119,7 +119,7 @@ fn candidates(label: &PlacedLabel) -> impl Iterator<Item = Vec2> + '_ {
     let directions = (0..DIRECTIONS).map(|k| linkage::math::unit(std::f64::consts::TAU * k as f64 / DIRECTIONS as f64));
     directions.flat_map(move |direction| {
         DISTANCES.into_iter().map(move |distance| {
-            // The box touches the ray's end with the side or corner that faces the anchor.
+            // The box touches the end of the ray with the side or corner that faces the anchor.
             let half = label.size / 2.0;
             let reach = (half.x / direction.x.abs().larger(1e-9)).smaller(half.y / direction.y.abs().larger(1e-9));
             label.anchor + direction * (label.clear + distance + reach)
@@ -173,8 +173,8 @@ fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
     inside(segment, centre, half).map_or(0.0, |[from, to]| (to - from) * (segment[1] - segment[0]).norm())
 }
 
-/// Box of a label.
-/// It is a little larger than its letters in the fonts that viewers fall back on, subscripts included.
+/// Box of a label, subscripts included.
+/// It is a little larger than the letters, because viewers may use other fonts.
 #[must_use]
 pub fn label_size(text: &str) -> Vec2 {
     Vec2::new(1.05 * width(text, LETTER), 1.15 * LETTER)
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn the_part_inside_a_box_is_measured() {
+    fn the_length_inside_a_box_is_measured() {
         let half = Vec2::new(1.0, 2.0);
         let inside = |a: [f64; 2], b: [f64; 2]| length_inside(&[a.into(), b.into()], Vec2::zeros(), half);
         for (a, b, length) in [
@@ -211,13 +211,13 @@ mod tests {
             ([3.0, -5.0], [3.0, 5.0], 0.0),
             ([-5.0, 4.0], [5.0, 4.0], 0.0),
         ] {
-            // Rounding error of two quotients, times the segment's length of at most ten.
+            // Rounding error of two quotients, times the segment's length, which is at most ten.
             assert!((inside(a, b) - length).abs() <= 20.0 * f64::EPSILON);
         }
     }
 
     #[test]
-    fn letters_keep_off_lines_and_each_other() {
+    fn labels_avoid_lines_and_each_other() {
         let obstacles = Obstacles {
             segments: vec![
                 [Vec2::new(-20.0, 0.0), Vec2::new(20.0, 0.0)],
@@ -238,16 +238,16 @@ mod tests {
     }
 
     #[test]
-    fn more_labels_than_there_is_room_for_get_a_place_all_the_same() {
-        // Each of 2000 labels compares 288 positions with all others, twice for every pair of neighbours: 1e12 and
-        // more.
+    fn crowded_labels_still_get_positions() {
+        // Each of 2000 labels compares 288 positions with all other labels, twice for every pair of neighbours.
+        // This gives more than 1e12 comparisons.
         let crowd: Vec<PlacedLabel> = (0..2000).map(|k| label(0.01 * f64::from(k), 0.0)).collect();
         let places = place_within(&crowd, &Obstacles::default(), 10_000_000);
         assert!(places.iter().zip(&crowd).all(|(at, own)| (at - own.anchor).norm() < 25.0), "{places:?}");
     }
 
     #[test]
-    fn a_free_letter_stands_where_it_should() {
+    fn an_unobstructed_label_is_at_its_preferred_position() {
         let places = place_among(&[label(0.0, 0.0)], &Obstacles::default(), 1);
         assert!(places[0].x > 1.5 && places[0].y.abs() < 1e-9);
     }

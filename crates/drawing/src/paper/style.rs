@@ -35,7 +35,7 @@ mod tests {
     use super::significant;
 
     #[test]
-    fn four_digits_count() {
+    fn numbers_have_four_significant_digits() {
         let shown = [0.0, 12.3456, 1234.56, 0.0123456, -9.99999, 1e-5, 123_456.0, f64::NAN].map(significant);
         assert_eq!(shown, ["0", "12.35", "1235", "0.01235", "-10.00", "1.000e-5", "1.235e5", "NaN"]);
     }

@@ -11,11 +11,11 @@ const LINE: f64 = 5.0;
 const GAP: f64 = 3.0;
 const SAMPLE: f64 = 9.0;
 
-/// A table: a heading, and rows that each start with a sample of the line they explain.
+/// A table: a heading, and rows. Each row starts with a sample of the line that it explains.
 pub struct LegendTable {
     /// Headings of the columns.
     pub head: Vec<&'static str>,
-    /// Rows: the line that each explains, and its cells.
+    /// Rows: the explained line, and the cells.
     pub rows: Vec<(Style, Vec<String>)>,
     /// Columns of numbers, which are aligned right.
     pub numbers: &'static [usize],

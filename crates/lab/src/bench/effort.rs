@@ -4,14 +4,14 @@
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RunEffort(pub Vec<(String, u64)>);
 
-/// Counts that each mean one solution of the whole mechanism at one state; the first available one is used.
+/// Counts that each mean one solution of the whole mechanism at one state. The first count that is present is used.
 /// A step of a multistage method has one evaluation for each stage.
 const SOLUTIONS: [&[&str]; 3] = [&["evaluations"], &["steps", "probes"], &["poses"]];
-/// Counts of the inner work of such a solution; the first available one is used.
+/// Counts of the inner work of such a solution. The first count that is present is used.
 const INNER: [&[&str]; 4] = [&["sweeps"], &["factorisations"], &["iterations"], &["groups"]];
 
 impl RunEffort {
-    /// Number of operations of this name; `None` if it was not counted.
+    /// Number of operations of this name; `None` if they were not counted.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<u64> {
         self.0.iter().find(|(own, _)| own == name).map(|&(_, times)| times)
@@ -21,14 +21,14 @@ impl RunEffort {
         wanted.iter().map(|names| names.iter().filter_map(|name| self.of(name)).sum::<u64>()).find(|&sum| sum > 0)
     }
 
-    /// Solutions of the whole mechanism: evaluations of the equation of motion, else steps and probes of an engine, else
-    /// poses.
+    /// Number of solutions of the whole mechanism.
+    /// It is the number of evaluations of the equation of motion, else of an engine's steps and probes, else of poses.
     #[must_use]
     pub fn solutions(&self) -> Option<u64> {
         self.first(&SOLUTIONS)
     }
 
-    /// Inner work: sweeps of an engine, else factorisations, else iterations, else groups placed.
+    /// Inner work: number of an engine's sweeps, else of factorisations, else of iterations, else of placed groups.
     #[must_use]
     pub fn inner(&self) -> Option<u64> {
         self.first(&INNER)
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_comes_first_counts() {
+    fn the_preferred_count_measures_the_effort() {
         let effort =
             |counts: &[(&str, u64)]| RunEffort(counts.iter().map(|&(name, n)| (name.to_string(), n)).collect());
         let engine = effort(&[("poses", 3), ("steps", 10), ("probes", 2), ("sweeps", 40)]);

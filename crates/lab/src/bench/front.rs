@@ -1,4 +1,4 @@
-//! Pareto fronts: the points that no other point beats in both cost and error.
+//! Pareto fronts: points for which no other point is better in both cost and error.
 
 use super::point::BenchPoint;
 use linkage::trajectory::Stage;
@@ -29,9 +29,9 @@ impl CostAxis {
     }
 }
 
-/// Indices of the points that no other point beats in a stage, the cheapest first.
+/// Indices of the points on the front of a stage, the cheapest first.
 /// Of points with equal cost and error only one is kept.
-/// An error below the floor counts as the floor: there, errors cannot be ranked.
+/// An error below the floor is replaced by the floor, because errors below it cannot be ranked.
 #[must_use]
 pub fn front(
     points: &[BenchPoint],
@@ -84,9 +84,9 @@ mod tests {
         }
     }
 
-    /// Compares with the definition: no other point is at least as good in both and better in one.
+    /// Compares with the definition: no other point is at least as good in both quantities and better in one of them.
     #[test]
-    fn the_front_is_what_nobody_beats() {
+    fn the_front_holds_the_undominated_points() {
         let mut state = 1u64;
         let mut random = || {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn below_the_floor_nobody_is_better() {
+    fn errors_below_the_floor_count_as_equal() {
         let points = [point(1.0, 1e-9), point(2.0, 1e-15), point(3.0, 1e-16)];
         assert_eq!(front(&points, Stage::Positions, CostAxis::Time, 1e-14, &|_| true), [0, 1]);
         assert!(front(&points, Stage::Positions, CostAxis::Solutions, 0.0, &|_| true).is_empty());

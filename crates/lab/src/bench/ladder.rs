@@ -1,4 +1,5 @@
-//! The methods that are measured: steps, sweeps, routes and extrapolations of every engine, accuracies of the sides.
+//! The methods that are measured.
+//! They cover steps, sweeps, routes and extrapolations of every engine, and accuracies of the sides.
 
 use super::options::BenchOptions;
 use super::peer::Way;
@@ -13,15 +14,15 @@ use linkage::solver::Solver;
 use linkage::trajectory::Stage;
 use prover::engines::{EngineName, usual_step, with_step};
 
-/// Steps of fixed-step engines, as multiples of the usual one, the coarsest first.
+/// Steps of fixed-step engines, as multiples of the usual step, the coarsest first.
 const STEPS: [f64; 10] = [16.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
 const QUICK_STEPS: [f64; 3] = [8.0, 2.0, 0.5];
 /// Accuracies of engines that control their error.
 const ACCURACIES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const QUICK_ACCURACIES: [f64; 2] = [1e-4, 1e-10];
-/// Accuracies of the sides' integration besides the usual one.
+/// Accuracies of the sides' integration, in addition to the usual accuracy.
 const SIDES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
-/// Numbers of sweeps, as multiples of the smallest one that an engine considers useful.
+/// Numbers of sweeps, as multiples of the smallest number that an engine considers useful.
 const SWEEPS: [usize; 3] = [1, 4, 16];
 /// Extrapolations.
 const TIMES: [usize; 4] = [0, 1, 2, 3];
@@ -36,7 +37,7 @@ pub(super) enum Runner {
     Peer(usize, Way),
 }
 
-/// A method to be measured: its point counts as failed until it has run.
+/// A method to be measured. Its point counts as failed until the method has run.
 pub(super) struct Planned {
     pub(super) point: BenchPoint,
     pub(super) runner: Runner,
@@ -145,7 +146,7 @@ fn curves(engine: &dyn Engine, case: &Case, options: &BenchOptions) -> Vec<Setti
     let mut curves = Vec::new();
     for &route in &routes {
         for &sweeps in &sweeps {
-            // Probes and impulses are read from one run or from two; further extrapolation gives nothing new.
+            // Probes and impulses use one run or two runs, so further extrapolation gives nothing new.
             let worth = times.iter().filter(|&&times| route == Route::Differences || times < 2);
             curves.extend(worth.map(|&extrapolated| Settings { sweeps, route, extrapolated, ..own }));
         }
@@ -162,7 +163,7 @@ fn resolutions(engine: &dyn Engine, usual: f64, options: &BenchOptions) -> Vec<f
     }
 }
 
-/// Work of a run with its probes, in steps without sweeps.
+/// Work of a run including its probes, in steps without sweeps.
 fn work(case: &Case, engine: &dyn Engine, settings: &Settings) -> f64 {
     let probes = match settings.route {
         Route::Probe if !engine.controls_error() => case.grid.len() as f64 * settings.work() * settings.resolution,

@@ -1,4 +1,4 @@
-//! Runs and their times, in rounds: every method once, then every method again.
+//! Runs all methods and measures their times, in rounds: every method once, then every method again.
 //! Other load on the machine then affects all methods alike.
 
 use super::effort::RunEffort;
@@ -15,16 +15,16 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkage::work::{Count, Work, counted};
 
-/// Runs shorter than this (s) are repeated and timed together, and the largest number of repetitions.
+/// If a run is shorter than this (s), it is repeated and timed together. The second value limits the repetitions.
 const SHORT: f64 = 5e-3;
 const MOST: f64 = 1000.0;
-/// Runs longer than this (s) are timed twice at most, those of peers once.
+/// If a run is longer than this (s), it is timed at most twice, and only once for a peer.
 const LONG: f64 = 0.2;
-/// Largest number of rounds for long runs, and for peers.
+/// Largest number of rounds for long runs of sides and engines, and for short runs of peers.
 const FEW: usize = 2;
-/// Longest text of a reason.
+/// Largest length of a reason, in characters.
 const REASON: usize = 300;
-/// Largest relative difference of instants that count as equal.
+/// Instants count as equal if their difference divided by the whole time span is at most this.
 const SAME: f64 = 1e-9;
 
 /// Everything needed to measure runs.
@@ -80,14 +80,14 @@ impl Desk<'_> {
         }
     }
 
-    /// One more round of a method that has answered.
+    /// Runs another round of a method that has answered.
     fn again(&self, runner: &Runner, round: usize, run: &mut AnsweredRun) {
         let is_long = run.seconds.iter().any(|&seconds| seconds > LONG);
         match runner {
             Runner::Side(_) | Runner::Engine(_) | Runner::Peer(..) if is_long && round >= FEW => {}
             Runner::Side(solver) => run.seconds.extend(self.timed(solver.as_ref()).map(|(seconds, ..)| seconds)),
             Runner::Engine(engine) => run.seconds.extend(self.timed(engine.as_ref()).map(|(seconds, ..)| seconds)),
-            // A peer starts anew for every answer, and repeats short runs by itself.
+            // A peer restarts for every answer, and repeats short runs by itself.
             Runner::Peer(index, way) if round < FEW && !is_long => {
                 if let Ok(answer) = self.peers[*index].run(way) {
                     run.seconds.extend(answer.seconds.into_iter().filter(|seconds| *seconds > 0.0));
@@ -125,7 +125,7 @@ impl Desk<'_> {
         Ok(AnsweredRun { errors, failed: Vec::new(), without: Vec::new(), seconds: vec![seconds], effort })
     }
 
-    /// A peer's answer as a run; any fault in it is the reason of a failure.
+    /// Converts a peer's answer to a run. A fault in the answer is the reason of a failure.
     fn judged(&self, answer: Answer) -> Result<AnsweredRun, String> {
         let column = |name: &str| answer.columns.iter().find(|(own, _)| own == name).map(|(_, values)| values);
         let times = column("t_s").ok_or(sentences::THE_ANSWER_HAS_NO_COLUMN)?;
@@ -162,7 +162,7 @@ impl Desk<'_> {
                 Err(error) => failed.push((stage, error.to_string())),
             }
         }
-        // An answer without any requested channel is a failure.
+        // An answer with none of the requested channels is a failure.
         match (errors.iter().any(Option::is_some), failed.first()) {
             (true, _) => Ok(AnsweredRun { errors, failed, without, seconds, effort: answer.effort }),
             (false, Some((_, reason))) => Err(reason.clone()),

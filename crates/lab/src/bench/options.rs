@@ -5,7 +5,7 @@ use prover::engines::EngineName;
 /// Seconds on a clock, from an arbitrary origin.
 pub type Clock<'a> = &'a dyn Fn() -> f64;
 
-/// The floor limits a point if the point's error is less than this many times the reference's error.
+/// Lower limit of a point's error divided by the reference's error. Below it, the point is limited by the floor.
 pub const CLEAR: f64 = 100.0;
 
 /// What is measured.
@@ -15,19 +15,19 @@ pub struct BenchOptions {
     pub engines: Vec<EngineName>,
     /// A rough measurement: fewer settings and one round of timing.
     pub is_quick: bool,
-    /// Work allowed to all engines together in one round, in steps without sweeps.
+    /// Work allowed for one round of all engines together, in steps without sweeps.
     pub budget: Option<f64>,
-    /// Rounds of timing; the shortest time counts.
+    /// Number of timing rounds; the shortest time counts.
     pub rounds: Option<usize>,
 }
 
 impl BenchOptions {
-    /// Allowed work, given or default.
+    /// The requested budget, else the default.
     pub(super) fn budget(&self) -> f64 {
         self.budget.unwrap_or(if self.is_quick { 3e5 } else { 2e6 })
     }
 
-    /// Rounds, given or default; at least one.
+    /// The requested number of rounds, else the default; at least one.
     pub(super) fn rounds(&self) -> usize {
         self.rounds.unwrap_or(if self.is_quick { 1 } else { 3 }).max(1)
     }

@@ -9,7 +9,7 @@ pub struct Way {
     pub name: String,
     /// Step or accuracy, in words.
     pub resolution: String,
-    /// The method as the peer has described it; it is passed back to the peer for a run.
+    /// The peer's description of the method, which is passed back to the peer for a run.
     pub told: String,
 }
 
@@ -18,7 +18,7 @@ pub struct Way {
 pub struct Answer {
     /// Name and version of the software.
     pub version: String,
-    /// Columns by name, `t_s` among them. All have the same length; values are not checked.
+    /// Columns by name, including `t_s`. All have the same length; values are not checked.
     pub columns: Vec<(String, Vec<f64>)>,
     /// Times measured by the peer (s), at least one.
     pub seconds: Vec<f64>,
@@ -26,7 +26,7 @@ pub struct Answer {
     pub effort: RunEffort,
 }
 
-/// Another program. Reasons are in words, because the diagram shows them.
+/// Another program. Errors are in words, because the diagram shows them.
 pub trait Peer {
     /// Name.
     fn name(&self) -> &str;
@@ -34,12 +34,12 @@ pub trait Peer {
     /// The methods that the peer offers.
     ///
     /// # Errors
-    /// The reason why it cannot be called.
+    /// The reason why the peer cannot be called.
     fn ways(&self) -> Result<Vec<Way>, String>;
 
     /// Runs the peer once.
     ///
     /// # Errors
-    /// The reason why it gives no answer.
+    /// The reason why the peer gives no answer.
     fn run(&self, way: &Way) -> Result<Answer, String>;
 }

@@ -23,9 +23,9 @@ linkage::words! {
 pub struct Errors {
     /// Largest over instants and channels.
     pub max: f64,
-    /// Largest root mean square of a channel.
+    /// Largest root mean square of the channels.
     pub rms: f64,
-    /// Whether the reference's error is more than a hundredth of this error.
+    /// Whether the reference's error exceeds a hundredth of this error.
     pub is_limited: bool,
 }
 
@@ -35,9 +35,9 @@ pub struct AnsweredRun {
     /// Errors by stage, in the order of [`Stage::ALL`].
     /// `None` where the stage was not requested, or where a peer has no such channel.
     pub errors: [Option<Errors>; Stage::ALL.len()],
-    /// Stages with wrong numbers of a peer, and the fault in each: they count as failures.
+    /// Stages in which a peer's numbers are wrong, and the fault in each. These stages count as failures.
     pub failed: Vec<(Stage, String)>,
-    /// Stages judged without some of their channels, and the channels that the peer does not give.
+    /// Stages that are judged without some of their channels, and the channels that are missing in the peer's answer.
     /// A peer of an older version does not know the newest channels.
     pub without: Vec<(Stage, String)>,
     /// Times of all rounds (s).
@@ -68,14 +68,14 @@ pub struct BenchPoint {
     pub resolution: String,
     /// Settings of an engine.
     pub settings: Option<Settings>,
-    /// Whether these are the program's default settings. Only sides set this.
+    /// Whether the settings are the program's defaults. This is only set for sides.
     pub is_usual: bool,
     /// What came of it.
     pub outcome: BenchOutcome,
 }
 
 impl BenchPoint {
-    /// The run, if it answered.
+    /// The run, if the method has answered.
     #[must_use]
     pub fn run(&self) -> Option<&AnsweredRun> {
         match &self.outcome {
@@ -97,7 +97,7 @@ impl BenchPoint {
         self.run()?.errors[stage as usize]
     }
 
-    /// Reason why a stage has no error, if the stage failed.
+    /// Reason of a stage's failure; `None` if the stage has not failed.
     #[must_use]
     pub fn failure(&self, stage: Stage) -> Option<&str> {
         match &self.outcome {
@@ -108,7 +108,7 @@ impl BenchPoint {
         }
     }
 
-    /// Channels that the peer does not give and without which the stage is judged, in words.
+    /// Channels that are missing in the peer's answer although the stage is judged, in words.
     #[must_use]
     pub fn without(&self, stage: Stage) -> Option<&str> {
         self.run()?.without.iter().find(|(own, _)| *own == stage).map(|(_, what)| what.as_str())

@@ -12,9 +12,9 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
 use prover::bounds::residuals;
 
-/// Share of the difference between a run at the usual accuracy and the tighter reference that may remain in the
-/// reference.
-/// The tighter reference allows a hundredth in every step; four times that is the margin of `proof::known`.
+/// Estimated error of the tighter reference, divided by its difference from a run at the usual accuracy.
+/// The tighter reference allows a hundredth of the error in every step.
+/// The factor of four is the margin `SAFETY` of `prover::run::known`.
 const LEFT: f64 = 0.04;
 
 /// The reference's own error.
@@ -24,12 +24,12 @@ pub struct Floor {
     pub reference: &'static str,
     /// Basis of its error, in words.
     pub basis: &'static str,
-    /// Error by stage over the scales, in the order of [`Stage::ALL`]; 0 for stages that are not requested.
+    /// Error by stage divided by the scales, in the order of [`Stage::ALL`]; 0 for stages that are not requested.
     pub errors: [f64; Stage::ALL.len()],
 }
 
 impl Floor {
-    /// Marks an error that is too close to the floor.
+    /// The errors of a point, with a mark if they are too close to the floor.
     #[must_use]
     pub fn judged(&self, stage: Stage, [max, rms]: [f64; 2]) -> Errors {
         Errors { max, rms, is_limited: !(max >= CLEAR * self.errors[stage as usize]) }
@@ -55,7 +55,8 @@ pub(super) fn of(case: &Case) -> Result<(Trajectory, Floor)> {
     Ok((first, Floor { reference: sentences::SIDE_ASSUR, basis: sentences::DIFFERENCE_OF_THE_TWO_SIDES, errors }))
 }
 
-/// Largest error and largest root mean square by stage, over the reference's scales, of the channels that both have.
+/// Largest error and largest root mean square by stage, divided by the reference's scales.
+/// Only the channels that both trajectories have are compared.
 ///
 /// # Errors
 /// If the grids differ.

@@ -1,4 +1,4 @@
-//! Effect of a fault on exact answers. A fault without an effect does not count.
+//! Effect of a fault on exact answers. Faults that do not change them do not count.
 
 use super::kinds::{FaultInstant, Plant};
 use super::planted::{Fault, Planted};
@@ -12,9 +12,9 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage as Of;
 use prover::bounds::magnitudes;
 
-/// Largest change, relative to the largest number of a quantity, that counts as rounding error.
-/// Such a change occurs if a case is solved again with other input numbers that follow from each other.
-/// It is at most a tenth of the difference allowed between the two sides.
+/// Largest relative change that counts as rounding error, in terms of the largest number of a quantity.
+/// Rounding causes such a change if a case is solved again from recomputed, mathematically equivalent input numbers.
+/// The limit is at most a tenth of the difference allowed between the two sides.
 pub(super) fn rounding(stage: Of) -> f64 {
     match stage {
         Of::Positions => 1e-13,
@@ -28,11 +28,12 @@ pub(super) fn rounding(stage: Of) -> f64 {
 pub(super) enum Effect {
     /// The case lacks the part that the fault affects.
     None,
-    /// Exact answers are the same up to rounding: the largest change, relative to the largest number of the quantity.
+    /// Exact answers are the same up to rounding error.
+    /// The number is the largest change, relative to the largest number of the quantity.
     Equivalent(f64),
-    /// Exact answers change, at most by this amount.
+    /// Exact answers change. The number is the largest relative change.
     Changes(f64),
-    /// With the fault, no exact answer exists.
+    /// No exact answer exists with the fault.
     Unsolved,
 }
 

@@ -1,4 +1,4 @@
-//! Mistakes in formulas, judged as `run` judges formulas.
+//! Mistakes in formulas, judged in the same way as formulas in `run`.
 
 use std::collections::BTreeSet;
 
@@ -32,8 +32,8 @@ impl Stage<'_> {
         judged.filter_map(|all| Some(all.first()?.name.as_str())).collect()
     }
 
-    /// Indices of the formulas that claim an exact value, and of the steps that they use.
-    /// A claim with a stated error stays right within that error and is left out.
+    /// Indices of the formulas that claim an exact value, and of the steps of derivation that they use.
+    /// Claims with a stated error are left out: with a mistake, they may stay right within that error.
     pub(super) fn formulas(&self) -> Vec<usize> {
         let all = &self.scenario.formulas.list;
         let judged = self.judged_formulas();
@@ -59,7 +59,7 @@ impl Stage<'_> {
         OPERATION * 2.0 * 6.0 * operations as f64
     }
 
-    /// A mistake in a formula; `None` if the formula has no suitable position for it.
+    /// Plants a mistake in a formula; `None` if the formula has no suitable position for it.
     pub(super) fn planting(&self, kind: &FaultKind, mistake: Mistake, of: usize, size: f64) -> Option<Planting> {
         let formulas = &self.scenario.formulas;
         let own = &formulas.list[of];
@@ -76,8 +76,8 @@ impl Stage<'_> {
             Some(Planting { what, formulas })
         };
         match mistake {
-            // One of many possible positions: it differs between formulas and between kinds, and is the same in every
-            // run.
+            // Chooses one of many possible positions.
+            // The choice differs between formulas and between kinds, and is the same in every run.
             Mistake::Slip(slip) => {
                 let number = own.name.bytes().chain(kind.name.bytes()).map(usize::from).sum();
                 with_tree(planted(formulas, of, slip, number)?)
@@ -95,11 +95,12 @@ impl Stage<'_> {
         }
     }
 
-    /// The claim of another channel: the first one after the claimed channel for which `is_meant` holds.
+    /// A claim of another channel.
+    /// It is the first channel, counted from the claimed one, for which `is_meant` holds.
     fn other(&self, own: &Formula, is_meant: &dyn Fn(&Channel, &Channel) -> bool) -> Option<Claim> {
         let claim = own.claim.as_ref()?;
         let [(name, claimed)] = claim.channels.as_slice() else { return None };
-        // The unit in the name stays, such as `deg`.
+        // The name keeps its unit, such as `deg`.
         let unit = name.strip_prefix(&format!("{}.", claimed.channel.subject()))?;
         let is_si = unit == claimed.channel.kind.suffix;
         let all = self.right.channels();
@@ -110,7 +111,7 @@ impl Stage<'_> {
         is_named.then(|| Claim::of_channels(&format!("{}.{suffix}", other.subject()), all).ok()).flatten()
     }
 
-    /// Effect of a mistake: on a claimed value, or on the channel that is claimed.
+    /// Effect of a mistake on the claimed value, or of a claim of another channel.
     pub(super) fn formula_effect(&self, own: &Planting) -> Result<Effect> {
         let right = &self.scenario.formulas;
         self.sides.on_course(&self.case, Reference::Assur, |course: &KnownTrajectory| {
@@ -153,7 +154,7 @@ impl Stage<'_> {
         })
     }
 
-    /// Result of both sides for the mistake.
+    /// Result of both sides' judgement of the mistake.
     pub(super) fn formula_outcome(&self, own: &Planting) -> FaultyProof {
         let judged = self.sides.claimed(&self.case, &own.formulas).map(|sides| {
             let judgement = Judgement::of(sides);

@@ -1,7 +1,7 @@
 //! Tests of the judgement, part by part.
-//! One quantity at a time is wrong, by an amount that does not depend on bounds; the test names the checks that must
-//! see it.
-//! A bound that is a thousand times too wide, or a missing comparison, fails here.
+//! One quantity at a time is wrong, by an amount that does not depend on bounds.
+//! Each test names the checks that must find the fault.
+//! It fails if a bound is a thousand times too wide, or if a comparison is missing.
 
 use super::kinds::kinds;
 use super::mutant::FaultyParty;
@@ -53,14 +53,14 @@ kinds! { Judgement, Answer:
     };
 }
 
-/// A fault of its default size for a side.
+/// A fault of its default size.
 fn fault(name: &str) -> Fault {
     let kind = KINDS.iter().find(|kind| kind.name == name).unwrap_or_else(|| panic!("{name}"));
     Fault { kind, size: kind.size.expect("these faults have sizes") }
 }
 
 fn scenario(name: &str) -> Scenario {
-    // Other tests cover reference numbers from outside.
+    // Other tests cover external reference numbers.
     Scenario { oracles: Vec::new(), ..of_repository(&format!("scenarios/{name}.toml")) }
 }
 
@@ -68,9 +68,9 @@ const SHAKING: &str = "shaking force and moment from reactions and from momentum
 const POWERS: &str = "balancing moment from equilibrium and from powers (assur)";
 const BETWEEN: &str = "assur against newton";
 
-/// Faults of side 1: scenario, fault, number of channels in which the sides differ, families of checks that see it.
-/// The number is 0 where other channels depend on the wrong one: those of the link, its mass centre and its points, and
-/// the power that it takes.
+/// Faults of side 1: scenario, fault, number of channels in which the sides differ, families of checks that find it.
+/// The number 0 means "not counted", because other channels depend on the wrong quantity.
+/// These are the channels of the link, its mass centre and its points, and the power.
 /// Lengths are tenths of a metre, speeds some rad/s, forces hundreds of newtons.
 static IN_A_SIDE: [(&str, &str, usize, &[&str]); 12] = [
     ("crank_rocker", "a closed loop is open (m)", 0, &["closure of all joints (assur)"]),
@@ -86,7 +86,7 @@ static IN_A_SIDE: [(&str, &str, usize, &[&str]); 12] = [
         &[BETWEEN, SHAKING],
     ),
     ("crank_rocker", "a reaction at the origin: a force without a couple", 0, &[BETWEEN, SHAKING]),
-    // On the drive and on the frame.
+    // One channel of the drive and one of the frame.
     ("crank_rocker", "the driving moment", 2, &[BETWEEN, POWERS, SHAKING]),
     ("five_bar", "the second drive's moment", 2, &[BETWEEN, POWERS, SHAKING]),
     ("five_bar", "the second drive's moment at the last instant", 2, &[BETWEEN, POWERS, SHAKING]),
@@ -94,7 +94,7 @@ static IN_A_SIDE: [(&str, &str, usize, &[&str]); 12] = [
 ];
 
 #[test]
-fn what_is_wrong_in_a_side_by_a_fixed_size_is_seen_by_every_check_that_must() {
+fn a_fixed_error_in_a_side_is_found_by_all_expected_checks() {
     let options = Options::default();
     for name in ["crank_rocker", "five_bar", "rotary_engine"] {
         let scenario = scenario(name);
@@ -120,15 +120,15 @@ fn what_is_wrong_in_a_side_by_a_fixed_size_is_seen_by_every_check_that_must() {
     }
 }
 
-/// A fault in an engine's answer: scenario, fault, size, channels that must disagree, families of checks that must
-/// disagree.
+/// A fault in an engine's answer.
+/// The fields are scenario, fault, size, channels that must disagree, and families of checks that must disagree.
 type InTheEngine = (&'static str, &'static str, f64, &'static [&'static str], &'static [&'static str]);
 
 static IN_THE_ENGINE: [InTheEngine; 8] = [
     ("crank_rocker", "an angle at the first instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angle at the last instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angular velocity", 1e-2, &["link.rocker.omega_rad_s"], &[OF_POWERS]),
-    // Forces and powers follow from accelerations, whether right or wrong.
+    // Forces and powers are computed from the accelerations, even if these are wrong.
     ("crank_rocker", "an angular acceleration", 1.0, &["link.rocker.alpha_rad_s2"], &[]),
     ("crank_rocker", "a reaction", 1.0, &["joint.B.fy_N"], &[]),
     ("crank_rocker", "the driving moment", 0.1, &["drive.torque_N_m", "frame.moment_N_m"], &[OF_POWERS]),
@@ -138,7 +138,7 @@ static IN_THE_ENGINE: [InTheEngine; 8] = [
 const OF_POWERS: &str = "driving moment from reactions and from powers (rapier)";
 
 #[test]
-fn what_is_wrong_in_an_engine_by_a_fixed_size_decides_its_verdict() {
+fn a_fixed_error_in_an_engine_decides_its_verdict() {
     let options = Options::default();
     for name in ["crank_rocker", "five_bar"] {
         let scenario = scenario(name);
@@ -152,8 +152,8 @@ fn what_is_wrong_in_an_engine_by_a_fixed_size_decides_its_verdict() {
             let checks: Vec<&str> = checks.map(|own| own.family.as_str()).collect();
             assert_eq!(proof.verdict.word(), "disagree", "{name}: {wrong}: {channels:?} {:?}", proof.checks);
             for own in *must {
-                // For a second drive only the end of the channel name is given. The first drive's channel must not
-                // match it.
+                // For a second drive, only the end of the channel name is given.
+                // The first drive's channel must not match it.
                 let has = channels
                     .iter()
                     .any(|found| found.ends_with(own) && (own.contains('.') || *found != "drive.torque_N_m"));
@@ -166,9 +166,9 @@ fn what_is_wrong_in_an_engine_by_a_fixed_size_decides_its_verdict() {
     }
 }
 
-/// If only the moment is requested, only the balance of powers contains the speeds.
+/// If only the moment is requested, the balance of powers is the only check that uses the speeds.
 #[test]
-fn a_wrong_speed_that_no_channel_has_is_seen_by_the_balance_of_powers() {
+fn the_balance_of_powers_finds_a_wrong_unrequested_speed() {
     let wrong = fault("an angular velocity, by a share");
     let whole = scenario("crank_rocker");
     let case = whole.case.wanting(Wanted::of(&[Of::BalancingMoment]));
@@ -186,9 +186,9 @@ fn a_wrong_speed_that_no_channel_has_is_seen_by_the_balance_of_powers() {
     assert_eq!(powers.verdict.word(), "disagree");
 }
 
-/// Velocities do not show where a link is, but its loop is open: the check alone decides the verdict.
+/// Velocities do not reveal a wrong position, but the loop is open: the closure check alone decides the verdict.
 #[test]
-fn an_open_loop_that_no_channel_shows_decides_the_engine_s_verdict() {
+fn an_open_loop_decides_the_verdict_without_any_channel() {
     let whole = scenario("crank_rocker");
     let case = whole.case.wanting(Wanted::of(&[Of::Velocities]));
     let scenario = Scenario { case, ..whole };

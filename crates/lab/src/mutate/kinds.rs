@@ -1,4 +1,4 @@
-//! Kinds of single faults: one row each, in the table of the family.
+//! Kinds of single faults. The table of a family has one row for each kind.
 
 mod accelerations;
 mod drives;

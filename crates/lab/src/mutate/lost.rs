@@ -1,24 +1,25 @@
-//! Size below which a fault is not found any more.
+//! Smallest size at which a fault is still found.
 
 use linkage::math::KeepNan;
 
-/// Smallest size that is tried, as a share of the first one. Effects that small are below rounding.
+/// Smallest size that is tried, divided by the first size. Effects of smaller faults are below rounding error.
 const LEAST: f64 = 1e-16;
 /// Factor between successive sizes in the downward search.
 const STEP: f64 = 10.0;
-/// Factor within which the size is found.
+/// Largest factor between the smallest size that is found and a smaller size that is not found.
 const FACTOR: f64 = 2.0;
 /// Largest number of proofs for one search.
 const MOST: usize = 24;
 
-/// The smallest size for which `is_found` holds, to a factor of two. The size `whole` is found with `margin`.
+/// The smallest size for which `is_found` holds, to a factor of two.
+/// `margin` is the margin with which the size `whole` is found.
 pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) -> f64 {
     let mut left = MOST;
     let mut is_found = |size: f64| {
         left = left.saturating_sub(1);
         left > 0 && is_found(size)
     };
-    // Most effects are proportional to the size, so the margin predicts the size at which the fault is lost.
+    // Most effects are proportional to the size, so the margin predicts the size below which the fault is not found.
     let guess = if margin.is_finite() && margin > 1.0 { whole / margin } else { whole / STEP };
     let mut found = whole;
     let mut lost = None;
@@ -32,7 +33,7 @@ pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) 
         }
     }
     let Some(mut lost) = lost else { return found };
-    // If the guess was too small, the search goes up again in steps, then by halving.
+    // If the guess was too small, the search goes up in steps and then halves the interval.
     while found > STEP * lost {
         let size = lost * STEP;
         if is_found(size) {

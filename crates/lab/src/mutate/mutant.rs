@@ -13,7 +13,7 @@ linkage::words! {
         Newton = "newton",
         /// The engine.
         Engine = "engine",
-        /// All of them alike: the code they share is wrong.
+        /// The code that all parties share.
         All = "trunk",
         /// The formulas that are judged.
         Formulas = "formulas",
@@ -33,26 +33,26 @@ impl FaultyParty {
 pub struct Spoiled {
     /// Name of the formula.
     pub formula: String,
-    /// The formula, or its claim, as in the file.
+    /// The correct formula or claim, as in the file.
     pub right: String,
     /// With the mistake.
     pub wrong: String,
 }
 
-/// One fault, planted in one party of one scenario's proof, and its outcome.
+/// A fault planted in one party of a scenario's proof, and its outcome.
 #[derive(Clone)]
 pub struct Mutant {
     /// The kind of fault.
     pub kind: &'static FaultKind,
     /// Where it is planted.
     pub party: FaultyParty,
-    /// For a mistake in a formula: the formula, and its text.
+    /// The formula and its text, if the fault is a mistake in a formula.
     pub formula: Option<Spoiled>,
     /// What came of it.
     pub outcome: FaultyProof,
     /// Largest change of exact answers, relative to the largest number of a quantity; `None` without an exact answer.
     pub effect: Option<f64>,
-    /// For a detected fault with a size: the smallest size still found, to a factor of two.
+    /// For a detected fault with a size: the smallest size that is still found, to a factor of two.
     pub smallest: Option<f64>,
 }
 
@@ -67,10 +67,10 @@ pub struct Mutated {
     pub engine: &'static str,
     /// The faults, kind by kind.
     pub mutants: Vec<Mutant>,
-    /// Number of formulas in which mistakes are planted, including steps of derivations.
+    /// Number of formulas with planted mistakes, including steps of derivations.
     pub formulas: usize,
-    /// Kinds for which the scenario has no part.
+    /// Kinds that affect no part of the scenario.
     pub without: Vec<&'static str>,
-    /// If no planted fault changes anything: the families whose kinds would change something in this scenario.
+    /// If no planted fault changes anything: the families with kinds that would change something in this scenario.
     pub instead: Vec<&'static str>,
 }

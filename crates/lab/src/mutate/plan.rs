@@ -1,4 +1,4 @@
-//! Choice of faults and parties, and planting all of them.
+//! Chooses faults and parties, and plants all of them.
 
 use super::effect::Effect;
 use super::formulas;
@@ -14,14 +14,14 @@ use linkage::threads::{cores, made};
 use prover::run::{BUDGET, Options};
 use scenario::Scenario;
 
-/// What is asked for.
+/// The requested faults and parties, and the options of their proofs.
 #[derive(Clone, Debug, Default)]
 pub struct MutationPlan {
     /// Names of kinds or families; all if empty.
     pub kinds: Vec<String>,
     /// Parties; all if empty.
     pub parties: Vec<FaultyParty>,
-    /// Whether to search the size at which a fault is lost.
+    /// Whether to search the smallest size at which a fault is found.
     pub with_sizes: bool,
     /// Number of threads; zero means the number of cores.
     pub jobs: usize,
@@ -74,16 +74,16 @@ pub fn mutate(scenario: &Scenario, asked: &MutationPlan, progress: &mut dyn FnMu
     Ok(Mutated { scenario: scenario.name.clone(), verdict, engine, mutants, formulas, without, instead })
 }
 
-/// Work allowed for all faults of a file, as a multiple of the work allowed for one proof.
-/// Shipped mechanisms need less than five times that of a proof.
+/// Work allowed for all faults of a file, divided by the work allowed for one proof.
+/// Shipped mechanisms need less than five times the work allowed for one proof.
 const PROOFS: f64 = 10.0;
-/// Number of proofs needed to find the size at which a fault is lost.
+/// Number of proofs needed to find the smallest size at which a fault is found.
 const SIZES: f64 = 8.0;
 
-/// Whether all requested faults can be planted with the allowed work.
+/// Checks that the allowed work is enough for all requested faults.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] if not, with the work needed.
+/// [`ErrorKind::Unsupported`] if it is not; the message contains the work needed.
 fn allowed(stage: &Stage, kinds: &[&'static FaultKind], asked: &MutationPlan) -> Result<()> {
     let [sides, engine] = stage.work;
     let formulas = stage.formulas().len() as f64 * stage.work_of_formulas();
@@ -114,7 +114,7 @@ fn allowed(stage: &Stage, kinds: &[&'static FaultKind], asked: &MutationPlan) ->
     Err(Error::new(ErrorKind::Unsupported, message).help(help).or_help(Advice::MoreWork { to: work / PROOFS }))
 }
 
-/// Names of the families with a kind that changes something in a scenario.
+/// Names of the families in which at least one kind changes something in a scenario.
 fn families(stage: &Stage) -> Result<Vec<&'static str>> {
     let mut names = Vec::new();
     for family in FaultFamily::ALL {
@@ -132,12 +132,13 @@ fn families(stage: &Stage) -> Result<Vec<&'static str>> {
     Ok(names)
 }
 
-/// A kind at its initial size.
+/// A fault of this kind at its initial size.
 fn fault(kind: &'static FaultKind) -> Fault {
     Fault { kind, size: kind.size.unwrap_or(1.0) }
 }
 
-/// A mistake in every formula with a suitable position, and its effect; if `only_real`, the first one with an effect.
+/// A mistake in every formula with a suitable position, and its effect.
+/// If `only_real`, only the first mistake with an effect.
 fn spoiled(
     stage: &Stage,
     kind: &'static FaultKind,
@@ -177,7 +178,7 @@ fn in_formulas(stage: &Stage, kind: &'static FaultKind, mistake: Mistake, asked:
     Ok(mutants)
 }
 
-/// The outcomes of one kind; empty if the scenario has no part for it.
+/// The outcomes of one kind; empty if the kind affects no part of the scenario.
 fn of_kind(stage: &Stage, kind: &'static FaultKind, asked: &MutationPlan) -> Result<Vec<Mutant>> {
     if let Plant::Formula(mistake) = kind.plant {
         return in_formulas(stage, kind, mistake, asked);

@@ -32,7 +32,7 @@ impl Hook for Fault {
         match self.kind.plant {
             Plant::Case(_) | Plant::Formula(_) => {}
             Plant::Answer(change) => {
-                // A state without such a part stays unchanged.
+                // If the state has no such part, it stays unchanged.
                 let _ = change(FaultInstant { case, row }, state, self.size);
             }
         }

@@ -1,4 +1,4 @@
-//! Detection of a fault: channels and checks beyond their bounds, the first instant, and the margin.
+//! Detection of a fault: channels and checks that exceed their bounds, the first instant, and the margin.
 
 use crate::sentences;
 use linkage::math::statistics::ascending;
@@ -6,12 +6,13 @@ use linkage::trajectory::Trajectory;
 use prover::bounds::{Check, Verdict, differences, overall};
 use prover::run::{ChannelProof, EngineProof, Judgement, ObservedSides};
 
-/// A channel or a check beyond its bound.
+/// A channel or a check that exceeds its bound.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sight {
     /// Name of the channel or check, and of the comparison.
     pub what: String,
-    /// First instant beyond the bound (s), and its crank angle (rad); `None` for a check of the whole run.
+    /// First instant at which the bound is exceeded (s), and its crank angle (rad); `None` for a check of the whole
+    /// run.
     pub since: Option<(f64, f64)>,
     /// Largest difference divided by its bound.
     pub margin: f64,
@@ -22,22 +23,23 @@ pub struct Sight {
 pub enum FaultyProof {
     /// Something disagrees.
     Detected {
-        /// First detection: the earliest instant; among equal instants the largest margin.
+        /// First detection: the one at the earliest instant; if several are equal, the one with the largest margin.
         first: Sight,
-        /// Clearest detection: the largest margin.
+        /// Clearest detection: the one with the largest margin.
         clearest: Sight,
-        /// Number of channels beyond their bounds.
+        /// Number of channels that exceed their bounds.
         channels: usize,
         /// Families of checks that disagree.
         checks: Vec<String>,
     },
-    /// A party has no answer; this is its message.
+    /// A party gives no answer but this message.
     Refused(String),
-    /// The proof decides nothing; this is the reason.
+    /// The proof is inconclusive, for this reason.
     Inconclusive(String),
     /// Everything agrees.
     Escaped,
-    /// Exact answers are the same up to rounding: the largest change, relative to the largest number of a quantity.
+    /// Exact answers are the same up to rounding error.
+    /// The number is the largest change, relative to the largest number of a quantity.
     Equivalent(f64),
 }
 
@@ -63,7 +65,7 @@ impl FaultyProof {
         }
     }
 
-    /// Largest margin of a detected fault.
+    /// Largest margin of a detected fault; `None` if the fault is not detected.
     #[must_use]
     pub fn margin(&self) -> Option<f64> {
         match self {
@@ -90,7 +92,7 @@ pub(super) struct Eyes {
 }
 
 impl Eyes {
-    /// Detections by the analytic sides; `is_outside` leaves out the comparison between the two.
+    /// Adds the detections by the analytic sides. `is_outside` leaves out the comparison of the two sides.
     pub(super) fn sides(mut self, sides: &ObservedSides, is_outside: bool) -> Self {
         if !is_outside {
             let beyond = sides.beyond();
@@ -124,7 +126,7 @@ impl Eyes {
         self
     }
 
-    /// Detections by the judgement of formulas; `checks` are in its order.
+    /// Adds the detections by the judgement of formulas. `checks` are in the order of the judgement.
     pub(super) fn formulas(mut self, judgement: &Judgement, checks: &[Check]) -> Self {
         let judged = judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten());
         for (check, judged) in checks.iter().zip(judged) {
@@ -178,7 +180,7 @@ impl Eyes {
         self.verdicts.iter().any(disagrees)
     }
 
-    /// The outcome of all verdicts together.
+    /// The combined outcome of all verdicts.
     pub(super) fn outcome(self) -> FaultyProof {
         match overall(&self.verdicts) {
             Verdict::Disagree { place } => {

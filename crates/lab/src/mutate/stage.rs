@@ -1,4 +1,4 @@
-//! One scenario with its true parties, and proofs with a fault in one of them.
+//! One scenario with its correct parties, and proofs with a fault in one party.
 
 use crate::sentences;
 use std::sync::OnceLock;
@@ -28,13 +28,13 @@ type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
 /// A scenario's proof without a fault, and its reusable parts.
 pub(super) struct Stage<'a> {
     pub(super) scenario: &'a Scenario,
-    /// The requested part of its mechanism.
+    /// The part of the mechanism that the scenario requests.
     pub(super) case: Case,
     options: &'a Options,
     /// The analytic sides without a fault.
     pub(super) sides: ObservedSides,
-    /// Exact answers of side 1.
-    /// The integration errors are given channel by channel, in the channels' units, where forces determine the motion.
+    /// Exact answers of side 1, and the integration errors if forces determine the motion.
+    /// The errors are given channel by channel, in the channels' units.
     pub(super) right: Trajectory,
     pub(super) integration: Vec<f64>,
     /// The engine's runs without a fault.
@@ -58,7 +58,7 @@ impl<'a> Stage<'a> {
         let of_sides = || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut Ledger::default());
         let (sides, done) = counted(|| limited(allowed, of_sides).0);
         let sides = sides?;
-        // Side 2 does not count groups; it places as many links.
+        // Side 2 does not count groups; it places as many links as side 1.
         let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
         let right = AssurSolver.solve(&case)?;
         let integration = sides.integration();
@@ -73,7 +73,7 @@ impl<'a> Stage<'a> {
         Ok(stage)
     }
 
-    /// The engine's proof against these sides.
+    /// The proof of the engine with these sides as reference.
     fn engine(&self, sides: &ObservedSides, around: Around, own_forces: bool) -> Result<EngineProof> {
         let how = EngineRole { case: &self.case, around, own_forces };
         let engines = self.options.chosen(&self.scenario.engine, &self.case)?;
@@ -108,7 +108,7 @@ impl<'a> Stage<'a> {
         let around = |own: Box<dyn Engine>| -> Box<dyn Engine> {
             match fault.kind.plant {
                 Plant::Case(_) => kept_in(&runs, Box::new(Planted { hook: fault, inner: own })),
-                // The engine's runs are right; its answer from them is wrong.
+                // The engine's runs are correct, but its answer contains the fault.
                 Plant::Answer(_) | Plant::Formula(_) => {
                     Box::new(Planted { hook: fault, inner: kept_in(&self.runs, own) })
                 }
@@ -117,15 +117,15 @@ impl<'a> Stage<'a> {
         self.judged(&self.sides, &around)
     }
 
-    /// The engine's part of a proof with a fault in the engine's answer.
+    /// The engine's part of a proof in which the engine's answer contains a fault.
     #[cfg(test)]
     pub(super) fn engine_proof(&self, fault: Fault) -> Result<EngineProof> {
         self.engine(&self.sides, &|own| Box::new(Planted { hook: fault, inner: kept_in(&self.runs, own) }), false)
     }
 
-    /// The engine against these sides.
+    /// Outcome of the engine's proof with these sides as reference.
     /// The engine's own forces (`own_forces`) are requested only if the proof without them finds nothing.
-    /// No verdict on them can undo a disagreement.
+    /// A verdict on these forces cannot undo a disagreement.
     fn judged(&self, sides: &ObservedSides, around: Around) -> Result<FaultyProof> {
         let mut last = FaultyProof::Escaped;
         for own_forces in [false, true] {
@@ -141,7 +141,7 @@ impl<'a> Stage<'a> {
         Ok(last)
     }
 
-    /// The sides, some of them with a fault.
+    /// The sides, with a fault in each of the `faulty` sides.
     fn planted(&self, fault: Fault, faulty: &[Reference]) -> Result<ObservedSides> {
         let planted = |inner: Box<dyn Solver>| Planted { hook: fault, inner };
         let wrong = EachSide::new(
@@ -160,19 +160,19 @@ impl<'a> Stage<'a> {
         ObservedSides::of(problem, whole, entrants, self.options.reference, &mut Ledger::default())
     }
 
-    /// Whether a case differs only in its instants.
+    /// Whether a case differs from the correct case only in its instants.
     fn is_late(&self, case: &Case) -> bool {
         let right = &self.case;
         case.grid != right.grid && case.on(right.grid.clone()).is_ok_and(|own| own == *right)
     }
 
-    /// The fault in the part that all parties share.
-    /// The parties then cannot contradict each other; only references from outside can.
+    /// The proof with a fault in the code that all parties share.
+    /// The parties then agree with each other, so only external references can contradict.
     fn in_all(&self, fault: Fault) -> Result<FaultyProof> {
         let case = match fault.kind.plant {
             Plant::Case(change) => match change(&self.case, fault.size) {
                 None => return Ok(FaultyProof::Refused(sentences::THE_CASE_CANNOT_BE_PUT_TOGETHER.into())),
-                // The instants that the user requested stay. Only the instants that the sides solve at are wrong.
+                // The requested instants stay correct. Only the instants at which the sides solve are wrong.
                 Some(case) if self.is_late(&case) => None,
                 Some(case) => Some(case),
             },
@@ -186,7 +186,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// The engine with cached runs; the first engine passed in makes them.
+/// The engine with cached runs. The first engine that is passed in makes these runs.
 fn kept_in(runs: &OnceLock<CachedEngine>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
     runs.get_or_init(|| CachedEngine::new(engine.as_ref())).with(engine.settings())
 }

@@ -6,13 +6,13 @@ use super::seen::FaultyProof;
 /// Numbers of faults by outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Share {
-    /// Faults with a disagreeing channel or check.
+    /// Faults for which a channel or check disagrees.
     pub detected: usize,
     /// Faults that leave a party without an answer.
     pub refused: usize,
-    /// Faults after which the proof decides nothing.
+    /// Faults with which the proof is inconclusive.
     pub inconclusive: usize,
-    /// Faults after which all comparisons agree.
+    /// Faults with which all comparisons agree.
     pub escaped: usize,
     /// Faults that change no exact answer.
     pub equivalent: usize,
@@ -52,9 +52,9 @@ pub struct FaultCounts {
     pub trunk: Share,
     /// Mistakes in formulas.
     pub formulas: Share,
-    /// Kinds that were planted in the shared trunk and change something there.
+    /// Kinds that were planted in the code shared by all parties and have an effect.
     pub trunk_kinds: Vec<&'static str>,
-    /// Those of them that are found in at least one scenario.
+    /// The kinds in `trunk_kinds` that are found in at least one scenario.
     pub trunk_found: Vec<&'static str>,
     /// Kinds planted anywhere.
     pub kinds: Vec<&'static str>,
@@ -63,20 +63,20 @@ pub struct FaultCounts {
 /// Summary of all planted faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FaultTally {
-    /// Every fault with an effect is found, in parties and in formulas.
+    /// Every fault with an effect is found, in the parties and in the formulas.
     AllFound,
-    /// No fault escapes, but some proofs decide nothing.
+    /// No fault escapes, but some proofs are inconclusive.
     NoneEscapes,
     /// Some escape.
     SomeEscape,
-    /// Only faults in the shared trunk have an effect, and some of them are not found.
+    /// Only faults in the shared code have an effect, and some of them are not found.
     TrunkOpen,
     /// No planted fault has an effect: nothing is proven.
     Nothing,
 }
 
 impl FaultCounts {
-    /// Summary of all faults. Faults in the shared trunk count only if no other fault has an effect.
+    /// Summary of all faults. Faults in the shared code count only if no other fault has an effect.
     #[must_use]
     pub fn end(&self) -> FaultTally {
         let FaultCounts { planted, formulas, trunk_kinds, trunk_found, .. } = self;

@@ -21,18 +21,18 @@ fn fault(name: &str, size: Option<f64>) -> Fault {
 }
 
 #[test]
-fn there_are_kinds_enough_and_each_has_a_name_and_a_sentence_of_its_own() {
+fn kinds_of_faults_have_unique_names_and_descriptions() {
     let (names, sentences): (BTreeSet<&str>, BTreeSet<&str>) = all().map(|kind| (kind.name, kind.says)).unzip();
     assert!(all().count() >= 60);
     assert_eq!((names.len(), sentences.len()), (all().count(), all().count()));
     assert!(all().all(|kind| kind.size.is_none_or(|size| size > 0.0)));
-    // Kinds and families are both words of `--kind`.
+    // `--kind` accepts names of kinds and of families, so no name may be both.
     assert!(all().all(|kind| !names.contains(kind.family.name())));
 }
 
-/// Reused runs change nothing: outcomes and margins are the same to the bit as from new runs.
+/// Outcomes and margins from reused runs are the same to the bit as those from new runs.
 #[test]
-fn runs_that_are_used_again_give_the_outcome_of_new_ones() {
+fn reused_runs_give_the_same_outcome_as_new_ones() {
     let options = Options::default();
     for name in ["crank_rocker", "rotary_engine", "pendulum"] {
         let scenario = scenario(name);
@@ -48,9 +48,9 @@ fn runs_that_are_used_again_give_the_outcome_of_new_ones() {
     }
 }
 
-/// At constant speed the crank's moment of inertia has no effect, so a fault in it does not count.
+/// At constant speed, the crank's moment of inertia has no effect. A fault in this moment of inertia does not count.
 #[test]
-fn a_fault_that_changes_no_exact_answer_is_not_counted() {
+fn a_fault_without_effect_is_not_counted() {
     let scenario = scenario("crank_rocker");
     let asked = MutationPlan { kinds: vec!["inertia-crank".into(), "inertia".into()], ..MutationPlan::default() };
     let found = mutate(&scenario, &asked, &mut |_| {}).unwrap();
@@ -61,9 +61,9 @@ fn a_fault_that_changes_no_exact_answer_is_not_counted() {
 }
 
 /// Symptom: the rods of a parallelogram only translate, so their moments of inertia have no effect.
-/// A fault in one moved the steps of the integration, and was counted as an escaped fault with an effect.
+/// A fault in one of these moments of inertia changed the integration steps, and was counted as escaped.
 #[test]
-fn regress_what_moves_an_integration_s_steps_only_changes_nothing() {
+fn regress_a_change_of_integration_steps_only_is_no_effect() {
     let scenario = scenario("n_four_bar_1");
     let asked = MutationPlan {
         kinds: vec!["inertia-about-joint".into()],
@@ -77,7 +77,7 @@ fn regress_what_moves_an_integration_s_steps_only_changes_nothing() {
 
 /// The smallest size is found to a factor of two: that size is detected, and half of it is not.
 #[test]
-fn the_smallest_size_is_found_and_half_of_it_is_lost() {
+fn half_the_smallest_detected_size_is_not_detected() {
     let (scenario, options) = (scenario("crank_rocker"), Options::default());
     let stage = Stage::new(&scenario, &options).unwrap();
     for (name, party) in [("mass-heaviest", FaultyParty::Assur), ("moment", FaultyParty::Engine)] {
@@ -94,12 +94,11 @@ fn the_smallest_size_is_found_and_half_of_it_is_lost() {
     }
 }
 
-/// Symptom: `run` over all scenarios did not see faults in the features of these three scenarios.
-/// No shipped file had a slider on a moving guide, a guided moment in a higher group, or a slider of the tree that
-/// carries
-/// another one.
+/// Symptom: `run` with all scenarios did not find faults in the features of these three scenarios.
+/// Three features were missing in the shipped files: a slider on a moving guide, a guided moment in a higher group, and
+/// a slider of the tree that carries another slider.
 #[test]
-fn sliders_on_moving_guides_and_their_moments_are_seen_in_every_party() {
+fn faults_of_sliders_on_moving_guides_are_found_in_every_party() {
     let kinds = ["coriolis-missing", "velocity-guide", "guide-moment-missing", "guide-moment-sign", "guide-aside"];
     for (name, without) in [("rotary_engine", 0), ("guided_group", 0), ("offset_press", 2)] {
         let asked = MutationPlan { kinds: kinds.map(String::from).to_vec(), ..MutationPlan::default() };
@@ -111,9 +110,9 @@ fn sliders_on_moving_guides_and_their_moments_are_seen_in_every_party() {
     }
 }
 
-/// No shipped crank reverses under a moment that acts in one sense. A rocker does.
+/// No shipped crank reverses under a moment that acts only in one sense of rotation. A rocker does.
 #[test]
-fn a_moment_for_one_sense_that_acts_always_is_seen_in_every_party() {
+fn a_one_sided_moment_that_always_acts_is_found_in_every_party() {
     let mut rocking = scenario("crank_rocker");
     let rocker = rocking.case.mechanism.link_named("rocker").unwrap();
     let load = Load::Moment { link: rocker, moment: Course::Constant(-0.5), acts: Acts::Clockwise };
@@ -127,9 +126,9 @@ fn a_moment_for_one_sense_that_acts_always_is_seen_in_every_party() {
     }
 }
 
-/// A proof cannot see a fault that all parties share; numbers from outside can.
+/// A proof cannot find a fault that all parties share; external reference numbers can.
 #[test]
-fn a_wrong_gravity_for_everybody_is_seen_by_numbers_from_outside_only() {
+fn a_shared_gravity_fault_is_found_only_by_external_numbers() {
     let asked =
         MutationPlan { kinds: vec!["gravity-sign".into()], parties: vec![FaultyParty::All], ..MutationPlan::default() };
     let with = scenario("quick_return");

@@ -13,12 +13,12 @@ use files::visible;
 const MOST: usize = 200;
 /// Largest number of counts of a peer.
 const COUNTED: usize = 50;
-/// Largest number of columns of its table.
+/// Largest number of columns in a peer's table.
 const COLUMNS: usize = 100_000;
-/// Possible times of a run (s): clocks cannot resolve shorter ones, and nobody waits for longer ones.
+/// Range of plausible run times (s). Clocks cannot resolve shorter times, and nobody waits longer.
 const TIMES: RangeInclusive<f64> = 1e-12..=1e9;
 
-/// The last line of a program's output, as JSON: libraries may print other lines before it.
+/// The last line of a program's output, as JSON. Libraries may print other lines before it.
 fn last(output: &str) -> Result<Value, String> {
     let line =
         output.lines().rev().find(|line| !line.trim().is_empty()).ok_or(sentences::IT_WROTE_NOTHING_TO_STANDARD)?;
@@ -29,12 +29,12 @@ fn word(object: &Map<String, Value>, key: &str) -> Option<String> {
     object.get(key).and_then(Value::as_str).map(visible)
 }
 
-/// The peer's reason, if its answer is a refusal.
+/// The reason that the peer gives, if its answer is a refusal.
 fn refused(value: &Value) -> Option<String> {
     value.as_object().and_then(|object| word(object, "refused"))
 }
 
-/// Methods that a peer offers.
+/// The methods that a peer offers.
 ///
 /// # Errors
 /// The reason why the output is not a list of methods.
@@ -73,9 +73,9 @@ pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String
     Ok(Answer { version: word(object, "version").unwrap_or_default(), columns: columns(&table()?)?, seconds, effort })
 }
 
-/// A time that a program can have measured (s).
+/// A plausible measured time (s).
 fn seconds(value: &Value) -> Result<f64, String> {
-    // A coarse clock gives zero; such a time is ignored later.
+    // A coarse clock may give zero. Such a time is ignored later.
     let found = value.as_f64().filter(|seconds| TIMES.contains(seconds) || *seconds == 0.0);
     found.ok_or_else(|| {
         let [least, most] = [TIMES.start(), TIMES.end()];
@@ -140,12 +140,12 @@ mod tests {
     }
 
     #[test]
-    fn everything_else_is_a_reason() {
+    fn any_other_output_is_a_failure_with_a_reason() {
         let table = || Ok("t_s\n0\n".to_string());
         for (output, reason) in [
             ("", "nothing"),
             ("hello", "no JSON"),
-            ("[]", "no JSON object"),
+            ("[]", "not a JSON object"),
             ("{}", "no \"seconds\""),
             ("{\"refused\": \"a slider\"}", "refuses: a slider"),
         ] {
@@ -156,7 +156,7 @@ mod tests {
             assert!(answer("{\"seconds\": 1}", || Ok(bad.into())).is_err(), "{bad}");
         }
         for (output, reason) in
-            [("[]", "0 ways"), ("[1]", "no name"), ("{}", "no JSON array"), ("7\n", "no JSON array")]
+            [("[]", "0 ways"), ("[1]", "no name"), ("{}", "is not a JSON array"), ("7\n", "is not a JSON array")]
         {
             let found = ways(output).unwrap_err();
             assert!(found.contains(reason), "{output}: {found}");

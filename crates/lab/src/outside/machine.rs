@@ -1,4 +1,4 @@
-//! The machine, in words. Times are meaningless without it.
+//! The machine, in words. Without this description, times are meaningless.
 
 use crate::sentences;
 use std::collections::BTreeSet;

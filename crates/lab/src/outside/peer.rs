@@ -1,4 +1,4 @@
-//! A peer: a command that is given a scenario and answers with a solution. docs/peers.md describes the protocol.
+//! A peer: a command that receives a scenario and answers with a solution. docs/peers.md describes the protocol.
 
 use crate::sentences;
 use std::cell::RefCell;
@@ -23,7 +23,7 @@ pub struct Exports {
     pub name: String,
     /// The case as JSON.
     pub case: String,
-    /// The case as MJCF, or the reason why it has no such form.
+    /// The case as MJCF, or the reason why it cannot be written as MJCF.
     pub mjcf: Result<String, String>,
     /// Whether a rough measurement is enough.
     pub is_quick: bool,
@@ -37,7 +37,7 @@ pub struct Command<'a> {
     /// Longest duration of a call (s).
     limit: f64,
     clock: Clock<'a>,
-    /// Created when first needed, and removed with the peer.
+    /// The peer's directory. It is created when first needed, and removed with the peer.
     place: RefCell<Option<TempDir>>,
 }
 
@@ -48,7 +48,8 @@ impl<'a> Command<'a> {
         Command { name, command, exports, limit, clock, place: RefCell::new(None) }
     }
 
-    /// Calls the command with a request, and passes its output and the directory to `read`.
+    /// Calls the command with a request.
+    /// Passes the command's output and the directory to `read`.
     fn call<T>(
         &self,
         what: &str,
@@ -62,8 +63,8 @@ impl<'a> Command<'a> {
         let directory = place.as_ref().expect("it was made").path();
         let table = directory.join("answer.csv");
         let request = directory.join("request.json");
-        // A table from an earlier run is not an answer. A symbolic link at the path of the request must not be
-        // followed.
+        // A table from an earlier run must not be taken as an answer.
+        // A symbolic link at the path of the request must not be followed.
         for old in [&table, &request] {
             let _ = fs::remove_file(old);
         }
@@ -77,7 +78,7 @@ impl<'a> Command<'a> {
         fs::write(&request, value.to_string()).map_err(|error| sentences::the_request_cannot_be_written(&error))?;
         let request = request.to_string_lossy();
         let output = process::run(&self.command, &[what, &request], directory, self.limit, self.clock);
-        // Users see the message of a failed peer.
+        // Users see the message of a failed peer, so it must not contain control characters.
         output.and_then(|output| read(&output, directory)).map_err(|reason| visible(&reason))
     }
 

@@ -1,4 +1,4 @@
-//! A program with a time limit. Its output goes to files, so that it can neither block nor fill the memory.
+//! Runs a program with a time limit. Its output goes to files, so that it can neither block nor fill the memory.
 
 use crate::sentences;
 use std::fs::{self, File};
@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crate::bench::Clock;
 
-/// Pauses between two checks of a running program: short at first, so that a quick program does not wait.
+/// Pauses between two checks of a running program. The first pauses are short, so that a quick program does not wait.
 const PAUSES: [Duration; 2] = [Duration::from_millis(2), Duration::from_millis(20)];
 /// Largest number of bytes read from a program.
 const MOST: u64 = 64 << 20;
@@ -19,7 +19,7 @@ const TOLD: usize = 200;
 /// Runs a shell command with arguments in a directory, and returns its standard output.
 ///
 /// # Errors
-/// The reason of a failure: it cannot be started, takes too long, writes too much, or ends with an error.
+/// The reason of the failure: the program cannot be started, takes too long, writes too much, or ends with an error.
 pub(super) fn run(
     command: &str,
     arguments: &[&str],
@@ -34,14 +34,14 @@ pub(super) fn run(
         File::create_new(path).map_err(|error| format!("{}: {error}", path.display()))
     };
     let mut shell = Command::new("sh");
-    // The first word after the script is its name; arguments are never parsed as a script.
+    // The first word after the script is the script's name. Arguments are never parsed as a script.
     shell.arg("-c").arg(format!("exec {command} \"$@\"")).arg("peer").args(arguments);
     shell.stdin(Stdio::null()).stdout(file(&out)?).stderr(file(&err)?);
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut shell, 0);
     let mut child = shell.spawn().map_err(|error| sentences::it_cannot_be_started(&error))?;
     let status = wait(&mut child, &[&out, &err], limit, clock)?;
-    // Processes left running can then no longer change the answer while it is read.
+    // Processes that are still running could otherwise change the answer while it is read.
     end_group(&child);
     let written = text(&out)?;
     if status.success() {
@@ -76,11 +76,11 @@ fn wait(child: &mut Child, files: &[&Path], limit: f64, clock: Clock) -> Result<
     }
 }
 
-/// Ends the processes that a program has started. The program leads a separate process group.
+/// Ends the processes that a program has started. They belong to the program's process group.
 fn end_group(child: &Child) {
     if cfg!(unix) {
         let group = format!("-{}", child.id());
-        // An empty process group is not a failure and gives no message.
+        // If the process group is empty, this is not a failure; the message of `kill` is suppressed.
         let _ = Command::new("kill").args(["-KILL", "--", &group]).stderr(Stdio::null()).status();
     }
 }

@@ -8,7 +8,7 @@ use std::process::Command;
 use super::process;
 use crate::bench::Clock;
 
-/// Writes a film as a recording of Rerun. Only Rerun's library knows the format.
+/// Script that writes a film as a recording of Rerun. Only Rerun's library knows the format.
 const SCRIPT: &str = include_str!("rerun.py");
 /// Longest duration of that conversion (s).
 const LIMIT: f64 = 120.0;
@@ -16,11 +16,11 @@ const LIMIT: f64 = 120.0;
 /// Converts a film (JSON) to a recording of Rerun with its blueprint, using a Python that has Rerun's library.
 ///
 /// # Errors
-/// The reason of a failure, with the last words of Python.
+/// The reason of the failure, with the last lines of Python's output.
 pub fn converted(film: &str, python: &str, clock: Clock) -> Result<Vec<u8>, String> {
     let own = tempfile::tempdir().map_err(|error| error.to_string())?;
     let at = |name: &str| own.path().join(name);
-    // A script with the name of the library would be imported in its place.
+    // The script must not have the name of the library: Python would import it in place of the library.
     for (name, text) in [("show.py", SCRIPT), ("film.json", film)] {
         fs::write(at(name), text).map_err(|error| error.to_string())?;
     }
@@ -32,7 +32,7 @@ pub fn converted(film: &str, python: &str, clock: Clock) -> Result<Vec<u8>, Stri
 /// Opens a recording in Rerun's viewer, and waits until the viewer is closed.
 ///
 /// # Errors
-/// The reason why it cannot be started, or its exit status.
+/// The reason why the viewer cannot be started, or its exit status.
 pub fn opened(recording: &Path, python: &str) -> Result<(), String> {
     let script = sentences::exec_rerun(&python);
     let status = Command::new("sh").args(["-c", &script, "rerun"]).arg(recording).status();

@@ -8,11 +8,11 @@ use super::sketch::{RandomSource, SpecimenSketch};
 use super::spec::{Ask, Dyad, Spec, Start};
 use scenario::Scenario;
 
-/// Limit of the mechanisms' size (m), and of the rotation of their links (rad).
+/// Upper limits: of the mechanisms' size (m), and of the rotation of their links (rad).
 pub const REACH: f64 = 4.0;
 /// Smallest sine of a transmission angle: 10 degrees.
 pub const DEAD: f64 = 0.17364817766693033;
-/// Smallest distance of the outer pins of an RPR dyad (m): as short as the shortest link.
+/// Smallest distance between the outer pins of an RPR dyad (m): the length of the shortest link.
 const CLOSE: f64 = 0.1;
 
 /// The five kinds: whether the first outer, the inner and the second outer joint are prismatic.
@@ -25,16 +25,16 @@ pub struct DyadSpecimen {
     pub spec: Spec,
     /// The scenario read from that data.
     pub scenario: Scenario,
-    /// Product over the dyads of 1 / sin(smallest transmission angle): the factor by which a chain of dyads can magnify
-    /// an error.
+    /// Product of 1 / sin(smallest transmission angle) of all dyads.
+    /// A chain of dyads can magnify an error by this factor.
     pub condition: f64,
 }
 
-/// Adds a dyad between two links, with its mode.
+/// Adds a dyad between two links, and its assembly mode.
 pub fn dyad(sketch: &mut SpecimenSketch, slides: [bool; 3], bases: [usize; 2]) -> [usize; 2] {
     let hook = sketch.poses[bases[0]].origin + sketch.random.vector(0.1, 0.6);
     let (mut one, mut two) = (sketch.link(hook), sketch.link(hook));
-    // Either link may be the earlier one in the mechanism, and so the first of the group.
+    // Either link may come first in the mechanism, and so be the first of the group.
     if sketch.random.yes() {
         (one, two) = (two, one);
     }
@@ -87,7 +87,7 @@ pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> 
         let count = sketch.poses.len();
         let moving = count - 1 - sketch.random.index(2.min(count - 1));
         let other = if sketch.random.yes() { 0 } else { sketch.random.index(count) };
-        // A dyad with both ends on one link would only make that link larger.
+        // A dyad with both ends on the same link would only enlarge this link.
         let other = if other == moving { 0 } else { other };
         let bases = if sketch.random.yes() { [moving, other] } else { [other, moving] };
         let slides = sort(sketch.random, allowed);
@@ -96,7 +96,7 @@ pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> 
     sketch.finish()
 }
 
-/// Reads a chain and checks that it stays within reach and away from dead points on its grid.
+/// Reads a chain and checks that on its grid it stays within `REACH` and away from dead points.
 /// The poses come from the `linkage` crate.
 /// A solver would also compute the range of the mechanism, which takes longer than everything else.
 pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
@@ -126,7 +126,7 @@ pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
             return None;
         }
         let sine = |pose: &Pose| transmission_sine(mechanism, group, pose).expect("a dyad");
-        // The sign must not change: where axes become parallel, a slider goes to infinity and returns from the other
+        // The sign must not change. Where axes become parallel, a slider goes to infinity and returns from the other
         // side.
         let sign = sine(&poses[0]).signum();
         let least = poses.iter().map(|pose| sign * sine(pose)).fold(1.0, f64::smaller);

@@ -13,12 +13,12 @@ use super::spec::{Guide, Pin, Spec, SpecimenLink};
 pub struct RandomSource(ChaCha20Rng);
 
 impl RandomSource {
-    /// The numbers that follow from `seed`.
+    /// The random numbers that follow from `seed`.
     pub fn from_seed(seed: u8) -> Self {
         RandomSource(ChaCha20Rng::from_seed([seed; 32]))
     }
 
-    /// The numbers of one of many samples that follow from one seed.
+    /// The random numbers of one of many samples with the same seed.
     pub fn of_sample(seed: u64, index: u64) -> Self {
         let mut bytes = [0; 32];
         bytes[..8].copy_from_slice(&seed.to_le_bytes());
@@ -61,11 +61,11 @@ impl RandomSource {
 /// A joint of a random mechanism.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnJoint {
-    /// Its world positions on the two links, in the order of the arguments: one point, or two along the axis.
+    /// World positions of the joint on the two links, in the order of the arguments: one point, or two along the axis.
     pub places: [Vec2; 2],
     /// World direction of a prismatic joint's axis; zero for a revolute joint.
     pub axis: Vec2,
-    /// The link that the joint names first.
+    /// The link that is named first in the joint.
     pub first: usize,
 }
 
@@ -77,12 +77,12 @@ pub struct SpecimenSketch<'a> {
     pub spec: Spec,
     /// Pose of the ground and of every link.
     pub poses: Vec<LinkPose>,
-    /// For every link, one representative link; links that turn together share the same one.
+    /// For every link, a representative link. Links that turn together have the same representative.
     turning: Vec<usize>,
     joints: usize,
 }
 
-/// Largest slide at the start (m).
+/// Largest initial displacement of a slider (m).
 const SLIDE: f64 = 0.5;
 
 impl<'a> SpecimenSketch<'a> {
@@ -140,7 +140,7 @@ impl<'a> SpecimenSketch<'a> {
         points.push((point.into(), local));
     }
 
-    /// Joins links `a` and `b`, either of which may be named first, at the position `at` on `a`.
+    /// Joins links `a` and `b` at the position `at` on `a`. Either link may be named first.
     pub fn join(&mut self, slides: bool, a: usize, b: usize, at: Vec2) -> DrawnJoint {
         let name = self.next_joint();
         self.joints += 1;
@@ -171,7 +171,7 @@ impl<'a> SpecimenSketch<'a> {
         DrawnJoint { places, axis, first }
     }
 
-    /// Adds masses with mass centres off all lines, and resistances on some of the links that turn.
+    /// Adds masses whose mass centres are not on lines between joints, and resistances on some of the links that turn.
     pub fn finish(mut self) -> (Spec, Vec<LinkPose>) {
         for index in 0..self.spec.links.len() {
             let points = &self.spec.links[index].points;

@@ -40,7 +40,7 @@ pub struct Guide {
 }
 
 impl Guide {
-    /// The same joint with its links named in the other order.
+    /// Exchanges the order of the links in the joint.
     pub fn reverse(&mut self) {
         self.links.reverse();
         self.points.reverse();
@@ -51,16 +51,16 @@ impl Guide {
 /// Start of a group other than an RRR dyad.
 #[derive(Clone, Debug)]
 pub enum Ask {
-    /// The configuration ahead along the axis.
+    /// The configuration that lies ahead, in the direction of the axis.
     Ahead,
     /// The one behind.
     Behind,
-    /// Points and their approximate positions.
+    /// The configuration near these approximate positions of points.
     Near(Vec<(String, Vec2)>),
 }
 
 impl Ask {
-    /// RRP and RPR: the configuration on the other side along the axis.
+    /// For RRP and RPR: selects the configuration on the other side along the axis.
     pub fn reverse(&mut self) {
         match self {
             Ask::Ahead => *self = Ask::Behind,
@@ -113,11 +113,11 @@ pub struct Spec {
     pub loads: Vec<(String, f64)>,
     /// RRR dyads with their assembly modes.
     pub dyads: Vec<Dyad>,
-    /// Starts of groups other than RRR dyads that have more than one configuration.
+    /// Start configurations of groups that are not RRR dyads and have more than one configuration.
     pub starts: Vec<Start>,
     /// First crank angle, step and number of steps of the grid.
     pub grid: (f64, f64, usize),
-    /// The engine's step; `None` leaves the section out.
+    /// The engine's step; if `None`, the text has no engine section.
     pub dt: Option<f64>,
     /// Parts that only some mechanisms have.
     pub other: Other,
@@ -128,11 +128,11 @@ pub struct Spec {
 pub struct Other {
     /// Name of the scenario; "test" if it is empty.
     pub name: String,
-    /// Keys of the drive that replace its speed: a motion law, or a free motion.
+    /// Keys of the drive that replace the speed: a motion law, or a free motion.
     pub drive: String,
-    /// Further sections: a motor, loads.
+    /// Further sections, such as a motor or loads.
     pub sections: String,
-    /// Last instant and number of steps of a grid by time, which replaces the one by crank angles.
+    /// Last instant and number of steps of a grid by time. It replaces the grid by crank angles.
     pub times: Option<(f64, usize)>,
 }
 
@@ -218,7 +218,7 @@ impl Spec {
         Scenario::parse(&self.toml(), Path::new("test.toml"))
     }
 
-    /// The same mechanism, moved and turned as a whole, gravity included.
+    /// The same mechanism moved and turned as a whole, including gravity.
     pub fn moved(&self, by: Vec2, turn: f64) -> Spec {
         let mut other = self.clone();
         let carried = |at: Vec2| by + rotated(unit(turn), at);
@@ -240,12 +240,13 @@ impl Spec {
         (other.grid.0, other.grid.1) = (-self.grid.0, -self.grid.1);
         other.gravity.y = -self.gravity.y;
         other.guides.iter_mut().flat_map(|guide| &mut guide.axes).for_each(|axis| *axis = -*axis);
-        // Left and right of a line are exchanged. Ahead and behind are measured along axes, which are mirrored too.
+        // Left and right of a line are exchanged. The directions along axes are mirrored with the axes and need no
+        // change.
         other.dyads.iter_mut().for_each(|dyad| dyad.left = !dyad.left);
         other
     }
 
-    /// The same mechanism with all lengths times `factor`, masses unchanged. Numbers in text sections stay unchanged.
+    /// The same mechanism with all lengths multiplied by `factor`. Masses and numbers in text sections are unchanged.
     pub fn larger(&self, factor: f64) -> Spec {
         let mut other = self.with_places(|at| at * factor);
         for (_, _, inertia) in other.links.iter_mut().filter_map(|body| body.mass.as_mut()) {
@@ -254,7 +255,7 @@ impl Spec {
         other
     }
 
-    /// The same with other positions of all points and mass centres.
+    /// The same mechanism with other positions of all points and mass centres.
     fn with_places(&self, to: impl Fn(Vec2) -> Vec2) -> Spec {
         let mut other = self.clone();
         let points = other.links.iter_mut().flat_map(|body| &mut body.points).chain(&mut other.ground);
@@ -272,7 +273,7 @@ impl Spec {
         asked.flatten().map(|(_, at)| at)
     }
 
-    /// Every mass and moment of inertia times `factor`.
+    /// The same mechanism with every mass and moment of inertia multiplied by `factor`.
     pub fn heavier(&self, factor: f64) -> Spec {
         let mut other = self.clone();
         for (mass, _, inertia) in other.links.iter_mut().filter_map(|body| body.mass.as_mut()) {

@@ -1,4 +1,4 @@
-//! A family: its parameter (the dial), and the solvers and engines that run at each of its points.
+//! A family: its varied parameter (`dial`), and the solvers and engines that run at each of its points.
 //! See docs/numerics/laboratory.md.
 
 use linkage::case::Case;
@@ -7,9 +7,9 @@ use linkage::error::Result;
 /// Use of the engines at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EngineUse {
-    /// No engine runs, only the analytic sides.
+    /// Only the analytic sides run, not the engines.
     None,
-    /// Engines find their settings with this work, in steps without sweeps.
+    /// Engines search their settings with this work, in steps without sweeps.
     Found(f64),
     /// Engines run at this step (s) and number of sweeps.
     Given {
@@ -27,7 +27,7 @@ pub struct Setup {
     pub case: Case,
     /// What engines do.
     pub engines: EngineUse,
-    /// Whether the sides are compared with numbers in double-double.
+    /// Whether the sides are compared with a double-double reference.
     pub precise: bool,
 }
 
@@ -38,24 +38,25 @@ impl Setup {
     }
 }
 
-/// Work allowed for an engine that finds its settings at one point, in steps without sweeps: a hundredth of a proof's.
+/// Work allowed for an engine's search for settings at one point, in steps without sweeps.
+/// It is a hundredth of the work allowed for a proof.
 pub const WORK: f64 = 2e5;
 
-/// A family: one dial.
+/// A family: mechanisms or settings with one varied parameter.
 #[derive(Debug)]
 pub struct StressFamily {
     /// Name, as on the command line and in files.
     pub name: &'static str,
-    /// Meaning of the dial, with its unit.
+    /// Meaning of the varied parameter, with its unit.
     pub dial: &'static str,
     /// Description of the family, in a sentence.
     pub title: &'static str,
-    /// Values of the dial, in ascending order.
+    /// Values of the varied parameter, in ascending order.
     pub points: &'static [f64],
     /// The values of a quick run.
     pub quick: &'static [f64],
     /// Number of mechanisms at each value; more than one only for random mechanisms.
     pub samples: u64,
-    /// The case and settings at a value of the dial. Sample number and seed matter only for random mechanisms.
+    /// The case and settings at a value of the varied parameter. Sample number and seed affect only random mechanisms.
     pub setup: fn(dial: f64, sample: u64, seed: u64) -> Result<Setup>,
 }

@@ -1,10 +1,10 @@
-//! Outcome of a point, in the words and the order of its JSON form.
+//! Outcome of a point, with the names and the order of its JSON form.
 //! Numbers that are not finite are `null` in JSON and are read back as infinite.
 
 use serde::{Deserialize, Deserializer, Serialize};
 
 linkage::words! {
-    /// Quantities that a map shows together.
+    /// Groups of quantities that a map shows together.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
     pub enum QuantityGroup: name {
@@ -39,15 +39,15 @@ linkage::words! {
 pub struct WorstOfGroup {
     /// The group.
     pub group: QuantityGroup,
-    /// Largest error, as a share of the channel's scale: half its range over the run.
+    /// Largest error divided by the channel's scale: half its range in the run.
     #[serde(deserialize_with = "number")]
     pub error: f64,
-    /// Bound of that channel, as the same share.
+    /// Bound of that channel divided by the same scale.
     #[serde(deserialize_with = "number")]
     pub bound: f64,
     /// The channel.
     pub channel: String,
-    /// Largest ratio of error to bound over the channels of the group.
+    /// Largest ratio of error to bound among the channels of the group.
     #[serde(deserialize_with = "number")]
     pub used: f64,
 }
@@ -69,12 +69,12 @@ pub struct PartyAtPoint {
     /// Reference of its errors, in words; empty if it has no errors.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub against: String,
-    /// Groups of channels, in order; empty if it failed.
+    /// Groups of channels, in order; empty if the solver or engine failed.
     #[serde(rename = "groups")]
     pub reached: Vec<WorstOfGroup>,
     /// Largest opening of a joint, divided by the mechanism's size.
     pub closure: Option<f64>,
-    /// Balancing moment from reactions minus that from powers, divided by the moments in the balance.
+    /// Difference between the balancing moments from reactions and from powers, divided by the moments in the balance.
     pub balance: Option<f64>,
     /// Step (s) of the run that is judged.
     #[serde(rename = "step_s")]
@@ -83,17 +83,17 @@ pub struct PartyAtPoint {
     pub sweeps: Option<usize>,
     /// Its extrapolations.
     pub extrapolated: Option<usize>,
-    /// Number of steps for the duration of the grid.
+    /// Number of steps in the duration of the grid.
     pub steps: Option<f64>,
-    /// Runs of its search for settings.
+    /// Number of runs in the engine's search for settings.
     pub runs: Option<usize>,
-    /// Work of that search, in steps without sweeps.
+    /// Work of the engine's search for settings, in steps without sweeps.
     pub work: Option<f64>,
-    /// Counted operations, in the order of [`Count::ALL`](linkage::work::Count::ALL): a side's run, all runs of an
-    /// engine.
+    /// Counted operations, in the order of [`Count::ALL`](linkage::work::Count::ALL).
+    /// For a side they are those of its run, for an engine those of all its runs.
     #[serde(default)]
     pub done: Vec<(String, u64)>,
-    /// Channels beyond their bound although the verdict agrees: wrong numbers without a warning.
+    /// Number of channels that exceed their bound although the verdict is agreement: wrong numbers without a warning.
     pub silent: usize,
 }
 
@@ -111,7 +111,7 @@ pub struct StressOutcome {
     pub dial: f64,
     /// Number of the sample.
     pub sample: u64,
-    /// Identifies the program, the family's inputs and the case: a result with another key is computed again.
+    /// Identifies the program, the family's inputs and the case. A stored result with another key is computed again.
     pub key: String,
     /// Reason why the case does not exist; empty if it exists.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -120,7 +120,7 @@ pub struct StressOutcome {
     pub parties: Vec<PartyAtPoint>,
 }
 
-/// A number in its stored form: four digits, so that it is read back as it was written. NaN stays NaN.
+/// Rounds a number to four digits for storage, so that the number read back equals the number written. NaN stays NaN.
 pub(super) fn rounded(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -35,13 +35,13 @@ pub fn run(family: &StressFamily, dial: f64, sample: u64, seed: u64) -> StressOu
     outcome
 }
 
-/// The key of a point without running it.
+/// The key of a point, computed without running the point.
 pub(super) fn key_of(family: &StressFamily, dial: f64, sample: u64, seed: u64) -> String {
     key(family, (family.setup)(dial, sample, seed).as_ref().ok(), seed)
 }
 
-/// FNV-1a of everything that the result depends on.
-/// This is the program's version, its engines, and the case with its solvers and engines.
+/// FNV-1a hash of everything that the result depends on.
+/// These are the program's version, its engines, and the case with its solvers and engines.
 fn key(family: &StressFamily, setup: Option<&Setup>, seed: u64) -> String {
     let engines: Vec<String> =
         built().map(|name| engines::with_step(name, 1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
@@ -49,7 +49,7 @@ fn key(family: &StressFamily, setup: Option<&Setup>, seed: u64) -> String {
     fnv(&text)
 }
 
-/// FNV-1a of a text, in hexadecimal digits.
+/// FNV-1a hash of a text, in hexadecimal digits.
 pub fn fnv(text: &str) -> String {
     let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     format!("{:016x}", text.bytes().fold(0xcbf2_9ce4_8422_2325, hash))
@@ -117,7 +117,7 @@ fn of_engine(
 ) -> PartyAtPoint {
     let options = match setup.engines {
         EngineUse::None | EngineUse::Found(_) => Options::default(),
-        // No settings are searched here.
+        // The settings are given and not searched, so the budget is minimal.
         EngineUse::Given { step, sweeps } => Options::default().step(step).sweeps(sweeps).budget(1.0),
     };
     let options = match setup.engines {
@@ -130,7 +130,7 @@ fn of_engine(
     let done = own.map(|what| (what.name().to_string(), work.of(what))).into_iter().filter(|(_, times)| *times > 0);
     let party = match proof {
         Err(error) => PartyAtPoint::failed(name.name(), &told(&error)),
-        // An engine may agree with a reference that disagrees with itself. This must not count as agreement.
+        // The engine may agree with a reference whose sides disagree. This must not count as agreement.
         Ok(proof) => of_proof(&setup.case, proof.engine(), &proof.verdict, truth),
     };
     PartyAtPoint { done: done.collect(), ..party }
@@ -179,7 +179,7 @@ fn of_proof(case: &Case, proof: &EngineProof, whole: &Verdict, truth: Option<(&T
     }
 }
 
-/// Error against the reference of every judged channel of an engine, in the rows that are not left out.
+/// Error of every judged channel of an engine, in the rows that are not left out.
 fn deviations(truth: &Trajectory, own: &Trajectory, proof: &EngineProof) -> Result<Vec<Deviation>> {
     let (errors, scales) = (difference(truth, own)?, scales(truth));
     let of = |((channel, values), scale): ((&Channel, &[f64]), f64)| {
@@ -221,8 +221,8 @@ fn reached(deviations: &[Deviation]) -> Vec<WorstOfGroup> {
     QuantityGroup::ALL.into_iter().filter_map(of).collect()
 }
 
-/// A verdict in the form that is counted.
-/// Cases of families have no numbers that are known to be wrong, so no expected disagreement occurs.
+/// Converts a verdict to the form that is counted.
+/// The families have no numbers that are known to be wrong, so an expected disagreement cannot occur.
 fn end(verdict: &Verdict) -> PointEnd {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => PointEnd::Agree,
@@ -231,7 +231,7 @@ fn end(verdict: &Verdict) -> PointEnd {
     }
 }
 
-/// The reason of a verdict, without advice, which depends on the command.
+/// The reason of a verdict. Advice is left out, because it depends on the command.
 fn reason(verdict: &Verdict) -> String {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => String::new(),

@@ -1,4 +1,4 @@
-//! All points of some families, side by side on all cores.
+//! Solves all points of some families in parallel, on all cores.
 
 use std::ops::ControlFlow;
 
@@ -21,7 +21,7 @@ pub struct Job {
 }
 
 /// The points of a family, with the stored results that are still valid.
-/// A quick run has its few points and those with a stored result.
+/// A quick run contains its few points and all points with a stored result.
 #[must_use]
 pub fn jobs(family: &'static StressFamily, quick: bool, seed: u64, kept: &[StressOutcome]) -> Vec<Job> {
     let all = family.points.iter().flat_map(|&dial| (0..family.samples).map(move |sample| (dial, sample)));
@@ -35,8 +35,7 @@ pub fn jobs(family: &'static StressFamily, quick: bool, seed: u64, kept: &[Stres
 }
 
 /// Solves the open points on `threads` threads.
-/// `done` is called after each point with all jobs and the number of finished ones; an error that it returns ends the
-/// work.
+/// After each point, `done` receives all jobs and the number of finished jobs. If it returns an error, the work ends.
 ///
 /// # Errors
 /// Those of `done`.

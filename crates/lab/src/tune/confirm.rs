@@ -18,7 +18,7 @@ const MOST: usize = 16;
 const FINER: f64 = 0.7;
 const TIGHTER: f64 = 0.1;
 
-/// The candidate at settings that a proof confirms, refined as little as possible.
+/// Refines the candidate as little as necessary until a proof confirms its settings.
 /// A candidate that cannot be confirmed is returned unchanged and is marked so.
 ///
 /// # Errors

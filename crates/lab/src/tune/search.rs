@@ -6,8 +6,7 @@ use linkage::math::KeepNan;
 /// Largest number of runs in one search.
 const MOST_RUNS: usize = 9;
 /// An error of at least this share of the requested one is close enough: a larger step would save less than an eighth
-/// at
-/// order 2.
+/// at order 2.
 const NEAR_ENOUGH: f64 = 0.8;
 /// Target of the search, as a share of the requested error.
 const AIM: f64 = 0.92;
@@ -145,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn the_step_is_found_whatever_the_order() {
+    fn the_step_is_found_for_any_order() {
         for order in [1.0, 2.0, 4.0] {
             for start in [1e-6, 1e-3, 1.0] {
                 let found = largest_step([start, 1e9], 2.0, 1e-4, f64::INFINITY, &mut model(order, 0.0));
@@ -160,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_that_is_met_everywhere_ends_at_the_largest_step() {
+    fn an_error_goal_met_at_every_step_gives_the_largest_step() {
         let found = largest_step([1e-8, 0.1], 1.0, 1e-4, f64::INFINITY, &mut |step| Measured {
             error: 1e-14,
             worst: "x".into(),
@@ -170,13 +169,13 @@ mod tests {
     }
 
     #[test]
-    fn a_floor_above_the_wish_is_too_coarse() {
+    fn an_error_floor_above_the_goal_is_too_coarse() {
         let found = largest_step([1.0, 1e9], 2.0, 1e-4, f64::INFINITY, &mut model(2.0, 1e-3));
         assert!(matches!(found, Found::TooCoarse(error) if error == 1e-3), "{found:?}");
     }
 
     #[test]
-    fn what_costs_more_than_the_limit_is_given_up() {
+    fn a_search_beyond_the_cost_limit_is_given_up() {
         let found = largest_step([1.0, 1e9], 2.0, 1e-8, 100.0, &mut model(2.0, 0.0));
         assert!(matches!(found, Found::Step { .. } | Found::TooDear { .. }));
         let mut runs = 0;
@@ -189,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_fails_is_too_coarse_a_step() {
+    fn a_failed_run_counts_as_too_coarse() {
         let mut fails = |step: f64| match step > 1e-2 {
             true => Measured { error: f64::INFINITY, worst: String::new(), price: 0.0 },
             false => model(2.0, 0.0)(step),

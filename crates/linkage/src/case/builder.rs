@@ -1,4 +1,4 @@
-//! Builds a case in code. Links are referred to by name; the build checks the names.
+//! Builds a case in code. Links are referred to by name; `CaseBuilder::build` checks the names.
 
 use crate::sentences;
 use std::f64::consts::TAU;
@@ -24,7 +24,7 @@ struct Wish {
 
 /// Builds a [`Case`] from names and numbers (SI units).
 ///
-/// The single steps check nothing. [`CaseBuilder::build`] checks everything and names what is wrong.
+/// The single steps check nothing. [`CaseBuilder::build`] checks everything and names every fault.
 ///
 /// ```
 /// use linkproof_linkage::case::Case;
@@ -130,8 +130,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Adds a driving link at constant speed (rad/s, counter-clockwise positive): the link that `joint` connects to the
-    /// ground.
+    /// Adds a driving link at constant speed (rad/s, counter-clockwise positive). It is the link that `joint` connects
+    /// to the ground.
     /// The first driving link is the crank.
     #[must_use]
     pub fn crank(self, joint: &str, speed: f64) -> Self {
@@ -189,22 +189,22 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the number of equal intervals into which the wanted instants divide one turn of the crank.
-    /// For a free crank they divide the time of one turn at the nominal speed. Default: 360.
+    /// Sets the number of equal intervals between the requested instants in one turn of the crank.
+    /// For a free crank the intervals divide the time of one turn at the nominal speed. Default: 360.
     #[must_use]
     pub fn instants(mut self, parts: usize) -> Self {
         self.instants = parts;
         self
     }
 
-    /// Sets the wanted instants (s), in place of those of [`CaseBuilder::instants`].
+    /// Sets the requested instants (s). They replace those of [`CaseBuilder::instants`].
     #[must_use]
     pub fn times(mut self, times: &[f64]) -> Self {
         self.times = Some(times.to_vec());
         self
     }
 
-    /// Sets the wanted channels. Default: all.
+    /// Sets the requested channels. Default: all.
     #[must_use]
     pub fn wanted(mut self, wanted: Wanted) -> Self {
         self.wanted = wanted;
@@ -269,7 +269,7 @@ impl CaseBuilder {
         })
     }
 
-    /// Grid of the given times, or of equal intervals of a turn.
+    /// Grid of the given times or, if no times are given, of equal intervals of a turn.
     fn grid(&self, crank: &Drive) -> Grid {
         let share = |part: usize| part as f64 / self.instants.max(1) as f64;
         let parts = 0..=self.instants;
@@ -296,7 +296,7 @@ impl CaseBuilder {
             let carries = |link: LinkId| link == GROUND || all.iter().any(|before| before.link == link);
             let link = if carries(first.link) { second.link } else { first.link };
             all.push(Drive {
-                // A driven joint that no drive can move is rejected in the analysis of the structure.
+                // The structural analysis rejects a driven joint that no drive can move.
                 input: kind.input().unwrap_or_default(),
                 joint,
                 link,
@@ -315,7 +315,8 @@ impl CaseBuilder {
         Ok(Drives::new(crank, all))
     }
 
-    /// Required mode of each group, in the order of the structure. A group with only one configuration needs no mode.
+    /// Required mode of each group, in the order of the structure. A group that has only one configuration needs no
+    /// mode.
     fn starts(&self, mechanism: &Mechanism, structure: &Structure) -> Result<Vec<StartGroup>> {
         let mut starts = vec![StartGroup::default(); structure.groups.len()];
         for (start, group) in starts.iter_mut().zip(&structure.groups) {
@@ -379,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn a_four_bar_is_that_of_the_fixtures() {
+    fn the_built_four_bar_equals_the_fixture() {
         let case = four_bar().crank("O", -2.0).mode(&["rocker", "coupler"], AssemblyMode::Right).build().unwrap();
         assert_eq!(case.mechanism, crate::fixtures::four_bar());
         assert_eq!(case.modes, [AssemblyMode::Left]);
@@ -406,21 +407,21 @@ mod tests {
         assert!((case.start.0[LinkId(3)].origin.x - 0.5).abs() < 1e-15, "{:?}", case.start);
     }
 
-    /// Regression: the instants of a free motion were placed by crank angle, but a free crank reaches an angle at a
-    /// time that depends on the forces.
+    /// Regression: the instants of a free motion were chosen by crank angle.
+    /// The time at which a free crank reaches an angle depends on the forces.
     #[test]
-    fn a_free_motion_has_instants_by_time() {
+    fn the_instants_of_a_free_motion_are_times() {
         let left = |builder: CaseBuilder| builder.mode(&["coupler", "rocker"], AssemblyMode::Left);
         let case = left(four_bar().free("O", 0.5, -4.0)).instants(8).build().unwrap();
         assert!(case.crank().is_free() && case.crank().initial_speed() == 0.5 && case.crank().motor().is_none());
         assert_eq!(case.grid, Grid::of_times(case.crank(), (0..=8).map(|k| TAU / 4.0 * f64::from(k) / 8.0).collect()));
         let case = left(four_bar().free("O", 0.0, 4.0)).times(&[0.0, 0.3, 0.1]).build().unwrap();
         assert_eq!(case.grid.times, [0.0, 0.3, 0.1]);
-        // A grid by crank angle is rejected, wherever it comes from.
+        // A grid by crank angle is rejected, however it was made.
         let angles = Grid::of_inputs(case.crank(), vec![0.0, 1.0]);
         assert!(case.on(angles.clone()).unwrap_err().to_string().contains("the motion is free"));
         assert!(case.with(|parts| parts.grid = angles).unwrap_err().to_string().contains("the motion is free"));
-        // A prescribed crank accepts times too, and a free link may be hinged to another free link.
+        // A prescribed crank also accepts times. A free link may be hinged to another free link.
         let prescribed = left(four_bar().crank("O", 2.0)).times(&[0.5]).build().unwrap();
         assert_eq!((prescribed.grid.times[0], prescribed.grid.inputs[0]), (0.5, 1.0));
         let pendulum = Case::builder()
@@ -436,7 +437,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motor_of_the_builder_moves_its_crank() {
+    fn the_builder_gives_the_motor_to_the_crank() {
         let motor = Motor::ideal(crate::drive::MotorLaw::Constant { torque: 2.0 }, 1.0);
         let built =
             four_bar().free("O", 0.0, 4.0).motor(motor.clone()).mode(&["coupler", "rocker"], AssemblyMode::Left);
@@ -444,7 +445,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_named_with_what_there_is() {
+    fn unknown_names_are_reported_with_the_known_ones() {
         let said = message(four_bar().crank("P", 1.0));
         assert!(said.contains("no joint called \"P\"") && said.contains("O; A; B; C"), "{said}");
         let said = message(four_bar().pin("E", "crank", "coupler").crank("O", 1.0));
@@ -453,7 +454,7 @@ mod tests {
         assert!(said.contains("no link called \"lever\"") && said.contains("rocker"), "{said}");
         let said = message(four_bar().crank("O", 1.0).mode(&["crank"], AssemblyMode::Left));
         assert!(said.contains("no group called \"crank\"") && said.contains("coupler, rocker"), "{said}");
-        assert!(message(four_bar()).contains("nothing drives the mechanism"));
+        assert!(message(four_bar()).contains("the mechanism has no drive"));
         assert!(message(Case::builder()).contains("no ground"));
         let said = message(four_bar().crank("O", 1.0));
         assert!(said.contains("coupler, rocker"), "{said}");

@@ -10,9 +10,9 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::math::{KeepNan, unit};
 use crate::mechanism::{AssemblyMode, GROUND, GroupKind, LinkPose, Mechanism, Structure};
 
-/// Largest opening of a joint in a start pose, relative to the joint's farthest coordinate.
-/// First poses of all shipped scenarios leave less than 1e-15 (`tests/suite/start.rs`).
-/// The pose of a different mechanism leaves far more.
+/// Upper limit of the opening of a joint in a start pose, relative to the joint's largest coordinate.
+/// In the first poses of all shipped scenarios the opening is less than 1e-15 (`tests/suite/start.rs`).
+/// In the pose of a different mechanism it is far larger.
 const LARGEST_OPENING: f64 = 1e-9;
 
 /// Checks all parts.
@@ -106,16 +106,16 @@ fn drives(parts: &CaseParts) -> Result<()> {
     Ok(())
 }
 
-/// Crank length, relative to the mechanism's size, below which the crank is a point.
+/// A crank counts as a point if its length is below this fraction of the mechanism's size.
 const POINT: f64 = 1e-12;
 
-/// Whether a driving link carries other links, but only by revolute joints on its axis of rotation, and so moves none
-/// of them.
+/// Whether a driving link moves no other link.
+/// This is the case if it carries other links only by revolute joints on its axis of rotation.
 fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
     let own = mechanism.joints()[drive.joint].on(drive.link);
     let others = || mechanism.joints().entries().filter(|&(index, _)| index != drive.joint);
     let mut carried = others().filter_map(|(_, joint)| Some((joint.is_pin(), joint.on(drive.link)?))).peekable();
-    // A prismatic joint moves its link wherever the other joints are.
+    // A prismatic joint moves its link regardless of the positions of the other joints.
     mechanism.joints()[drive.joint].is_pin()
         && carried.peek().is_some()
         && carried
@@ -221,7 +221,7 @@ fn start(parts: &CaseParts) -> Result<()> {
         let sides = [joint.first, joint.second];
         let places = sides.map(|side| poses[side.link].point(side.local));
         let (gap, turn) = joint.opening(places, sides.map(|side| unit(poses[side.link].angle)));
-        // Negated so that NaN is rejected.
+        // The condition is negated, so that NaN is rejected.
         if !(gap <= LARGEST_OPENING * reach && turn <= LARGEST_OPENING) {
             let message = sentences::joint_is_open_in_the_start(
                 &joint.name,
@@ -245,7 +245,7 @@ fn start(parts: &CaseParts) -> Result<()> {
 
 const CLOSED: &str = sentences::TAKE_FIRST_POSE_AT_THE_WORLD;
 
-/// Checks that every group has a mode of the group's kind.
+/// Checks that the mode of every group fits the kind of the group.
 fn modes(parts: &CaseParts) -> Result<()> {
     let (groups, modes) = (&parts.structure.groups, &parts.modes);
     if groups.len() != modes.len() {

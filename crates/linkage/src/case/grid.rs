@@ -1,4 +1,4 @@
-//! Instants at which a solution is wanted.
+//! The instants at which a solution is requested.
 
 use crate::sentences;
 use std::f64::consts::TAU;
@@ -7,12 +7,12 @@ use crate::drive::Drive;
 use crate::math::KeepNan;
 use crate::math::statistics::ascending;
 
-/// Instants at which a solution is wanted.
+/// The instants at which a solution is requested.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Grid {
     /// Times (s), in any order.
     pub times: Vec<f64>,
-    /// Input values at those times (SI unit, as the scenario states them).
+    /// Input values at those times (SI unit, in the scenario's convention).
     pub inputs: Vec<f64>,
 }
 
@@ -24,9 +24,9 @@ impl Grid {
         Grid { times, inputs }
     }
 
-    /// Returns the grid of the given input values (SI unit, as the scenario states them).
-    /// For a free driving link the times are unknown (NaN), because they follow from the forces; [`Grid::check`]
-    /// rejects this grid.
+    /// Returns the grid of the given input values (SI unit, in the scenario's convention).
+    /// For a free driving link the times depend on the forces, so they are unknown (NaN). [`Grid::check`] rejects this
+    /// grid.
     #[must_use]
     pub fn of_inputs(drive: &Drive, inputs: Vec<f64>) -> Self {
         let time = |&angle: &f64| if drive.is_free() { f64::NAN } else { drive.time_of(angle) };
@@ -46,7 +46,7 @@ impl Grid {
         self.times.is_empty()
     }
 
-    /// Largest distance of a grid from the crank's zero, in turns.
+    /// Upper limit of the distance of a grid from the crank's zero, in turns.
     /// Solvers follow the branch over the whole distance, and a larger angle loses its last digits to rounding.
     pub const MOST_TURNS: f64 = 1e5;
 
@@ -67,7 +67,7 @@ impl Grid {
             if self.times.iter().any(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite()) {
                 return Err(sentences::the_drive_law_does_not_come(&name, &drive.input.noun()));
             }
-            // A rounding error beyond the law's end is allowed.
+            // A time may exceed the law's end by a rounding error.
             let end = drive.end().unwrap_or(f64::INFINITY);
             if let Some(t) = self.times.iter().find(|&&t| t < 0.0 || t > end * (1.0 + 1e-12)) {
                 return Err(sentences::the_grid_leads_to_but_the_drive(&t, &name, &end));

@@ -1,4 +1,4 @@
-//! Selection of a case's channels by words that a user writes.
+//! Selects channels of a case by words that a user writes.
 
 use super::Case;
 use crate::trajectory::{Channel, Stage};
@@ -40,7 +40,7 @@ mod tests {
     use crate::fixtures::{four_bar, turning};
 
     #[test]
-    fn words_ask_for_stages_subjects_and_single_channels() {
+    fn words_select_stages_subjects_and_single_channels() {
         let case = turning(four_bar());
         let called = |word: &str| case.channels_called(word).iter().map(ToString::to_string).collect::<Vec<_>>();
         let point = case.mechanism.moving_points().next().unwrap().0.to_string();

@@ -24,14 +24,14 @@ impl Wanted {
         wanted
     }
 
-    /// Whether the channels of `stage` are wanted.
+    /// Whether the channels of `stage` are requested.
     #[inline]
     #[must_use]
     pub fn has(&self, stage: Stage) -> bool {
         self.0[stage as usize]
     }
 
-    /// Last stage that must be computed; at least positions.
+    /// Last stage that must be computed. It is never earlier than the positions.
     #[must_use]
     pub fn deepest(&self) -> Stage {
         Stage::ALL.into_iter().rev().find(|&stage| self.has(stage)).unwrap_or(Stage::Positions)
@@ -47,7 +47,7 @@ pub struct CaseParts {
     pub structure: Structure,
     /// Drives of the driving links, in the order of [`Structure::drivers`].
     pub drives: Drives,
-    /// Loads besides gravity and inertia.
+    /// Loads other than gravity and inertia.
     pub loads: Vec<Load>,
     /// Acceleration of gravity (m/s^2).
     pub gravity: Vec2,
@@ -57,8 +57,8 @@ pub struct CaseParts {
     pub modes: Vec<AssemblyMode>,
     /// Wanted instants.
     pub grid: Grid,
-    /// Stages of the wanted channels.
+    /// Stages of the requested channels.
     pub wanted: Wanted,
-    /// The wanted channels in the order of columns, if fewer than all channels of the wanted stages; `None` means all.
+    /// The requested channels in the order of columns; `None` means all channels of the requested stages.
     pub only: Option<Vec<Channel>>,
 }

@@ -1,4 +1,5 @@
-//! The smallest case that has the same values in the wanted channels. See docs/skip.md and docs/numerics/settings.md.
+//! The smallest case that has the same values in the requested channels. See docs/skip.md and
+//! docs/numerics/settings.md.
 
 use super::{Case, CaseParts, Seat};
 use crate::drive::{Drive, Drives, Load};
@@ -9,15 +10,15 @@ use crate::mechanism::{
 };
 use crate::trajectory::{Channel, Stage};
 
-/// Number of characters kept of a point's name to which a number is appended.
+/// Maximum number of characters of a point's name that are kept when a number is appended.
 const SHORT: usize = 80;
 
-/// The part of a case that its wanted channels depend on.
+/// The part of a case on which its requested channels depend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// The needed part as a separate case; the whole case if everything is needed.
     pub case: Case,
-    /// Parts that affect no wanted channel.
+    /// Parts that do not affect any requested channel.
     pub left_out: LeftOut,
 }
 
@@ -45,8 +46,8 @@ impl LeftOut {
 }
 
 impl Case {
-    /// Returns the part of the case on which the wanted channels depend. Their values agree with those of the whole
-    /// case up to rounding error.
+    /// Returns the part of the case on which the requested channels depend.
+    /// Their values agree with those of the whole case up to rounding error.
     ///
     /// # Errors
     /// Those of [`Case::new`], if the part is not a complete mechanism.
@@ -69,7 +70,7 @@ impl Case {
 /// The needed parts of a case.
 struct Needs<'a> {
     case: &'a Case,
-    /// For every link, the groups on which its motion depends; the link's group is the last.
+    /// For every link, the groups on which its motion depends. The last of them is the group of the link itself.
     upstream: PerLink<Vec<GroupId>>,
     /// For every link: whether its motion is needed.
     moves: PerLink<bool>,
@@ -87,7 +88,7 @@ impl<'a> Needs<'a> {
         needs
     }
 
-    /// Adds what the channel reads directly.
+    /// Adds the parts on which the channel depends directly.
     fn add(&mut self, channel: &Channel, seat: Seat) {
         match seat {
             Seat::Link(link) => self.moves[link] = true,
@@ -105,15 +106,15 @@ impl<'a> Needs<'a> {
         }
     }
 
-    /// Of the links with this point, the link that depends on the fewest groups.
+    /// The link with this point. If several links have it, the link that depends on the fewest groups.
     fn carrier(&self, point: &str) -> LinkId {
         let links = self.case.mechanism.links().entries().skip(1);
         let own = links.filter(|(_, link)| link.points.iter().any(|own| own.name == point)).map(|(index, _)| index);
         own.min_by_key(|&link| self.upstream[link].len()).expect("a channel of the case")
     }
 
-    /// Of the joint's two links, the one solved later.
-    /// It is the link of the group, or the driving link, to which the joint belongs.
+    /// The later of the joint's two links in the order of solution.
+    /// The joint belongs to this link's group or, for a driven joint, to this driving link.
     fn owner(&self, joint: JointId) -> LinkId {
         let joint = &self.case.mechanism.joints()[joint];
         let place = |link: LinkId| match self.case.structure.drivers.iter().position(|&(own, _)| own == link) {
@@ -131,7 +132,7 @@ impl<'a> Needs<'a> {
             let joint = &case.mechanism.joints()[joint];
             [joint.first.link, joint.second.link]
         };
-        // Forces come from every link that depends on this link, directly or through further links.
+        // Forces on a link come from every link that depends on it, directly or through further links.
         let carries = &mut self.carries;
         for &(link, joint) in &structure.drivers {
             carries[link] |= ends(joint).into_iter().any(|base| base != GROUND && carries[base]);
@@ -147,14 +148,14 @@ impl<'a> Needs<'a> {
         for link in self.moves.ids().skip(1) {
             self.moves[link] |= self.carries[link];
         }
-        // The loads on these links depend on the motion of further links.
+        // The loads on these links may depend on the motion of further links.
         for load in &case.loads {
             let links = load.links();
             if links.iter().any(|&link| link != GROUND && self.carries[link]) {
                 links.iter().for_each(|&link| self.moves[link] = true);
             }
         }
-        // A group's motion depends on all groups and drives before it.
+        // A group's motion depends on the motion of the links at its outer joints.
         for group in structure.groups.iter().rev() {
             if group.links.iter().any(|&link| self.moves[link]) {
                 group.links.iter().for_each(|&link| self.moves[link] = true);
@@ -172,7 +173,7 @@ impl<'a> Needs<'a> {
         self.moves[joint.first.link] && self.moves[joint.second.link]
     }
 
-    /// Whether a load is needed: it acts on a link whose forces are needed.
+    /// Whether the part keeps a load: some forces are needed, and the part contains all links of the load.
     fn has_load(&self, load: &Load) -> bool {
         self.carries.contains(&true) && load.links().iter().all(|&link| self.moves[link])
     }
@@ -226,9 +227,9 @@ impl<'a> Needs<'a> {
         Ok(scene.wanting_only(case.only.as_deref().unwrap_or_default()))
     }
 
-    /// Links that stay.
-    /// If two links share a point's name but the joint that kept the points together is left out, the link that depends
-    /// on fewer groups keeps the name; on the other link the point gets a number.
+    /// The links of the part.
+    /// Two links may share a point's name while the joint that kept the points together is left out.
+    /// The link that depends on fewer groups then keeps the name. On the other link the point gets a number.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
         let stays = |index: &LinkId| self.moves[*index];
@@ -253,7 +254,7 @@ impl<'a> Needs<'a> {
                     continue;
                 }
                 let first = *all.iter().min_by_key(|&&own| (self.upstream[own].len(), own)).expect("there are two");
-                // All links connected with the first by revolute joints of this name.
+                // All links that revolute joints of this name connect with the first link.
                 let mut reached = vec![first];
                 let mut next = 0;
                 while let Some(&own) = reached.get(next) {
@@ -281,7 +282,7 @@ impl<'a> Needs<'a> {
     }
 }
 
-/// New numbers of the items that stay, in order. The entries of the remaining items are never read.
+/// New numbers of the items that stay, in order. The entries of removed items are not used.
 fn numbers<I: Ordinal>(stays: impl Iterator<Item = bool>) -> Vec<I> {
     let mut next = 0;
     stays

@@ -8,12 +8,12 @@ use crate::trajectory::{Channel, ChannelSubject, Stage};
 
 /// Location of a channel's subject in the mechanism.
 /// It determines what the channel's values depend on and what they describe.
-/// A new kind of subject takes one of these seats: see [`Case::seats`].
+/// A new kind of subject uses one of these locations: see [`Case::seats`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Seat {
     /// On the link with this number.
     Link(LinkId),
-    /// At a point, on the first link that carries it.
+    /// At a point of a link. If several links carry the point, the first of them.
     Point(JointSide),
     /// In the joint with this number.
     Joint(JointId),
@@ -23,12 +23,12 @@ pub enum Seat {
     Frame,
 }
 
-/// Seats of all subjects of a case, by name.
+/// Locations of all subjects of a case, by name.
 #[derive(Debug)]
 pub struct Seats<'a>(BTreeMap<(ChannelSubject, &'a str), Seat>);
 
 impl Seats<'_> {
-    /// Seat of a channel's subject; `None` for a channel that the case does not have.
+    /// Location of a channel's subject; `None` for a channel that the case does not have.
     #[must_use]
     pub fn of(&self, channel: &Channel) -> Option<Seat> {
         self.0.get(&(channel.kind.subject, channel.of.as_str())).copied()
@@ -36,7 +36,7 @@ impl Seats<'_> {
 }
 
 impl Case {
-    /// All subjects of channels, in the order of columns: kind, name and seat.
+    /// All subjects of channels, in the order of columns: kind, name and location.
     pub(crate) fn subjects(&self) -> impl Iterator<Item = (ChannelSubject, &str, Seat)> {
         let (links, joints) = (self.mechanism.links(), self.mechanism.joints());
         let links =
@@ -54,7 +54,7 @@ impl Case {
         links.chain(points).chain(joints).chain(sliders).chain(frame).chain(moved)
     }
 
-    /// Joints whose reactions are wanted, directly or as part of the force on the frame.
+    /// Joints whose reactions are requested, directly or as part of the force on the frame.
     #[must_use]
     pub fn wanted_reactions(&self) -> Vec<JointId> {
         let (joints, seats) = (self.mechanism.joints(), self.seats());
@@ -69,7 +69,7 @@ impl Case {
         joints.ids().filter(is_wanted).collect()
     }
 
-    /// Seats of all subjects of channels.
+    /// Locations of all subjects of channels.
     #[must_use]
     pub fn seats(&self) -> Seats<'_> {
         Seats(self.subjects().map(|(subject, name, seat)| ((subject, name), seat)).collect())
@@ -83,7 +83,7 @@ mod tests {
     use crate::trajectory::Channel;
 
     #[test]
-    fn every_channel_of_a_case_has_a_seat_and_no_other_has_one() {
+    fn exactly_the_channels_of_a_case_have_a_seat() {
         let case = turning(four_bar());
         let seats = case.seats();
         for channel in case.all_channels() {

@@ -2,7 +2,7 @@
 
 use crate::math::KeepNan;
 
-/// A smooth torque-speed curve of the motor.
+/// A smooth torque-speed curve of a motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Curve {
     Line { at_rest: f64, slope: f64 },
@@ -14,7 +14,7 @@ impl Curve {
     pub(super) fn torque(&self, omega: f64) -> f64 {
         match *self {
             Curve::Line { at_rest, slope } => at_rest + slope * omega,
-            // Written without a division by the slip, so that zero slip needs no special case.
+            // This form does not divide by the slip, so zero slip needs no special case.
             Curve::Kloss { breakdown_torque, breakdown_slip: b, synchronous_speed } => {
                 let slip = 1.0 - omega / synchronous_speed;
                 2.0 * breakdown_torque * slip * b / (slip * slip + b * b)
@@ -43,12 +43,13 @@ impl Curve {
         }
     }
 
-    /// Speed at which the torque equals `torque` and falls with increasing speed.
+    /// Speed at which the torque equals `torque` and decreases with increasing speed.
     fn stable_speed(&self, torque: f64) -> Option<f64> {
         match *self {
             Curve::Line { at_rest, slope } if slope < 0.0 => Some((torque - at_rest) / slope),
             Curve::Line { .. } => None,
-            // With x = s / b: torque (x + 1 / x) = 2 M. The root of smaller size, in a form without cancellation.
+            // With x = s / b: torque (x + 1 / x) = 2 M.
+            // The smaller of the two roots is used, in a form without cancellation.
             Curve::Kloss { breakdown_torque, breakdown_slip, synchronous_speed } => {
                 let share = torque / breakdown_torque;
                 let root = (1.0 - share * share).larger(0.0).sqrt();
@@ -63,7 +64,7 @@ impl Curve {
 pub struct MotorBranch {
     curve: Curve,
     ratio: f64,
-    /// Share of the static torque that reaches the crank; its inverse where power flows back to the motor.
+    /// Fraction of the static torque that reaches the crank. If power flows back to the motor, its inverse.
     factor: f64,
     /// Speeds of the crank (rad/s) between which the piece is valid. Outside this interval the piece continues
     /// smoothly.
@@ -71,8 +72,9 @@ pub struct MotorBranch {
 }
 
 impl MotorBranch {
-    /// Piece of a curve between two speeds of the motor (rad/s), seen through a reducer of this ratio and efficiency.
-    /// Torque and speed keep their signs on the piece.
+    /// The piece of a curve between two speeds of the motor (rad/s), converted to the crank by a reducer of this ratio
+    /// and efficiency.
+    /// Torque and speed do not change sign on the piece.
     pub(super) fn of(ratio: f64, efficiency: f64, curve: Curve, ends: [f64; 2]) -> Self {
         let inside = match ends {
             [from, to] if from.is_finite() && to.is_finite() => (from + to) / 2.0,
@@ -92,18 +94,18 @@ impl MotorBranch {
         self.ratio * self.factor * self.curve.torque(self.ratio * omega)
     }
 
-    /// Derivative of that moment with respect to the crank's speed (N m s).
+    /// Derivative of the moment on the crank with respect to the crank's speed (N m s).
     #[inline]
     #[must_use]
     pub fn slope(&self, omega: f64) -> f64 {
         self.ratio * self.ratio * self.factor * self.curve.slope(self.ratio * omega)
     }
 
-    /// Speed of the crank (rad/s) on this piece at which the moment equals `resistance` (N m) and falls with increasing
-    /// speed.
+    /// Speed of the crank (rad/s) on this piece at which the moment equals `resistance` (N m) and decreases with
+    /// increasing speed.
     pub(super) fn steady_speed(&self, resistance: f64) -> Option<f64> {
         let speed = self.curve.stable_speed(resistance / (self.ratio * self.factor))? / self.ratio;
-        // A rounding error beyond an end is allowed.
+        // The speed may exceed an end of the piece by a rounding error.
         let slack = 4.0 * f64::EPSILON * speed.abs();
         (speed >= self.speeds[0] - slack && speed <= self.speeds[1] + slack).then_some(speed)
     }

@@ -5,25 +5,26 @@ use std::sync::Arc;
 
 use crate::math::Piecewise;
 
-/// A constant, or a table over the crank angle.
+/// A constant, or a table of values against the crank angle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Course {
     /// The value, the same at every crank angle.
     Constant(f64),
-    /// A periodic function of the crank angle (rad, as the scenario states it).
+    /// A periodic function of the crank angle (rad, in the scenario's convention).
     Table {
-        /// The function. Its period is `turns` turns of the crank.
+        /// The function. Its period is `turns` revolutions of the crank.
         function: Arc<Piecewise>,
-        /// Period in turns of the crank.
+        /// Period in revolutions of the crank.
         turns: u32,
     },
 }
 
 impl Course {
     /// Returns a table through points of crank angle (rad) and value.
-    /// The points are ascending, at least one, and within `turns` turns, after which the table repeats.
-    /// `smooth` selects a periodic cubic spline with continuous second derivatives; otherwise the points are joined by
-    /// straight lines.
+    /// There must be at least one point. The crank angles ascend and lie within `turns` revolutions, after which the
+    /// table repeats.
+    /// If `smooth` is true, the function is a periodic cubic spline with continuous second derivatives.
+    /// Otherwise straight lines join the points.
     #[must_use]
     pub fn table(points: &[(f64, f64)], turns: u32, smooth: bool) -> Self {
         let of = if smooth { Piecewise::periodic_spline } else { Piecewise::periodic_lines };
@@ -40,7 +41,7 @@ impl Course {
         }
     }
 
-    /// Whether all numbers are finite and a table has a period above zero.
+    /// Whether all numbers are finite and, for a table, the period is above zero.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         match self {
@@ -49,7 +50,7 @@ impl Course {
         }
     }
 
-    /// Returns this quantity times `factor`.
+    /// Returns this quantity multiplied by `factor`.
     #[must_use]
     pub fn times(&self, factor: f64) -> Self {
         match self {
@@ -60,8 +61,8 @@ impl Course {
         }
     }
 
-    /// Breakpoints of the function (crank angles) over one period, and the period in turns.
-    /// Between two breakpoints the function is one polynomial.
+    /// Breakpoints of the function (crank angles) in one period, and the period in revolutions.
+    /// Between two breakpoints the function is a single polynomial.
     /// `None` for a constant.
     #[must_use]
     pub fn knots(&self) -> Option<(&[f64], u32)> {

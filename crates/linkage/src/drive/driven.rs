@@ -11,7 +11,8 @@ pub enum DriveMotion {
     Prescribed {
         /// The motion law.
         law: MotionLaw,
-        /// Motor whose speed under load is wanted. The link follows the law even if the motor cannot.
+        /// Motor for which the speed under load is requested. The link follows the law even if the motor could not move
+        /// it so.
         motor: Option<Motor>,
     },
     /// Free motion: from t = 0 on, it follows from the loads, weights, inertia and the motor, if any.
@@ -19,7 +20,7 @@ pub enum DriveMotion {
         /// Speed at t = 0 (rad/s), counter-clockwise positive.
         initial_speed: f64,
         /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive.
-        /// Its sign is the motor's sense of rotation. Its size is the reference for speeds.
+        /// Its sign is the motor's sense of rotation. Its absolute value is the reference for speeds.
         /// Crank angles refer to the nominal motion.
         nominal_speed: f64,
         /// Motor that drives the link.
@@ -27,7 +28,7 @@ pub enum DriveMotion {
     },
 }
 
-/// A driving link and the motion of the input, the coordinate of its joint.
+/// A driving link and the motion of its input. The input is the coordinate of the driven joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// Kind of the input.
@@ -42,8 +43,8 @@ pub struct Drive {
     pub start: f64,
     /// Motion of the link: prescribed or free.
     pub motion: DriveMotion,
-    /// Whether the mechanism passes change points, on the branch with continuous velocities.
-    /// If `false`, a change point is an error. A free motion always passes them: see [`Drive::passes`].
+    /// Whether the mechanism continues through change points, on the branch with continuous velocities.
+    /// If `false`, a change point is an error. A free motion always continues: see [`Drive::passes`].
     pub through: bool,
 }
 
@@ -55,7 +56,7 @@ impl Drive {
         Drive { input: Input::Angle, joint, link, zero, start, motion, through: false }
     }
 
-    /// Applies `read` to the law that prescribes the motion, or to the law of the nominal motion.
+    /// Applies `read` to the law: the law that prescribes the motion, or that of the nominal motion.
     #[inline]
     fn by_law<T>(&self, read: impl FnOnce(&MotionLaw) -> T) -> T {
         match &self.motion {
@@ -71,7 +72,7 @@ impl Drive {
         self.by_law(|law| law.at(self.start, t))
     }
 
-    /// Time (s) at which the crank angle is `angle` (rad, as the scenario states it), as in [`MotionLaw::time_of`].
+    /// Time (s) at which the crank angle is `angle` (rad, in the scenario's convention), as in [`MotionLaw::time_of`].
     /// For a free link: in the nominal motion.
     #[inline]
     #[must_use]
@@ -79,9 +80,9 @@ impl Drive {
         self.by_law(|law| law.time_of(angle - self.start))
     }
 
-    /// Constant speed (rad/s) for an integration step from the law's angle at time `from` (s) to its angle at time `to`
-    /// (s), over the duration between the two.
-    /// The speed is opposite to the law's sense if `to` is before `from`.
+    /// Constant speed (rad/s) of an integration step between the law's angles at the times `from` and `to` (s).
+    /// The step takes the absolute difference of the two times.
+    /// If `to` is before `from`, the speed is opposite to the law's sense.
     #[inline]
     #[must_use]
     pub fn step_speed(&self, from: f64, to: f64) -> f64 {
@@ -98,7 +99,7 @@ impl Drive {
     }
 
     /// Sense of rotation of the law: +1 counter-clockwise, -1 clockwise.
-    /// An oscillating law has the sense of its top speed.
+    /// For an oscillating law it is the sense of the top speed.
     #[must_use]
     pub fn sense(&self) -> f64 {
         self.top_speed().signum()
@@ -133,7 +134,7 @@ impl Drive {
         self.by_law(MotionLaw::jump)
     }
 
-    /// Name of the law in scenario files; for a free link, of the law of the nominal motion.
+    /// Name of the law in scenario files; for a free link, the name of the nominal motion's law.
     #[must_use]
     pub fn law_name(&self) -> &'static str {
         self.by_law(MotionLaw::name)
@@ -149,15 +150,15 @@ impl Drive {
         }
     }
 
-    /// Whether the mechanism passes change points, on the branch with continuous velocities: always in free motion (by
-    /// momentum), under a law if [`Drive::through`] is set.
+    /// Whether the mechanism continues through change points, on the branch with continuous velocities.
+    /// In free motion it always does, by momentum. Under a law it does if [`Drive::through`] is set.
     #[inline]
     #[must_use]
     pub fn passes(&self) -> bool {
         self.through || self.is_free()
     }
 
-    /// Whether the drive exerts a moment on the link: all drives except a free link without a motor.
+    /// Whether the drive exerts a moment on the link. Only a free link without a motor has no such moment.
     #[must_use]
     pub fn has_moment(&self) -> bool {
         match &self.motion {
@@ -166,7 +167,7 @@ impl Drive {
         }
     }
 
-    /// The motor, whether it drives the link or only its speed under load is wanted.
+    /// The motor. It drives the link, or only its speed under load is requested.
     #[must_use]
     pub fn motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -183,7 +184,7 @@ impl Drive {
         }
     }
 
-    /// Moment of inertia of rotor and reducer that turn with a free link (kg m^2), referred to the link. 0 under a law.
+    /// Moment of inertia of rotor and reducer (kg m^2), referred to the free link with which they turn. 0 under a law.
     #[must_use]
     pub fn moving_inertia(&self) -> f64 {
         self.moving_motor().map_or(0.0, Motor::inertia_on_crank)
@@ -226,14 +227,14 @@ impl Drive {
         Drive { motion, ..*self }
     }
 
-    /// World angle of the driving link's x axis (rad) at the crank angle `angle` (rad, as the scenario states it).
+    /// World angle of the driving link's x axis (rad) at the crank angle `angle` (rad, in the scenario's convention).
     #[inline]
     #[must_use]
     pub fn world_angle(&self, angle: f64) -> f64 {
         self.zero + angle
     }
 
-    /// Input as the scenario states it, for the coordinate of [`Drive::world_angle`] (rad).
+    /// Input in the scenario's convention, for the coordinate of [`Drive::world_angle`] (rad).
     #[inline]
     #[must_use]
     pub fn from_world(&self, coordinate: f64) -> f64 {
@@ -250,7 +251,7 @@ impl Drive {
         }
     }
 
-    /// The input at `value`, formatted for messages.
+    /// The input with the value `value`, formatted for messages.
     #[must_use]
     pub fn told(&self, value: f64) -> InputValue {
         self.input.at(value)
@@ -322,7 +323,7 @@ mod tests {
         }
     }
 
-    /// A law that starts from rest has a sense at t = 0 too.
+    /// A law that starts from rest has a sense of rotation even at t = 0.
     #[test]
     fn sense_and_initial_speed() {
         let laws = [

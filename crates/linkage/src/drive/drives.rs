@@ -6,7 +6,7 @@ use std::ops::Deref;
 
 use super::Drive;
 
-/// The driving links of a mechanism, at least one. The first is the crank, whose angle identifies an instant.
+/// The driving links of a mechanism, at least one. The first is the crank; its angle identifies an instant.
 /// The order is that of [`Structure::drivers`](crate::mechanism::Structure::drivers).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drives(Vec<Drive>);
@@ -61,7 +61,7 @@ impl Drives {
         Drives(self.0.iter().map(change).collect())
     }
 
-    /// World angles of the driving links' x axes (rad) at the crank angle `crank` (rad, as the scenario states it).
+    /// World angles of the driving links' x axes (rad) at the crank angle `crank` (rad, in the scenario's convention).
     #[must_use]
     pub fn world_angles(&self, crank: f64) -> Vec<f64> {
         let t = self.crank().time_of(crank);

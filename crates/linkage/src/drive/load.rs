@@ -1,8 +1,8 @@
 //! Loads on links other than gravity and inertia.
 //!
-//! A kind of load is defined in this file only: its variant, its action on the links ([`Load::act`]), its dependencies
+//! Only this file defines a kind of load: its variant, its action on the links ([`Load::act`]), its dependencies
 //! ([`Load::nature`]) and its numbers ([`Load::parts`]).
-//! All other code queries these methods. The scenario reader defines the syntax in files.
+//! All other code calls these methods. The scenario reader defines the syntax in files.
 
 mod change;
 mod parts;
@@ -18,32 +18,32 @@ use crate::mechanism::{JointSide, LinkId};
 /// A load on one link, or between two links.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Load {
-    /// Moment of constant size against the link's rotation. Zero at standstill.
+    /// Moment of constant size, opposite to the link's rotation. Zero at standstill.
     Resistance {
         /// The loaded link.
         link: LinkId,
         /// Size of the moment (N m), not negative.
         moment: f64,
     },
-    /// Moment independent of the speed. It may act for one sense of the link's rotation only.
+    /// Moment that does not depend on the size of the speed. It may be limited to one sense of the link's rotation.
     Moment {
         /// The loaded link.
         link: LinkId,
         /// The moment (N m), counter-clockwise positive.
         moment: Course,
-        /// Sense of rotation for which it acts.
+        /// Sense of rotation for which the moment acts.
         acts: Acts,
     },
     /// Force on a point of a link.
     Force {
         /// Point of application.
         at: JointSide,
-        /// Components (N), in world axes or in the link's axes.
+        /// Components (N), along world axes or the link's axes.
         force: [Course; 2],
-        /// Whether the components are in the link's axes, so that the force turns with the link.
+        /// Whether the components are along the link's axes, so that the force turns with the link.
         follows: bool,
     },
-    /// Force of constant size against the motion of a point of a link, -F v / |v|. Zero at standstill.
+    /// Force of constant size, opposite to the motion of a point of a link: -F v / |v|. Zero at standstill.
     ResistingForce {
         /// Point of application.
         at: JointSide,
@@ -51,7 +51,7 @@ pub enum Load {
         force: f64,
     },
     /// Spring between two points. It pulls them together with stiffness times (length - free length).
-    /// Where the points coincide the direction is undefined and the force is zero.
+    /// If the points coincide, the direction is undefined and the force is zero.
     Spring {
         /// End points.
         ends: [JointSide; 2],
@@ -61,17 +61,17 @@ pub enum Load {
         free_length: f64,
     },
     /// Damper between two points. It pulls them together with damping times the rate of their distance.
-    /// Where the points coincide the force is zero.
+    /// If the points coincide, the force is zero.
     Damper {
         /// End points.
         ends: [JointSide; 2],
         /// Damping (N s/m).
         damping: f64,
     },
-    /// Torsion spring between two links: stiffness times (twist - free twist) on the first link, the opposite on the
-    /// second.
+    /// Torsion spring between two links: stiffness times (twist - free twist) on the first link, the opposite moment on
+    /// the second.
     /// The twist is the angle of the second link's frame minus that of the first.
-    /// At t = 0 it is in (-pi, pi]; from there on it counts whole turns.
+    /// At t = 0 it is in (-pi, pi]; after that it counts whole turns.
     TorsionSpring {
         /// The links.
         links: [LinkId; 2],
@@ -80,8 +80,8 @@ pub enum Load {
         /// Unloaded twist (rad).
         free_angle: f64,
     },
-    /// Torsion damper between two links: damping times the rate of the twist on the first link, the opposite on the
-    /// second.
+    /// Torsion damper between two links: damping times the rate of the twist on the first link, the opposite moment on
+    /// the second.
     TorsionDamper {
         /// The links.
         links: [LinkId; 2],
@@ -139,8 +139,8 @@ impl Load {
         }
     }
 
-    /// Name of the load, its place of action, and the quantities on which it depends.
-    /// Where possible, code that distinguishes loads uses this instead of the variant.
+    /// Name of the load, its point or link of action, and the quantities on which it depends.
+    /// Where possible, code uses this information instead of the variant to distinguish loads.
     #[inline]
     #[must_use]
     pub fn nature(&self) -> LoadNature<'_> {
@@ -172,7 +172,7 @@ impl Load {
         }
     }
 
-    /// All parts of the load, to be read or changed; links and points first.
+    /// All parts of the load, for reading or changing; links and points first.
     pub fn parts(&mut self) -> Vec<LoadPart<'_>> {
         fn amount<'a>(name: &'static str, value: &'a mut f64) -> LoadPart<'a> {
             LoadPart::Number { role: LoadRole::Amount, name, value }
@@ -234,8 +234,9 @@ impl Load {
         }
     }
 
-    /// Moment (N m) of a load with a [sensed link](Load::sensed_link) while that link turns in the sense of `omega`, at
-    /// the crank angle `crank` (rad). Zero for all other loads, and at standstill.
+    /// Moment (N m) of a load with a [sensed link](Load::sensed_link).
+    /// The link turns in the sense of `omega`, and the crank angle is `crank` (rad).
+    /// Zero at standstill, and for all other loads.
     #[inline]
     #[must_use]
     pub fn moment_in(&self, omega: f64, crank: f64) -> f64 {
@@ -253,18 +254,19 @@ impl Load {
         if is_on { moment.at(crank) } else { 0.0 }
     }
 
-    /// Force (N) of a load with a [sensed point](Load::sensed_point) while that point moves in the direction `way`: a
-    /// unit vector in world axes, or zero for standstill. Zero for all other loads.
+    /// Force (N) of a load with a [sensed point](Load::sensed_point).
+    /// The point moves in the direction `way`: a unit vector in world axes, or zero for standstill.
+    /// Zero for all other loads.
     #[inline]
     #[must_use]
     pub fn force_in(&self, way: Vec2) -> Vec2 {
         if let Load::ResistingForce { force, .. } = self { way * -force } else { Vec2::zeros() }
     }
 
-    /// Jump of the load where the sensed motion reverses, at the crank angle `crank` (rad).
-    /// It is in N m, or in N for a force, and not negative.
-    /// It is zero for a load that senses no motion, or that vanishes with the speed or at that crank angle; such a load
-    /// has at most a kink.
+    /// Jump of the load when the sensed motion reverses at the crank angle `crank` (rad).
+    /// Its unit is N m, or N for a force. It is not negative.
+    /// It is zero for a load that senses no motion, or that vanishes with the speed or at that crank angle.
+    /// Such a load has at most a kink.
     #[must_use]
     pub fn jump(&self, crank: f64) -> f64 {
         match self.nature().senses {
@@ -281,14 +283,14 @@ impl Load {
     }
 
     /// For a [resistance](Load::Resistance): the loaded link and the size of the moment (N m).
-    /// It is the only load that some engines and formats support directly.
+    /// A resistance is the only load that some engines and formats support directly.
     #[inline]
     #[must_use]
     pub fn resistance(&self) -> Option<(LinkId, f64)> {
         if let &Load::Resistance { link, moment } = self { Some((link, moment)) } else { None }
     }
 
-    /// Whether the load depends on the size of speeds, not only on their senses.
+    /// Whether the load depends on the size of speeds and not only on their signs.
     #[must_use]
     pub fn is_viscous(&self) -> bool {
         self.nature().is_viscous
@@ -312,8 +314,8 @@ impl Load {
     }
 }
 
-/// Direction of a velocity: a unit vector, or zero at standstill. Computed so that squares of very small speeds do not
-/// underflow.
+/// Direction of a velocity: a unit vector, or zero at standstill.
+/// The computation avoids underflow of the squares of very small speeds.
 #[inline]
 #[must_use]
 pub fn sense_of(velocity: Vec2) -> Vec2 {
@@ -321,7 +323,7 @@ pub fn sense_of(velocity: Vec2) -> Vec2 {
     if most > 0.0 { (velocity / most).normalize() } else { Vec2::zeros() }
 }
 
-/// World coordinates of two ends and the vector from the first to the second.
+/// World coordinates of both ends, and the vector from the first end to the second.
 #[inline]
 fn span(motions: &[Motion], ends: [JointSide; 2]) -> ([Vec2; 2], Vec2) {
     let places = ends.map(|end| motions[end.link].point(end.local));

@@ -8,10 +8,10 @@ use crate::math::{Piecewise, root};
 
 /// An input with its rate and acceleration.
 /// The units are rad, rad/s, rad/s^2 for an angle; m, m/s, m/s^2 for a length.
-/// [`Input`](crate::input::Input) is its kind.
+/// [`Input`](crate::input::Input) defines what it measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InputState {
-    /// Value as the scenario states it.
+    /// Value in the scenario's convention.
     /// An angle is measured counter-clockwise from the drive's zero direction, and whole turns count.
     pub value: f64,
     /// Rate, counter-clockwise positive.
@@ -20,12 +20,12 @@ pub struct InputState {
     pub acceleration: f64,
 }
 
-/// An input as a function of time, from t = 0. Units are given for an angle; for a length read m and m/s.
+/// An input as a function of time, from t = 0. The units given are those of an angle; for a length they are m and m/s.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s, not zero), counter-clockwise positive.
     ConstantSpeed(f64),
-    /// Constant acceleration from rest up to a speed, which then stays constant.
+    /// Constant acceleration from rest to a final speed. After that the speed is constant.
     Ramp {
         /// Final speed (rad/s, not zero), counter-clockwise positive.
         speed: f64,
@@ -42,8 +42,8 @@ pub enum MotionLaw {
         /// Duration (s), positive.
         time: f64,
     },
-    /// Angle from the start (rad) as a function of time (s) with two continuous derivatives, from its first knot, 0, to
-    /// its last.
+    /// Angle from the start (rad) as a function of time (s), with two continuous derivatives.
+    /// It is defined from its first knot, 0, to its last.
     Table(Arc<Piecewise>),
 }
 
@@ -118,7 +118,7 @@ impl MotionLaw {
         }
     }
 
-    /// Speed of largest size that the law reaches (rad/s), counter-clockwise positive. Not zero.
+    /// The reached speed with the largest absolute value (rad/s), counter-clockwise positive. Not zero.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
         match self {
@@ -132,12 +132,12 @@ impl MotionLaw {
     }
 
     /// First time (s) at which the driving link has turned by the angle `gone` (rad).
-    /// NaN if the law never reaches the angle, and for tables, which may reach it more than once.
+    /// NaN if the law never reaches the angle. Also NaN for tables, because they may reach the angle more than once.
     #[inline]
     #[must_use]
     pub fn time_of(&self, gone: f64) -> f64 {
         match *self {
-            // The addition of zero turns the -0 of a clockwise crank into 0.
+            // Adding zero turns the -0 of a clockwise crank into 0.
             MotionLaw::ConstantSpeed(omega) => gone / omega + 0.0,
             MotionLaw::Ramp { speed, time } => match gone / speed {
                 early if early < time / 2.0 => (2.0 * time * early).sqrt(),
@@ -149,13 +149,13 @@ impl MotionLaw {
     }
 }
 
-/// Number of bisections of the whole duration, enough to reach rounding error.
+/// Number of bisections of the whole duration. They reach rounding error.
 const HALVINGS: usize = 60;
 
 /// Fraction s of the duration at which s - sin(2 pi s) / 2 pi equals `gone`.
-/// It is found by bisection, because the function is flat at both ends.
+/// It is found by bisection, because the function has zero slope at both ends.
 fn cycloid(gone: f64) -> f64 {
-    // A rounding error beyond the last angle is allowed.
+    // The angle may exceed the last angle by a rounding error.
     if !(-1e-15..=1.0 + 1e-15).contains(&gone) {
         return f64::NAN;
     }

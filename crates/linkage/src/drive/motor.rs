@@ -2,7 +2,7 @@
 
 use super::branch::{Curve, MotorBranch};
 
-/// Torque of a motor as a function of its speed. Positive in its driving sense.
+/// Torque of a motor as a function of its speed. Both are positive in the motor's driving sense.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotorLaw {
     /// Constant torque at all speeds.
@@ -13,9 +13,9 @@ pub enum MotorLaw {
     /// M = `at_rest` + `slope` omega: the stable branch of an induction motor's characteristic, or a direct-current
     /// motor.
     Linear {
-        /// Torque at standstill by the straight line (N m).
+        /// Torque of the straight line at standstill (N m).
         at_rest: f64,
-        /// Slope of torque over speed (N m s). Negative for a stable motor.
+        /// Slope of the torque with respect to the speed (N m s). Negative for a stable motor.
         slope: f64,
     },
     /// Induction motor after Kloss, with the stator's resistance neglected:
@@ -30,8 +30,8 @@ pub enum MotorLaw {
         /// Synchronous speed, the speed without load (rad/s), above 0.
         synchronous_speed: f64,
     },
-    /// Straight lines between measured points; the outer lines continue beyond the table.
-    /// Straight lines cannot overshoot: a falling table gives a falling law.
+    /// Straight lines between measured points; beyond the table, the first and the last line continue.
+    /// Straight lines cannot overshoot, so a decreasing table gives a decreasing law.
     Table {
         /// Speeds (rad/s), ascending, at least two.
         speeds: Vec<f64>,
@@ -41,7 +41,7 @@ pub enum MotorLaw {
 }
 
 impl MotorLaw {
-    /// Returns the law with its torque multiplied by `share` at every speed.
+    /// Returns the law with its torque multiplied by `share` at all speeds.
     #[must_use]
     pub fn scaled(&self, share: f64) -> MotorLaw {
         match self {
@@ -114,7 +114,7 @@ pub struct Motor {
     pub law: MotorLaw,
     /// Ratio of the motor's speed to that of the crank, above 0.
     pub ratio: f64,
-    /// Efficiency of the reducer, above 0 and at most 1, equal in both directions of power flow.
+    /// Efficiency of the reducer, above 0 and at most 1. It is the same in both directions of power flow.
     /// It reduces the motor's static torque. Losses of the moments that accelerate the shafts are neglected.
     pub efficiency: f64,
     /// Moments of inertia of rotor and reducer.
@@ -128,26 +128,26 @@ impl Motor {
         Motor { law, ratio, efficiency: 1.0, inertia: ShaftInertia::default() }
     }
 
-    /// Moment of the motor on the crank (N m) while the crank turns at `omega` (rad/s, positive in the motor's driving
+    /// Moment of the motor on the crank (N m) if the crank turns at `omega` (rad/s, positive in the motor's driving
     /// sense).
-    /// It is ratio times torque, times the efficiency where power flows to the crank, divided by it where power flows
-    /// back.
+    /// It is ratio times torque, multiplied by the efficiency if power flows to the crank.
+    /// If power flows back, it is divided by the efficiency.
     #[must_use]
     pub fn moment_on_crank(&self, omega: f64) -> f64 {
         self.branch(omega, 1.0).moment(omega)
     }
 
-    /// Moment of inertia of rotor and reducer reduced to the crank (kg m^2).
-    /// Each part counts with the square of its speed ratio to the crank.
+    /// Moment of inertia of rotor and reducer, reduced to the crank (kg m^2).
+    /// The moment of inertia of each part is multiplied by the square of its speed ratio to the crank.
     #[must_use]
     pub fn inertia_on_crank(&self) -> f64 {
         let own = &self.inertia;
         (own.rotor + own.input) * self.ratio.powi(2) + own.intermediate * own.intermediate_ratio.powi(2) + own.output
     }
 
-    /// Smooth piece of the moment on the crank that is valid at the crank's speed `omega` (rad/s).
-    /// Where two pieces meet: the piece towards higher speeds if `towards` is positive, otherwise that towards lower
-    /// speeds.
+    /// The smooth piece of the moment on the crank that is valid at the crank's speed `omega` (rad/s).
+    /// If `omega` is where two pieces meet: the piece at higher speeds if `towards` is positive, otherwise the piece at
+    /// lower speeds.
     #[must_use]
     pub fn branch(&self, omega: f64, towards: f64) -> MotorBranch {
         let holds = |branch: &&MotorBranch| match towards > 0.0 {
@@ -158,11 +158,11 @@ impl Motor {
         *branches.iter().find(holds).or(branches.last()).expect("a law has at least one piece")
     }
 
-    /// All smooth pieces, ascending in speed.
+    /// All smooth pieces, in ascending order of speed.
     fn branches(&self) -> Vec<MotorBranch> {
         let mut found = Vec::new();
         for ([from, to], curve) in self.law.curves() {
-            // The losses change sign with the power, that is, where speed or torque changes sign.
+            // The losses change sign with the power. The power changes sign with the speed or the torque.
             let mut ends = vec![from, to];
             if self.efficiency < 1.0 {
                 let turns = [Some(0.0), curve.root()].into_iter().flatten();
@@ -177,9 +177,9 @@ impl Motor {
         found
     }
 
-    /// Speed of the crank (rad/s) at stable equilibrium: the motor's moment equals `resistance` (N m) and falls with
-    /// increasing speed.
-    /// If there are several such speeds, the largest one; `None` if there is none.
+    /// Speed of the crank (rad/s) at stable equilibrium: the motor's moment equals `resistance` (N m) and decreases
+    /// with increasing speed.
+    /// If there are several such speeds, the largest; `None` if there is no such speed.
     #[must_use]
     pub fn steady_speed(&self, resistance: f64) -> Option<f64> {
         self.branches().iter().rev().find_map(|branch| branch.steady_speed(resistance))
@@ -198,7 +198,7 @@ mod tests {
         let motor = Motor::ideal(LINEAR, 2745.0 / 130.0);
         let steady = motor.steady_speed(17.0).unwrap();
         assert!((motor.moment_on_crank(steady) - 17.0).abs() < 1e-12);
-        // Unloaded, the motor runs at its synchronous speed, 22.51 / 0.0716 = 314.385 rad/s.
+        // Without load the motor runs at its synchronous speed, 22.51 / 0.0716 = 314.385 rad/s.
         assert!((motor.steady_speed(0.0).unwrap() * motor.ratio - 314.385_474_860_335_2).abs() < 1e-10);
         let kloss = Motor { efficiency: 0.9, ..Motor::ideal(KLOSS, 10.0) };
         for resistance in [-20.0, 0.0, 20.0, 44.9] {
@@ -212,7 +212,8 @@ mod tests {
 
     #[test]
     fn kloss_has_its_known_points() {
-        // Largest at the breakdown slip, zero at synchronous speed; at standstill 2 M / (1 / s + s) = 10 / 4.25.
+        // The torque is largest at the breakdown slip and zero at synchronous speed.
+        // At standstill it is 2 M / (1 / s + s) = 10 / 4.25.
         assert!((KLOSS.torque(75.0) - 5.0).abs() < 1e-14);
         assert_eq!(KLOSS.torque(100.0), 0.0);
         assert!((KLOSS.torque(0.0) - 10.0 / 4.25).abs() < 1e-14);
@@ -220,19 +221,19 @@ mod tests {
     }
 
     #[test]
-    fn a_table_goes_through_its_points_and_on() {
+    fn a_table_is_interpolated_and_extrapolated() {
         let table = MotorLaw::Table { speeds: vec![0.0, 10.0, 30.0], torques: vec![4.0, 6.0, 0.0] };
         let torques: Vec<f64> = [-5.0, 0.0, 5.0, 10.0, 20.0, 30.0, 40.0].map(|omega| table.torque(omega)).to_vec();
         for (found, expected) in torques.iter().zip([3.0, 4.0, 5.0, 6.0, 3.0, 0.0, -3.0]) {
             assert!((found - expected).abs() < 1e-14, "{torques:?}");
         }
-        // The stable equilibrium is on the falling side.
+        // The stable equilibrium is where the torque decreases with speed.
         let steady = Motor::ideal(table, 2.0).steady_speed(10.0).unwrap();
         assert!((steady - 20.0 / 3.0).abs() < 1e-14, "{steady}");
     }
 
     #[test]
-    fn losses_take_power_whichever_way_it_flows() {
+    fn losses_reduce_power_in_both_directions() {
         let motor = Motor { efficiency: 0.8, ..Motor::ideal(LINEAR, 10.0) };
         for omega in [-3.0, 5.0, 31.0, 32.0, 40.0] {
             let (given, taken) = (motor.law.torque(10.0 * omega) * 10.0 * omega, motor.moment_on_crank(omega) * omega);
@@ -253,7 +254,7 @@ mod tests {
             let at = pair[0].speeds[1];
             assert_eq!(at, pair[1].speeds[0]);
             let jump = (pair[0].moment(at) - pair[1].moment(at)).abs();
-            // At standstill the losses change sign: only there the moment jumps.
+            // The moment jumps only at standstill, because the losses change sign there.
             assert!(jump < 1e-12 || at == 0.0, "{at} {jump}");
             assert_eq!(motor.branch(at, 1.0), pair[1]);
             assert_eq!(motor.branch(at, -1.0), pair[0]);
@@ -261,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn shafts_count_by_the_squares_of_their_speeds() {
+    fn shaft_inertias_scale_with_the_square_of_their_ratio() {
         let inertia =
             ShaftInertia { rotor: 1e-3, input: 2e-3, intermediate: 5e-2, intermediate_ratio: 4.0, output: 0.7 };
         let motor = Motor { inertia, ..Motor::ideal(LINEAR, 20.0) };

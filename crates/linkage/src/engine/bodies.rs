@@ -1,14 +1,14 @@
-//! Substitute masses for engines, which integrate bodies.
+//! Substitute masses and moments of inertia. Engines integrate bodies and need them.
 
 use crate::case::Case;
 use crate::error::{Advice, Error, ErrorKind, Result};
 use crate::mechanism::LinkId;
 use crate::sentences;
 
-/// Mass (kg) and moment of inertia (kg m^2) that engines add to a link without them; 0 for a quantity that the link
-/// already has.
-/// The mass is the mean mass of all links.
-/// The moment of inertia is that of a rod with this mass and the mechanism's size.
+/// Mass (kg) and moment of inertia (kg m^2) that engines add to a link without mass or inertia.
+/// 0 for a quantity that the link already has.
+/// The substitute mass is the mean mass of all links.
+/// The substitute moment of inertia is that of a rod with this mass and the mechanism's size.
 pub fn stand_in(case: &Case, link: LinkId) -> [f64; 2] {
     let moving = &case.mechanism.links()[1..];
     let total: f64 = moving.iter().map(|link| link.mass).sum();
@@ -23,7 +23,7 @@ pub fn stand_in(case: &Case, link: LinkId) -> [f64; 2] {
 /// `software` is the engine's name as users know it.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] with the first link that lacks one of them.
+/// [`ErrorKind::Unsupported`] with the first link that lacks a mass or a moment of inertia.
 pub fn check_inertias(case: &Case, software: &str) -> Result<()> {
     let Some(bare) = case.mechanism.links()[1..].iter().find(|link| !(link.mass > 0.0 && link.inertia > 0.0)) else {
         return Ok(());

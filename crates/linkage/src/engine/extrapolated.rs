@@ -1,4 +1,4 @@
-//! Richardson extrapolation of any engine with a fixed step to step zero (Richardson 1911).
+//! Richardson extrapolation of an engine with a fixed time step to a step of zero (Richardson 1911).
 //! The engine solves at h, h / 2, h / 4, ...; their states are combined so that the leading errors cancel.
 //! See docs/numerics/twins.md.
 
@@ -29,14 +29,14 @@ impl Extrapolated {
         self.runs[0].as_ref()
     }
 
-    /// Number of error terms that cancel.
+    /// Number of leading error terms that cancel.
     fn times(&self) -> usize {
         self.runs.len() - 1
     }
 }
 
-/// Weights of the runs at h, h / 2, ..., for an error with the powers `order`, `order` + 1, ... of the step: each run
-/// after the first cancels one power.
+/// Weights of the runs at h, h / 2, ....
+/// The error has the powers `order`, `order` + 1, ... of the step; each run after the first cancels one power.
 /// Neville's scheme: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) / (2^p - 1), where p is the power that
 /// cancels.
 fn weights(order: f64, runs: usize) -> Vec<f64> {
@@ -76,7 +76,7 @@ impl Weights {
         }
     }
 
-    /// Combines the states of all runs at one instant, the coarsest first, into `into`.
+    /// Combines the states of all runs at one instant into `into`. The state of the coarsest run comes first.
     fn combine(&self, case: &Case, states: &[&State], into: &mut State) {
         let mix = |weights: &[f64], of: &dyn Fn(&State) -> f64| -> f64 {
             weights.iter().zip(states).map(|(weight, state)| weight * of(state)).sum()
@@ -85,7 +85,8 @@ impl Weights {
             weights.iter().zip(states).fold(Vec2::zeros(), |sum, (weight, state)| sum + of(state) * *weight)
         };
         for (index, link) in case.mechanism.links().entries().skip(1) {
-            // Combines mass centres, as in the engine's bodies; the origin of the link's frame follows.
+            // The mass centres are combined, as in the engine's bodies. The origin of the link's frame follows from
+            // them.
             let centre = link.mass_centre;
             let angle = mix(&self.position, &|state| state.angles[index]);
             into.angles[index] = angle;
@@ -125,7 +126,7 @@ impl Solver for Extrapolated {
 
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         let (finest, coarser) = self.runs.split_last().expect("there is the run at the step itself");
-        // Every run costs twice as much as the previous run.
+        // Each run costs twice as much as the previous one.
         let whole = 2f64.powi(self.runs.len() as i32) - 1.0;
         let mut kept = Vec::with_capacity(coarser.len());
         for (index, run) in coarser.iter().enumerate() {
@@ -194,7 +195,7 @@ mod tests {
     use crate::fixtures;
     use crate::mechanism::LinkId;
 
-    /// A test engine whose links turn by t + h^2. It records its runs by steps and sweeps.
+    /// A test engine whose links rotate by t + h^2. It records the step and the sweeps of each run.
     /// Runs listed in `fails` stop at the second instant.
     #[derive(Clone, Debug)]
     struct Counted {
@@ -285,7 +286,7 @@ mod tests {
         Counted { settings: Settings { extrapolated: 0, ..ASKED }, runs: Arc::default(), fails }
     }
 
-    /// Settings of the rungs of a proof, in order.
+    /// Settings of the runs of a proof, in order.
     fn rungs() -> [Settings; 4] {
         let at = |factor: f64| Settings { resolution: ASKED.resolution * factor, ..ASKED };
         [ASKED, at(0.5), at(2.0), Settings { sweeps: ASKED.sweeps / 2, ..ASKED }]
@@ -296,8 +297,8 @@ mod tests {
         case.on(Grid::of_times(case.crank(), vec![0.2, 0.0, 0.1])).unwrap()
     }
 
-    /// Rows and angles in the order in which an engine delivers them, and the result of the run.
-    /// Progress must rise from 0 to 1.
+    /// Rows and angles in the order in which an engine delivers them, with the result of the run.
+    /// Asserts that the progress rises from 0 to 1.
     fn run(engine: &dyn Engine, case: &Case) -> (Vec<(usize, f64)>, Result<()>) {
         let (mut seen, mut far) = (Vec::new(), 0.0);
         let mut visit = |row: usize, state: &State| {
@@ -313,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn kept_runs_are_made_once_and_change_no_bit() {
+    fn cached_runs_are_computed_once_and_keep_every_bit() {
         let (engine, case) = (counted(None), case());
         let alone: Vec<_> = rungs().map(|rung| run(engine.with(rung).as_ref(), &case).0).into();
         assert_eq!(engine.taken().len(), 8);
@@ -323,7 +324,7 @@ mod tests {
         assert_eq!(alone[0].len(), 3);
         let once = [(0.1, 8), (0.05, 8), (0.025, 8), (0.2, 8), (0.1, 4), (0.05, 4)];
         assert_eq!(engine.taken(), once);
-        // A kept run is not repeated until it is dropped.
+        // A stored run is not repeated until it is dropped.
         assert_eq!(run(kept.with(ASKED).as_ref(), &case).0, alone[0]);
         assert_eq!(engine.taken(), []);
         kept.retain(|settings| settings.resolution != 0.1);
@@ -332,7 +333,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_prepared_side_by_side_are_those_made_one_by_one() {
+    fn parallel_runs_equal_sequential_runs() {
         let (engine, case) = (counted(None), case());
         let kept = CachedEngine::new(engine.with(ASKED).as_ref());
         let mut far = 0.0;
@@ -348,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_kept_of_one_case_is_not_given_for_another() {
+    fn cached_runs_are_not_reused_for_another_case() {
         let (engine, one) = (counted(None), case());
         let other = one.on(Grid::of_times(one.crank(), vec![0.4, 0.3, 0.5])).unwrap();
         let kept = CachedEngine::new(engine.with(ASKED).as_ref());
@@ -358,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stopped_run_hands_over_what_it_hands_over_alone() {
+    fn a_stopped_cached_run_delivers_the_same_states() {
         let case = case();
         for (rung, fails, handed) in [(0, (0.1, 8), 0), (0, (0.05, 8), 1), (1, (0.025, 8), 1), (2, (0.2, 8), 0)] {
             let engine = counted(Some(fails));
@@ -371,7 +372,7 @@ mod tests {
         }
     }
 
-    /// Errors of h^2, h^3 and h^4 cancel to rounding error after three extrapolations.
+    /// After three extrapolations, errors of h^2, h^3 and h^4 cancel up to rounding error.
     #[test]
     fn every_extrapolation_cancels_one_power() {
         let errors = |h: f64| 3.0 * h.powi(2) - 2.0 * h.powi(3) + 5.0 * h.powi(4);

@@ -1,4 +1,4 @@
-//! An engine that remembers its runs.
+//! An engine that stores its runs.
 //! See docs/numerics/settings.md.
 
 use std::ops::ControlFlow;
@@ -11,9 +11,9 @@ use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::threads::{cores, side_by_side};
 use crate::trajectory::Channel;
 
-/// An engine that performs every run once and returns the kept states when the run is requested again.
-/// Engines made from it by [`Engine::with`] share its runs, including extrapolated engines.
-/// Kept runs belong to one case; a run of another case empties the store.
+/// An engine that performs every run once and returns the stored states if the run is requested again.
+/// Engines made from it by [`Engine::with`] share the stored runs, including extrapolated engines.
+/// Stored runs belong to one case; a run of another case empties the store.
 pub struct CachedEngine {
     inner: Box<dyn Engine>,
     store: Arc<Store>,
@@ -31,13 +31,13 @@ struct Runs {
 #[derive(Clone)]
 struct Run {
     settings: Settings,
-    /// States of the run; after a failure, the states reached before it.
+    /// States of the run. If the run failed, the states that it reached.
     rows: Arc<Rows>,
     failed: Option<Error>,
 }
 
 impl Store {
-    /// A poisoned lock is usable: the store holds complete runs only.
+    /// Locks the store. A poisoned lock is usable, because the store holds complete runs only.
     fn lock(&self) -> MutexGuard<'_, Runs> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -52,14 +52,14 @@ impl Store {
 }
 
 impl CachedEngine {
-    /// Wraps an engine and keeps its runs at all settings.
+    /// Wraps an engine and stores its runs at all settings.
     #[must_use]
     pub fn new(engine: &dyn Engine) -> Self {
         let plain = Settings { extrapolated: 0, ..engine.settings() };
         CachedEngine { inner: engine.with(plain), store: Arc::default() }
     }
 
-    /// Settings of the plain runs that engines at `settings` need and that are not kept yet, without duplicates.
+    /// Settings of the plain runs that engines at `settings` need and that are not stored yet, without duplicates.
     #[must_use]
     pub fn missing(&self, case: &Case, settings: &[Settings]) -> Vec<Settings> {
         let mut missing: Vec<Settings> = Vec::new();
@@ -71,8 +71,8 @@ impl CachedEngine {
         missing
     }
 
-    /// Makes the [missing](CachedEngine::missing) runs, on as many threads as the machine has cores.
-    /// Their results do not depend on the number of threads. A failed run is kept with its error.
+    /// Performs the [missing](CachedEngine::missing) runs, on as many threads as the machine has cores.
+    /// Their results do not depend on the number of threads. A failed run is stored with its error.
     /// `progress` receives the completed fraction of all these runs.
     pub fn prepare(&self, case: &Case, mut missing: Vec<Settings>, progress: Progress) {
         // The longest run starts first, so that the other cores do not wait for it at the end.
@@ -92,7 +92,7 @@ impl CachedEngine {
         self.store.lock().runs.retain(|run| wanted(&run.settings));
     }
 
-    /// Performs a plain run and keeps it.
+    /// Performs a plain run and stores it.
     fn run(&self, case: &Case, settings: Settings, progress: Progress) -> Run {
         let engine = self.inner.with(settings);
         let (rows, outcome) = Rows::of_run(case, |visit| engine.sweep(case, visit, progress));
@@ -101,7 +101,7 @@ impl CachedEngine {
         run
     }
 
-    /// Returns the kept plain run at these settings, or performs it if it is missing.
+    /// Returns the stored plain run at these settings, or performs it if it is missing.
     fn found(&self, case: &Case, progress: Progress) -> Run {
         let settings = self.inner.settings();
         self.store.find(settings, case).unwrap_or_else(|| self.run(case, settings, progress))

@@ -1,6 +1,6 @@
-//! The states of a whole run in one flat block of memory, reduced to the numbers that the wanted channels need.
+//! The states of a whole run in one block of memory, reduced to the numbers that the requested channels need.
 //!
-//! A [`State`] has five separate lists with memory for every stage.
+//! A [`State`] has five separate lists, each with memory for every stage.
 //! For a run of many instants these lists would take more memory than the numbers.
 
 use std::collections::BTreeMap;
@@ -24,23 +24,23 @@ pub struct Rows {
     passing: BTreeMap<usize, f64>,
 }
 
-/// The numbers of a state that are kept.
+/// Selects the numbers of a state that are stored.
 #[derive(Clone, Debug)]
 struct Layout {
     links: usize,
     velocities: bool,
     accelerations: bool,
-    /// Joints whose forces are kept.
+    /// Number of joints whose forces are stored.
     joints: usize,
-    /// Those of these joints that carry a moment.
+    /// The joints that transmit a moment, if forces are stored.
     sliding: Vec<JointId>,
     drives: usize,
 }
 
 impl Layout {
-    /// Layout of the numbers that the wanted channels of a case need.
-    /// With forces all velocities are kept, because forces depend on the whole motion.
-    /// A load may depend on a velocity that is not itself wanted.
+    /// Layout of the numbers that the requested channels of a case need.
+    /// Forces depend on the whole motion, so all velocities are stored with them.
+    /// Velocities are also stored if a load depends on a sense of motion.
     fn of(case: &Case) -> Self {
         let deepest = case.wanted.deepest();
         let with_forces = deepest >= Stage::Reactions;
@@ -65,7 +65,7 @@ impl Layout {
 }
 
 impl Rows {
-    /// Allocates all rows of a case, each marked as not reached.
+    /// Allocates all rows of a case. Each row is marked as not reached.
     #[must_use]
     pub fn new(case: &Case) -> Self {
         let layout = Layout::of(case);
@@ -165,7 +165,7 @@ impl Rows {
         outcome.map(|()| Arc::new(rows))
     }
 
-    /// Collects the states that `sweep` visits. On failure, returns the states visited so far with the error.
+    /// Collects the states that `sweep` visits. If the run fails, returns the states visited so far with the error.
     pub(super) fn of_run(
         case: &Case,
         sweep: impl FnOnce(&mut dyn FnMut(usize, &State) -> Result<()>) -> Result<()>,
@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn a_state_comes_back_bit_for_bit_and_only_where_it_was_kept() {
+    fn only_stored_states_are_returned_bit_for_bit() {
         let case = instants();
         let state = numbered(&case);
         let mut rows = Rows::new(&case);
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn positions_alone_need_two_fifths_of_the_room() {
+    fn positions_alone_need_two_fifths_of_the_memory() {
         let case = instants();
         let positions = case.with(|parts| parts.wanted = Wanted::of(&[Stage::Positions])).unwrap();
         assert!(5 * Rows::bytes_of_row(&positions) <= 2 * Rows::bytes_of_row(&case));

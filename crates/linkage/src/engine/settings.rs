@@ -10,9 +10,9 @@ use crate::math::KeepNan;
 pub enum Route {
     /// Newton-Euler equations on centred second differences of the engine's own positions.
     Differences,
-    /// Values that the engine itself reports for the running trajectory: impulses, multipliers.
+    /// Values that the engine itself reports during the run: impulses, multipliers.
     Native,
-    /// Values that the engine reports for one tiny step from a state on its own trajectory.
+    /// Values that the engine reports for one tiny step from a state of its trajectory.
     Probe,
 }
 
@@ -51,19 +51,20 @@ pub struct Settings {
     pub resolution: f64,
     /// Iteration sweeps over all constraints per step; 0 in an engine that does not iterate.
     pub sweeps: usize,
-    /// Number of parts into which the engine itself divides a step.
+    /// Number of substeps into which the engine itself divides a step.
     pub substeps: usize,
-    /// The route to reactions and balancing moment.
+    /// The method for reactions and balancing moment.
     pub route: Route,
     /// Number of Richardson extrapolations to step zero; 0 for a plain run.
     /// `n` extrapolations combine runs at h, h / 2, ..., h / 2^n, so that the `n` leading error terms cancel.
     pub extrapolated: usize,
 }
 
-/// Number of moving links up to which a step costs about as much as on a four-bar.
+/// Up to this number of moving links, a step costs about as much as on a four-bar.
 const SMALL: f64 = 6.0;
 
-/// Work of a step on a case, relative to a four-bar. It grows because the mass matrix of a multibody is full.
+/// Work of a step on a case, relative to a four-bar.
+/// It grows with the number of links, because the mass matrix of a multibody is full.
 /// Measured on chains of 21, 61 and 201 moving links: a step costs 12, 250 and 5000 times as much, a sweep 12, 100 and
 /// 800 times.
 #[must_use]
@@ -77,8 +78,8 @@ pub fn size_of_step(case: &Case) -> f64 {
 const SWEEP: f64 = 0.05;
 
 impl Settings {
-    /// Work of a plain run over one second of motion, in steps without sweeps. It is computed from the settings, not
-    /// timed.
+    /// Work of a plain run per second of motion. The unit is a step without sweeps.
+    /// It is computed from the settings, not timed.
     #[must_use]
     pub fn work(&self) -> f64 {
         // Every substep makes all sweeps.
@@ -91,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_substep_is_work() {
+    fn work_is_proportional_to_substeps() {
         let one = Settings { resolution: 0.5, sweeps: 20, substeps: 1, route: Route::Native, extrapolated: 0 };
         assert_eq!((one.work(), Settings { substeps: 7, ..one }.work()), (4.0, 28.0));
     }

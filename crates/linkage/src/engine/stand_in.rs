@@ -1,5 +1,5 @@
-//! Stand-ins for an engine.
-//! Only this module forwards to the original engine what a stand-in does not change.
+//! Solvers that replace an engine.
+//! Only this module forwards to the original engine the methods that the replacement does not change.
 
 use std::sync::Arc;
 
@@ -9,9 +9,9 @@ use crate::error::Result;
 use crate::solver::{Progress, Solver};
 use crate::trajectory::ChannelKind;
 
-/// A solver that replaces an engine and therefore is an engine.
+/// A solver that replaces an engine and therefore is an engine itself.
 /// It overrides only what it changes.
-/// A new method of [`Engine`] needs forwarding in one place, and the compiler asks for it.
+/// A new method of [`Engine`] is forwarded in one place; without that, the code does not compile.
 pub trait StandIn: Solver {
     /// The engine that the stand-in replaces.
     fn original(&self) -> &dyn Engine;
@@ -32,7 +32,7 @@ pub trait StandIn: Solver {
         Rows::of_solver(self, case, progress)
     }
 
-    /// [`Engine::statics`] of the stand-in. Default: those of the original.
+    /// [`Engine::statics`] of the stand-in. Default: that of the original.
     fn own_statics(&self, case: &Case) -> Option<Statics> {
         self.original().statics(case)
     }

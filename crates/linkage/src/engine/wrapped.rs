@@ -6,12 +6,12 @@ use crate::error::Result;
 use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::trajectory::Channel;
 
-/// The changes that a [`Wrapped`] solver or engine makes to the wrapped one.
+/// The changes that a [`Wrapped`] solver or engine makes to the wrapped solver or engine.
 pub trait Hook: Clone + Send + Sync + 'static {
     /// The case to solve instead of `case`; `None` to solve `case` itself.
     ///
     /// # Errors
-    /// If there is no such case. Nothing is solved then.
+    /// If there is no case to solve. Nothing is solved then.
     fn case(&self, case: &Case) -> Result<Option<Case>> {
         let _ = case;
         Ok(None)
@@ -20,7 +20,7 @@ pub trait Hook: Clone + Send + Sync + 'static {
     /// Changes a state before it is returned. `case` is the requested case, `row` the row of its grid.
     fn answer(&self, case: &Case, row: usize, state: &mut State);
 
-    /// The hook for the same engine after a change of its settings.
+    /// The hook for the same engine with changed settings.
     #[must_use]
     fn with(&self, from: Settings, to: Settings) -> Self {
         let _ = (from, to);
@@ -28,7 +28,7 @@ pub trait Hook: Clone + Send + Sync + 'static {
     }
 }
 
-/// A solver or an engine with a [`Hook`]. Apart from the hook it behaves as the wrapped one.
+/// A solver or an engine with a [`Hook`]. Apart from the hook it behaves like the wrapped solver or engine.
 #[derive(Clone, Debug)]
 pub struct Wrapped<H, S: ?Sized> {
     /// What it does differently.
@@ -72,7 +72,7 @@ impl<H: Hook> StandIn for Wrapped<H, dyn Engine> {
         let mut inner = self.inner.statics(changed.as_ref().unwrap_or(case))?;
         Some(Box::new(move |case, row, state| {
             inner(changed.as_ref().unwrap_or(case), row, state)?;
-            // The motion was changed before, so only the changed forces are kept.
+            // The motion has already been changed, so only the change of the forces applies here.
             let motion = (state.motions.clone(), state.angles.clone());
             hook.answer(case, row, state);
             (state.motions, state.angles) = motion;

@@ -1,10 +1,10 @@
 //! The remedy for an error, as data.
-//! Its text names no option of any program. A program with options adds them.
+//! Its text does not name an option of any program. A program with options adds them.
 
 use crate::sentences;
 use std::fmt;
 
-/// One remedy. Several of them are alternatives.
+/// One remedy. If there are several, they are alternatives.
 ///
 /// A program can act on the variants; advice about the text of a description is [`Advice::Text`].
 #[derive(Clone, Debug, PartialEq)]
@@ -21,12 +21,12 @@ pub enum Advice {
         /// A step to try (s), if the present one is known.
         to: Option<f64>,
     },
-    /// A smaller accuracy number for an engine that chooses its own steps.
+    /// A smaller accuracy value for an engine that chooses its time steps itself.
     TighterAccuracy {
         /// A relative accuracy to try.
         to: f64,
     },
-    /// A larger accuracy number for an engine that chooses its own steps.
+    /// A larger accuracy value for an engine that chooses its time steps itself.
     LooserAccuracy {
         /// A relative accuracy to try.
         to: f64,
@@ -36,11 +36,11 @@ pub enum Advice {
         /// A number to try, if the present one is known.
         to: Option<usize>,
     },
-    /// Settings chosen by the proof instead of given ones.
+    /// Settings chosen by the proof instead of the given settings.
     FreeSettings,
     /// More work for the search of settings.
     MoreWork {
-        /// Work to allow, in steps without sweeps.
+        /// Work to allow. The unit is a step without sweeps.
         to: f64,
     },
     /// Fewer instants, or fewer channels.
@@ -73,19 +73,19 @@ pub enum Advice {
     ShortenGrid,
     /// An analysis of the range of motion, which shows what limits the crank and which links turn fully.
     LookAtRange,
-    /// Another configuration of a group.
+    /// Another configuration of an Assur group.
     Configuration {
-        /// What the user can specify, in words.
+        /// What the user can specify, as a text.
         give: String,
     },
     /// The solution as a table instead of the requested form.
     SolutionTable,
     /// Channels that exist.
     OtherChannel {
-        /// Names of the groups of channels, in words.
+        /// Names of the groups of channels, as a text.
         groups: String,
     },
-    /// A weaker request, because no engine meets this one: a larger error, other channels or more engines.
+    /// A weaker request, because no engine meets the present request: a larger error, other channels or more engines.
     WeakerWish,
     /// The complete results instead of an extract.
     AllResults,
@@ -93,8 +93,8 @@ pub enum Advice {
 
 impl Advice {
     /// The same advice with a number to try.
-    /// The number follows from the engine's present settings: `resolution` (time step in s, or relative accuracy if the
-    /// engine `controls_error`) and number of `sweeps`.
+    /// The number follows from the engine's present settings: `resolution` and number of `sweeps`.
+    /// `resolution` is a time step (s), or a relative accuracy if the engine `controls_error`.
     #[must_use]
     pub fn from_settings(self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
         let (half, double) = (rounded(resolution / 2.0), rounded(resolution * 2.0));
@@ -106,12 +106,12 @@ impl Advice {
             _ if matches!(self, Advice::SmallerStep { .. }) => Advice::SmallerStep { to: Some(half) },
             _ if matches!(self, Advice::LargerStep { .. }) => Advice::LargerStep { to: Some(double) },
             _ if matches!(self, Advice::MoreSweeps { .. }) => Advice::MoreSweeps { to: Some(2 * sweeps) },
-            // The other variants contain no number of an engine's settings.
+            // The other variants do not contain a number from an engine's settings.
             _ => self,
         }
     }
 
-    /// Alternatives as one sentence; `None` if the list is empty. `tell` puts each of them into words.
+    /// The alternatives as one sentence; `None` if the list is empty. `tell` puts each alternative into words.
     #[must_use]
     pub fn sentence(all: &[Advice], tell: impl Fn(&Advice) -> String) -> Option<String> {
         (!all.is_empty()).then(|| all.iter().map(tell).collect::<Vec<_>>().join(", or "))
@@ -194,7 +194,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn alternatives_are_one_sentence() {
+    fn alternatives_form_one_sentence() {
         let all = [Advice::SmallerStep { to: Some(5e-4) }, "check the lengths".into()];
         let told = Advice::sentence(&all, Advice::to_string);
         assert_eq!(told.unwrap(), "choose a smaller time step, such as 5e-4 s, or check the lengths");
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_to_try_come_from_the_present_settings() {
+    fn suggested_values_follow_from_the_current_settings() {
         let from = |advice: Advice, controls| advice.from_settings(1e-3, controls, 32);
         let smaller = Advice::SmallerStep { to: None };
         assert_eq!(from(smaller.clone(), false), Advice::SmallerStep { to: Some(5e-4) });

@@ -2,25 +2,33 @@
 
 use super::{Advice, Error};
 use crate::sentences;
+use std::collections::BTreeSet;
 
-/// Largest number of errors that are kept. Further errors are only counted.
+/// Upper limit of the number of causes whose errors are kept. Errors of further causes are only counted.
 const MOST: usize = 20;
+
+/// Upper limit of the number of errors that are kept.
+const MOST_PLACES: usize = 200;
 
 impl Error {
     /// Combines errors into one: the first carries the others. `None` if the list is empty.
     ///
-    /// Twenty errors are kept. Further errors are only counted.
+    /// At most 200 errors of at most twenty causes are kept. Further errors are only counted.
     #[must_use]
     pub fn all(errors: impl IntoIterator<Item = Error>) -> Option<Error> {
         let mut kept: Vec<Error> = Vec::new();
+        let mut causes = BTreeSet::new();
         let mut left_out = 0;
         for mut error in errors {
             left_out += std::mem::take(&mut error.0.left_out);
             let further = std::mem::take(&mut error.0.further);
             for own in [error].into_iter().chain(further) {
-                match kept.len() < MOST {
-                    true => kept.push(own),
-                    false => left_out += 1,
+                let cause = own.cause();
+                if kept.len() < MOST_PLACES && (causes.len() < MOST || causes.contains(&cause)) {
+                    causes.insert(cause);
+                    kept.push(own);
+                } else {
+                    left_out += 1;
                 }
             }
         }
@@ -30,18 +38,40 @@ impl Error {
         Some(first)
     }
 
-    /// This error, followed by those found together with it.
+    /// This error, followed by the errors found together with it.
     pub fn each(&self) -> impl Iterator<Item = &Error> {
         [self].into_iter().chain(&self.0.further)
     }
 
-    /// Number of errors that were found but not kept.
+    /// The text that errors of one cause have in common: the message with its key replaced by the key's unit.
+    fn cause(&self) -> String {
+        let key = self.scenario_key().map(|key| key.rsplit('.').next().unwrap_or(key).to_string());
+        let Some(key) = key else { return self.message().into() };
+        let unit = key.find('_').map_or("", |at| &key[at..]);
+        self.message().replace(&format!("`{key}`"), unit)
+    }
+
+    /// The errors grouped by cause. The groups are in the order of their first errors.
+    #[must_use]
+    pub fn by_cause(&self) -> Vec<Vec<&Error>> {
+        let mut groups: Vec<(String, Vec<&Error>)> = Vec::new();
+        for error in self.each() {
+            let cause = error.cause();
+            match groups.iter_mut().find(|(own, _)| *own == cause) {
+                Some((_, group)) => group.push(error),
+                None => groups.push((cause, vec![error])),
+            }
+        }
+        groups.into_iter().map(|(_, group)| group).collect()
+    }
+
+    /// Number of errors that were only counted.
     #[must_use]
     pub fn left_out(&self) -> usize {
         self.0.left_out
     }
 
-    /// Sentence about the errors that are not kept; `None` if all are kept.
+    /// Sentence about the errors that were only counted; `None` if all errors are kept.
     #[must_use]
     pub fn rest(&self) -> Option<String> {
         match self.0.left_out {
@@ -79,7 +109,7 @@ mod tests {
     use crate::error::ErrorKind;
 
     #[test]
-    fn errors_are_kept_up_to_a_number_and_then_counted() {
+    fn errors_beyond_a_maximum_are_only_counted() {
         let one = |k: usize| Error::new(ErrorKind::Input, format!("mistake {k}"));
         assert!(Error::all([]).is_none());
         let pair = Error::all([one(1), one(2)]).unwrap();
@@ -93,6 +123,10 @@ mod tests {
                 && told.ends_with("\nmistake 17\n12 more mistakes are not shown")
         );
         assert_eq!((more.each().count(), more.left_out()), (MOST, 12));
+        let unit =
+            |key: &str| Error::new(ErrorKind::Input, format!("`{key}` has a wrong unit")).key(format!("ground.{key}"));
+        let inches = Error::all(["x_in", "y_in", "x_lb"].map(unit)).unwrap();
+        assert_eq!(inches.by_cause().iter().map(Vec::len).collect::<Vec<_>>(), [2, 1]);
         let named = more.each_in_order(|error| error.key("k"));
         assert!(named.each().all(|error| error.scenario_key() == Some("k")) && named.left_out() == 12);
     }

@@ -16,7 +16,7 @@ pub fn wrapped(angle: f64) -> f64 {
 }
 
 /// Arc tangent (rad).
-/// Where five terms of its series give all digits, the series is used, at a quarter of the cost.
+/// If five terms of its power series give all digits, the series is used. It costs a quarter of the library function.
 #[inline]
 #[must_use]
 pub fn arc_tangent(x: f64) -> f64 {
@@ -47,7 +47,7 @@ mod tests {
     }
 
     #[test]
-    fn the_series_has_all_digits() {
+    fn the_arc_tangent_series_has_full_precision() {
         for k in -2000..2000 {
             let x = 1e-5 * f64::from(k);
             assert!((arc_tangent(x) - x.atan()).abs() <= f64::EPSILON * x.abs(), "{x}");

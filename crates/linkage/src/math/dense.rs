@@ -1,10 +1,11 @@
-//! Dense linear systems that are factored in place, repeatedly and without allocation.
+//! Dense linear systems. They are factored in place, repeatedly and without allocation.
 
 mod fixed;
 
 /// Square system A x = b, solved by LU decomposition with partial pivoting. The storage is reused between poses.
 ///
-/// nalgebra's LU takes its matrix by value, so it allocates in every pose. It cannot solve with the transpose.
+/// nalgebra's LU takes its matrix by value, so it would allocate in every pose. It also cannot solve with the
+/// transpose.
 #[derive(Clone, Debug)]
 pub struct Lu {
     n: usize,
@@ -12,7 +13,7 @@ pub struct Lu {
     /// For the general elimination: the row with which each row was exchanged.
     /// For the fixed orders 4 and 6: the original row at each position.
     pivot: Vec<usize>,
-    /// Inverses of the factored matrix's diagonal.
+    /// Reciprocals of the diagonal entries of the factored matrix.
     inverse: Vec<f64>,
     swap_sign: f64,
     determinant: f64,
@@ -37,7 +38,7 @@ impl Lu {
         self.a[row * self.n + column] += value;
     }
 
-    /// The coefficients of two rows, `row` and the next.
+    /// The coefficients of the row `row` and of the next row.
     #[inline]
     pub fn pair_mut(&mut self, row: usize) -> (&mut [f64], &mut [f64]) {
         self.a[row * self.n..][..2 * self.n].split_at_mut(self.n)
@@ -63,13 +64,12 @@ impl Lu {
         self.determinant
     }
 
-    /// Pivots of the factored matrix in the order of elimination. Their product is the determinant except for its sign.
+    /// Pivots of the factored matrix in the order of elimination. Their product is the determinant up to its sign.
     pub fn pivots(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.n).map(|k| self.a[k * self.n + k])
     }
 
-    /// Sign of the determinant of the factored matrix, +1 or -1. It is correct even if the determinant itself would
-    /// underflow.
+    /// Sign of the determinant of the factored matrix, +1 or -1. It is correct even if the determinant underflows.
     #[must_use]
     pub fn determinant_sign(&self) -> f64 {
         (0..self.n).fold(self.swap_sign, |sign, k| sign * self.a[k * self.n + k].signum())
@@ -149,7 +149,7 @@ fn solve(a: &[f64], pivots: &[usize], inverse: &[f64], b: &mut [f64]) {
 
 fn solve_transposed(a: &[f64], pivots: &[usize], inverse: &[f64], y: &mut [f64]) {
     let n = pivots.len();
-    // Row by row: each solved unknown is subtracted from all later rows.
+    // Forward substitution: each solved unknown is subtracted from all later rows.
     for (row, entries) in a.chunks_exact(n).enumerate() {
         let (solved, rest) = y[row..].split_first_mut().expect("as many numbers as rows");
         *solved *= inverse[row];
@@ -170,7 +170,8 @@ fn solve_transposed(a: &[f64], pivots: &[usize], inverse: &[f64], y: &mut [f64])
 
 /// Solves two equations A x = b by elimination with partial pivoting.
 /// Returns `None` if A is singular to working precision, or not finite.
-/// It is the method of [`Lu`] without loops: for systems solved this often, loops would cost more than the arithmetic.
+/// The method is that of [`Lu`], but without loops.
+/// Systems of two equations are solved so often that loops would cost more than the arithmetic.
 #[inline]
 #[must_use]
 pub fn solve_pair(a: [[f64; 2]; 2], b: [f64; 2]) -> Option<[f64; 2]> {
@@ -218,9 +219,9 @@ mod tests {
     }
 
     proptest! {
-        /// Includes singular and non-finite matrices.
+        /// The cases include singular and non-finite matrices.
         #[test]
-        fn orders_known_in_advance_have_the_bits_of_any_order(
+        fn fixed_and_variable_sizes_give_the_same_bits(
             values in prop::collection::vec(-4i8..5, 36),
             small in prop::bool::ANY,
             odd in -1.0f64..1.0,
@@ -248,7 +249,8 @@ mod tests {
             }
             compare::<4>(&values)?;
             compare::<6>(&values)?;
-            // The general elimination misses a NaN whose factor is zero; the fixed-order one always rejects it.
+            // The general elimination misses a NaN that is multiplied by zero. The fixed-order elimination always
+            // rejects NaN.
             values[7] = f64::NAN;
             let (mut own, mut pivots, mut inverse) = (values[..16].to_vec(), [0; 4], [0.0; 4]);
             prop_assert!(fixed::factor::<4>(&mut own, &mut pivots, &mut inverse).is_none());
@@ -257,7 +259,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_pair_is_solved_as_by_lu(a in prop::array::uniform4(-1.0f64..1.0), b in prop::array::uniform2(-1.0f64..1.0)) {
+        fn a_system_of_two_is_solved_as_by_lu(a in prop::array::uniform4(-1.0f64..1.0), b in prop::array::uniform2(-1.0f64..1.0)) {
             let mut lu = Lu::new(2);
             (0..4).for_each(|k| lu.add(k / 2, k % 2, a[k]));
             prop_assert!(lu.factor());
@@ -271,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn a_singular_pair_is_refused() {
+    fn a_singular_system_of_two_is_refused() {
         for a in [
             [[1.0, 2.0], [2.0, 4.0]],
             [[0.0, 1.0], [0.0, 2.0]],
@@ -293,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn not_a_number_is_refused() {
+    fn nan_is_refused() {
         let mut lu = Lu::new(1);
         lu.add(0, 0, f64::NAN);
         assert!(!lu.factor());

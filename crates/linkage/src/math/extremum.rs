@@ -1,12 +1,13 @@
-//! Extremes of a function of one variable between bounds. All searches for extremes in the project are in this module.
+//! Extremes of a function of one variable between bounds. All searches for extremes in the project use this module.
 
-/// Golden section steps of [`greatest`]. They shrink the interval to 1e-9 of the distance between two samples.
-/// There the value is exact up to rounding error.
+/// Number of golden section steps of [`greatest`]. They shrink the interval to 1e-9 of the distance between two
+/// samples.
+/// In an interval this small the value is exact up to rounding error.
 const REFINEMENTS: usize = 44;
 
 /// Encloses the largest value between `low` and `high` by `steps` steps of golden section (Kiefer 1953).
-/// Each step leaves 0.618 of the interval. Returns both ends of the remaining interval.
-/// The result is certain for a function with one extreme in the interval; otherwise it is one of the extremes.
+/// Each step reduces the interval to 0.618 of its length. Returns both ends of the remaining interval.
+/// If the function has several extremes in the interval, the result encloses one of them.
 /// About 40 steps reach the square root of the rounding error; more steps gain nothing.
 /// NaN counts as less than any number.
 ///
@@ -35,8 +36,9 @@ pub fn golden<E>(
 }
 
 /// Position and value of the largest value found.
-/// The search starts from the largest sample and uses golden section between its neighbours.
-/// `places` ascend, `samples` are the values there. `value` may fail, for example at a pose that cannot be reached.
+/// The search starts from the largest sample and uses golden section between the two neighbouring samples.
+/// `places` are ascending positions, `samples` the values there.
+/// `value` may fail, for example at a pose that cannot be reached.
 /// If a sample or a computed value is NaN, the result is NaN, because the largest value is then unknown.
 ///
 /// # Errors
@@ -80,19 +82,19 @@ mod tests {
         let places = [-1.0, 0.0, 1.0, 2.0];
         let samples = places.map(|x| value(x).unwrap());
         let (place, peak) = greatest(&places, &samples, &mut value).unwrap();
-        // The function is flat at the top: the position has half its digits, the value all of them.
+        // The function is flat at the top: the position is accurate to half the digits, the value to all digits.
         assert!((place - 0.3).abs() < 1e-7 && (peak - 3.0).abs() < 1e-15, "{place} {peak}");
-        assert_eq!(greatest(&places, &samples, &mut |_| Err("out of reach")), Err("out of reach"));
+        assert_eq!(greatest(&places, &samples, &mut |_| Err("cannot be reached")), Err("cannot be reached"));
     }
 
     #[test]
-    fn what_is_not_a_number_is_never_passed_over() {
+    fn nan_is_never_skipped() {
         let mut value = |x: f64| Ok::<f64, ()>(x);
         for unknown in [f64::NAN, -f64::NAN] {
             let found = greatest(&[0.0, 1.0, 2.0], &[0.0, unknown, 2.0], &mut value).unwrap();
             assert!(found.0 == 1.0 && found.1.is_nan(), "{found:?}");
         }
-        // Only the second value is NaN. The values after it do not hide it.
+        // Only the second value is NaN. The later values must not hide it.
         let mut count = 0;
         let mut gap = |x: f64| {
             count += 1;
@@ -102,7 +104,7 @@ mod tests {
     }
 
     proptest! {
-        /// The largest value lies in the remaining interval, wherever it is, even at an end.
+        /// The remaining interval contains the largest value, even at an end of the original interval.
         #[test]
         fn golden_section_keeps_the_peak(low in -5.0f64..5.0, width in 0.1f64..10.0, share in 0.0f64..=1.0, sharp in 0.1f64..4.0) {
             let (high, peak) = (low + width, low + share * width);
@@ -112,16 +114,16 @@ mod tests {
             prop_assert!(b - a < 2e-6 * width, "{}", b - a);
         }
 
-        /// The result is not less than any sample, nor than the true largest value up to a bound.
+        /// The result is at least as large as every sample. It reaches the true largest value up to a bound.
         #[test]
-        fn the_greatest_is_not_below_any_sample(c in prop::collection::vec(-1.0f64..1.0, 6), count in 40usize..80) {
+        fn the_maximum_is_not_below_any_sample(c in prop::collection::vec(-1.0f64..1.0, 6), count in 40usize..80) {
             let f = |x: f64| (0..3).map(|k| c[2 * k] * (k as f64 * x + c[2 * k + 1]).sin()).sum::<f64>();
             let places: Vec<f64> = (0..=count).map(|k| 7.0 * k as f64 / count as f64).collect();
             let samples: Vec<f64> = places.iter().map(|&x| f(x)).collect();
             let (place, value) = greatest(&places, &samples, &mut |x| Ok::<f64, ()>(f(x))).unwrap();
             prop_assert!(samples.iter().all(|&sample| value >= sample) && value == f(place));
             let dense = (0..7000).map(|k| f(k as f64 * 1e-3)).fold(f64::NEG_INFINITY, f64::larger);
-            // Of two peaks of nearly the same height the samples may select the wrong one.
+            // If two peaks have nearly the same height, the samples may select the wrong peak.
             // The error is then at most the height of a parabola between two samples.
             prop_assert!(value >= dense - 5.0 * (7.0 / count as f64).powi(2), "{value} {dense}");
         }

@@ -1,9 +1,9 @@
 //! All zeros of trigonometric polynomials.
 //!
-//! Between two neighbouring extrema a function has one zero if its signs there differ, otherwise none.
+//! Between two neighbouring extrema a function has one zero if its signs at the extrema differ, otherwise none.
 //! The extrema are the zeros of the derivative, which are computed from eigenvalues.
-//! Where two zeros meet, rounding moves them by its square root, but the extremum between them stays a simple zero of
-//! the derivative.
+//! If two zeros nearly coincide, rounding errors move them by the square root of the rounding error.
+//! The extremum between them remains a simple zero of the derivative.
 //! The sign at that extremum distinguishes a close pair of zeros from a near miss.
 
 use crate::math::KeepNan;
@@ -15,23 +15,23 @@ use super::root;
 
 type Coefficients = Vec<Complex<f64>>;
 
-/// Largest distance of a root of the derivative from the unit circle; roots farther away are not angles.
-/// Rounding moves a simple root only by its own size.
+/// If a root of the derivative is farther from the unit circle than this, it does not count as an angle.
+/// A rounding error moves a simple root only by its own size.
 /// It moves a nearly double root by its square root, 1e-8, times the condition number of the root.
-/// Superfluous roots do no harm: each is only one more candidate.
+/// Superfluous roots do no harm: each adds only one more candidate.
 const ON_CIRCLE: f64 = 1e-3;
-/// Fraction of the scale below which a value counts as zero.
-/// It is the rounding error of the coefficients with a margin of two digits.
+/// A value counts as zero if it is below this fraction of the scale.
+/// The limit is the rounding error of the coefficients with a margin of two digits.
 const ZERO: f64 = 1e-14;
-/// Zeros closer together than this (rad) count as one touching zero: a parabola of height `ZERO` has this width.
+/// Zeros closer together than this (rad) count as a single touching zero. A parabola of height `ZERO` has this width.
 const APART: f64 = 1e-7;
 
 /// Real zeros in [0, 2 pi), in ascending order, of the trigonometric polynomial that equals `f`.
-/// Its degree is at most `degree` (1 or more).
-/// `scale` is the size of the terms that `f` sums up; it sets the limit for rounding errors.
-/// Touching zeros count once. Leading coefficients may be zero.
+/// The degree of the polynomial is at most `degree` (1 or more).
+/// `scale` is the size of the terms whose sum is `f`; it sets the limit for rounding errors.
+/// A touching zero counts once. Leading coefficients may be zero.
 ///
-/// Returns `None` if `f` is zero everywhere up to rounding error, or not finite.
+/// Returns `None` if `f` is not finite, or zero everywhere up to rounding error.
 pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f64>> {
     let coefficients = coefficients(degree, f);
     let largest = coefficients.iter().map(|c| c.norm()).fold(0.0, f64::larger);
@@ -40,7 +40,7 @@ pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f6
         return None;
     }
     let small = ZERO * scale;
-    // An even grid in addition: if an extremum is missed, the zeros next to it are still found.
+    // Additional equally spaced positions: if an extremum is missed, the zeros next to it are still found.
     let even = (0..4 * degree).map(|k| TAU * (k as f64 + 0.37) / (4 * degree) as f64);
     let mut places: Vec<f64> = extrema(&coefficients)?.into_iter().chain(even).collect();
     places.sort_by(f64::total_cmp);
@@ -68,13 +68,13 @@ pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f6
     Some(found)
 }
 
-/// c_k for k from -degree to degree, from 2 `degree` + 2 equally spaced values.
+/// c_k for k from -degree to degree, from 2 `degree` + 2 equally spaced values of `f`.
 fn coefficients(degree: usize, f: impl Fn(f64) -> f64) -> Coefficients {
     let count = 2 * degree + 2;
     let values: Vec<f64> = (0..count).map(|j| f(TAU * j as f64 / count as f64)).collect();
     let coefficient = |k: i64| {
         let term = |(j, &value): (usize, &f64)| {
-            // The product is reduced before it becomes an angle, so that it loses no digits.
+            // The product is reduced before it is converted to an angle, so that no digits are lost.
             let turn = (k * j as i64).rem_euclid(count as i64) as f64 / count as f64;
             Complex::from_polar(value / count as f64, -TAU * turn)
         };
@@ -107,7 +107,7 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     let polished = near.map(|found| {
         let (mut best, mut least) = (found.arg(), f64::INFINITY);
         // Near a multiple root Newton's method may diverge.
-        // The iterate with the smallest slope is kept; the fifth step counts too.
+        // Of all iterates, including the fifth, the one with the smallest slope is kept.
         let Ok(_) = root::polished(found.arg(), 5, f64::INFINITY, |x| {
             let (value, slope) = evaluate(&derivative, x);
             if value.abs() < least && (x - found.arg()).abs() < ON_CIRCLE {
@@ -120,8 +120,8 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     Some(polished.collect())
 }
 
-/// The single zero between two positions where the signs differ.
-/// It uses Newton's method, with bisection where a step would leave the interval.
+/// The single zero between two positions with different signs.
+/// It uses Newton's method, and bisection if a step would leave the interval.
 fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
     let rises = evaluate(coefficients, to).0 > 0.0;
     let middle = f64::midpoint(from, to);
@@ -130,8 +130,8 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
     found.expect("coefficients are finite, and so are the values")
 }
 
-/// Roots of a polynomial (lowest power first) with mirror-symmetric coefficients, up to conjugation and a sign.
-/// Such roots come in pairs z, 1 / conj(z).
+/// Roots of a polynomial (lowest power first) whose coefficients are mirror-symmetric, up to conjugation and a sign.
+/// The roots of such a polynomial come in pairs z, 1 / conj(z).
 ///
 /// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.
 /// It moves roots at infinity, which correspond to zero leading coefficients, to -1 / conj(a).
@@ -140,7 +140,7 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
     let n = polynomial.len() - 1;
     let value = |a: Complex<f64>| polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * a + c).norm();
-    // There is one more candidate than roots inside the circle, so at least one candidate is far from all roots.
+    // The candidates outnumber the roots inside the circle by one, so at least one candidate is far from all roots.
     let candidates = (0..n + 1).map(|k| Complex::from_polar(0.5, TAU * k as f64 / (n + 1) as f64));
     let a = candidates.max_by(|&a, &b| value(a).total_cmp(&value(b)))?;
     let mut mapped = vec![Complex::new(0.0, 0.0); n + 1];
@@ -195,9 +195,9 @@ mod tests {
     }
 
     /// Two zeros at the distance d form a parabola of depth d^2 / 4 (times 1/2 here).
-    /// They are distinguished from a near miss as long as this depth is above `ZERO`.
+    /// The method distinguishes them from a near miss if this depth is above `ZERO`.
     #[test]
-    fn a_close_pair_is_told_from_a_near_miss() {
+    fn a_close_pair_is_distinguished_from_a_near_miss() {
         for d in [1e-2, 1e-4, 1e-6] {
             let pair = |sign: f64| move |x: f64| ((x - 1.0).cos() - 1.0 + sign * d * d / 8.0) * (2.0 + (3.0 * x).sin());
             let found = zeros(4, 1.0, pair(1.0)).unwrap();
@@ -206,8 +206,8 @@ mod tests {
         }
     }
 
-    /// Where four zeros coincide, the three zeros of the derivative are accurate to a third of the digits.
-    /// That is enough, because f is flat there.
+    /// If four zeros coincide, the three zeros of the derivative are accurate to a third of the digits.
+    /// That is enough, because f is flat near them.
     #[test]
     fn a_fourfold_zero_is_found_once() {
         for k in 0..20 {
@@ -217,7 +217,7 @@ mod tests {
         }
     }
 
-    /// A zero at the ends of the period, or anywhere on the even grid, is found once.
+    /// A zero at an end of the period, or at one of the equally spaced positions, is found once.
     #[test]
     fn zeros_anywhere_are_found_once() {
         for k in 0..48 {
@@ -231,8 +231,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
         #[test]
-        fn as_many_as_a_dense_scan_finds(c in prop::collection::vec(-1.0f64..1.0, 7), small in 0..3usize) {
-            // Degrees from 3 down to 1, with leading coefficients that are rounding errors or only small.
+        fn finds_as_many_zeros_as_a_dense_scan(c in prop::collection::vec(-1.0f64..1.0, 7), small in 0..3usize) {
+            // Degrees from 3 down to 1: the leading coefficients are rounding errors, or only small.
             let size = [1.0, 1e-15, 1e-8];
             let (two, three) = (if c[0] > 0.5 { size[small] } else { 1.0 }, size[small]);
             let f = |x: f64| c[0] + c[1] * x.cos() + c[2] * x.sin() + two * (c[3] * (2.0 * x).cos() + c[4] * (2.0 * x).sin())
@@ -244,7 +244,8 @@ mod tests {
             let n = 20_000;
             let value = |k: usize| f(TAU * k as f64 / n as f64);
             let changes = (0..n).filter(|&k| value(k) * value(k + 1) < 0.0).count();
-            // Where two sign changes are closer than the spacing of the scan, only the scan can be wrong.
+            // If two sign changes are closer together than the spacing of the scan, a difference is a fault of the
+            // scan.
             let close = found.windows(2).any(|pair| pair[1] - pair[0] < TAU / n as f64);
             prop_assert!(found.len() == changes || close && found.len() == changes + 2, "{found:?} against {changes}");
         }

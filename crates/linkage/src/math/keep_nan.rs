@@ -1,6 +1,6 @@
 //! The larger and the smaller of two numbers, with NaN kept.
 //!
-//! `f64::max` and `f64::min` drop NaN: of NaN and 1 they make 1, and a check of the result cannot fail.
+//! `f64::max` and `f64::min` drop NaN: for NaN and 1 they return 1, so a check of the result cannot fail.
 //! `clippy.toml` forbids them.
 
 /// The larger and the smaller of two numbers.
@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nan_stays_wherever_it_stands() {
+    fn nan_propagates_from_any_position() {
         for (a, b) in [(f64::NAN, 1.0), (1.0, f64::NAN), (-f64::NAN, 1.0), (f64::NAN, f64::NAN)] {
             assert!(a.larger(b).is_nan() && a.smaller(b).is_nan(), "{a} {b}");
         }
@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn of_numbers_they_are_the_larger_and_the_smaller() {
+    fn larger_and_smaller_compare_numbers_as_usual() {
         for (a, b) in [(1.0, 2.0), (2.0, 1.0), (-1.0, 1.0), (f64::NEG_INFINITY, 0.0), (0.0, f64::INFINITY)] {
             let (high, low) = if a > b { (a, b) } else { (b, a) };
             assert_eq!((a.larger(b), a.smaller(b)), (high, low));
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn where_it_is_meant_nan_counts_for_nothing() {
+    fn larger_number_and_smaller_number_ignore_nan() {
         assert_eq!((f64::NAN.larger_number(1.0), 1.0f64.smaller_number(f64::NAN)), (1.0, 1.0));
     }
 }

@@ -30,9 +30,9 @@ impl Motion {
         alpha: 0.0,
     };
 
-    /// The motion of a body, from the motion of one of its points and its rotation.
-    /// For the point: body coordinates `local` (m), position, velocity and acceleration.
-    /// For the body: direction, angular velocity and angular acceleration.
+    /// The motion of a body, computed from the motion of one of its points and from its rotation.
+    /// Arguments for the point: body coordinates `local` (m), position, velocity and acceleration.
+    /// Arguments for the body: direction, angular velocity and angular acceleration.
     #[inline]
     #[must_use]
     pub fn of_point(
@@ -74,14 +74,14 @@ impl Motion {
         self.velocity_beyond(self.arm(local))
     }
 
-    /// Velocity of the body point at the world vector `arm` from the origin (m/s).
+    /// Velocity of the body point at the end of the world vector `arm` from the origin (m/s).
     #[inline]
     #[must_use]
     pub fn velocity_beyond(&self, arm: Vec2) -> Vec2 {
         self.velocity + turned(arm) * self.omega
     }
 
-    /// Velocity of the body point that is at the world point `place` at this instant (m/s).
+    /// Velocity of the body point that coincides with the world point `place` at this instant (m/s).
     #[inline]
     #[must_use]
     pub fn velocity_at(&self, place: Vec2) -> Vec2 {
@@ -95,14 +95,14 @@ impl Motion {
         self.acceleration_beyond(self.arm(local))
     }
 
-    /// Acceleration of the body point at the world vector `arm` from the origin (m/s^2).
+    /// Acceleration of the body point at the end of the world vector `arm` from the origin (m/s^2).
     #[inline]
     #[must_use]
     pub fn acceleration_beyond(&self, arm: Vec2) -> Vec2 {
         self.acceleration + turned(arm) * self.alpha - arm * (self.omega * self.omega)
     }
 
-    /// Acceleration of the body point that is at the world point `place` at this instant (m/s^2).
+    /// Acceleration of the body point that coincides with the world point `place` at this instant (m/s^2).
     #[inline]
     #[must_use]
     pub fn acceleration_at(&self, place: Vec2) -> Vec2 {
@@ -115,7 +115,7 @@ mod tests {
     use super::*;
     use crate::math::unit;
 
-    /// A frame whose origin and angle are polynomials of time, so that all derivatives are known.
+    /// A frame whose origin and angle are polynomials in time, so that all derivatives are known.
     fn frame(t: f64) -> Motion {
         Motion {
             origin: Vec2::new(1.0 + 2.0 * t, 3.0 * t * t),
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motion_is_known_from_any_of_its_points() {
+    fn a_motion_is_determined_by_any_of_its_points() {
         let (local, whole) = (Vec2::new(-0.3, 0.8), frame(0.4));
         let vectors = [whole.point(local), whole.point_velocity(local), whole.point_acceleration(local)];
         let again = Motion::of_point(local, vectors, whole.direction, whole.omega, whole.alpha);
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_point_and_its_place_have_one_motion() {
+    fn local_point_and_world_position_have_equal_rates() {
         let (local, whole) = (Vec2::new(-0.3, 0.8), frame(0.4));
         let place = whole.point(local);
         assert!((whole.velocity_at(place) - whole.point_velocity(local)).norm() < 1e-15);

@@ -1,11 +1,11 @@
-//! A function through given points, cubic between neighbours: straight lines, or a cubic spline.
+//! A function through given points, with a cubic polynomial between neighbours: straight lines, or a cubic spline.
 
 use crate::math::KeepNan;
 
 /// Cubic pieces between ascending knots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piecewise {
-    /// Knots, one more than pieces.
+    /// Knots. There is one more knot than there are pieces.
     knots: Vec<f64>,
     /// For each piece: coefficients of the powers 0 to 3 of the distance from its first knot.
     pieces: Vec<[f64; 4]>,
@@ -69,20 +69,20 @@ impl Piecewise {
         [a + d * (b + d * (c + d * e)), b + d * (2.0 * c + d * 3.0 * e), 2.0 * c + d * 6.0 * e]
     }
 
-    /// The same function times `factor`.
+    /// The same function multiplied by `factor`.
     #[must_use]
     pub fn times(&self, factor: f64) -> Self {
         let pieces = self.pieces.iter().map(|piece| piece.map(|coefficient| factor * coefficient)).collect();
         Piecewise { pieces, knots: self.knots.clone(), periodic: self.periodic }
     }
 
-    /// The knots. For a periodic function those of one period, both ends included.
+    /// The knots. For a periodic function, the knots of one period with both ends.
     #[must_use]
     pub fn knots(&self) -> &[f64] {
         &self.knots
     }
 
-    /// Smallest and largest value of the first derivative, at and between the knots.
+    /// Smallest and largest value of the first derivative over all positions, not only the knots.
     #[must_use]
     pub fn slopes(&self) -> [f64; 2] {
         let mut found = [f64::INFINITY, f64::NEG_INFINITY];
@@ -99,7 +99,7 @@ impl Piecewise {
     }
 }
 
-/// Knots and values with the first point repeated a period later.
+/// Knots and values, extended by the first point one period later.
 fn closed(points: &[(f64, f64)], period: f64) -> (Vec<f64>, Vec<f64>) {
     let (x, y) = points[0];
     points.iter().copied().chain([(x + period, y)]).unzip()
@@ -120,7 +120,7 @@ fn of_second_derivatives(values: &[f64], h: &[f64], slope: &[f64], second: &[f64
     (0..h.len()).map(piece).collect()
 }
 
-/// Solves diagonally dominant rows `[below, on, above the diagonal, right-hand side]`.
+/// Solves a system of diagonally dominant rows `[below, on, above the diagonal, right-hand side]`.
 fn solve_tridiagonal(rows: &[[f64; 4]]) -> Vec<f64> {
     let (mut above, mut found) = (vec![0.0; rows.len()], vec![0.0; rows.len()]);
     for (k, &[below, on, over, right]) in rows.iter().enumerate() {
@@ -134,7 +134,7 @@ fn solve_tridiagonal(rows: &[[f64; 4]]) -> Vec<f64> {
     found
 }
 
-/// Solves cyclic rows of the same form, by the Sherman-Morrison formula.
+/// Solves a cyclic system with rows of the same form, by the Sherman-Morrison formula.
 /// The first row's `below` belongs to the last column, the last row's `above` to the first column.
 fn solve_cyclic(mut rows: Vec<[f64; 4]>) -> Vec<f64> {
     let n = rows.len();
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn a_clamped_spline_repeats_a_cubic() {
+    fn a_clamped_spline_reproduces_a_cubic() {
         let (cubic, slope) = (|x: f64| 1.0 + x * (2.0 - x * (0.5 + 0.3 * x)), |x: f64| 2.0 - x * (1.0 + 0.9 * x));
         let points = [-1.0, 0.0, 0.3, 2.0].map(|x| (x, cubic(x)));
         let spline = Piecewise::clamped_spline(&points, [slope(-1.0), slope(2.0)]);
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn a_periodic_spline_follows_a_sine() {
+    fn a_periodic_spline_approximates_a_sine() {
         let points: Vec<(f64, f64)> =
             (0..32).map(|k| f64::from(k) * std::f64::consts::TAU / 32.0).map(|x| (x, x.sin())).collect();
         let spline = Piecewise::periodic_spline(&points, std::f64::consts::TAU);

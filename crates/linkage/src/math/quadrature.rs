@@ -11,15 +11,15 @@ pub const NODES: usize = 8;
 
 /// Nodes in -1 to 1 and weights of Gauss-Legendre quadrature with [`NODES`] nodes, exact for polynomials of degree 15.
 ///
-/// Nodes by Newton's method on the Legendre polynomial from its asymptotic roots; weights 2 / ((1 - x^2) P'(x)^2).
-/// Abramowitz and Stegun 25.4.29.
+/// Newton's method on the Legendre polynomial gives the nodes, starting from its asymptotic roots.
+/// The weights are 2 / ((1 - x^2) P'(x)^2). Abramowitz and Stegun 25.4.29.
 #[must_use]
 pub fn gauss_legendre() -> [(f64, f64); NODES] {
     let n = NODES as f64;
     std::array::from_fn(|k| {
         let guess = -(PI * (k as f64 + 0.75) / (n + 0.5)).cos();
         let mut slope = 1.0;
-        // The start has three digits and convergence is quadratic, so five steps reach rounding error.
+        // The initial guess has three digits and convergence is quadratic, so five steps reach rounding error.
         let Ok(x) = root::polished(guess, 6, f64::INFINITY, |x| {
             let (mut before, mut here) = (1.0, x);
             for degree in 2..=NODES {
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn a_kink_on_a_break_does_not_hurt() {
+    fn a_kink_at_an_interval_end_costs_no_accuracy() {
         // The integral of |sin x| from 0 to 2 pi is 4.
         let found: f64 = composite(&[0.0, PI, 2.0 * PI], 0.5).iter().map(|(x, w)| w * x.sin().abs()).sum();
         assert!((found - 4.0).abs() < 1e-14, "{found}");

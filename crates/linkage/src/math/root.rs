@@ -1,7 +1,6 @@
-//! Zeros of a function of one variable, with or without bounds. All searches for zeros in the project are in this
-//! module.
+//! Zeros of a function of one variable, with or without bounds. All searches for zeros in the project use this module.
 //!
-//! Each search documents its requirements on the function, and its stopping criterion.
+//! Each search documents what it requires of the function, and its stopping criterion.
 //! The function may fail (`E`): the first error ends a search. NaN never counts as a zero.
 
 use super::KeepNan;
@@ -13,7 +12,7 @@ pub fn changes(a: f64, b: f64) -> bool {
     a <= 0.0 && b >= 0.0 || a >= 0.0 && b <= 0.0
 }
 
-/// Bisects the interval from `low` to `high` `halvings` times, towards the point up to which `before` is true.
+/// Bisects the interval from `low` to `high` `halvings` times, to find the point up to which `before` is true.
 /// Returns both ends of the remaining interval.
 /// If `before` is never true, the lower end stays; if it is always true, the upper end stays.
 /// About 52 halvings reach rounding error.
@@ -70,18 +69,19 @@ pub fn widened<E>(
     Ok(None)
 }
 
-/// When a regula falsi ends: as soon as one of the two conditions holds.
+/// Stopping criterion of a regula falsi. The search ends as soon as one of the two conditions holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Close {
-    /// Size of the value that counts as zero.
+    /// A value counts as zero if its size is at most this.
     pub value: f64,
-    /// Distance between the bounds below which they count as equal.
-    /// It is never less than four rounding errors of the larger bound.
+    /// The bounds count as equal if their distance is below this width.
+    /// The search uses at least four rounding errors of the larger bound.
     pub width: f64,
 }
 
 /// The zero between two positions with different signs, by regula falsi in the Illinois form.
-/// The value at a bound that stays is halved in every step (Dowell and Jarratt, BIT 11, 1971, 168-174; order 1.44).
+/// The value at a bound that does not move is halved in every step (Dowell and Jarratt, BIT 11, 1971, 168-174; order
+/// 1.44).
 /// `None` if the signs are the same, a value is NaN, or `steps` are not enough.
 ///
 /// # Errors
@@ -99,7 +99,7 @@ pub fn regula_falsi<E>(
         return Ok(Some(end.0));
     }
     for _ in 0..steps {
-        // A mean with positive weights lies between the bounds and loses no digits.
+        // A weighted mean with positive weights lies between the bounds and loses no digits.
         let at = (held.0 * last.1 - last.0 * held.1) / (last.1 - held.1);
         let found = value(at)?;
         let rounding = 4.0 * f64::EPSILON * held.0.abs().larger(last.0.abs());
@@ -119,10 +119,10 @@ pub fn regula_falsi<E>(
     Ok(None)
 }
 
-/// The zero between `bounds` (either may be the larger) of a function that gives value and slope.
-/// Uses Newton's method from `start`, with bisection where a step leaves the bounds.
+/// The zero between `bounds` (either may be the larger) of a function that returns its value and slope.
+/// Uses Newton's method from `start`, and bisection if a step leaves the bounds.
 /// `rises`: whether the value is positive at the second bound.
-/// A Newton step of at most `settled` is the last one and is still taken.
+/// A Newton step of at most `settled` is still taken and ends the search.
 /// Convergence is quadratic, so the remaining error is of the order of the square of that step.
 /// `None` if a value is NaN.
 ///
@@ -136,7 +136,7 @@ pub fn newton<E>(
     settled: f64,
     mut value: impl FnMut(f64) -> Result<(f64, f64), E>,
 ) -> Result<Option<f64>, E> {
-    /// Number of bits of a double, plus the steps of Newton's method.
+    /// Largest number of steps: the bits of a double, for bisection, plus some steps of Newton's method.
     const MOST: usize = 100;
     let mut at = start;
     for _ in 0..MOST {
@@ -163,7 +163,7 @@ pub fn newton<E>(
 
 /// `steps` steps of Newton's method from a point near the zero.
 /// Steps that are NaN, or not shorter than `longest`, are skipped.
-/// The function gives value and slope.
+/// The function returns its value and slope.
 ///
 /// # Errors
 /// The first error of `value`.
@@ -186,9 +186,9 @@ pub fn polished<E>(
 
 /// A length at which the value is zero, by at most `steps` secant steps.
 /// The first secant goes through `known` and a `guess`, both positive.
-/// The search ends where a secant would change the length by no more than four rounding errors.
+/// The search ends if a secant would change the length by no more than four rounding errors.
 /// It also ends before a change larger than the length itself.
-/// Returns the length with the value nearest to zero, because near rounding error a secant is arbitrary.
+/// Returns the length whose value is nearest to zero, because near rounding error the last secant is arbitrary.
 ///
 /// # Errors
 /// The first error of `value`.

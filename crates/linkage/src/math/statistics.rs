@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use crate::math::KeepNan;
 
-/// Quantile `q` (0 to 1) of values sorted in ascending order, linear between neighbours
-/// (type 7 of Hyndman and Fan 1996).
+/// Quantile `q` (0 to 1) of values sorted in ascending order, linear between neighbours (type 7 of Hyndman and Fan
+/// 1996).
 ///
 /// Returns 0 for an empty slice.
 #[must_use]
@@ -54,7 +54,7 @@ fn turns(ours: &[f64], theirs: &[f64], periodic: bool) -> f64 {
     }
 }
 
-/// Absolute values in ascending order, with NaN last.
+/// Absolute values in ascending order. NaN comes last.
 #[must_use]
 pub fn sorted_sizes(values: &[f64]) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.iter().map(|value| value.abs()).collect();

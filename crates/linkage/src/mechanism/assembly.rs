@@ -4,7 +4,7 @@
 //! Groups of four links are placed by the zeros of a trigonometric polynomial, which finds all their configurations.
 //! All other groups are placed by Newton's method from a rough drawing.
 //! These formulas are independent of those of the two analytic solvers.
-//! An error in one of the three therefore shows.
+//! A difference between the three therefore shows an error in any of them.
 
 mod blame;
 mod choice;
@@ -24,7 +24,7 @@ pub use mode::{AssemblyMode, Configuration, ConfigurationChoice, StartGroup};
 use super::{LinkPose, Mechanism, Pose, Structure};
 use crate::error::{Error, Result};
 
-/// The pose at the start, and the assembly mode of each group.
+/// The start pose, and the assembly mode of each group.
 /// The driving links have the world angles `drive_angles` (rad, in the order of [`Structure::drivers`]).
 /// Each group has the configuration required in `wanted` (in the order of [`Structure::groups`]).
 ///
@@ -40,14 +40,14 @@ pub fn first_pose(
     Ok((pose, choices.into_iter().map(|choice| choice.mode).collect()))
 }
 
-/// The same as [`first_pose`], with details of each group's choice.
+/// The same as [`first_pose`], with details of the choice for each group.
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a group's links do not reach each other, or if approximate
 /// positions fit two configurations, contradict the required mode, or lead to no configuration.
 /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a group without approximate positions whose
 /// configurations are not all known.
-/// [`ErrorKind::Input`](crate::ErrorKind::Input) if no configuration is required of a group, or the required number
+/// [`ErrorKind::Input`](crate::ErrorKind::Input) if the input requires no configuration of a group, or a number that
 /// does not exist.
 pub fn first_choices(
     mechanism: &Mechanism,
@@ -94,7 +94,7 @@ mod tests {
         let mode = |mode| start(StartGroup { mode: Some(mode), ..StartGroup::default() }).unwrap().0;
         let (left, right) = (mode(AssemblyMode::Left), mode(AssemblyMode::Right));
         assert!(left.closure(&mechanism) < 1e-15 && right.closure(&mechanism) < 1e-15);
-        // A = (0, 1), C = (4, 0). The two modes place B at mirror images about the line AC.
+        // A = (0, 1), C = (4, 0). The two modes place B at positions that are mirror images about the line AC.
         let (a, axis) = (Vec2::new(0.0, 1.0), Vec2::new(4.0, -1.0).normalize());
         let mirrored = a + axis * (2.0 * axis.dot(&(point_b(&left) - a))) - (point_b(&left) - a);
         assert_relative_eq!(mirrored, point_b(&right), epsilon = 1e-14);
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn a_guess_chooses_only_when_it_is_clear() {
+    fn a_guess_selects_a_mode_only_if_unambiguous() {
         let near = |x, y| {
             vec![(
                 SidePoint {
@@ -117,7 +117,7 @@ mod tests {
         let (_, modes) = start(StartGroup { mode: None, near: near(b.x + 0.1, b.y), ..StartGroup::default() }).unwrap();
         assert_eq!(modes, [AssemblyMode::Left]);
         let error = start(StartGroup { mode: None, near: near(2.0, 0.5), ..StartGroup::default() }).unwrap_err();
-        assert!(error.to_string().contains("does not tell them apart"), "{error}");
+        assert!(error.to_string().contains("does not distinguish them"), "{error}");
         let error =
             start(StartGroup { mode: Some(AssemblyMode::Right), near: near(b.x, b.y), ..StartGroup::default() })
                 .unwrap_err();
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn links_that_do_not_reach_are_an_error_with_the_distances() {
+    fn unreachable_links_are_an_error_with_the_distances() {
         let mut mechanism = four_bar();
         mechanism.joints[JointId(2)].second.local = Vec2::new(0.05, 0.0);
         let structure = Structure::of(&mechanism, &[JointId(0)]).unwrap();

@@ -1,5 +1,5 @@
 //! Numbers of links, joints and groups.
-//! Each has a separate type, so that a joint's number cannot be used for a link.
+//! Each kind has a separate type, so that a joint's number cannot be used for a link.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -98,7 +98,7 @@ ids! {
 }
 
 /// One value for each link, joint or group, in their order.
-/// It is indexed only by their numbers. In everything else it behaves as a slice.
+/// Only the numbers of these items index it. In everything else it behaves as a slice.
 ///
 /// ```
 /// use linkproof_linkage::mechanism::{LinkId, PerLink};
@@ -165,7 +165,7 @@ impl<I, T: Clone> Clone for Per<I, T> {
         Per(self.0.clone(), PhantomData)
     }
 
-    /// Reuses the memory of `self`, which a derived implementation does not.
+    /// Reuses the memory of `self`. A derived implementation would not.
     fn clone_from(&mut self, source: &Self) {
         self.0.clone_from(&source.0);
     }

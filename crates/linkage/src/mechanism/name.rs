@@ -3,9 +3,10 @@
 /// Longest name (characters).
 pub const LONGEST_NAME: usize = 100;
 
-/// Whether a character changes a text invisibly.
-/// Such characters are control characters including line breaks, marks and overrides of the writing direction, line and
-/// paragraph separators, and zero-width characters.
+/// Whether a character changes a text without being visible.
+/// Such characters are:
+/// control characters including line breaks, marks and overrides of the writing direction, line and paragraph
+/// separators, and zero-width characters.
 #[must_use]
 pub fn is_unseen(letter: char) -> bool {
     letter.is_control()

@@ -1,14 +1,15 @@
-//! The outline through the points of a link: its default shape in pictures.
+//! The outline through the points of a link. It is the link's default shape in pictures.
 
 use crate::math::{KeepNan, Vec2, cross};
 
-/// Fraction of a link's size below which a point counts as collinear with others, or as coincident with another.
+/// A point counts as collinear with others, or as coincident with another point, if its distance is below this fraction
+/// of the link's size.
 const ON_ONE_LINE: f64 = 1e-6;
 
 /// The outline through all points, and whether it is closed.
 /// It is a polygon without crossings, or a bar if all points are collinear.
 ///
-/// A polygon orders its points by their bearing from the mean point. A bar goes from end to end.
+/// A polygon orders its points by their bearing from the mean point. A bar goes from one end to the other.
 #[must_use]
 pub fn ring(places: &[Vec2]) -> (Vec<Vec2>, bool) {
     let mut sorted = places.to_vec();

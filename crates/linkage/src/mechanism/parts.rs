@@ -30,8 +30,8 @@ impl Link {
         pairs.map(|(a, b)| (a.local - b.local).norm()).fold(0.0, f64::larger)
     }
 
-    /// Largest distance between two points of the link, mass centre included (m): the lever arm of forces on the link.
-    /// For a link with a single point, such as a flywheel, it is the radius of gyration, or 0 without mass.
+    /// The lever arm of forces on the link (m): the largest distance between two points, mass centre included.
+    /// For a link with a single point, such as a flywheel, it is the radius of gyration; without mass it is 0.
     #[must_use]
     pub fn extent(&self) -> f64 {
         if self.mass <= 0.0 {
@@ -59,22 +59,22 @@ pub enum JointKind {
     /// Revolute pair (pin): the joint's points on both links coincide.
     Revolute,
     /// Prismatic pair (slider in a guide).
-    /// The joint's point on the second link lies on a line along the axis through its point on the first link.
+    /// The joint's point on the second link lies on a line through its point on the first link, parallel to the axis.
     /// The two links turn together.
     Prismatic {
-        /// Unit vector of the axis in the frame of the first link and in that of the second. Both are the same
-        /// direction in the world.
+        /// Unit vectors of the axis in the frame of the first link and in the frame of the second link. Both describe
+        /// the same direction in the world.
         axes: [Vec2; 2],
     },
 }
 
-/// Properties of a pair, for all crates.
-/// A new kind is added here and wherever equations are written for each kind.
+/// Properties of the kinds of pair, for all crates.
+/// A new kind is added here, and wherever code writes equations for each kind.
 impl JointKind {
-    /// Direction of the line through the joint's point on the first link, on which its point on the second link must
-    /// lie.
-    /// It is a unit vector in the frame of the first link. This condition is one equation.
-    /// `None` if the two points must coincide, which is two equations.
+    /// Direction of the line through the joint's point on the first link.
+    /// The joint's point on the second link must lie on this line. This condition is one equation.
+    /// The direction is a unit vector in the frame of the first link.
+    /// `None` if the two points must coincide. This condition is two equations.
     #[inline]
     #[must_use]
     pub fn line(self) -> Option<Vec2> {
@@ -84,7 +84,8 @@ impl JointKind {
         }
     }
 
-    /// Axes along which the links slide: unit vectors in the frames of the first and the second link.
+    /// Axes along which the links slide: a unit vector in the frame of the first link, then one in the frame of the
+    /// second.
     /// `None` if the links do not slide.
     #[inline]
     #[must_use]
@@ -105,7 +106,8 @@ impl JointKind {
         }
     }
 
-    /// Whether the links slide along each other. Such a joint has a guide, a block, and a slide between them.
+    /// Whether the links slide along each other. Such a joint has a guide, a block, and a slide (distance) between
+    /// them.
     #[inline]
     #[must_use]
     pub fn slides(self) -> bool {
@@ -125,7 +127,7 @@ impl JointKind {
         }
     }
 
-    /// Whether the links turn together: the angle between them is constant and the reaction includes a moment.
+    /// Whether the links turn together. The angle between them is then constant and the reaction includes a moment.
     #[inline]
     #[must_use]
     pub fn keeps_angle(self) -> bool {
@@ -135,7 +137,8 @@ impl JointKind {
         }
     }
 
-    /// What the joint's coordinate measures if a drive prescribes it; `None` for a kind that no drive can move.
+    /// Quantity that the joint's coordinate measures if a drive prescribes it; `None` for a kind that no drive can
+    /// move.
     #[must_use]
     pub fn input(self) -> Option<Input> {
         match self {
@@ -187,7 +190,7 @@ pub struct JointSide {
 }
 
 /// Kinematic pair between two links. Its reaction is the action of the first link on the second.
-/// The reaction is a force; a prismatic pair also has a moment about the joint's point on the second link.
+/// The reaction is a force. In a prismatic pair it also includes a moment about the joint's point on the second link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// Name, unique in the mechanism.
@@ -209,15 +212,15 @@ impl Joint {
         [self.first, self.second].into_iter().find(|side| side.link == link).map(|side| side.local)
     }
 
-    /// The side on the link other than `link`.
+    /// The side of the joint on the link other than `link`.
     #[must_use]
     pub fn other(&self, link: LinkId) -> JointSide {
         if self.first.link == link { self.second } else { self.first }
     }
 
     /// Point at which the joint's reaction acts on `link`.
-    /// For a pin it is given on `link`, because the points on both links coincide. For other joints it is the point on
-    /// the second link.
+    /// For a pin, the point on `link`, because the points on both links coincide. For other joints, the point on the
+    /// second link.
     #[must_use]
     pub fn acts_at(&self, link: LinkId) -> JointSide {
         match self.kind {
@@ -256,11 +259,12 @@ impl Joint {
         sides.iter().position(|side| side.link == link).map(|index| axes[index])
     }
 
-    /// How far the joint is from being closed: a distance (m) and the sine of an angle.
-    /// The distance is that between the joint's points on both links; in a prismatic pair it is measured across the
-    /// axis.
+    /// The opening of the joint: a distance (m) and the sine of an angle.
+    /// The distance is that between the joint's points on both links. In a prismatic pair it is measured perpendicular
+    /// to the axis.
     /// The angle is that between the axes (0 in a revolute pair).
-    /// `places` are the joint's points on both links in the world, `directions` the (cos, sin) of both links' angles.
+    /// `places` are the joint's points on both links in world coordinates, `directions` the (cos, sin) of both links'
+    /// angles.
     #[must_use]
     pub fn opening(&self, places: [Vec2; 2], directions: [Vec2; 2]) -> (f64, f64) {
         let gap = places[1] - places[0];
@@ -268,7 +272,7 @@ impl Joint {
             JointKind::Revolute => (gap.norm(), 0.0),
             JointKind::Prismatic { axes } => {
                 let [first, second] = [0, 1].map(|k| rotated(directions[k], axes[k]));
-                // Opposite axes have the largest possible opening.
+                // For opposite axes the opening is the largest possible.
                 let turn = if first.dot(&second) > 0.0 { cross(first, second).abs() } else { 1.0 };
                 (cross(first, gap).abs(), turn)
             }

@@ -16,8 +16,8 @@ pub struct Handle {
 }
 
 impl Mechanism {
-    /// The point with index `point` of the link `link`, and the joints at it.
-    /// `None` if another point of the link coincides with it, because then the joints could belong to either point.
+    /// The point with index `point` of the link `link`, and the joints at this point.
+    /// `None` if another point of the link has the same position, because the joints could then belong to either point.
     #[must_use]
     pub fn handle(&self, link: LinkId, point: usize) -> Option<Handle> {
         let points = &self.links[link].points;
@@ -47,7 +47,7 @@ mod tests {
     use crate::fixtures::four_bar;
 
     #[test]
-    fn joints_go_with_their_points() {
+    fn joints_move_with_their_points() {
         let mut mechanism = four_bar();
         let old = mechanism.links()[LinkId(3)].points.clone();
         let handle = mechanism.handle(LinkId(3), 1).unwrap();
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn points_in_one_place_cannot_be_told_apart() {
+    fn coincident_points_have_no_handle() {
         let mut mechanism = four_bar();
         let handle = mechanism.handle(LinkId(3), 1).unwrap();
         let other = mechanism.links()[LinkId(3)].points[0].local;

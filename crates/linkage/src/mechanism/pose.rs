@@ -23,8 +23,8 @@ impl LinkPose {
         LinkPose { origin: at - rotated(unit(angle), local), angle }
     }
 
-    /// The pose that puts the body points `local_a` and `local_b` at two world points. The distances are assumed to
-    /// match.
+    /// The pose that puts the body points `local_a` and `local_b` at two world points. The distances between the points
+    /// must match.
     #[must_use]
     pub fn between(local_a: Vec2, local_b: Vec2, a: Vec2, b: Vec2) -> Self {
         let (local, world) = (local_b - local_a, b - a);
@@ -39,9 +39,9 @@ impl LinkPose {
 }
 
 impl Joint {
-    /// Pose that a drive gives to `link`, one of the joint's links.
+    /// Pose of `link`, one of the joint's links, that the drive prescribes.
     /// The other link has the pose `base`.
-    /// `coordinate` is the joint's coordinate, counted as in [`Drive::world_angle`](crate::drive::Drive::world_angle).
+    /// `coordinate` is the joint's coordinate, measured as in [`Drive::world_angle`](crate::drive::Drive::world_angle).
     #[must_use]
     pub fn driven(&self, link: LinkId, base: &LinkPose, coordinate: f64) -> LinkPose {
         let local = self.on(link).expect("the driven joint is on the driving link");

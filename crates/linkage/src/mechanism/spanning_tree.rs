@@ -1,11 +1,12 @@
 //! Spanning tree of a linkage: which joint carries which link, and which joints are cut.
 //!
-//! In the tree used for runs, prismatic joints are never cut, and they hold exactly.
+//! In the tree used for runs, prismatic joints are never cut, so they hold exactly.
 //! All of them fit into the tree, because structural analysis rejects loops of prismatic joints alone.
-//! Prismatic joints also work as cuts, with order 2.
+//! Cutting prismatic joints also works, with order 2.
 //! The following are the largest errors of any channel, relative to half its range, at a step of 1e-3 s.
-//! The first number keeps prismatic joints, the second cuts the innermost joint whatever its kind:
-//! slider-crank 1.4e-4 and 2.0e-4, swinging guide 8.3e-4 and 1.2e-3, Scotch yoke 7.8e-5 and 6.5e-5.
+//! The first number is for a tree that keeps prismatic joints.
+//! The second is for a tree that cuts the innermost joint of each loop, whatever its kind.
+//! Slider-crank 1.4e-4 and 2.0e-4, swinging guide 8.3e-4 and 1.2e-3, Scotch yoke 7.8e-5 and 6.5e-5.
 //! A crank with a slot has 1.9e-3 and an Oldham coupling 9.0e-5 in both cases.
 
 use super::{GROUND, Joint, LinkPose, Mechanism};
@@ -19,11 +20,12 @@ pub struct TreeBranch {
     pub link: LinkId,
     /// The parent link, nearer to the ground.
     pub parent: LinkId,
-    /// The joint between the two.
+    /// The joint between parent and child.
     pub joint: JointId,
 }
 
-/// Branches from the ground, and the cut joints, which close the loops. Links without a branch are free bodies.
+/// Branches from the ground, and the cut joints. The cut joints close the loops. Links without a branch are free
+/// bodies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpanningTree {
     /// Branches; a parent always comes before its children.
@@ -39,9 +41,9 @@ impl SpanningTree {
         SpanningTree { branches: Vec::new(), cut: mechanism.joints().ids().collect() }
     }
 
-    /// Trees such that each of these joints is cut in at least one of them.
+    /// Trees such that each of the given joints is cut in at least one tree.
     /// The first is that of [`SpanningTree::of`].
-    /// Each further tree cuts as many as possible of the joints that no earlier tree cuts.
+    /// Each further tree cuts as many of the remaining joints as possible.
     #[must_use]
     pub fn covering(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Self> {
         let mut trees = vec![SpanningTree::of(mechanism)];
@@ -53,8 +55,8 @@ impl SpanningTree {
                 return trees;
             }
             let mut tree = SpanningTree::along(mechanism, kept.into_iter().chain(wanted.iter().copied()));
-            // If only such a joint holds some links to the ground, for example a crank alone on its pin, these links
-            // are cut off as a whole.
+            // If such a joint alone connects some links to the ground, these links are cut off as a whole.
+            // An example is a crank on its pin without other joints.
             if !tree.cut.iter().any(|joint| wanted.contains(joint)) {
                 let mut held = vec![GROUND];
                 let (kept, lost): (Vec<TreeBranch>, Vec<TreeBranch>) = tree.branches.into_iter().partition(|branch| {
@@ -100,18 +102,18 @@ impl SpanningTree {
         SpanningTree { branches, cut }
     }
 
-    /// The spanning tree for runs, breadth first.
-    /// A link is added together with all links that slide on it, so that only revolute joints are cut.
+    /// The spanning tree for runs, built breadth first.
+    /// Together with a link, all links that slide on it are added, so that only revolute joints are cut.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
         SpanningTree::with(mechanism, &[])
     }
 
     /// The same tree, but with the given joints in it.
-    /// Each of them must be on the ground or on a link that the joints before it reach.
+    /// Each given joint must be on the ground or on a link that the earlier given joints reach.
     /// The given joints stay in the tree even if other joints reach their links.
     /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
-    /// The drive would then be cut, although it must be a coordinate of the tree.
+    /// Without this rule the driven joint would be cut, although it must be a coordinate of the tree.
     #[must_use]
     pub fn with(mechanism: &Mechanism, joints: &[JointId]) -> Self {
         let mut tree = SpanningTree { branches: Vec::new(), cut: Vec::new() };
@@ -155,9 +157,9 @@ impl SpanningTree {
     }
 }
 
-/// Coordinate of a branch's joint in the given poses, whichever of the two links is the joint's first.
-/// It is the angle of the child relative to its parent (rad), or a distance along the parent's axis (m).
-/// The distance goes from the joint's point on the parent to that on the child.
+/// Coordinate of a branch's joint in the given poses. It does not depend on which link is the joint's first.
+/// The coordinate is the angle of the child relative to its parent (rad), or a distance along the parent's axis (m).
+/// The distance goes from the joint's point on the parent to its point on the child.
 #[must_use]
 pub fn coordinate(joint: &Joint, branch: &TreeBranch, poses: &[LinkPose]) -> f64 {
     let [parent, child] = [branch.parent, branch.link].map(|link| poses[link]);
@@ -196,7 +198,7 @@ mod tests {
     #[test]
     fn every_joint_is_cut_in_one_of_the_covering_trees() {
         let trees = SpanningTree::covering(&four_bar(), &[JointId(0), JointId(1), JointId(2), JointId(3)]);
-        // One cut per tree, four joints.
+        // Each tree cuts one of the four joints.
         assert_eq!(trees.iter().map(|tree| numbers(&tree.cut)).collect::<Vec<_>>(), [[2], [3], [1], [0]]);
         let class_four = class_four(1.0, 1.0);
         let trees = SpanningTree::covering(&class_four, &class_four.joints().ids().collect::<Vec<_>>());
@@ -208,13 +210,13 @@ mod tests {
                 reached.push(branch.link);
             }
         }
-        // Seven joints, two cut at a time.
+        // There are seven joints. Each tree cuts two of them.
         assert_eq!(trees.len(), 4);
         assert!(class_four.joints().ids().all(|joint| trees.iter().any(|tree| tree.cut.contains(&joint))));
     }
 
     #[test]
-    fn only_the_joints_asked_for_need_a_tree() {
+    fn only_requested_joints_need_a_tree() {
         let cuts = |joints: &[usize]| {
             let joints: Vec<JointId> = joints.iter().map(|&joint| JointId(joint)).collect();
             SpanningTree::covering(&four_bar(), &joints).len()
@@ -223,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn a_crank_alone_is_cut_off_as_a_whole() {
+    fn cutting_the_joint_of_a_lone_crank_leaves_no_branch() {
         let four_bar = four_bar();
         let alone =
             Mechanism::new(four_bar.links().to_vec()[..2].to_vec(), four_bar.joints().to_vec()[..1].to_vec()).unwrap();
@@ -233,10 +235,10 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_can_be_asked_for() {
+    fn a_requested_joint_is_part_of_the_tree() {
         let asked = SpanningTree::with(&four_bar(), &[JointId(3)]);
         assert_eq!((pairs(&asked), numbers(&asked.cut)), (vec![(0, 3), (0, 1), (3, 2)], vec![1]));
-        // If the coupler slides on both cranks, sliding joints alone reach the second crank.
+        // If the coupler slides on both cranks, a tree of sliding joints alone reaches the second crank.
         let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
         let mut joints = four_bar().joints().to_vec();
         for slide in [1, 2] {
@@ -256,9 +258,9 @@ mod tests {
     }
 
     #[test]
-    fn what_slides_on_a_link_hangs_on_it() {
-        // The joint at which the four-bar is cut becomes prismatic: the coupler slides on the rocker, and the crank
-        // pin is cut.
+    fn a_prismatic_joint_stays_in_the_tree() {
+        // In the four-bar, the joint that was cut becomes prismatic: the coupler slides on the rocker. The crank pin is
+        // cut instead.
         let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
         let mut joints = four_bar().joints().to_vec();
         joints[2] = Joint { kind, ..joints[2].clone() };

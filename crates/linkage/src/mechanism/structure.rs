@@ -1,10 +1,10 @@
 //! Structural analysis: mobility, and the decomposition into driving links and Assur groups.
 //!
 //! Every link has three degrees of freedom. Every revolute or prismatic pair removes two, every drive one.
-//! Each equation gets an owner among the links it touches, three equations per link (a matching).
+//! Each equation concerns two links, and one of them becomes its owner; a link owns three equations (a matching).
 //! A link then depends on the other link of every equation that it owns.
-//! The strongly connected components of this dependence are the driving links and the Assur groups, in the order in
-//! which they can be solved.
+//! The strongly connected components of this dependence are the driving links and the Assur groups. They come in the
+//! order in which they can be solved.
 //! The components do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
 
 mod contour;
@@ -27,7 +27,7 @@ use owners::{Owners, check_sparse};
 pub struct Structure {
     /// Mobility by Chebyshev-Gruebler, W = 3 n - 2 p (n moving links, p lower pairs).
     pub mobility: i64,
-    /// Driving links in the order in which the drives were given: (link, driven joint).
+    /// Driving links as (link, driven joint), in the order in which the drives were given.
     pub drivers: Vec<(LinkId, JointId)>,
     /// Assur groups in the order in which they can be solved.
     pub groups: PerGroup<Group>,
@@ -37,8 +37,9 @@ impl Structure {
     /// Analyses a mechanism with drives at the joints `drives`.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if links have no connection to the ground, if the mobility differs from the number of
-    /// drives, or if one part is over-constrained while another is free.
+    /// [`ErrorKind::Input`] if links have no connection to the ground, or if the mobility differs from the number of
+    /// drives.
+    /// Also if one part is over-constrained while another is free to move.
     /// [`ErrorKind::Unsupported`] if a drive does not act on a link hinged to the ground.
     pub fn of(mechanism: &Mechanism, drives: &[JointId]) -> Result<Self> {
         check_connected(mechanism)?;
@@ -92,7 +93,7 @@ impl Structure {
     }
 
     /// For every link: the groups on which its motion depends if all drives are prescribed.
-    /// These are the link's group and all groups before it on which that group depends, as indices in ascending order.
+    /// They are the link's group and all earlier groups on which that group depends, as indices in ascending order.
     /// The list is empty for the ground and for driving links.
     #[must_use]
     pub fn upstream(&self, mechanism: &Mechanism) -> PerLink<Vec<GroupId>> {
@@ -193,7 +194,7 @@ fn unsupported_drive(mechanism: &Mechanism, joint: JointId) -> Error {
         .help(sentences::DRIVE_A_LINK_THAT_IS_HINGED)
 }
 
-/// The group of `links`, where all links marked in `known` are already solved.
+/// The group of `links`. All links marked in `known` are already solved.
 fn group(mechanism: &Mechanism, links: Vec<LinkId>, known: &[bool]) -> Group {
     let inside = |link: LinkId| links.contains(&link);
     let (mut inner, mut outer) = (Vec::new(), Vec::new());
@@ -227,7 +228,7 @@ fn kind(mechanism: &Mechanism, links: &[LinkId], inner: &[JointId], outer: &[Joi
         (0, 1) => GroupKind::Rrp,
         (0, _) => GroupKind::Prp,
         (_, 0) => GroupKind::Rpr,
-        // Three prismatic pairs were rejected before.
+        // A dyad with three prismatic pairs was rejected before.
         (_, _) => GroupKind::Rpp,
     }
 }

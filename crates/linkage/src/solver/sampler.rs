@@ -13,12 +13,12 @@ use crate::trajectory::{
     Channel, ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Stage, Trajectory,
 };
 
-/// Rows collected before they are written to their columns.
-/// Each column is a separate block of memory; a whole group of rows needs one access to it.
+/// Number of rows that are collected before they are written to their columns.
+/// Each column is a separate block of memory. A whole block of rows needs only one access to each column.
 const BLOCK: usize = 8;
 
 /// Collects states into the columns of a trajectory, row by row in any order.
-/// It reads only subjects with wanted channels.
+/// It reads only subjects with requested channels.
 #[derive(Debug)]
 pub struct Sampler {
     links: Vec<(LinkId, Mask)>,
@@ -26,7 +26,7 @@ pub struct Sampler {
     joints: Vec<(JointId, Mask)>,
     sliders: Vec<(JointId, Mask)>,
     frame: Mask,
-    /// The drives that exert a moment, the crank's first if it is one of them.
+    /// The drives that exert a moment. If the crank's drive is one of them, it comes first.
     drives: Vec<(usize, Mask)>,
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
@@ -34,16 +34,16 @@ pub struct Sampler {
     /// Buffer of the latest rows. The first `kept` rows are already in the columns.
     block: Vec<f64>,
     kept: usize,
-    /// The input as the scenario states it: that of the grid or, for a free motion, of the states.
+    /// The input in the scenario's convention: that of the grid or, for a free motion, that of the states.
     inputs: Vec<f64>,
 }
 
-/// The wanted channels of one subject, as rows of the table of channels.
+/// The requested channels of one subject, as rows of the table of channels.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mask {
     /// One bit a row.
     rows: u16,
-    /// Whether rates and accelerations are among them.
+    /// Whether the rows include rates or accelerations.
     beyond_positions: bool,
 }
 
@@ -58,7 +58,7 @@ impl Mask {
     }
 }
 
-/// The wanted rows of every subject with wanted channels, by kind and name of the subject.
+/// The requested rows of every subject with requested channels, by kind and name of the subject.
 fn masks(channels: &[Channel]) -> BTreeMap<(ChannelSubject, &str), Mask> {
     let mut masks: BTreeMap<(ChannelSubject, &str), Mask> = BTreeMap::new();
     for channel in channels {
@@ -69,7 +69,7 @@ fn masks(channels: &[Channel]) -> BTreeMap<(ChannelSubject, &str), Mask> {
 }
 
 impl Sampler {
-    /// Storage for all rows and wanted channels of a case.
+    /// Storage for all rows and requested channels of a case.
     #[must_use]
     pub fn new(case: &Case) -> Self {
         let channels = case.channels();
@@ -145,7 +145,7 @@ impl Sampler {
             });
         }
         if !self.frame.is_empty() {
-            // Computed once, and only if a wanted row uses it.
+            // Computed only once, and only if a requested row uses it.
             let shaking = LazyCell::new(|| state.shaking(case));
             out.put(&rows::FRAME, self.frame, |of| match of {
                 OfFrame::ForceX => shaking.0.x,
@@ -187,7 +187,7 @@ impl Sampler {
         Ok(trajectory.of_input(case.crank().input))
     }
 
-    /// The trajectory so far: the stored rows in the order of their arrival.
+    /// The trajectory so far: the stored rows in the order in which they were stored.
     /// `None` if there are no rows, or if a number is not finite.
     #[must_use]
     pub fn so_far(mut self, case: &Case) -> Option<Trajectory> {
@@ -203,17 +203,17 @@ impl Sampler {
     }
 }
 
-/// The unfilled rest of a row; it is filled in the order of channels.
+/// The part of a row that is not yet filled. Values are filled in the order of channels.
 struct Row<'a> {
     values: &'a mut [f64],
 }
 
 impl Row<'_> {
-    /// Stores the wanted quantities of a subject. `read` gives their values.
+    /// Stores the requested quantities of a subject. `read` gives their values.
     #[inline(always)]
     fn put<Of: Copy, const N: usize>(&mut self, rows: &[(Of, Stage); N], mask: Mask, read: impl Fn(Of) -> f64) {
         let mut put = 0;
-        // Unrolled: every quantity is then a constant, and the compiler removes the match on it.
+        // The loop is unrolled: every quantity is then a constant, and the compiler removes the match on it.
         macro_rules! each {
             ($condition:ident: $($row:literal)*) => {{
                 const { assert!(N <= [$($row),*].len(), "every row of a subject is put") };
@@ -244,7 +244,7 @@ impl Row<'_> {
 }
 
 /// Position (m), velocity (m/s) and acceleration (m/s^2) of a body point. Velocity and acceleration are computed only
-/// if wanted.
+/// if requested.
 struct BodyPoint([Vec2; 3]);
 
 impl BodyPoint {

@@ -1,10 +1,10 @@
-//! The state of a mechanism, in the form that all solvers share.
+//! The state of a mechanism. All solvers use this form.
 
 use crate::case::Case;
 use crate::math::{KeepNan, Motion, Vec2, cross, unit};
 use crate::mechanism::{GROUND, Joint, PerJoint, PerLink};
 
-/// State of the whole mechanism at one instant, in the form that all solvers share.
+/// State of the whole mechanism at one instant. All solvers use this form.
 #[derive(Clone, Debug)]
 pub struct State {
     /// Motion of every link's frame. The ground's motion is [`Motion::REST`].
@@ -19,9 +19,9 @@ pub struct State {
     /// Balancing moment on every driving link (N m), in the order of
     /// [`CaseParts::drives`](crate::case::CaseParts::drives).
     pub torques: Vec<f64>,
-    /// Condition number for the bound on rounding errors where the mechanism passes a change point; `None` elsewhere.
-    /// At a change point the condition number of the pose itself grows without bound, but the solver does not calculate
-    /// there.
+    /// Condition number for the bound on rounding errors while the mechanism passes a change point; `None` elsewhere.
+    /// At a change point the condition number of the pose itself grows without bound, but the solver does not compute
+    /// at that point.
     pub passing: Option<f64>,
 }
 
@@ -55,8 +55,8 @@ impl State {
     }
 
     /// Shaking force (N) and shaking moment about the origin (N m).
-    /// They sum up the actions on the frame of joints with the ground, drives, and springs and dampers fastened to the
-    /// ground.
+    /// They are the sum of the actions on the frame: of joints with the ground, of drives, and of springs and dampers
+    /// fastened to the ground.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
         // Drives are mounted on the frame, so their reactions there are opposite to the balancing moments.
@@ -81,8 +81,8 @@ impl State {
     }
 
     /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
-    /// In a prismatic joint the opening is measured across the guide; the angle between its axes (rad) is multiplied by
-    /// `size` (m).
+    /// In a prismatic joint the opening is measured perpendicular to the guide.
+    /// The angle between its axes (rad) is multiplied by `size` (m) and also counts.
     #[must_use]
     pub fn opening(&self, case: &Case, size: f64) -> [f64; 2] {
         let mut largest = [0.0; 2];
@@ -96,7 +96,7 @@ impl State {
         largest
     }
 
-    /// Largest moment (N m): of a drive, or of a joint's force with the lever arm `arm` (m).
+    /// Largest moment (N m): the moment of a drive, or a joint's force multiplied by the lever arm `arm` (m).
     #[must_use]
     pub fn largest_moment(&self, arm: f64) -> f64 {
         let torques = self.torques.iter().map(|torque| torque.abs());

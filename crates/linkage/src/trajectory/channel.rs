@@ -6,7 +6,7 @@ use std::fmt;
 use super::reading::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
 use super::unit::Unit;
 
-/// How far a solver must compute for a channel. Each stage needs the previous ones.
+/// The stage to which a solver must compute for a channel. Each stage needs the previous ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Positions and angles.
@@ -17,7 +17,7 @@ pub enum Stage {
     Accelerations,
     /// Joint reactions.
     Reactions,
-    /// Balancing moment on the driving link.
+    /// Balancing moments on the driving links.
     BalancingMoment,
 }
 
@@ -52,7 +52,7 @@ pub struct ChannelKind {
     pub quantity: &'static str,
     /// SI unit.
     pub unit: Unit,
-    /// Whether values that differ by one turn mean the same pose.
+    /// Whether values that differ by one revolution mean the same pose.
     pub periodic: bool,
     /// The stage that the channel needs.
     pub stage: Stage,
@@ -164,8 +164,8 @@ macro_rules! rows_of {
     }};
 }
 
-/// The same table, sorted by subjects. Its rows are constants, so that code that reads a whole subject needs no look-up
-/// at run time.
+/// The same table, sorted by subjects. Its rows are constants, so code that reads a whole subject needs no look-up at
+/// run time.
 pub(crate) mod rows {
     use super::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Stage, TABLE, count};
 
@@ -229,6 +229,16 @@ impl Channel {
     }
 }
 
+impl Channel {
+    /// The name without its unit, for tables with a column of units: `link.rocker.angle`.
+    #[must_use]
+    pub fn without_unit(&self) -> String {
+        let name = self.to_string();
+        let unit = format!("_{}", self.kind.unit.suffix());
+        name.strip_suffix(&unit).map_or_else(|| name.clone(), String::from)
+    }
+}
+
 impl fmt::Display for Channel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}.{}", self.subject(), self.kind.suffix)
@@ -240,7 +250,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_read_as_they_are_written() {
+    fn channel_names_parse_as_they_print() {
         for kind in &CHANNELS {
             let of = if kind.subject.is_whole() { "" } else { "A.b" };
             let channel = Channel { of: of.into(), kind };

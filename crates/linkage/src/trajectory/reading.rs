@@ -9,7 +9,7 @@ pub enum ChannelSubject {
     Point,
     /// A joint.
     Joint,
-    /// A prismatic joint: the rows that it has in addition to those of any joint.
+    /// A prismatic joint. Its rows come in addition to those of any joint.
     Slider,
     /// The frame. All joints with the ground and the drive act on it.
     Frame,
@@ -20,7 +20,7 @@ pub enum ChannelSubject {
 }
 
 impl ChannelSubject {
-    /// Whether a mechanism has exactly one such subject, so that it needs no name.
+    /// Whether a mechanism has exactly one subject of this kind, so that the subject needs no name.
     #[must_use]
     pub fn is_whole(self) -> bool {
         match self {
@@ -33,7 +33,7 @@ impl ChannelSubject {
         }
     }
 
-    /// Whether the subject is the action of a drive.
+    /// Whether the subject is the moment of a drive.
     #[must_use]
     pub fn is_drive(self) -> bool {
         match self {

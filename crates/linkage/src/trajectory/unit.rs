@@ -24,7 +24,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// Symbol of the unit, for example `rad/s^2`.
+    /// Symbol of the unit in files, for example `rad/s^2`.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {
@@ -36,6 +36,17 @@ impl Unit {
             Unit::MetrePerSecondSquared => "m/s^2",
             Unit::Newton => "N",
             Unit::NewtonMetre => "N m",
+        }
+    }
+
+    /// The unit as people write it, for example `rad/s²` and `N·m`.
+    #[must_use]
+    pub const fn shown(self) -> &'static str {
+        match self {
+            Unit::RadianPerSecondSquared => "rad/s²",
+            Unit::MetrePerSecondSquared => "m/s²",
+            Unit::NewtonMetre => "N·m",
+            Unit::Radian | Unit::RadianPerSecond | Unit::Metre | Unit::MetrePerSecond | Unit::Newton => self.symbol(),
         }
     }
 
@@ -57,6 +68,6 @@ impl Unit {
 
 impl fmt::Display for Unit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.symbol())
+        f.pad(self.shown())
     }
 }

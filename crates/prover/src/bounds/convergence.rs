@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn second_order_is_seen_and_its_error_estimated_exactly() {
+    fn second_order_is_observed_and_its_error_estimate_exact() {
         let [double, single, half] = runs(2, 7.0);
         let found = Convergence::of(&double, &single, &half, false, 2.0, 0.0);
         assert!((found.observed - 2.0).abs() < 1e-9 && found.safety == 1.25);
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn first_order_where_second_is_due_is_not_trusted_less_is_guarded() {
+    fn an_unexpected_first_order_gets_a_larger_safety_factor() {
         let [double, single, half] = runs(1, 7.0);
         let found = Convergence::of(&double, &single, &half, false, 2.0, 0.0);
         assert!(found.is_trusted() && found.safety == 3.0 && (found.error - 2e-3).abs() < 1e-12);
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn an_order_below_a_half_is_not_believed_and_extrapolation_asks_for_more() {
+    fn orders_below_a_half_are_untrusted_and_extrapolation_guarded() {
         // Differences of 1.1 and 1 give an order of 0.14. This order alone would make the error ten times the
         // difference.
         let slow = Convergence::of(&[2.1], &[1.0], &[0.0], false, 2.0, 0.0);
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn an_order_that_is_only_nearly_right_gets_the_larger_factor() {
+    fn a_nearly_formal_order_gets_the_larger_safety_factor() {
         let runs = [2.0f64, 1.0, 0.5].map(|h| [7.0 + 2e-3 * h.powf(1.9)]);
         let found = Convergence::of(&runs[0], &runs[1], &runs[2], false, 2.0, 0.0);
         assert!((found.observed - 1.9).abs() < 1e-9 && found.safety == 3.0, "{found:?}");
@@ -209,14 +209,14 @@ mod tests {
     }
 
     #[test]
-    fn where_the_finer_difference_is_rounding_the_coarser_one_tells() {
+    fn a_coarse_difference_replaces_a_fine_one_below_rounding() {
         // At half the step a quarter of the difference is expected. The estimate adds a third of that.
         let found = Convergence::of(&[3e-6], &[0.0], &[0.0], false, 2.0, 1e-12);
         assert!(found.observed.is_nan() && (found.error - 1e-6).abs() < 1e-18, "{found:?}");
     }
 
     #[test]
-    fn whole_turns_of_any_run_are_no_difference() {
+    fn whole_turns_between_runs_are_no_difference() {
         let [double, single, half] = runs(2, 1.0);
         let plain = Convergence::of(&double, &single, &half, true, 2.0, 0.0);
         for run in 0..3 {
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_difference_that_vanishes_by_chance_is_not_taken_for_the_error() {
+    fn an_accidentally_small_difference_is_not_the_error() {
         // The errors are 3 h^2 - 2.3 h^4. At the single and the half step they are 0.70 and 0.61, nearly alike.
         let [double, single, half] = [2.0f64, 1.0, 0.5].map(|h| [3.0 * h.powi(2) - 2.3 * h.powi(4)]);
         let found = Convergence::of(&double, &single, &half, false, 2.0, 0.0);
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn the_limit_is_exact_where_the_order_is() {
+    fn the_limit_is_exact_at_the_formal_order_only() {
         let [double, single, half] = runs(2, 7.0);
         let found = Convergence::of(&double, &single, &half, false, 2.0, 0.0);
         let limit = found.limit(&single, &half, false).unwrap();
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn fewer_sweeps_tell_the_error_of_the_iteration() {
+    fn runs_with_fewer_sweeps_give_the_iteration_error() {
         let of = |values: &[f64]| {
             let times = vec![0.0, 1.0];
             let channels = vec![Channel::named("joint.A.fx_N").unwrap()];
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_is_a_bound_that_nothing_meets() {
+    fn nan_gives_a_bound_that_no_residual_meets() {
         for place in 0..3 {
             let mut runs = [2.0f64, 1.0, 0.5].map(|h| vec![h * h, 2.0 * h * h]);
             runs[place][0] = f64::NAN;

@@ -38,7 +38,7 @@ pub struct OtherSweeps<T> {
 }
 
 impl<T> OtherSweeps<T> {
-    /// The same runs, read by `f`.
+    /// The same runs, each converted by `f`.
     pub fn map<'s, U>(&'s self, mut f: impl FnMut(&'s T) -> U) -> OtherSweeps<U> {
         let runs = self.runs.each_ref().map(|run| run.as_ref().map(&mut f));
         OtherSweeps { runs, factor: self.factor, growth: self.growth }
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn an_iteration_that_has_hardly_begun_is_not_taken_for_converged() {
+    fn early_iterations_do_not_count_as_converged() {
         for factor in [2.0f64, 4.0] {
             for q in [0.2f64, 0.5, 0.8, 0.9, 0.97, 0.99] {
                 // The error of n sweeps is q^n. The run with the fewest sweeps has one.
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_channel_converges_no_sooner_than_the_others() {
+    fn a_channel_converges_no_faster_than_the_others() {
         let shrinking: [&[f64]; 3] = [&[1.0], &[0.1], &[0.0]];
         assert!((left(shrinking, 4.0, 0.0, 0.0) - 3.0 * 0.1 * (1.0 / 9.0)).abs() < 1e-12);
         assert!((left(shrinking, 4.0, 0.9, 0.0) - 0.1 * 9.0).abs() < 1e-12);

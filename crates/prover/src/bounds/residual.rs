@@ -311,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_turns_are_no_difference_but_a_slip_on_the_way_is() {
+    fn constant_whole_turns_are_ignored_but_a_lost_turn_is_not() {
         let a = trajectory(&[("link.a.angle_rad", vec![0.0, 1.0, 2.0])]);
         let b = trajectory(&[("link.a.angle_rad", vec![TAU, 1.0 + TAU, 2.0])]);
         let residual = &residuals(&a, &b).unwrap()[0];
@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn a_nearly_constant_channel_is_measured_by_its_family() {
+    fn a_nearly_constant_channel_takes_the_scale_of_its_family() {
         let a = trajectory(&[("joint.A.fx_N", vec![-500.0, 500.0]), ("joint.A.fy_N", vec![1.0, 1.0])]);
         assert_eq!(scales(&a), [500.0, 0.5]);
         // A constant force is measured by its own value.
@@ -329,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn a_force_on_the_frame_is_rounded_as_the_forces_that_it_sums() {
+    fn the_magnitude_of_a_frame_force_is_that_of_its_summands() {
         let all = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![3.0, 4.0])]);
         assert_eq!(magnitudes(&all), [2e9, 2e9]);
         assert_eq!(magnitudes_by(&all, &[0, 0], &|_, _| true), [2e9, 2e9]);
@@ -344,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn one_instant_is_measured_by_the_size_of_the_mechanism() {
+    fn scales_of_a_single_instant_come_from_the_mechanism() {
         let a = trajectory(&[
             ("link.a.angle_rad", vec![0.3]),
             ("link.a.x_m", vec![-2.0]),
@@ -356,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn quantities_that_vanish_everywhere_are_measured_by_the_crank_and_by_forces() {
+    fn zero_channels_take_scales_from_the_crank_and_forces() {
         // One radian per second over two seconds: the half range of the crank angle is 1.
         let a = trajectory(&[
             ("link.a.alpha_rad_s2", vec![0.0, 0.0, 0.0]),
@@ -369,7 +369,7 @@ mod tests {
     }
 
     #[test]
-    fn where_nothing_has_a_size_it_is_what_the_case_is_built_for() {
+    fn without_any_scale_nominal_values_of_the_case_are_used() {
         let still = Trajectory::new(
             vec![0.0, 1.0],
             vec![2.0; 2],
@@ -388,7 +388,7 @@ mod tests {
 
     /// Each quantity that vanishes has the size that follows from the crank: here 6 rad in 4 s, 3 m and 500 N.
     #[test]
-    fn what_vanishes_has_the_size_that_follows_from_the_crank() {
+    fn sizes_of_zero_channels_follow_from_the_crank() {
         let names =
             ["link.a.angle_rad", "link.a.omega_rad_s", "link.a.alpha_rad_s2", "point.P.vx_m_s", "point.P.ax_m_s2"];
         let channel = |name: &str| Channel::named(name).unwrap();
@@ -425,7 +425,7 @@ mod tests {
     }
 
     #[test]
-    fn a_residual_has_its_place_and_its_means() {
+    fn a_residual_has_its_instant_and_statistics() {
         let own = |values: [f64; 5]| {
             let channels = vec![Channel::named("joint.A.fx_N").unwrap()];
             let (times, cranks) = (vec![0.0, 0.1, 0.2, 0.3, 0.4], vec![5.0, 6.0, 7.0, 8.0, 9.0]);
@@ -439,14 +439,14 @@ mod tests {
     }
 
     #[test]
-    fn no_difference_is_a_share_of_zero_without_a_scale_too() {
+    fn a_zero_residual_without_scale_has_share_zero() {
         let still = trajectory(&[("joint.A.fx_N", vec![0.0, 0.0])]);
         let found = residuals(&still, &still).unwrap();
         assert_eq!((found[0].scale, found[0].share()), (0.0, 0.0));
     }
 
     #[test]
-    fn a_difference_is_the_other_less_the_reference_and_keeps_nan() {
+    fn differences_are_other_minus_reference_and_keep_nan() {
         let a = trajectory(&[("joint.A.fx_N", vec![1.0, 2.0])]);
         let b = trajectory(&[("joint.A.fx_N", vec![1.5, 1.0])]);
         assert_eq!(difference(&a, &b).unwrap().iter().next().unwrap().1, [0.5, -1.0]);

@@ -309,13 +309,13 @@ mod tests {
     }
 
     #[test]
-    fn not_a_number_never_agrees() {
+    fn nan_never_agrees() {
         assert_eq!(Verdict::of(f64::NAN, 1.0, String::new).word(), "disagree");
         assert_eq!(Verdict::of(1.0, f64::NAN, String::new).word(), "disagree");
     }
 
     #[test]
-    fn nothing_left_of_nothing_allowed_agrees_with_all_margin() {
+    fn a_zero_residual_meets_a_zero_bound() {
         assert_eq!(Verdict::of(0.0, 0.0, String::new), Verdict::Agree { margin: f64::INFINITY });
     }
 
@@ -325,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_open_says_what_would_close_it() {
+    fn an_inconclusive_verdict_names_its_remedy() {
         let told = |parts: Parts| match Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2) {
             Verdict::Inconclusive { reason, advice } => (reason, advice),
             other @ (Verdict::Agree { .. } | Verdict::Disagree { .. } | Verdict::Expected { .. }) => {
@@ -335,18 +335,18 @@ mod tests {
         let (_, advice) = told(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1, reference: 0.0 });
         assert_eq!(advice, [Advice::SmallerStep { to: None }]);
         let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.5, rounding: 0.1, reference: 0.0 });
-        assert!(reason.ends_with("left by the sweeps") && advice == [Advice::MoreSweeps { to: None }], "{reason}");
+        assert!(reason.ends_with("iteration error") && advice == [Advice::MoreSweeps { to: None }], "{reason}");
         let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.1, rounding: 0.5, reference: 0.0 });
         assert!(reason.ends_with("most of it is rounding"), "{reason}");
         assert_eq!(advice, [Advice::LargerStep { to: None }, Advice::DoublePrecision]);
         let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.2, rounding: 0.3, reference: 0.7 });
-        assert!(reason.ends_with("the reference's own") && advice == [Advice::ShortenGrid], "{reason}");
+        assert!(reason.ends_with("the error of the reference") && advice == [Advice::ShortenGrid], "{reason}");
         let (reason, _) = told(Parts { iteration: f64::INFINITY, ..Parts::default() });
         assert!(reason.starts_with("the sweeps have hardly begun to converge"), "{reason}");
     }
 
     #[test]
-    fn a_check_without_a_number_uses_more_of_its_bound_than_any_other() {
+    fn a_nan_check_uses_infinitely_much_of_its_bound() {
         let used = |value: f64, bound: f64| {
             Check::new("f", value, Tolerance { bound, basis: BoundBasis::Wanted("test") }, "").used()
         };
@@ -355,7 +355,7 @@ mod tests {
     }
 
     #[test]
-    fn a_reason_ends_with_its_way_out() {
+    fn a_reason_ends_with_its_remedy() {
         let parts = Parts { discretisation: 0.5, ..Parts::default() };
         let open = Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2).from_settings(1e-3, false, 0);
         let told = open.reason(Advice::to_string).unwrap();
@@ -365,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn an_engine_that_does_not_converge_or_is_too_coarse_proves_nothing() {
+    fn an_engine_without_convergence_or_too_coarse_is_inconclusive() {
         assert_eq!(judged(1e-4, 2.0, 1e-3).word(), "agree");
         assert_eq!(judged(1e-2, 2.0, 1e-3).word(), "disagree");
         assert_eq!(judged(1e-4, 0.3, 2e-3).word(), "inconclusive");
@@ -380,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_beside_nothing_proves_nothing() {
+    fn an_error_on_a_zero_scale_is_inconclusive() {
         let nothing = Residual { scale: 0.0, ..residual(1e-9) };
         let parts = Parts { discretisation: 1.0, ..Parts::default() };
         let verdict = Verdict::of_engine(&nothing, &converging(2.0), parts, 1e-2);
@@ -388,7 +388,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bound_on_a_check_must_be_borne_out_and_small_like_one_on_a_channel() {
+    fn check_bounds_need_order_and_size_like_channel_bounds() {
         let check = |value: f64, observed: f64, discretisation: f64| {
             let parts = Parts { discretisation, ..Parts::default() };
             Check::estimated("f", value, &converging(observed), parts, BoundBasis::Wanted("test"), 1e-2).verdict
@@ -410,7 +410,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_known_to_be_wrong_must_be_the_one_that_is_right_instead() {
+    fn a_known_wrong_number_requires_the_corrected_value() {
         assert_eq!(known_wrong(7.2), Verdict::Expected { finding: "why".into(), off: 7.2 - 5.0 });
         let reason = |found: f64| match known_wrong(found) {
             Verdict::Disagree { place } => place,
@@ -425,7 +425,7 @@ mod tests {
     }
 
     #[test]
-    fn the_whole_is_as_good_as_its_worst_part() {
+    fn the_overall_verdict_is_the_worst_one() {
         let agree = Verdict::Agree { margin: 2.0 };
         let open = Verdict::open("why");
         let no = Verdict::Disagree { place: "there".into() };

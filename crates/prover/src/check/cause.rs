@@ -27,7 +27,7 @@ pub enum FormulaCause {
     Factor(f64),
     /// A term or factor of the derivation is missing.
     Missing(Missing),
-    /// Terms are missing that the mechanism contains.
+    /// Terms of the mechanism are missing from the formula.
     Terms(Vec<Term>),
     /// The formula is right up to a crank angle (rad) and follows another branch beyond it.
     Leaves {
@@ -250,7 +250,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     if let Some(found) = leaves(&rows).filter(|_| is_exact) {
         return Some(found);
     }
-    // Remainder that one of this many equally simple slips leaves by chance at two independent instants.
+    // With the probability `CHANCE`, one of this many equally simple slips leaves so little at two instants.
     let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
     let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
     let mostly = |own: Mended| FormulaCause::Mostly { cause: Box::new(FormulaCause::Slip(own.slip)), left: own.left };
@@ -332,7 +332,7 @@ mod tests {
 
     /// Ten numbers known to 1e-12: an offset or a factor must leave a remainder as small as that in each of them.
     #[test]
-    fn an_offset_or_a_factor_leaves_nothing_over() {
+    fn an_offset_or_factor_must_explain_every_row() {
         let found = |of: &dyn Fn(f64) -> f64, off: f64| {
             let mut rows: Vec<Row> = (0..10u32)
                 .map(|k| {

@@ -259,7 +259,7 @@ mod tests {
 
     /// The error is the larger of the error at the instant and the channel's limit, in the unit of the claim.
     #[test]
-    fn no_channel_is_known_better_than_its_limit() {
+    fn the_error_of_a_channel_is_at_least_its_limit() {
         let case = of_repository("scenarios/crank_rocker.toml").case;
         let claim = Claim::parse("link.rocker.angle_deg", &case).unwrap();
         let trajectory = analytic::AssurSolver.solve(&case).unwrap();
@@ -278,7 +278,7 @@ mod tests {
 
     /// Root of the sum of squares of both components, with both errors propagated.
     #[test]
-    fn a_magnitude_is_known_as_well_as_its_components() {
+    fn a_magnitude_has_the_errors_of_its_components() {
         let case = of_repository("scenarios/crank_rocker.toml").case;
         let claim = Claim::parse("joint.A.f_N", &case).unwrap();
         let trajectory = analytic::AssurSolver.solve(&case).unwrap();

@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn powers_of_kilogram_metre_and_second_follow_the_operations() {
+    fn dimensions_follow_the_operations() {
         let force = [1.0, 1.0, -2.0];
         for (text, wanted) in [
             ("m*l/t^2", Some(force)),

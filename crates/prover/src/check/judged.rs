@@ -193,7 +193,7 @@ mod tests {
     /// Errors of a formula and of the mechanism as shares of the scale.
     /// A formula decides nothing if it is known much worse than the mechanism, and to less than six digits.
     #[test]
-    fn digits_are_lost_only_where_the_mechanism_has_them() {
+    fn lost_digits_count_only_if_the_mechanism_has_them() {
         let case = of_repository("scenarios/crank_rocker.toml").case;
         let claim = Claim::parse("link.rocker.omega_rad_s", &case).unwrap();
         let mut formulas = Formulas::over(Vec::new());

@@ -33,7 +33,7 @@ const FEWEST: usize = 4;
 /// Relative accuracy to which a constant amount is recognised as a product of known quantities.
 const ACCURACY: f64 = 1e-9;
 
-/// Missing amount at a place by instant, with its error; `None` where it cannot be determined.
+/// Missing amount at one position of the formula, per instant, with its error; `None` if it cannot be determined.
 type Needed = Vec<Option<[f64; 2]>>;
 
 /// Largest expected number of products that match by chance.

@@ -125,7 +125,7 @@ impl<'a> Trial<'a> {
         self.sheet.operations() >= self.limit
     }
 
-    /// Whether the mechanism's value is the same at all instants, or there is only one.
+    /// Whether the mechanism's value is the same at all instants, or there is only one instant.
     pub(super) fn is_constant(&self) -> bool {
         is_one(self.pairs.iter().map(|pair| pair.mechanism))
     }

@@ -169,7 +169,7 @@ mod tests {
 
     /// The channel has a scale of 4. Of several allowances for one channel, the last of each kind counts.
     #[test]
-    fn what_is_allowed_is_the_larger_of_what_is_said() {
+    fn the_larger_of_absolute_and_relative_allowances_counts() {
         let channel = Channel::named("point.B.x_m").unwrap();
         let claim = Claim::of_channels("point.B.x_mm", &[channel]).unwrap();
         let (absolute, relative, of_value) = (Size::Absolute, Size::Relative, Size::OfValue);
@@ -187,7 +187,7 @@ mod tests {
         ] {
             assert_eq!(how(&said).allowances().of(&claim, 4.0), allowed, "{said:?}");
         }
-        // For the crank: an allowance in degrees, a share of its range, and none from an allowance for another channel.
+        // The crank accepts an allowance in degrees or as a share of its range, but not one for another channel.
         let crank = |said: &[(Option<&str>, Size)]| how(said).allows_crank(4.0).map(|own| own.fixed);
         assert_eq!(crank(&[(Some("crank"), absolute(180.0))]), Some(std::f64::consts::PI));
         assert_eq!(crank(&[(None, relative(0.5))]), Some(2.0));
@@ -197,7 +197,7 @@ mod tests {
     /// A word matches an expression of channels by its text, or if it matches all its channels. A word without a match
     /// is named.
     #[test]
-    fn words_mean_claims_by_what_all_their_channels_are_called() {
+    fn a_word_selects_claims_whose_channels_all_match() {
         let channels = ["point.B.x_m", "point.B.y_m"].map(|name| Channel::named(name).unwrap());
         let claim = Claim::of_channels("point.B.x_m + point.B.y_m", &channels).unwrap();
         for (word, is_meant) in [

@@ -37,7 +37,7 @@ pub struct Explained {
     pub but: Option<f64>,
 }
 
-/// Remaining shares of the largest difference that are allowed for a cause.
+/// Shares of the largest difference that a cause may leave unexplained.
 /// At first nothing beyond the bounds may remain, then little, such as the additional error of a simulation.
 const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
 
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_go_on_where_they_were() {
+    fn wrapped_angles_are_unwrapped() {
         let right: Vec<f64> = (0..60).map(|row| 0.3 + 0.25 * f64::from(row)).collect();
         let twice: Vec<f64> = right.iter().map(|angle| 2.0 * angle - 0.3).collect();
         for (meant, is_right) in [(&right, true), (&twice, false)] {

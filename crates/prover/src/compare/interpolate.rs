@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cubic_is_met_and_a_sine_within_its_bound() {
+    fn interpolation_is_exact_for_cubics_and_bounded_for_sines() {
         let at: Vec<f64> = (0..40).map(|row| 0.2 * f64::from(row) + 0.03 * f64::from(row % 3)).collect();
         let of = |f: &dyn Fn(f64) -> f64| {
             let values: Vec<Rounded> = at.iter().map(|&at| Rounded::exact(f(at))).collect();
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_of_rows_are_passed_on_by_their_weights() {
+    fn row_errors_propagate_with_their_weights() {
         let at: Vec<f64> = (0..20).map(f64::from).collect();
         let values: Vec<Rounded> = at.iter().map(|&at| Rounded { value: at, error: 1e-6 }).collect();
         // Midway between two rows the weights are -1/16, 9/16, 9/16 and -1/16. Their sizes add up to 5/4.
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn an_angle_that_jumps_by_a_turn_is_smooth() {
+    fn an_angle_that_wraps_is_interpolated_smoothly() {
         let at: Vec<f64> = (0..20).map(f64::from).collect();
         let values: Vec<Rounded> = at.iter().map(|at| Rounded::exact((100.0 * at).rem_euclid(360.0))).collect();
         let found = Course::new(&at, &values, Some(360.0)).value(7.5);

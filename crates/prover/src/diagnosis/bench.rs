@@ -236,7 +236,7 @@ mod tests {
 
     /// Worked by hand: -1 <= own + amount effect <= 1 for every value.
     #[test]
-    fn amounts_of_an_effect_keep_everything_within_its_bound() {
+    fn amounts_of_an_effect_keep_all_values_within_bounds() {
         for (own, effect, wanted) in [
             (vec![4.0], vec![2.0], Some([-2.5, -1.5])),
             (vec![4.0], vec![-2.0], Some([1.5, 2.5])),

@@ -32,9 +32,9 @@ pub struct Deviation {
 pub struct AnalyticSide {
     /// Name of the solver.
     pub name: &'static str,
-    /// Every channel beside its truth; empty if the side failed, or if there is nothing to hold it against.
+    /// Every channel compared with its truth; empty if the side failed, or if there is nothing to compare with.
     pub deviations: Vec<Deviation>,
-    /// Largest opening of a joint over the size of the mechanism or its distance from the origin.
+    /// Largest opening of a joint, over the larger of the mechanism's size and its distance from the origin.
     pub closure: Option<f64>,
     /// Balancing moment from equilibrium less that from powers, over the moments in the balance.
     pub balance: Option<f64>,
@@ -60,10 +60,10 @@ pub struct BothSides {
     pub trajectory: Option<Trajectory>,
 }
 
-/// Both sides on a case, against `truth` where it is given, and judged as in a proof.
+/// Solves a case with both sides, compares them with `truth` if it is given, and judges as in a proof.
 ///
 /// # Errors
-/// If `truth` stands on another grid. A side that fails is part of the result.
+/// If `truth` has another grid. A side that fails is part of the result.
 pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<BothSides> {
     let solve = |side: &dyn Solver| observe(case, side, Watch::Side, &mut |_| {}).map_err(Error::from);
     let found = EachSide::of(|side| counted(|| solve(TRUE_SIDES[side].solver)));
@@ -156,7 +156,7 @@ mod tests {
 
     /// At one instant between others, in every channel.
     #[test]
-    fn numbers_from_outside_that_are_off_at_one_instant_are_seen() {
+    fn external_numbers_wrong_at_one_instant_are_found() {
         let case = of_repository("scenarios/crank_rocker.toml").case;
         let cranks = [0.0, 1.0, 2.0, 3.0].to_vec();
         let case = case.on(Grid::of_inputs(case.crank(), cranks)).unwrap();

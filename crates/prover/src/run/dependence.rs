@@ -18,7 +18,7 @@ pub(super) struct Dependence {
 }
 
 impl Dependence {
-    /// A prescribed motion comes to a link through its own group and those before it. Forces, and a motion that they
+    /// Under a prescribed motion, a link depends on its own group and those before it. Forces, and a motion that they
     /// decide, depend on all groups.
     pub(super) fn of(case: &Case, channels: &[Channel]) -> Self {
         let all: Vec<GroupId> = case.structure.groups.ids().collect();
@@ -88,7 +88,7 @@ mod tests {
     use scenario::of_repository;
 
     #[test]
-    fn motions_depend_on_the_groups_before_and_forces_on_all() {
+    fn motions_depend_on_earlier_groups_and_forces_on_all() {
         let case = of_repository("scenarios/ov7_base.toml").case;
         let solved = solve(&case).unwrap();
         let found = Dependence::of(&case, solved.channels());

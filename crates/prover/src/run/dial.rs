@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_follow_the_dial_and_what_was_not_judged_by_them_stays() {
+    fn the_tolerance_scale_changes_bounds_but_no_open_verdict() {
         let agree = || Verdict::Agree { margin: 2.0 };
         let disagree = || Verdict::Disagree { place: String::new() };
         assert_eq!(judged(agree(), 1.0, 0.5), ("agree", 1.0));

@@ -192,10 +192,10 @@ mod tests {
     }
 
     /// A pendulum with friction, released from rest, reverses twice in three seconds.
-    /// Impulses are read from six steps, one step late, so five of the longest steps (11 ms) are doubtful.
+    /// Impulses are read from six steps, one step late, so the doubt reaches five of the longest steps (11 ms).
     /// For second differences the doubt reaches 17.6 ms.
     #[test]
-    fn forces_beside_a_reversal_of_a_free_motion_are_left_out_and_no_others() {
+    fn only_forces_beside_a_reversal_of_free_motion_are_left_out() {
         let text = text("scenarios/pendulum.toml").replace("step_s = 0.01", "step_s = 0.001");
         let grid = text.split("[[oracle]]").next().unwrap();
         let case = parsed(&format!("{grid}\n[[loads]]\ntype = \"resistance\"\nlink = \"rod\"\nmoment_N_m = 1\n"));

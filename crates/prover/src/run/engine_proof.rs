@@ -106,7 +106,7 @@ impl SearchEnd {
             return;
         }
         let (why, way_out) = match self {
-            // The given settings decide, so the advice of the verdict stays.
+            // The result depends on the given settings only, so the verdict keeps its advice.
             SearchEnd::Decided | SearchEnd::Nothing => return,
             SearchEnd::Rounding => (sentences::A_FINER_STEP_ADDS_MORE_ROUNDING, vec![Advice::OtherEngine]),
             SearchEnd::Budget => (sentences::THE_WORK_THAT_WAS_ALLOWED, vec![Advice::MoreWork { to: 10.0 * budget }]),

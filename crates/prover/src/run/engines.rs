@@ -1,4 +1,4 @@
-//! One engine against the reference, at the requested settings or at those that it finds.
+//! One engine against the reference, at the given settings or at those that the search finds.
 
 use crate::sentences;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use linkage::error::{Advice, ErrorKind, Result};
 use linkage::math::KeepNan;
 use scenario::EngineSettings;
 
-/// Runs an engine on `case`, at the requested settings or at those that it finds, and judges it.
+/// Runs an engine on `case`, at the given settings or at those that the search finds, and judges it.
 pub(super) fn prove(
     judge: &Judge,
     case: &Case,

@@ -33,7 +33,7 @@ pub(super) fn of(
     let ran: Vec<(&EngineProof, Trajectory)> =
         ran.filter_map(|engine| Some((engine, thin(engine.trajectory.as_ref()?)))).collect();
 
-    // The bound is on the difference of the two sides.
+    // The bound is on the difference of the two sides, so each side gets half of it.
     let halves: Vec<_> = between.iter().map(|judged| (judged.channel.clone(), judged.bound / 2.0)).collect();
     let mut parties: Vec<DiagnosedParty> = own
         .iter()
@@ -121,7 +121,7 @@ mod tests {
 
     /// The engine decides between the two sides, and the cause is named for the one that is wrong.
     #[test]
-    fn a_side_that_the_other_side_and_the_engine_contradict_stands_alone() {
+    fn a_side_contradicted_by_side_and_engine_is_the_odd_one_out() {
         let scenario = of_repository("scenarios/crank_rocker.toml");
         let case = &scenario.case;
         let right = prove(&scenario, &Options::default()).unwrap();

@@ -111,7 +111,7 @@ mod tests {
     /// Below 0.5 rad the formula has no value. Its derivatives have values there, but these are wrong for another
     /// reason.
     #[test]
-    fn only_the_value_is_said_to_be_undefined() {
+    fn only_the_value_is_reported_as_undefined() {
         let mut scenario = of_repository("scenarios/crank_rocker.toml");
         let claim = Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
         scenario.formulas.add("late", "phi*180/pi + 0.001*ln(phi - 0.5)").unwrap().claim = Some(claim);

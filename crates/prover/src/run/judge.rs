@@ -22,7 +22,7 @@ use linkage::trajectory::{Channel, ChannelKind, ChannelSubject, Stage, Trajector
 
 /// Number of steps at the beginning of a free motion whose second differences come from later steps.
 const BEGINNING: f64 = 5.0;
-/// Share of the widest conclusive bound that rounding may take before the beginning is left out.
+/// If rounding exceeds this share of the widest conclusive bound, the beginning is left out.
 const MOST_ROUNDING: f64 = 0.1;
 
 /// Number of values of one run that are copied at a time for a comparison.

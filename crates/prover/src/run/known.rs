@@ -261,7 +261,7 @@ mod tests {
 
     /// A motion under forces does not regain lost accuracy. A prescribed motion is as accurate as its pose.
     #[test]
-    fn the_worst_condition_so_far_counts_under_forces() {
+    fn in_free_motion_the_worst_condition_so_far_counts() {
         let falls = |name: &str| {
             let case = of_repository(&format!("scenarios/{name}")).case;
             let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
@@ -279,7 +279,7 @@ mod tests {
     /// In a motion under forces both integrations have errors. The allowed difference of the sides includes both, and
     /// their common rounding error once.
     #[test]
-    fn sides_may_be_apart_by_what_is_known_of_both() {
+    fn the_allowed_difference_includes_the_errors_of_both_sides() {
         let case = of_repository("scenarios/crank_rocker_runup.toml").case;
         let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
         let [own, other] = sides.map(|side| side.solve(&case).unwrap());
@@ -306,7 +306,7 @@ mod tests {
     /// Side 2 calculates from mass centres: positions on a link are as uncertain as the last digit of their distance
     /// from there.
     #[test]
-    fn a_mass_centre_far_from_its_joints_is_a_lever_of_rounding() {
+    fn a_distant_mass_centre_amplifies_rounding() {
         let Scenario { text, path, .. } = of_repository("scenarios/crank_rocker.toml");
         let of = |text: &str| lever(&Scenario::parse(text, &path).unwrap().case, &[GroupId(0)]);
         let far = text[..text.find("[[oracle]]").unwrap()]
@@ -375,7 +375,7 @@ mod tests {
     /// condition number is 1.
     /// Positions are known to the last digit of their distance, and each four-bar adds its rounding error.
     #[test]
-    fn a_row_of_four_bars_is_known_to_the_digits_of_its_places() {
+    fn rounding_grows_with_distance_and_number_of_four_bars() {
         let motion = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
         let mut beyond = 0;
         for (count, from) in [(1, 1e5), (20, 0.0), (20, 1e3), (20, 1e5)] {
@@ -392,7 +392,7 @@ mod tests {
                 beyond += usize::from(relative > usual(stage));
                 // A fault of fixed size is found: a ten-millionth, while the last digit of a position is 1.5e-11 m.
                 assert!(apart < 1e-7, "{count} from {from} m, {channel}: {apart:e}");
-                // The bound on a coordinate is that digit and no more: the distance counts only once.
+                // The bound on a coordinate is that last digit, no more: the distance is not counted twice.
                 let coordinate = channel.kind.unit == Unit::Metre;
                 assert!(!coordinate || apart < 1.1e-12, "{count} from {from} m, {channel}: {apart:e}");
             }

@@ -207,7 +207,7 @@ mod tests {
     /// A method that fails has judged only the instants before. Its first error is the reason, whatever these instants
     /// say.
     #[test]
-    fn a_method_that_fails_proves_nothing() {
+    fn a_failed_method_is_inconclusive() {
         for before in [0.0, 1e-3] {
             let mut worst = Worst::default();
             worst.put(Quantity::Force, before, 0.0);
@@ -224,7 +224,7 @@ mod tests {
 
     /// A NaN at any instant is recorded and kept: no number of the method then counts as right.
     #[test]
-    fn a_method_without_a_number_at_one_instant_disagrees() {
+    fn a_method_with_nan_at_one_instant_disagrees() {
         for values in [[f64::NAN, 0.0, 1e-13], [0.0, f64::NAN, 1e-13], [1e-13, 0.0, f64::NAN], [-f64::NAN, 0.0, 0.0]] {
             let mut worst = Worst::default();
             for (row, value) in values.into_iter().enumerate() {

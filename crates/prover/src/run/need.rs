@@ -171,7 +171,7 @@ pub(super) enum Next {
 }
 
 impl Stall {
-    /// What to do after a round with `sweeps`, by its need and the part that is to blame.
+    /// Decides what to do after a round with `sweeps`, from its need and the part of the bound that is to blame.
     /// Too few sweeps may hide the order of the step, and their error does not always show.
     /// If a smaller step helps little, more sweeps are tried, provided that they are `free`. They are given up if they
     /// help little too.
@@ -220,14 +220,14 @@ mod tests {
     }
 
     #[test]
-    fn impulses_that_no_step_makes_better_are_given_up_in_the_fourth_round() {
+    fn impulses_without_progress_are_given_up_in_round_four() {
         // The first rounds of a parallelogram that swings through its change points.
         let flat = [(3.4e3, 1942.0), (7.4e3, 1893.0), (1.7e4, 1885.0), (2.5e4, 1917.0)];
         assert!(given_up(&flat, 1e6) && !given_up(&flat[..3], 1e6));
     }
 
     #[test]
-    fn a_search_that_gets_on_is_not_given_up() {
+    fn a_search_with_progress_is_not_given_up() {
         assert!(!given_up(&[(1.8e3, 67.3), (3.7e3, 20.3), (7.4e3, 5.7), (1.6e4, 1.9)], 1e6));
         // A search that has just begun to show a bound, or has a conclusive bound, is not given up either.
         let infinite = f64::INFINITY;
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_rounds_may_do_with_more_work() {
+    fn the_same_rounds_continue_with_a_larger_budget() {
         // The need falls as the work grows. A budget that is a hundred times larger suffices.
         let rounds = [(1e3, 8e4), (2e3, 4e4), (4e3, 2e4), (8e3, 1e4)];
         assert!(given_up(&rounds, 1e5) && !given_up(&rounds, 1e7));
@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_that_brings_little_asks_for_sweeps_and_they_stay_if_they_help() {
+    fn a_stalled_step_asks_for_sweeps_kept_only_if_they_help() {
         let [step, sweeps] = [BoundPart::Discretisation, BoundPart::Iteration].map(Next::Blames);
         assert_eq!(
             follow(&[(100.0, 16), (50.0, 16), (45.0, 16), (10.0, 64), (5.0, 64)]),

@@ -273,7 +273,7 @@ mod tests {
 
     /// Forces are relative to the largest force, moments to the largest moment. The larger ratio counts.
     #[test]
-    fn neither_forces_nor_moments_are_out_of_balance() {
+    fn unbalance_is_the_larger_share_of_force_and_moment() {
         for (force, moment, wanted) in
             [(0.0, 0.0, 0.0), (4.0, 0.0, 2.0), (0.0, 4.0, 0.5), (4.0, 4.0, 2.0), (4.0, 32.0, 4.0)]
         {

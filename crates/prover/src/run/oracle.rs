@@ -6,6 +6,7 @@ use super::figures::Measured;
 use super::problem::Problem;
 use super::shifted::{Along, RoundedInstants, TELLING};
 use crate::bounds::{Check, Verdict, magnitudes, scales};
+use crate::numbers;
 use crate::sentences;
 use crate::tolerance::{BoundBasis, BoundOrigin, Tolerance};
 use linkage::case::{Case, Wanted};
@@ -309,7 +310,7 @@ fn of_figures(oracles: &[Oracle], case: &Case, solvers: EachSide<&dyn Solver>) -
                 let tolerance = tolerance(oracle, origin, number.bound.larger(known), 0.0, number.digits);
                 Check::new(family.as_str(), (value - number.value).abs(), tolerance, unit)
                     .of(&figure.name)
-                    .located(|| sentences::given_found(&number.value, &unit, &value))
+                    .located(|| sentences::given_found(&number.value, &numbers::shown(unit), &value))
             };
             let printed = against(&figure.printed, origin(oracle));
             checks.push(match &figure.wrong {
@@ -332,7 +333,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_not_as_expected_comes_before_what_uses_most() {
+    fn failed_checks_rank_above_those_closest_to_their_bound() {
         let check = |value: f64, verdict: Verdict| {
             let tolerance = Tolerance { bound: 1.0, basis: BoundBasis::Wanted("test") };
             Check { verdict, ..Check::new("f", value, tolerance, "") }

@@ -2,7 +2,7 @@
 //!
 //! The cause is a reading that is half a step late, or a wrong weight.
 //! A bound from the engine's runs covers such an error at every step, so the size of the error never reveals it.
-//! Five runs show the order three times, always as the same whole number.
+//! Five runs give the order three times; it counts if all three are near the same whole number.
 //! See docs/numerics/bounds.md.
 
 use crate::sentences;
@@ -117,7 +117,7 @@ mod tests {
     /// Halved steps halve an error of 8. This order is 1, while the method has order 2.
     /// If sweeps, rounding or the reference contribute a fourth of the finest error, the order may be theirs.
     #[test]
-    fn an_order_counts_only_where_nothing_else_is_nearly_as_large() {
+    fn an_order_counts_only_if_other_errors_are_much_smaller() {
         let rungs = |orders: [f64; 3], formal: f64| {
             let error = |k: usize| 8.0 * 0.5f64.powi(k as i32);
             [0, 1, 2].map(|k| Convergence {

@@ -118,7 +118,7 @@ fn by_route(
     }
 }
 
-/// The largest step of `step`, twice, four times `step`, ... up to `most`; `step` if that is larger.
+/// The largest of `step`, 2 `step`, 4 `step`, ... that is at most `most`; `step` itself if it exceeds `most`.
 fn coarser(step: f64, most: f64) -> f64 {
     let times = (most / step).log2().floor();
     if times > 0.0 { step * 2f64.powf(times) } else { step }

@@ -75,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn the_one_that_all_others_contradict_stands_alone() {
+    fn the_party_contradicted_by_all_others_is_the_odd_one_out() {
         let reference = party("assur", &[1.0, 2.0], 0.0);
         let close = party("rapier", &[1.001, 2.0], 0.01);
         let wrong = party("impulse", &[1.0, 2.5], 0.01);
@@ -84,14 +84,14 @@ mod tests {
     }
 
     #[test]
-    fn the_reference_is_a_party_like_any_other() {
+    fn the_reference_can_be_the_odd_one_out() {
         let wrong = party("assur", &[1.5], 0.0);
         let found = apart(&[wrong, party("rapier", &[1.0], 0.01), party("simbody", &[1.0], 1e-9)], false);
         assert_eq!(found.unwrap().1, Some("assur"));
     }
 
     #[test]
-    fn of_two_nobody_stands_alone_nor_where_all_differ() {
+    fn two_or_all_different_parties_have_no_odd_one_out() {
         let two = [party("assur", &[1.0], 0.0), party("rapier", &[2.0], 0.01)];
         assert_eq!(apart(&two, false), Some((vec![["assur", "rapier"]], None)));
         let three = [party("assur", &[1.0], 0.0), party("rapier", &[2.0], 0.01), party("simbody", &[3.0], 0.01)];
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_differs_from_everything() {
+    fn nan_differs_from_everything() {
         let parties = [party("a", &[1.0], 0.0), party("b", &[1.0], 0.1), party("c", &[f64::NAN], 0.1)];
         assert_eq!(apart(&parties, false).unwrap().1, Some("c"));
     }

@@ -96,7 +96,7 @@ fn named<'a>(checks: &'a [Check], name: &str) -> &'a Check {
 fn nothing(_: &mut State, _: f64) {}
 
 #[test]
-fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth() {
+fn side_checks_find_three_times_their_bound_and_pass_a_fifth() {
     let case = parsed("crank_rocker", &text("crank_rocker")).case;
     let [truth, other] = [seen(&case, &AssurSolver), seen(&case, &NewtonSolver)];
     let known = knowing(&case);
@@ -145,7 +145,7 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
 /// It measured by the largest accelerations of the mechanism and by the condition of the worst group.
 /// A channel is now judged by the numbers that it is made of.
 #[test]
-fn regress_a_driving_link_is_judged_by_its_own_numbers_near_a_dead_point() {
+fn regress_a_driving_link_has_its_own_bound_near_a_dead_point() {
     let folded = [
         ("C = { x_mm = 150, y_mm = 15 }", "C = { x_mm = 400, y_mm = 0 }"),
         ("A = { x_m = 0.025995627740337, y_m = 0 }", "A = { x_mm = 300, y_mm = 0 }"),
@@ -176,7 +176,7 @@ fn regress_a_driving_link_is_judged_by_its_own_numbers_near_a_dead_point() {
 
 /// A NaN in the observed quantities must reach the check.
 #[test]
-fn what_is_not_a_number_at_one_instant_disagrees() {
+fn nan_at_one_instant_disagrees() {
     let case = parsed("crank_rocker", &text("crank_rocker")).case;
     let [truth, other] = [seen(&case, &AssurSolver), seen(&case, &NewtonSolver)];
     let known = knowing(&case);
@@ -201,7 +201,7 @@ fn what_is_not_a_number_at_one_instant_disagrees() {
 }
 
 #[test]
-fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
+fn every_class_three_method_is_in_the_proof_and_finds_faults() {
     let scenario = parsed("class3_group", &text("class3_group"));
     let case = &scenario.case;
     let all = [
@@ -281,7 +281,7 @@ fn engine_proven(scenario: &Scenario, hook: Everywhere, search: Search) -> Engin
 /// An opening that does not vanish with the step, and a moment that disagrees with its powers. Both are far below 1 %
 /// of the size.
 #[test]
-fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
+fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
     let scenario = parsed("crank_rocker", &text("crank_rocker"));
     let true_one = engine_proof(&scenario, nothing, 0.0);
     assert_eq!(true_one.verdict.word(), "agree");
@@ -289,7 +289,7 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
         [sentences::CLOSURE_OF_ALL_JOINTS_2, "driving moment"].map(|name| named(&true_one.checks, name).clone());
     // The bound from the engine's own runs is a quarter larger than the opening.
     assert!(closure.bound <= 1.3 * closure.value && closure.bound < 2e-5, "{closure:?}");
-    // An opening has the rounding error of the positions between which it lies.
+    // The opening of a joint has the rounding error of the positions of its two sides.
     let place = true_one.channels.iter().find(|own| own.residual.channel.to_string() == "point.A.x_m").unwrap();
     let rounding = closure.estimate.unwrap().0.rounding * scenario.case.mechanism.size();
     assert!((rounding / place.parts.rounding - 1.0).abs() < 1e-12, "{rounding:e} {:?}", place.parts);
@@ -315,7 +315,7 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
 /// quarter of a step late.
 /// No bound from the engine's own runs would ever be too small for such an error.
 #[test]
-fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
+fn regress_late_readings_converge_with_order_one_and_disagree() {
     let velocities: Fault = |state, late| {
         for motion in &mut state.motions {
             motion.omega -= late * motion.alpha;
@@ -347,7 +347,7 @@ fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
 
 /// The integration error belongs to a side, whichever side is the reference.
 #[test]
-fn a_side_is_known_by_its_own_integration() {
+fn each_side_has_the_error_of_its_own_integration() {
     let plain = text("crank_rocker_runup");
     let short = format!("{}[grid]\nfrom_s = 0\nto_s = 0.1\nstep_s = 0.05\n", &plain[..plain.find("[grid]").unwrap()]);
     let scenario = parsed("crank_rocker_runup", &short);
@@ -365,7 +365,7 @@ fn a_side_is_known_by_its_own_integration() {
 
 /// A difference of the sides is reported with its first instant and as a multiple of the allowed difference.
 #[test]
-fn what_the_sides_differ_by_is_told_in_times_of_what_is_allowed() {
+fn side_differences_are_reported_as_multiples_of_the_bound() {
     let case = parsed("crank_rocker", &text("crank_rocker")).case;
     let truth = seen(&case, &AssurSolver);
     let place = truth.trajectory.channels().iter().position(|own| own.to_string() == "joint.O.fx_N").unwrap();
@@ -399,7 +399,7 @@ fn a_reversed_drive_has_the_reversed_steady_speed() {
 
 /// Channels and checks of extrapolated runs have the same safety factor: see `Convergence::extrapolated`.
 #[test]
-fn every_bound_of_extrapolated_runs_has_the_wider_factor() {
+fn all_bounds_of_extrapolated_runs_have_the_larger_factor() {
     let scenario = parsed("crank_rocker", &text("crank_rocker"));
     for (extrapolated, least) in [(1, 3.0), (2, 10.0)] {
         let options = Options::default().step(2e-3).sweeps(16).extrapolated(extrapolated).route(Route::Differences);
@@ -425,7 +425,7 @@ fn errors_of_an_engine_have_the_sign_of_its_fault() {
 
 /// Every figure is moved by one unit of its last digit.
 #[test]
-fn an_oracle_finds_a_unit_of_its_last_digit() {
+fn an_oracle_detects_one_unit_of_its_last_digit() {
     let name = "crank_rocker";
     let oracle_checks = |text: &str| by_oracles(&parsed(name, text), &|_, _| 0.0);
     assert!(oracle_checks(&text(name)).iter().all(|check| ["agree", "expected"].contains(&check.verdict.word())));
@@ -451,7 +451,7 @@ fn an_oracle_finds_a_unit_of_its_last_digit() {
 
 /// The integration error is added to the bound of numbers at a time, and to no other bound.
 #[test]
-fn the_error_of_an_integration_adds_to_the_bound_of_numbers_at_times() {
+fn integration_error_widens_the_bound_of_numbers_at_a_time() {
     // Numbers at a crank angle, and at a time.
     let both = parsed("five_bar_on_a_spring", &text("five_bar_on_a_spring"));
     let bounds = |left: f64| {
@@ -495,7 +495,7 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
 /// If no force of the mechanism has a size, the scale is what its mass and speed could exert.
 /// A fault of a millionth of a newton is found in a balanced rotor.
 #[test]
-fn a_fault_of_fixed_size_is_found_where_nothing_has_a_size() {
+fn a_fault_of_fixed_size_is_found_without_any_scale() {
     let mut rotor = four_bar([1.0, 0.3, 1.0, 1.0], true);
     rotor.links.truncate(1);
     rotor.pins.truncate(1);

@@ -81,7 +81,7 @@ fn a_fiftieth_more(state: &mut State) {
 }
 
 #[test]
-fn right_forces_agree_in_both_ways() {
+fn correct_forces_agree_by_both_methods() {
     for name in ["crank_rocker", "scotch_yoke", "double_pendulum"] {
         let proof = proven(name, EXERTED, nothing);
         assert_eq!((proof.verdict.word(), proof.force_fault()), ("agree", None), "{name}");
@@ -89,7 +89,7 @@ fn right_forces_agree_in_both_ways() {
 }
 
 #[test]
-fn wrong_impulses_are_found_although_motion_and_forces_that_belong_to_it_are_right() {
+fn wrong_impulses_are_found_despite_a_correct_motion() {
     for name in ["crank_rocker", "double_pendulum"] {
         let proof = proven(name, EXERTED, a_fiftieth_more);
         assert!(proof.channels.iter().all(|channel| channel.verdict.word() == "agree"), "{name}");
@@ -99,7 +99,7 @@ fn wrong_impulses_are_found_although_motion_and_forces_that_belong_to_it_are_rig
 }
 
 #[test]
-fn a_force_read_in_the_wrong_frame_is_found_in_that_joint_and_in_what_rests_on_it() {
+fn a_force_in_the_wrong_frame_is_found_in_dependent_channels() {
     let proof = proven("crank_rocker", EXERTED, in_a_link_s_frame);
     assert_eq!(proof.force_fault(), Some(ForceFault::Exerted));
     let found = against(&proof);
@@ -108,14 +108,14 @@ fn a_force_read_in_the_wrong_frame_is_found_in_that_joint_and_in_what_rests_on_i
 }
 
 #[test]
-fn wrong_equations_of_newton_and_euler_are_told_as_that() {
+fn wrong_newton_euler_equations_are_identified() {
     let proof = proven("crank_rocker", FOLLOWED, in_a_link_s_frame);
     assert_eq!((proof.verdict.word(), proof.force_fault()), ("disagree", Some(ForceFault::Reading)));
     assert!(against(&proof).is_empty());
 }
 
 #[test]
-fn what_is_wrong_in_both_ways_is_told_as_that() {
+fn a_fault_in_both_methods_is_identified() {
     let proof = proven("crank_rocker", &Route::ALL, a_fiftieth_more);
     assert_eq!((proof.verdict.word(), proof.force_fault()), ("disagree", Some(ForceFault::Both)));
 }

@@ -1,4 +1,4 @@
-//! An engine's runs, from which its error is estimated, and the largest step for which there is room.
+//! An engine's runs, from which its error is estimated, and the largest step within the reachable crank angles.
 //! See docs/numerics/settings.md.
 
 use crate::sentences;

@@ -43,7 +43,7 @@ mod tests {
     /// root of it: theta(t; (1 + e) g) = theta(t sqrt(1 + e); g).
     /// Each derivative has one more factor of the root.
     #[test]
-    fn a_pendulum_depends_on_gravity_as_its_own_time_does() {
+    fn sensitivity_of_a_pendulum_to_gravity_is_that_to_time_scale() {
         let case = of_repository("scenarios/pendulum.toml").case;
         let found = AssurSolver.solve(&case).unwrap();
         let sensitivity = of(&case, &AssurSolver, &found).unwrap();

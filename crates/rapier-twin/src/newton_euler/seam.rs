@@ -1,21 +1,21 @@
-//! A joint between two links: where it acts, and what it can transmit as a joint of the tree.
+//! A joint between two links: its points of action, and the forces that it can transmit as a joint of the tree.
 
 use linkage::case::Case;
 use linkage::math::{Vec2, cross, turned};
 use linkage::mechanism::{JointId, JointKind, JointSide, LinkId};
 use linkage::solver::State;
 
-/// Number of components of a pin or a slide. A cut joint with only these unknowns is solved from two equations.
+/// Number of components of a pin or a slide. Two equations determine the components of a cut joint.
 pub(super) const PAIR: usize = 2;
 
 /// A joint between two links.
 #[derive(Clone, Debug)]
 pub(super) struct Seam {
     pub(super) joint: JointId,
-    /// The two links, and their indices in the tree; `None` for the ground.
+    /// The two links, and their indices in the tree (`None` for the ground).
     pub(super) links: [LinkId; 2],
     pub(super) numbers: [Option<usize>; 2],
-    /// +1 for the joint's second link, else -1: the sign with which its reaction acts.
+    /// Sign with which the reaction acts on each link: +1 for the joint's second link, -1 for its first link.
     pub(super) signs: [f64; 2],
     pub(super) pair: Pair,
 }
@@ -29,23 +29,22 @@ pub(super) enum Pair {
 }
 
 /// A joint at one instant: arms from the mass centres of its links to its point of action (m, world axes).
-/// For a prismatic joint also the unit vector across its axis.
+/// For a prismatic joint, also the unit vector across its axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stand {
     pub(super) arms: [Vec2; 2],
     pub(super) normal: Option<Vec2>,
 }
 
-/// Share of the force and moment needed by the outer link that a joint of the tree transmits.
-/// All parts are weights of these three numbers.
+/// How a joint of the tree passes the force and moment that its outer link needs on to the inner link.
+/// Each part is a weighted sum of the three numbers x, y and moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
-    /// The part that the joint cannot transmit: the moment in a revolute joint, the force along the axis of a prismatic
-    /// one.
+    /// The part that the joint cannot transmit: the moment for a revolute joint, the axial force for a prismatic joint.
     left_over: Term,
-    /// The transmitted force: weights of x in x, of x in y (and y in x), of y in y.
+    /// Weights of the transmitted force: of x in x, of x in y (and y in x), of y in y.
     force: Term,
-    /// The moment of this force about the inner link's mass centre.
+    /// Weights of the moment about the inner link's mass centre.
     moment: Term,
 }
 
@@ -83,7 +82,7 @@ impl Seam {
 }
 
 impl Stand {
-    /// Effect of the joint's two components on the link of side `k`, without the sign of the reaction.
+    /// Effect of the joint's two components on the link on side `k`, without the sign of the reaction.
     #[inline]
     pub(super) fn components(&self, k: usize) -> [Term; PAIR] {
         let arm = self.arms[k];
@@ -112,7 +111,7 @@ impl Stand {
         }
     }
 
-    /// Force (N) of a joint of the tree, and moment about its point (N m), that its outer link needs.
+    /// Force (N) and moment about the joint's point (N m) that the outer link needs from a joint of the tree.
     #[inline]
     pub(super) fn reaction(&self, [x, y, moment]: Term) -> (Vec2, f64) {
         match self.normal {
@@ -131,7 +130,7 @@ impl Pass {
         weighed(&self.left_over, term)
     }
 
-    /// Adds to the needs of the inner link what it passes on to the outer link.
+    /// Adds the part that the joint transmits to the outer link to the needs of the inner link.
     #[inline]
     pub(super) fn on(&self, term: &Term, sum: &mut Term) {
         let [xx, xy, yy] = self.force;

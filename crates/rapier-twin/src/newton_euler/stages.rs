@@ -1,4 +1,4 @@
-//! The equations of the tree's joints, and the order in which they are solved.
+//! The equations of the tree's joints, and their order of solution.
 
 use std::ops::Range;
 
@@ -11,14 +11,14 @@ pub(super) struct Limb {
     pub(super) seam: Seam,
     /// Index of the drive that turns the link about its revolute joint.
     pub(super) drive: Option<usize>,
-    /// Components of cut joints on this link and the links beyond it. No other component acts on it.
+    /// Components of cut joints on this link and on the links beyond it. No other component acts on these links.
     pub(super) terms: Vec<usize>,
 }
 
-/// Equations that determine some of the components once the others are known.
+/// Equations that determine some of the components after the others are known.
 #[derive(Debug)]
 pub(super) enum Stage {
-    /// Both components of a cut joint from two equations; the first component is given.
+    /// Two equations for both components of a cut joint; the number is the index of the first component.
     Pair(usize, [Row; PAIR]),
     /// All remaining components, with workspace for the system.
     All { rows: Vec<Row>, terms: Vec<usize>, values: Vec<f64>, matrix: Lu },
@@ -44,7 +44,7 @@ impl Row {
     }
 
     /// Passes the coefficients to `put`, by column, and returns the right-hand side.
-    /// Both follow from what the limb's joint transmits and what its link needs.
+    /// Coefficients and right-hand side follow from the limb's joint and from the needs of its link.
     #[inline]
     pub(super) fn equation(
         &self,
@@ -63,9 +63,9 @@ impl Row {
     }
 }
 
-/// Stages in which the components are found.
-/// First come the cut joints whose two components are the only unknowns of two equations; dyads need no more.
-/// Then all others are solved together.
+/// Order in which the components are computed.
+/// First come cut joints whose two components are the only unknowns of two equations; for dyads this is enough.
+/// Then all remaining components are computed together.
 pub(super) fn stages(limbs: &[Limb], cut: &[Range<usize>]) -> Vec<Stage> {
     let mut left: Vec<usize> = (0..limbs.len()).rev().filter(|&number| limbs[number].drive.is_none()).collect();
     let (mut unknown, mut stages): (Vec<usize>, _) = (cut.iter().cloned().flatten().collect(), Vec::new());

@@ -12,11 +12,11 @@ use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{Joint, JointKind, Link, LinkId};
 
-/// Joint frequency (Hz): rigid down to rounding.
+/// Joint frequency (Hz), so high that joints are rigid up to rounding.
 /// The default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
 const JOINT_FREQUENCY: f64 = 1e12;
 
-/// Damping of the velocity motor (N m s/rad) that holds a prescribed speed to rounding.
+/// Damping of a velocity motor (N m s/rad), so high that the prescribed speed is kept up to rounding.
 pub(super) const RIGID_MOTOR: f64 = 1e30;
 
 /// Rapier's vector.
@@ -57,13 +57,13 @@ pub(super) fn between(joint: &Joint, links: [LinkId; 2]) -> GenericJoint {
     }
 }
 
-/// Index of the free coordinate of a joint of [`between`].
-/// For a prismatic joint it is the first, along the axis; for a revolute joint the last, the angle.
+/// Index of the free coordinate of a joint made by [`between`].
+/// For a prismatic joint it is the first (along the axis), for a revolute joint the last (the angle).
 pub(super) fn free_coordinate(joint: &Joint) -> usize {
     if joint.slides() { 0 } else { 2 }
 }
 
-/// A motor on a drive's input, which holds a speed to rounding, and the coordinate that it moves.
+/// A motor on a drive's input, and the coordinate that it moves. The motor keeps a speed up to rounding.
 pub(super) fn motor(drive: &Drive) -> (GenericJoint, JointAxis) {
     let axis = match drive.input {
         Input::Angle => JointAxis::AngX,
@@ -81,18 +81,18 @@ pub(super) fn steered(joint: &Joint, links: [LinkId; 2], axis: Vec2) -> GenericJ
 pub(super) fn body(link: &Link, [mass, inertia]: [f64; 2]) -> RigidBodyBuilder {
     RigidBodyBuilder::dynamic()
         .can_sleep(false)
-        // Without this Rapier limits separate bodies to an eighth of a turn per step.
+        // Without this setting, Rapier limits separate bodies to an eighth of a turn per step.
         .allow_fast_rotation(true)
         .additional_mass_properties(MassProperties::new(vector(link.mass_centre), real(mass), real(inertia)))
 }
 
 /// Integration parameters of a run.
 pub(super) fn parameters(settings: &Settings) -> IntegrationParameters {
-    // The route to reactions concerns only the reading, and extrapolation combines several runs.
+    // The route to reactions affects only the readings, and extrapolation combines several runs.
     let &Settings { resolution, sweeps, substeps, route: _, extrapolated: _ } = settings;
     IntegrationParameters {
         dt: real(resolution),
-        // These are substeps: each restarts the sweeps from zero.
+        // Rapier's iterations are substeps: each restarts the sweeps from zero.
         num_solver_iterations: substeps,
         num_internal_pgs_iterations: sweeps,
         num_internal_stabilization_iterations: sweeps,
@@ -103,8 +103,8 @@ pub(super) fn parameters(settings: &Settings) -> IntegrationParameters {
     }
 }
 
-/// Where a joint's constraint rows were at the start of a step.
-/// The direction is that of the first joint frame's x axis.
+/// Position of a joint's constraint rows at the start of a step.
+/// The direction is that of the x axis of the first joint frame.
 /// The arms go from the mass centres of both bodies to the rows.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Frame {

@@ -7,9 +7,10 @@ use linkage::math::{Vec2, cross, rotated, turned};
 use linkage::mechanism::{JointId, LinkId};
 
 impl Twin {
-    /// Stores where the joints to be read act, interpolated by `share` between the stored frames and the present ones.
+    /// Stores points of action and axes of the joints to be read.
+    /// They are interpolated between the stored frames and the present frames; `share` is the weight of the latter.
     /// Rapier gives impulses in the axes at the start of the last substep, which lies between poses that can be read.
-    /// Between them, frames are assumed to move along a straight line, with errors of second order.
+    /// Between these poses, frames are assumed to move along a straight line, with errors of second order.
     /// The errors of the impulses themselves are of first order.
     pub(super) fn keep_frames(&mut self, share: f64) {
         for index in 0..self.cuts.len() {
@@ -64,7 +65,7 @@ impl Twin {
                 (axis * rows[0] + across * rows[1], 0.0)
             }
         };
-        // The impulse is that of the last substep. Its sign is that on the body that Rapier calls first.
+        // The impulse is that of the last substep. It acts on Rapier's first body.
         let swapped = cut.steered.is_some_and(|(link, _)| link != cut.joint.first.link);
         let duration = if swapped { self.substep() } else { -self.substep() };
         Some((force / duration, moment / duration))

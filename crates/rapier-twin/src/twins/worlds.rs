@@ -1,4 +1,4 @@
-//! Rapier's worlds, written once for both precisions.
+//! Rapier's worlds; one source for both precisions.
 //! This module is compiled against `rapier2d-f64` and against `rapier2d`.
 
 mod joints;
@@ -22,14 +22,15 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, JointId, LinkId, LinkPose};
 
-/// Number of branches of a tree from which a free motion has a separate multibody for every link on the ground.
+/// If a tree has at least this many branches, a free motion has a separate multibody for every link on the ground.
 /// The cost of a row of the sweeps grows with the coordinates of the multibodies of its two links.
-/// It does so whether these coordinates move the links or not: a chain of ten four-bars takes 0.6 of the time.
-/// Smaller trees stay in one multibody.
-/// So do prescribed motions, which have the drives' flywheels.
+/// Coordinates that do not move the links cost as much as the others.
+/// With separate multibodies, a chain of ten four-bars takes 0.6 of the time.
+///
+/// Smaller trees stay in one multibody, and so do prescribed motions, which have the drives' flywheels.
 /// With a multibody for every link on the ground, forces on `ov7_base` at 1.4 ms had errors 60 times as large.
-/// The likely cause: Rapier takes Coriolis forces from the start of a step as soon as those at its end would add a
-/// hundredth to a multibody's energy.
+/// The likely cause: Rapier compares the energy of a multibody with Coriolis forces from the end of a step.
+/// As soon as they would add a hundredth to the energy, it uses those from the start of the step.
 const LARGE: usize = 16;
 
 /// A joint that closes a loop.
@@ -38,16 +39,16 @@ struct Cut {
     joint: Joint,
     index: JointId,
     handle: ImpulseJointHandle,
-    /// The link that Rapier calls first, and the direction of the first row in that link's frame.
+    /// The link that is Rapier's first body, and the direction of the first row in that link's frame.
     /// `None` if both are those of the joint itself.
     steered: Option<(LinkId, Vec2)>,
-    /// Where the joint was at the start of the last substep.
+    /// Position of the joint at the start of the last substep.
     start: joints::Frame,
 }
 
 /// The motor of a drive.
-/// It stands on the ground even if the driving link is joined to a moving link: it gives the link its speed in the
-/// world.
+/// It connects the driving link to the ground, even if the driving link is joined to a moving link.
+/// It therefore sets the link's speed in the world.
 #[derive(Clone, Debug)]
 struct Motor {
     handle: ImpulseJointHandle,
@@ -57,12 +58,12 @@ struct Motor {
     sense: f64,
 }
 
-/// Where a link is in the multibodies.
+/// Position of a link in the multibodies.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     /// Which multibody.
     multibody: usize,
-    /// The first of its coordinates: the index in that multibody.
+    /// Index of the first of its coordinates in that multibody.
     dof: usize,
     /// Its number there.
     id: usize,
@@ -74,7 +75,7 @@ pub(crate) struct Twin {
     tree: SpanningTree,
     joints: Vec<Joint>,
     bodies: Vec<RigidBodyHandle>,
-    /// The multibodies, each given by one of its links; none if all links are separate bodies. See [`LARGE`].
+    /// The multibodies, each given by one of its links; empty if all links are separate bodies. See [`LARGE`].
     multibodies: Vec<MultibodyJointHandle>,
     /// Links outside the tree. They are separate bodies, or float in a multibody.
     outside: Vec<LinkId>,
@@ -89,7 +90,7 @@ pub(crate) struct Twin {
     /// Mass centre of every link, and the inverses of its mass and moment of inertia in this world.
     centres: Vec<Vec2>,
     inverse: Vec<[f64; 2]>,
-    /// Angle of the child minus that of its parent (rad), for every branch whose joint keeps it constant.
+    /// For every branch whose joint keeps it constant: angle of the child minus that of its parent (rad).
     twists: Vec<Option<f64>>,
     /// Frames of all links after the last step or placement.
     frames: Vec<LinkFrame>,
@@ -117,7 +118,8 @@ impl Twin {
         let outside: Vec<LinkId> = mechanism.links().ids().skip(1).filter(is_outside).collect();
         let is_split = case.is_free() && tree.branches.len() >= LARGE;
         let (mut multibodies, mut home) = (Vec::new(), vec![0; bodies.len()]);
-        // Joins a link to the ground: to the shared ground body, or to an additional one for this multibody alone.
+        // Joins a link to the ground: to the shared ground body, or to an additional ground body for this multibody
+        // alone.
         let mut hang = |world: &mut PhysicsWorld, link: LinkId, joint: GenericJoint| {
             let ground = if is_split { world.bodies.insert(RigidBodyBuilder::fixed()) } else { bodies[GROUND] };
             let handle = world.multibody_joints.insert(ground, bodies[link], joint, true)?;
@@ -143,7 +145,7 @@ impl Twin {
         }
         if !tree.branches.is_empty() {
             // Rapier never turns a separate body that is joined to a link of a multibody.
-            // Links outside the tree are therefore links of a multibody too, with all three degrees of freedom.
+            // Links outside the tree are therefore also links of a multibody, with all three degrees of freedom.
             for &link in &outside {
                 home[link] =
                     hang(&mut world, link, joints::floating(&mechanism.links()[link])).expect("it has no parent");
@@ -201,8 +203,8 @@ impl Twin {
         Ok(twin)
     }
 
-    /// Prepares the multibodies; `home` gives the multibody of every link. The order of calls matters: see the
-    /// comments.
+    /// Prepares the multibodies; `home` gives the multibody of every link.
+    /// The order of calls matters, for the reasons given in the comments.
     fn prepare(&mut self, home: &[usize]) {
         if self.multibodies.is_empty() {
             return;
@@ -210,7 +212,7 @@ impl Twin {
         let PhysicsWorld { multibody_joints, bodies, .. } = &mut self.world;
         for &handle in &self.multibodies {
             let (multibody, _) = multibody_joints.get_mut(handle).expect("the multibody exists");
-            // Removes the degrees of freedom of the fixed root; the indices below are wrong before this call.
+            // Removes the degrees of freedom of the fixed root. Before this call, the indices below are wrong.
             multibody.forward_kinematics(bodies, true);
             // Rapier gives every revolute joint a damping of 0.1 N m s/rad by default.
             multibody.damping_mut().fill(0.0);

@@ -4,12 +4,14 @@ use linkage::math::{KeepNan, Vec2, cross, turned};
 use linkage::mechanism::ring;
 use parry2d_f64::transformation::{convex_hull, hertel_mehlhorn_idx};
 
-/// Most corners of an outline. Every pair of parts needs a distance, and every pair of sides a test for crossing.
+/// Upper limit of the number of corners of an outline.
+/// The cost is one distance for every pair of parts and one crossing test for every pair of sides.
 pub const MOST_CORNERS: usize = 500;
-/// Distance below which two corners coincide, or a corner lies on a side; as a share of the outline's extent.
+/// If two corners are nearer than this fraction of the outline's extent, they coincide.
+/// If a corner is nearer than this to a side, it lies on the side.
 const TOUCHING: f64 = 1e-9;
 
-/// Why corners do not form a polygon. Numbers of corners count from 0.
+/// Reason why corners do not form a polygon. Corners are numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Flaw {
     /// Fewer corners than three.
@@ -18,7 +20,7 @@ pub enum Flaw {
     Many(usize),
     /// Two corners at the same position.
     Repeated([usize; 2]),
-    /// The sides that begin at two corners touch or cross.
+    /// Two sides that touch or cross. Each is given by the corner at which it begins.
     Crossing([usize; 2]),
     /// No area: all corners on one line.
     Flat,
@@ -36,8 +38,8 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// A line through the given points (m), rounded by `radius` (m): a chain of capsules, or a disc around a single
-    /// point.
+    /// A line through the given points (m), rounded by `radius` (m).
+    /// It is a chain of capsules, or a disc around a single point.
     ///
     /// # Errors
     /// [`Flaw::Few`] without a point, [`Flaw::Many`], [`Flaw::NoNumber`].
@@ -50,7 +52,8 @@ impl Outline {
         Ok(Outline { corners: places.to_vec(), solid: false, radius, parts })
     }
 
-    /// A polygon with its interior, convex or not, in either sense, rounded by `radius` (m, may be 0).
+    /// A polygon with its interior, rounded by `radius` (m, may be 0).
+    /// The polygon need not be convex, and its corners may be in either sense.
     ///
     /// # Errors
     /// A [`Flaw`] of its corners (m).
@@ -89,7 +92,7 @@ impl Outline {
         Outline::polygon(&line, radius).or_else(|_| Outline::polygon(&hull(&apart), radius))
     }
 
-    /// Corners of the line or polygon (m), a polygon's counter-clockwise.
+    /// Corners of the line or polygon (m). Those of a polygon are counter-clockwise.
     #[must_use]
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
@@ -107,14 +110,14 @@ impl Outline {
         self.radius
     }
 
-    /// Convex parts whose union is the outline without the rounding: points, segments, and counter-clockwise polygons
-    /// (m).
+    /// Convex parts whose union is the outline without the rounding (m).
+    /// They are points, segments, and counter-clockwise polygons.
     #[must_use]
     pub fn parts(&self) -> &[Vec<Vec2>] {
         &self.parts
     }
 
-    /// Its sides (m), each as a pair of ends. A single point is a side without length.
+    /// Sides of the outline (m), each as a pair of ends. A single point is a side without length.
     pub fn sides(&self) -> impl Iterator<Item = [Vec2; 2]> + '_ {
         let count = self.corners.len();
         let sides = if self.solid { count } else { (count - 1).max(1) };
@@ -188,7 +191,8 @@ fn check_simple(corners: &[Vec2]) -> Result<(), Flaw> {
         for j in i + 1..count {
             let is_next = j == i + 1 || (i == 0 && j == count - 1);
             let touch = if is_next {
-                // Neighbours share a corner. If one side folds back onto the other, its end lies on the other.
+                // Neighbouring sides share a corner. If a side folds back onto its neighbour, the end of one lies on
+                // the other.
                 let (one, two) = if j == i + 1 { (side(i), side(j)) } else { (side(j), side(i)) };
                 [(one, two[1]), (two, one[0])].iter().any(|&(own, end)| (end - nearest(end, own)).norm() <= near)
             } else {
@@ -222,7 +226,7 @@ fn foreign(places: &[Vec2]) -> Vec<Foreign> {
     places.iter().map(|place| Foreign::new(place.x, place.y)).collect()
 }
 
-/// Convex parts of a simple counter-clockwise polygon; `None` if it has too little area to be divided.
+/// Convex parts of a simple counter-clockwise polygon. `None` if the polygon has too little area to be divided.
 ///
 /// Ear clipping gives triangles (Meisters 1975). They are merged as long as the parts stay convex (Hertel and Mehlhorn
 /// 1983).
@@ -230,7 +234,7 @@ fn convex_parts(corners: &[Vec2]) -> Option<Vec<Vec<Vec2>>> {
     let triangles = triangles(corners)?;
     let of = |part: &Vec<u32>| part.iter().map(|&k| corners[k as usize]).collect::<Vec<Vec2>>();
     let parts: Vec<Vec<Vec2>> = hertel_mehlhorn_idx(&foreign(corners), &triangles).iter().map(of).collect();
-    // Distances are computed from these parts, so the result of the library is checked.
+    // The result of the library is checked, because distances are computed from these parts.
     if parts.iter().all(|part| is_convex(part)) && agree(corners, &parts) {
         return Some(parts);
     }
@@ -264,7 +268,7 @@ fn triangles(corners: &[Vec2]) -> Option<Vec<[u32; 3]>> {
     while left.len() > 3 {
         let count = left.len();
         let around = |k: usize| [left[(k + count - 1) % count], left[k], left[(k + 1) % count]];
-        // The widest ear comes first: slivers would make the parts thin.
+        // The widest ear is cut first. Slivers would make the parts thin.
         let ear = (0..count).filter(|&k| is_ear(corners, &left, around(k))).max_by(|&i, &j| {
             let width = |k: usize| sine(around(k).map(|corner| corners[corner]));
             width(i).total_cmp(&width(j)).then(j.cmp(&i))
@@ -285,7 +289,7 @@ fn triangles(corners: &[Vec2]) -> Option<Vec<[u32; 3]>> {
     Some(found)
 }
 
-/// Sine of the angle at the middle corner, positive where the polygon is convex.
+/// Sine of the angle at the middle corner. It is positive where the polygon is convex.
 fn sine([a, b, c]: [Vec2; 3]) -> f64 {
     cross(b - a, c - b) / ((b - a).norm() * (c - b).norm())
 }

@@ -1,4 +1,4 @@
-//! The question of clearance: bodies with outlines, the pairs that must not meet, and the requested accuracy.
+//! The clearance question: bodies with outlines, the pairs that must not meet, and the requested accuracy.
 
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkId, Mechanism};
@@ -31,11 +31,11 @@ pub struct ClearanceQuestion {
     pub bodies: Vec<ClearanceBody>,
     /// Pairs of bodies whose distance is requested, by their indices.
     pub pairs: Vec<[usize; 2]>,
-    /// The requested clearance (m), if there is one: no pair may come that close.
+    /// The required clearance (m): every pair must keep a larger distance. `None` if no clearance is required.
     pub wanted: Option<f64>,
     /// Tolerance of a smallest distance (m). The default is a millionth of the mechanism's size.
     pub tolerance: Option<f64>,
-    /// Tolerance of a swept area, as a share of the area.
+    /// Tolerance of a swept area, divided by the area.
     pub area: f64,
 }
 
@@ -47,8 +47,8 @@ impl ClearanceQuestion {
     }
 }
 
-/// All pairs of bodies that can meet, without those in `ignored`: links that are not joined, and every link with the
-/// housing.
+/// All pairs of bodies that can meet, except those in `ignored`.
+/// They are links that are not joined, and every link with the housing.
 #[must_use]
 pub fn pairs(mechanism: &Mechanism, bodies: &[ClearanceBody], ignored: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
@@ -66,13 +66,13 @@ pub fn pairs(mechanism: &Mechanism, bodies: &[ClearanceBody], ignored: &[[usize;
     pairs
 }
 
-/// Whether two links share a joint, or are on the same pin with other links between them.
+/// Whether two links share a joint, or are connected by other links on the same pin.
 #[must_use]
 pub fn are_joined(mechanism: &Mechanism, [a, b]: [LinkId; 2]) -> bool {
     if mechanism.joints().iter().any(|joint| joint.on(a).is_some() && joint.on(b).is_some()) {
         return true;
     }
-    // Follows the pins that lie at the same point of each link.
+    // Follows pins that lie at the same point of the link that they share.
     let pins = mechanism.joints().iter().filter(|joint| joint.is_pin());
     for start in pins.filter_map(|joint| joint.on(a)) {
         let mut pin = vec![(a, start)];

@@ -8,7 +8,7 @@ use crate::unit::{
 /// A table of a scenario file.
 #[derive(Debug)]
 pub struct Section {
-    /// Keys that lead to it from the top of the file, with dots; `*` means any name.
+    /// Keys that lead to this table from the top of the file, separated by dots. `*` means any name.
     pub path: &'static str,
     /// Its keys.
     pub keys: &'static [FileKey],
@@ -17,13 +17,13 @@ pub struct Section {
 /// A key.
 #[derive(Clone, Copy, Debug)]
 pub struct FileKey {
-    /// Its name, without the unit of a quantity.
+    /// Name of the key, without the unit of a quantity.
     pub name: &'static str,
     /// What stands there.
     pub kind: ValueKind,
     /// Whether the key is required.
     pub is_needed: bool,
-    /// What it means, in one sentence of Markdown.
+    /// Meaning of the key, in one sentence of Markdown.
     pub meaning: &'static str,
     /// The default, in words; empty for a required key.
     pub default: &'static str,
@@ -46,11 +46,11 @@ pub enum ValueKind {
     Integer,
     /// A whole number, `true` or `false`.
     IntegerOrBoolean,
-    /// A number whose key ends in a unit of one of these families, and the sign that it may have.
+    /// A number whose key ends in a unit of one of these families. The sign states which values are allowed.
     Quantity(&'static [&'static UnitFamily], Sign),
     /// A list of such numbers.
     Quantities(&'static [&'static UnitFamily]),
-    /// A table: the section with the path of the key.
+    /// A table. Its section has the path of the key.
     Table,
     /// An array of tables.
     Tables,
@@ -115,12 +115,12 @@ impl ValueKind {
     pub(crate) const LIST_OF_ANGLES: ValueKind = ValueKind::Quantities(&[&ANGLE]);
     pub(crate) const LIST_OF_TIMES: ValueKind = ValueKind::Quantities(&[&TIME]);
 
-    /// Quantities restricted to these values.
+    /// Quantities that may only have values of this sign.
     pub(crate) const fn of(self, sign: Sign) -> ValueKind {
         if let ValueKind::Quantity(families, _) = self { ValueKind::Quantity(families, sign) } else { self }
     }
 
-    /// The families of a quantity; empty for any other kind.
+    /// The families of a quantity. The list is empty for any other kind of value.
     pub(crate) const fn families(self) -> &'static [&'static UnitFamily] {
         if let ValueKind::Quantity(families, _) | ValueKind::Quantities(families) = self { families } else { &[] }
     }
@@ -147,7 +147,7 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// The rule that a value breaks, and how to correct it.
+    /// The rule that a value violates, and how to correct the value.
     pub(crate) fn broken_by(self, value: f64) -> Option<(&'static str, &'static str)> {
         match self {
             Sign::NotNegative if value < 0.0 => Some(("must not be negative", "give zero or a positive number")),

@@ -7,7 +7,7 @@ use super::{Section, section, sections};
 use crate::reader::asked;
 use crate::{Scenario, files_in};
 
-/// Changes of a scenario that make readers request keys which no scenario of the repository has.
+/// Changes of a scenario that make readers request further keys. No scenario of the repository has these keys.
 const CHANGES: [(&str, &str, &str); 7] = [
     (
         "crank_rocker",
@@ -55,14 +55,14 @@ fn asked_by_readers() -> BTreeMap<String, BTreeSet<String>> {
         let path = top.join(format!("scenarios/{name}.toml"));
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.contains(old), "{name}: {old}");
-        // The scenario need not make sense: only the requested keys count.
+        // The scenario need not make sense, because only the requested keys matter.
         let _ = Scenario::parse(&text.replacen(old, new, 1), &path);
     }
     asked::all()
 }
 
 #[test]
-fn every_key_that_a_reader_asks_for_is_in_the_table() {
+fn every_key_that_is_read_is_in_the_table() {
     for (path, keys) in asked_by_readers() {
         let Some(section) = section(&path) else {
             let is_named = sections().any(|own| own.path.strip_suffix(".*") == Some(path.as_str()));
@@ -76,12 +76,12 @@ fn every_key_that_a_reader_asks_for_is_in_the_table() {
 }
 
 #[test]
-fn every_key_of_the_table_is_asked_for() {
+fn every_key_of_the_table_is_read() {
     let asked = asked_by_readers();
     let names = |section: &Section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>();
     let mut never = Vec::new();
     for section in sections() {
-        // Positions and printed numbers occur in several sections but have one reader.
+        // Positions and printed numbers occur in several sections, but a single reader reads each of them.
         let alike = || sections().filter(|other| names(other) == names(section));
         for spelling in section.keys.iter().flat_map(super::FileKey::spellings) {
             if !alike().any(|own| asked.get(own.path).is_some_and(|keys| keys.contains(&spelling))) {

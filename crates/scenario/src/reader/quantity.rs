@@ -6,14 +6,15 @@ use toml::de::DeValue;
 
 use super::{Entry, Needed, Sign, TomlTable, found};
 use crate::keys::key::FileKey;
-use crate::unit::{NamedUnit, UnitFamily};
+use crate::unit::{NamedUnit, UnitFamily, unsupported};
 use crate::words::choice;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// A quantity's family, the index of its entry, and its unit.
 type Spelled = (&'static UnitFamily, usize, &'static NamedUnit);
 
-/// Smallest magnitude of a quantity in SI. Products with other quantities, and their squares, do not underflow.
+/// Lower limit of the magnitude of a quantity in SI.
+/// Above it, squares and products with other quantities do not underflow.
 const SMALLEST: f64 = 1e-100;
 
 impl<'a> TomlTable<'a> {
@@ -33,7 +34,7 @@ impl<'a> TomlTable<'a> {
         Ok(self.optional_si_of(key)?.map(|(_, value)| value))
     }
 
-    /// The same, with the family of the unit.
+    /// A quantity in SI, as described by its row, with the family of its unit; `None` if it is missing.
     pub fn optional_si_of(&mut self, key: &str) -> Result<Option<(&'static UnitFamily, f64)>> {
         let row = self.row(key);
         self.quantity_in(key, row.kind.families(), row.kind.sign())
@@ -51,7 +52,7 @@ impl<'a> TomlTable<'a> {
         self.quantity(key, row.kind.families()[0], row.kind.sign())
     }
 
-    /// Quantity under one of the spellings of `base` in `family`, in SI; `None` if there is none.
+    /// Quantity in SI, under one of the spellings of `base` in `family`; `None` if all spellings are missing.
     pub fn optional_quantity(&mut self, base: &str, family: &'static UnitFamily, sign: Sign) -> Result<Option<f64>> {
         Ok(self.quantity_in(base, &[family], sign)?.map(|(_, value)| value))
     }
@@ -65,7 +66,7 @@ impl<'a> TomlTable<'a> {
         if self.goes_on { Ok(sign.stand_in()) } else { Err(error) }
     }
 
-    /// Quantity of one of several families: the family found, and the value in SI.
+    /// Quantity whose unit belongs to one of several families. Returns the family found and the value in SI.
     fn quantity_in(
         &mut self,
         base: &str,
@@ -75,7 +76,7 @@ impl<'a> TomlTable<'a> {
         let (family, at, unit) = match self.spelled(base, families) {
             Ok(None) => return Ok(None),
             Ok(Some(found)) => found,
-            // With several families, the intended one is unknown.
+            // With several families, it is unknown which family was intended.
             Err(error) if families.len() > 1 => return Err(self.noted(error)),
             Err(error) => return self.instead(Some((families[0], sign.stand_in())), error),
         };
@@ -84,7 +85,7 @@ impl<'a> TomlTable<'a> {
         Ok(Some((family, value)))
     }
 
-    /// The number of an entry in SI, if its sign and size are allowed.
+    /// The number of an entry in SI. Its sign and size must be allowed.
     fn allowed(&self, at: usize, unit: &NamedUnit, family: &UnitFamily, sign: Sign) -> Result<f64> {
         let entry = &self.entries[at];
         let number = self.finite(entry.key, entry.value)?;
@@ -95,7 +96,8 @@ impl<'a> TomlTable<'a> {
         self.in_range(entry.key, entry.value, unit.to_si(number), family)
     }
 
-    /// Array of quantities under one of the spellings of `base` in `family`, in SI; `None` if there is none.
+    /// Array of quantities in SI, under one of the spellings of `base` in `family`; `None` if all spellings are
+    /// missing.
     fn optional_quantities(&mut self, base: &str, family: &'static UnitFamily) -> Result<Option<Vec<f64>>> {
         let (at, unit) = match self.spelled(base, &[family]) {
             Ok(None) => return Ok(None),
@@ -110,13 +112,13 @@ impl<'a> TomlTable<'a> {
         let si = |(index, element): (usize, &Spanned<DeValue>)| {
             let number =
                 self.finite(key, element).and_then(|number| self.in_range(key, element, unit.to_si(number), family));
-            // Stand-ins must differ from each other.
+            // Values that replace wrong values must differ from each other.
             number.or_else(|error| self.instead(index as f64, error))
         };
         array.iter().enumerate().map(si).collect::<Result<_>>().map(Some)
     }
 
-    /// A number in SI that is plausible for a mechanism: zero, or of a size within the limits of its family.
+    /// A number in SI that is plausible for a mechanism: zero, or a magnitude within the limits of its family.
     fn in_range(&self, key: &str, value: &Spanned<DeValue>, si: f64, family: &UnitFamily) -> Result<f64> {
         if si == 0.0 || (SMALLEST..=family.most).contains(&si.abs()) {
             return Ok(si);
@@ -161,7 +163,7 @@ impl<'a> TomlTable<'a> {
         Ok(Some(found))
     }
 
-    /// A key that is `base` without a unit or with an unknown unit, and the error for it.
+    /// A key that consists of `base` without a unit or with an unknown unit, and the error for this key.
     fn misspelt_unit(&self, base: &str, family: &UnitFamily, spellings: &[String]) -> Option<(&'a str, Error)> {
         let help = format!("write {}", choice(spellings.iter().map(String::as_str), "`"));
         let is_number =
@@ -171,7 +173,10 @@ impl<'a> TomlTable<'a> {
         }
         let prefixed = |entry: &&Entry| entry.key.strip_prefix(base).is_some_and(|rest| rest.starts_with('_'));
         let entry = self.entries.iter().filter(is_number).find(prefixed)?;
-        let message = sentences::does_not_end_in_a_unit_that_has_here(&entry.key, &family.noun);
+        let (message, help) = match unsupported(entry.key[base.len()..].trim_start_matches('_')) {
+            Some((name, size)) => (sentences::is_in_an_unsupported_unit(&entry.key, &name), format!("{help}; {size}")),
+            None => (sentences::does_not_end_in_a_unit_that_has_here(&entry.key, &family.noun), help),
+        };
         Some((entry.key, self.wrong(ErrorKind::Input, entry.key, message).help(help)))
     }
 }

@@ -7,17 +7,17 @@ use super::{Entry, TomlTable};
 use crate::words::{choice, nearest};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Largest number of unknown keys of a table for which the nearest known key is searched.
+/// Upper limit of the number of unknown keys in a table for which the nearest known key is searched.
 const MOST: usize = 20;
 
 /// The mistakes of a file.
 #[derive(Debug)]
 pub struct Faults {
     all: Vec<Error>,
-    /// Whether all parts that others depend on could be read.
-    /// Only then do errors count that go beyond the keys and values of a table.
+    /// Whether all parts that other parts depend on could be read.
+    /// Only then are errors reported that go beyond the keys and values of a table.
     pub whole: bool,
-    /// Whether all links and their points could be read. Only then do errors about unknown names count.
+    /// Whether all links and their points could be read. Only then are errors about unknown names reported.
     pub names: bool,
 }
 
@@ -27,7 +27,7 @@ impl Faults {
         Faults { all: Vec::new(), whole: true, names: true }
     }
 
-    /// What `read` makes of a table; `None` after a mistake. The mistake is noted.
+    /// The result of `read` for a table. After a mistake, notes the mistake and returns `None`.
     pub fn read<'a, T>(
         &mut self,
         table: &mut TomlTable<'a>,
@@ -43,7 +43,7 @@ impl Faults {
         None
     }
 
-    /// The value, or `None` after an error. The error is noted.
+    /// The value. After an error, notes the error and returns `None`.
     pub fn kept<T>(&mut self, value: Result<T>) -> Option<T> {
         value.map_err(|error| self.all.push(error)).ok()
     }
@@ -53,16 +53,15 @@ impl Faults {
         self.all.is_empty()
     }
 
-    /// Ends the reading if mistakes are noted.
+    /// Returns the noted mistakes as an error, if there are any.
     pub fn end(self) -> Result<()> {
         Error::all(self.all).map_or(Ok(()), Err)
     }
 }
 
 impl<'a> TomlTable<'a> {
-    /// What `read` makes of the table. All mistakes of its keys and values are reported together.
-    /// Errors about the meaning of the values are reported only if there is no such mistake, because a mistake might
-    /// cause
+    /// The result of `read` for the table. All mistakes of its keys and values are reported together.
+    /// Errors about the meaning of the values are reported only without such mistakes, because the mistakes might cause
     /// them.
     pub fn read<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         match self.tried(true, read) {
@@ -71,7 +70,7 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// What `read` makes of the table in spite of mistakes, and the mistakes that it notes.
+    /// The result of `read` for the table in spite of mistakes, and the mistakes that `read` notes.
     ///
     /// # Errors
     /// The error that ends the reading, with the mistakes noted before.
@@ -86,8 +85,9 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// The value, or the error of `read` beyond mistakes of keys and values; and these mistakes.
-    /// They include unknown names if all `names` could be read.
+    /// Calls `read`. Returns the value or the error of `read`, and separately the mistakes of keys and values.
+    /// If there are such mistakes, neither the value nor the error of `read` is returned.
+    /// The mistakes include unknown names if all `names` could be read.
     fn tried<T>(
         &mut self,
         names: bool,
@@ -95,7 +95,7 @@ impl<'a> TomlTable<'a> {
     ) -> (std::result::Result<T, Option<Error>>, Option<Error>) {
         self.goes_on = true;
         let found = read(self);
-        // If the reading has stopped early, a key that was not requested yet may still be right.
+        // If the reading has stopped early, a key that was not requested yet may still be correct.
         self.pair_missing();
         let unknown = std::mem::take(&mut self.unknown_names);
         let is_sound = self.faults.is_empty() && unknown.is_empty();
@@ -107,7 +107,7 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// The value that was read, or its default after an error. The error is noted.
+    /// The value that was read. After an error, notes the error and returns the default.
     pub fn part<T: Default>(&mut self, read: Result<T>) -> T {
         read.unwrap_or_else(|error| {
             self.faults.push(error);
@@ -115,12 +115,12 @@ impl<'a> TomlTable<'a> {
         })
     }
 
-    /// Ends the reading if mistakes are noted.
+    /// Returns the noted mistakes as an error, if there are any.
     pub fn sound_so_far(&self) -> Result<()> {
         Error::all(self.faults.iter().cloned()).map_or(Ok(()), Err)
     }
 
-    /// Notes an error if the reading goes on after mistakes. `value` then replaces the wrong one.
+    /// If the reading goes on after mistakes, notes an error and returns `value` in place of the wrong value.
     pub fn instead<T>(&mut self, value: T, error: Error) -> Result<T> {
         if !self.goes_on {
             return Err(error);
@@ -129,7 +129,7 @@ impl<'a> TomlTable<'a> {
         Ok(value)
     }
 
-    /// The same, for a name that no other table defines.
+    /// Like `instead`, for a name that no other table defines.
     pub fn unknown_name<T>(&mut self, value: T, error: Error) -> Result<T> {
         if !self.goes_on {
             return Err(error);
@@ -147,7 +147,7 @@ impl<'a> TomlTable<'a> {
     }
 
     /// The error for a key that is missing under all its spellings.
-    /// A misspelt key in its place is identified after all keys have been requested.
+    /// If another key is a misspelling of it, this is found after all keys have been requested.
     pub(super) fn missing(&mut self, spellings: Vec<String>) -> Error {
         self.lacking(spellings, None)
     }
@@ -160,12 +160,12 @@ impl<'a> TomlTable<'a> {
         error
     }
 
-    /// The same for keys of which one is required; `help` describes them.
+    /// The error for missing keys, one of which is required. `help` describes these keys.
     pub fn lacks(&mut self, spellings: &[&str], help: &'static str) -> Error {
         self.lacking(spellings.iter().map(|&spelling| spelling.into()).collect(), Some(help))
     }
 
-    /// The error for a missing key, and the entry that misspells the key.
+    /// The error for a missing key, and the entry whose key is a misspelling of it.
     fn missing_by(&self, spellings: &[String], help: Option<&'static str>) -> (Error, Option<&'a str>) {
         let wanted = choice(spellings.iter().map(String::as_str), "`");
         // The top level has no table name.
@@ -186,7 +186,7 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// Notes the missing keys, each with the unknown key that misspells it.
+    /// Notes the missing keys. An unknown key that is a misspelling of a missing key is named in its error.
     fn pair_missing(&mut self) {
         for (spellings, help) in std::mem::take(&mut self.missing) {
             let (error, misspelt) = self.missing_by(&spellings, help);
@@ -205,7 +205,7 @@ impl<'a> TomlTable<'a> {
         self.entries.iter().filter(is_table).any(|entry| self.is_unknown(entry))
     }
 
-    /// Ends the reading. A key that was not requested is an error, which names the nearest known key.
+    /// Ends the reading. Every key that was not requested is an error. The error names the nearest known key.
     pub fn finish(&mut self) -> Result<()> {
         #[cfg(test)]
         asked::put(&self.section, &self.asked);
@@ -234,14 +234,14 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// The sound results; the errors of the others are noted.
+    /// The results without errors. Errors of the other results are noted.
     pub(super) fn sound<T>(&mut self, all: Vec<Result<T>>) -> Result<Vec<T>> {
         let sound = all.into_iter().map(|one| one.map(Some).or_else(|error| self.instead(None, error)));
         sound.filter_map(Result::transpose).collect()
     }
 }
 
-/// The keys that readers have requested, by section, for the test of the table of keys.
+/// The keys that readers have requested, by section. A test compares them with the table of keys.
 #[cfg(test)]
 pub mod asked {
     use std::cell::RefCell;

@@ -128,7 +128,7 @@ function chart(card, index) {
   };
   const valuesAt = (row) => {
     const [ours, apart] = [reference[row] * factor, difference ? difference[row] * factor : NaN];
-    const engineTold = difference ? `, engine less reference ${apart < 0 ? '−' : '+'}${digits(Math.abs(apart), 3)} ${unit}` : '';
+    const engineTold = difference ? `, engine minus reference ${apart < 0 ? '−' : '+'}${digits(Math.abs(apart), 3)} ${unit}` : '';
     return `${digits(ours, 6)} ${unit}${engineTold}`;
   };
   svg.addEventListener('click', (event) => { setPlaying(false); goTo(rowUnder(event)); });

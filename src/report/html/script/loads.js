@@ -182,11 +182,11 @@ function setUpLoads() {
 function tellLoads() {
   const said = [];
   if (largestLoad > 0) {
-    const scale = loadScale === forceScale ? 'to the scale of the reactions' : `the hollow bar marked ${digits(round(largestLoad))} N is their scale`;
+    const scale = loadScale === forceScale ? 'at the scale of the reactions' : `the hollow bar marked ${digits(round(largestLoad))} N shows their scale`;
     said.push(`the longest is ${digits(largestLoad, 3)} N, ${scale}`);
   }
-  if (largestMoment > 0) said.push(`moments around a place, three quarters of a circle for ${digits(largestMoment, 3)} N·m`);
-  byId('load-scale').textContent = `hollow arrows: what acts besides the reactions (loads, drives, weights, gravity)${said.map((own) => `; ${own}`).join('')}`;
+  if (largestMoment > 0) said.push(`moments are arcs around a point, three quarters of a circle for ${digits(largestMoment, 3)} N·m`);
+  byId('load-scale').textContent = `hollow arrows: what acts in addition to the reactions (loads, drives, weights, gravity)${said.map((own) => `; ${own}`).join('')}`;
 }
 
 /** Numbers of all forces at the instant shown: loads first, then reactions. */

@@ -115,7 +115,7 @@ function setUpEngines() {
   const refill = () => {
     factors.replaceChildren();
     const all = motion === null ? [1] : magnifications();
-    all.forEach((own) => { put(factors, 'option', '', own === 1 ? 'as it is' : `${digits(own)} times`).value = own; });
+    all.forEach((own) => { put(factors, 'option', '', own === 1 ? 'not magnified' : `${digits(own)} times`).value = own; });
     shown.magnify = 1;
     tellFactor();
   };

@@ -1,10 +1,10 @@
-//! Damage to bytes: as text, as a file of records, and by a slip of the hand.
+//! Damage to bytes: random changes, false sizes in records, and typing errors.
 
 use super::super::damage::NUMBERS;
 use super::super::parquet::Announced;
 use super::super::sketch::RandomSource;
 
-/// Lengths and sizes in a recording that are not what is there.
+/// Replaces lengths and sizes in a recording by false ones.
 pub fn lengths(random: &mut RandomSource, bytes: &mut [u8], what: &mut Vec<String>) {
     let mut places = Vec::new();
     let mut at = mcap::MAGIC.len();
@@ -23,9 +23,9 @@ pub fn lengths(random: &mut RandomSource, bytes: &mut [u8], what: &mut Vec<Strin
     }
 }
 
-/// Does something to bytes that whoever wrote them would not.
+/// Changes bytes in ways that the author of a file would not.
 pub fn spoil(random: &mut RandomSource, bytes: &mut Vec<u8>, what: &mut Vec<String>) {
-    /// Most bytes of an input: more are refused at every door.
+    /// Largest input (bytes); the program refuses larger inputs of every kind.
     const MOST: usize = 8 << 20;
     if random.yes() {
         slip(random, bytes, what);
@@ -119,7 +119,7 @@ pub fn spoil(random: &mut RandomSource, bytes: &mut Vec<u8>, what: &mut Vec<Stri
     }
 }
 
-/// A slip of whoever writes by hand: one other digit, a line twice, one line less, or two of them exchanged.
+/// A typing error: one different digit, a line twice, a missing line, or two exchanged lines.
 fn slip(random: &mut RandomSource, bytes: &mut Vec<u8>, what: &mut Vec<String>) {
     let kind = random.index(4);
     if kind == 0 {
@@ -141,7 +141,7 @@ fn slip(random: &mut RandomSource, bytes: &mut Vec<u8>, what: &mut Vec<String>) 
     *bytes = lines.join(&b'\n');
 }
 
-/// Puts something in the place of a number.
+/// Replaces a number.
 fn number(random: &mut RandomSource, bytes: &mut Vec<u8>, new: &[u8]) {
     let starts = |at: &usize| bytes[*at].is_ascii_digit() && (*at == 0 || !bytes[at - 1].is_ascii_alphanumeric());
     let all: Vec<usize> = (0..bytes.len()).filter(starts).collect();
@@ -153,14 +153,14 @@ fn number(random: &mut RandomSource, bytes: &mut Vec<u8>, new: &[u8]) {
     bytes.splice(start..start + length, new.iter().copied());
 }
 
-/// A table with each of its columns many times.
+/// A table with each of its columns repeated many times.
 pub fn wide(table: &[u8], columns: usize) -> Vec<u8> {
     let lines = table.split(|&byte| byte == b'\n').take(4_000_000 / columns.max(1) / 8 + 2);
     let times = columns / 4 + 1;
     lines.flat_map(|line| [vec![line; times].join(&b','), vec![b'\n']].concat()).collect()
 }
 
-/// A Parquet file with some of its numbers exchanged for large ones.
+/// A Parquet file in which some announced numbers are replaced by large ones.
 pub fn announced(random: &mut RandomSource, what: &mut Vec<String>) -> Vec<u8> {
     let rows = [0, 1, 100, 100_000, 1 << 20, 60_000_000][random.index(6)];
     let mut own = if rows > 1 << 20 || random.yes() { Announced::run(rows) } else { Announced::zeros(rows) };

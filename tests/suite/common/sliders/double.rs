@@ -15,8 +15,9 @@ const SLOT: Vec2 = Vec2::new(0.03, -0.02);
 
 /// RPP: crank 0.1 m, block on its pin, sliding in the oblique slot of a yoke that slides on the ground.
 ///
-/// The block's place Q = A + const stays on the slot: with the slot's normal m, s = m . (Q - G - slot) / m . g; both
-/// derivatives are those of A.
+/// The block's joint point Q = A + const stays on the slot.
+/// With the slot's normal m this gives s = m . (Q - G - slot) / m . g.
+/// The derivatives of s follow from those of A.
 pub fn scotch_yoke() -> Sample {
     let links = vec![
         link("ground", &[("O", Vec2::zeros()), ("G", YOKE_GUIDE)], [0.0; 4]),
@@ -56,8 +57,9 @@ const CRANK_PLACE: Vec2 = Vec2::new(0.05, 0.02);
 
 /// PRP: block sliding on the crank, pinned to a slider on the ground.
 ///
-/// The pin B = L + s g lies h beside the crank's axis e: n . (L + s g) = h, so s = (h - n . L) / n . g; with n' = -w e
-/// and s' from n . B = h: s' n . g = w e . B and s'' n . g = 2 w s' e . g + w^2 n . B.
+/// The pin B = L + s g lies h beside the crank's axis e.
+/// From n . (L + s g) = h follows s = (h - n . L) / n . g.
+/// With n' = -w e, the derivatives of n . B = h are s' n . g = w e . B and s'' n . g = 2 w s' e . g + w^2 n . B.
 pub fn slotted_crank() -> Sample {
     let links = vec![
         link("ground", &[("O", Vec2::zeros()), ("L", LINE)], [0.0; 4]),
@@ -98,8 +100,9 @@ const SHAFTS: Vec2 = Vec2::new(0.03, 0.04);
 const DISC_AXIS: f64 = 0.8;
 const OUTPUT_AXIS: f64 = -0.35;
 
-/// RPP in rotation: an Oldham coupling. The centre of the disc moves at twice the speed on a circle whose diameter is
-/// the distance of the shafts: M = C/2 + |C|/2 unit(2 phi - arg C). The slide on the crank is e . M = e . C.
+/// RPP with rotation: an Oldham coupling.
+/// The centre of the disc moves at twice the speed on a circle whose diameter is the distance of the shafts.
+/// Its position is M = C/2 + |C|/2 unit(2 phi - arg C), and the slide on the crank is e . M = e . C.
 pub fn oldham() -> Sample {
     let far = Vec2::new(0.0, 0.1);
     let links = vec![

@@ -1,4 +1,4 @@
-//! How a specimen moves: at constant speed, by a law, or freely; with its grid.
+//! Motion of a specimen, with its grid: at constant speed, by a motion law, or free.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -14,10 +14,11 @@ use super::super::sketch::RandomSource;
 use super::super::spec::Spec;
 use super::shapes::{Safe, short};
 
-/// Largest angle of the crank from its start in a motion over time (rad).
+/// Upper limit of the crank's rotation from its start, for a motion by law or a free motion (rad).
 const FARTHEST: f64 = 3.0 * TAU;
 
-/// A constant speed: over all of a limited range or a part of it, over up to more than a turn otherwise.
+/// Constant speed.
+/// If the range is limited, the grid covers all or part of it; otherwise it may cover more than one revolution.
 pub fn constant(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static str {
     let (mut from, mut to) = (safe.from, safe.to);
     if safe.full {
@@ -36,7 +37,8 @@ pub fn constant(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'sta
     "constant speed"
 }
 
-/// A motion law from rest, with the size of the speed as its top speed, towards the side with more room.
+/// A motion law that starts at rest and moves in the direction with more range.
+/// Its largest speed is the magnitude of the given speed.
 pub fn law(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static str {
     let (top, start) = (spec.speed.abs(), spec.start);
     let room = if safe.full {
@@ -78,8 +80,9 @@ pub fn law(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static s
     name
 }
 
-/// A free motion: let go at rest, or from a speed or under a motor. Motors have the size of `moment` (N m), that of
-/// inertia and weight on the crank at the nominal speed.
+/// A free motion: released at rest, or started with a speed, or driven by a motor.
+/// The motor's torque has the magnitude of `moment` (N m).
+/// This is the moment of inertia forces and weight on the crank at the nominal speed.
 pub fn free(random: &mut RandomSource, spec: &mut Spec, moment: f64, falls: bool) -> &'static str {
     let speed = spec.speed;
     let kind = if falls { 0 } else { 1 + random.index(3) };
@@ -96,7 +99,7 @@ pub fn free(random: &mut RandomSource, spec: &mut Spec, moment: f64, falls: bool
     ["let go", "from a speed", "motor from rest", "motor from a speed"][kind]
 }
 
-/// A motor whose torque is of the size of `moment` on a crank at `speed`.
+/// A motor with a torque of the magnitude of `moment` on a crank at `speed`.
 fn motor(random: &mut RandomSource, speed: f64, moment: f64) -> String {
     let ratio = if random.yes() { 1.0 } else { random.number(2.0, 30.0) };
     let efficiency = if random.yes() { 1.0 } else { random.number(0.6, 1.0) };
@@ -133,8 +136,9 @@ fn motor(random: &mut RandomSource, speed: f64, moment: f64) -> String {
     text
 }
 
-/// Largest speed of the crank (rad/s) on the grid, the first row at which it is not `safe`, and the largest angle from
-/// the start (rad). The motion is not followed beyond that row: what comes behind it may be a singular pose.
+/// Largest speed of the crank on the grid (rad/s), the first row outside `safe`, and the largest angle from the start
+/// (rad).
+/// The motion is not followed beyond that row, because a singular pose may come next.
 fn followed(case: &Case, safe: Safe) -> Result<(f64, Option<usize>, f64), String> {
     let case = case.wanting(Wanted::of(&[Stage::Positions, Stage::Velocities]));
     let link = case.crank().link;
@@ -157,7 +161,7 @@ fn followed(case: &Case, safe: Safe) -> Result<(f64, Option<usize>, f64), String
         }
         Ok((top, left, moved))
     };
-    // What only one side can solve is not the specimen's fault.
+    // A motion that only one side can solve is allowed.
     let mut found = follow(&AssurSolver);
     if found.as_ref().is_err_and(|error| error.kind() == ErrorKind::Unsupported) {
         found = follow(&NewtonSolver);
@@ -165,7 +169,8 @@ fn followed(case: &Case, safe: Safe) -> Result<(f64, Option<usize>, f64), String
     found.map_err(|error| short(error.message()))
 }
 
-/// Ends the grid of a motion over time before it leaves the safe range; gives the crank's largest speed.
+/// Shortens the grid of a motion law or a free motion, so that the motion stays in the safe range.
+/// Returns the crank's largest speed.
 pub fn shortened(spec: &mut Spec, safe: Safe) -> Result<f64, String> {
     let mut last = String::from("it leaves the safe range at once");
     for _ in 0..8 {
@@ -190,7 +195,7 @@ pub fn shortened(spec: &mut Spec, safe: Safe) -> Result<f64, String> {
     Err(last)
 }
 
-/// A number with three digits, not above the given one.
+/// The value rounded down to three digits.
 pub fn rounded(value: f64) -> f64 {
     let unit = 10f64.powf(value.abs().log10().floor() - 2.0);
     (value / unit).floor() * unit

@@ -1,5 +1,5 @@
-//! What a specimen looks like, about a metre large: links, joints, start pose, and the crank angles at which it keeps
-//! away from singular poses.
+//! Shape of a specimen of about one metre: links, joints, start pose.
+//! Also the range of crank angles that is far from singular poses.
 
 use std::f64::consts::TAU;
 
@@ -16,26 +16,27 @@ use super::super::random::{DEAD, REACH, SORTS, chain};
 use super::super::sketch::RandomSource;
 use super::super::spec::{Spec, four_bar};
 
-/// Largest condition number of a higher group; that of a dyad is 11.4 at a transmission angle of 10 degrees.
+/// Upper limit of the condition number of a higher group.
+/// A dyad with a transmission angle of 10 degrees has 11.4.
 const CONDITION: f64 = 25.0;
-/// Largest speed of a link over that of the crank.
+/// Upper limit of the speed of a link divided by the speed of the crank.
 const FASTEST: f64 = 8.0;
-/// Shortest range of crank angles worth a specimen (rad).
+/// If the safe range of crank angles (rad) is shorter than this, the specimen is rejected.
 const SHORTEST: f64 = 0.3;
 
-/// A mechanism without masses and loads, and where it may go.
+/// A mechanism without masses and loads, and its safe range.
 pub struct Shape {
     pub sort: String,
     pub spec: Spec,
     pub safe: Safe,
 }
 
-/// Crank angles at which a mechanism is away from singular poses, the start among them (rad).
+/// Range of crank angles (rad) that contains the start and is far from singular poses.
 #[derive(Clone, Copy, Debug)]
 pub struct Safe {
     pub from: f64,
     pub to: f64,
-    /// Whether it is so at all crank angles; then the two limits are a turn apart.
+    /// Whether all crank angles are safe; `from` and `to` are then a revolution apart.
     pub full: bool,
 }
 
@@ -45,7 +46,7 @@ impl Safe {
     }
 }
 
-/// The shape with this number; the kinds follow each other in a circle of ten.
+/// The shape with this number; ten kinds alternate.
 pub fn shape(random: &mut RandomSource, index: u64) -> Result<Shape, String> {
     let round = (index / 10) as usize;
     let (sort, mut spec) = match index % 10 {
@@ -76,13 +77,13 @@ pub fn shape(random: &mut RandomSource, index: u64) -> Result<Shape, String> {
     Ok(Shape { sort, spec, safe })
 }
 
-/// An error without its numbers, for counting.
+/// The message of an error without its numbers, for counting.
 pub fn short(message: &str) -> String {
     let plain: String = message.chars().filter(|c| !c.is_ascii_digit()).collect();
     plain.chars().take(90).collect()
 }
 
-/// A four-bar of one of Grashof's types: four types, and those without a link that turns fully, by their longest link.
+/// A four-bar of a given kind: one of the four Grashof types, or a non-Grashof type given by its longest link.
 fn four_bar_of(random: &mut RandomSource, kind: usize) -> (String, Spec) {
     use FourBarType::{CrankRocker, DoubleCrank, DoubleRocker, RockerCrank, TripleRocker};
     let types = [CrankRocker, RockerCrank, DoubleCrank, DoubleRocker];
@@ -105,9 +106,9 @@ fn four_bar_of(random: &mut RandomSource, kind: usize) -> (String, Spec) {
     (format!("four-bar {wanted:?}"), if random.yes() { spec.mirrored() } else { spec })
 }
 
-/// Follows the mechanism from its start, both ways, as far as it is away from singular poses.
+/// Follows the mechanism from its start in both directions until it comes near a singular pose.
 fn safe(case: &Case) -> Result<Safe, String> {
-    // A start that is no good is found without following anything.
+    // Rejects an unsuitable start without following the motion.
     let sine = |group| transmission_sine(&case.mechanism, group, &case.start);
     if case.structure.groups.iter().filter_map(sine).any(|sine| !(sine.abs() >= DEAD)) {
         return Err("too near a singular pose".into());
@@ -161,7 +162,7 @@ fn safe(case: &Case) -> Result<Safe, String> {
     }
 }
 
-/// The good samples next to `start` on both sides, without a gap.
+/// The longest range around `start` in which all samples are good.
 fn around(start: f64, samples: &[(f64, bool)]) -> Safe {
     let reach = |samples: &mut dyn Iterator<Item = &(f64, bool)>| {
         samples.take_while(|(_, good)| *good).last().map_or(start, |(crank, _)| *crank)

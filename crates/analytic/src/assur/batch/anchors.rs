@@ -1,12 +1,11 @@
-//! Anchors: poses along the revolution from which the poses of a batch start.
+//! Anchors: poses of the mechanism from which the solution of a batch starts.
 //!
 //! Newton's method needs a start near the pose, on the branch of the start pose.
-//! Anchors lie every two degrees of the crank from the start pose on, in both directions.
-//! They are solved one after the other away from the start pose, so that they do not depend on the crank angles
-//! requested.
-//! Between two anchors, the angle of each link is the polynomial of degree five that fits its values and its first and
-//! second transfer functions at both.
-//! The interpolation error grows with the sixth power of the distance of the anchors.
+//! Anchors lie every two degrees of the crank, beginning at the start pose, in both directions.
+//! They are solved in sequence away from the start pose, so that they do not depend on the requested crank angles.
+//! Between two anchors, the angle of each link is a polynomial of degree five.
+//! It fits the angle and its first and second transfer functions at both anchors.
+//! The interpolation error grows with the sixth power of the distance between the anchors.
 
 use super::chains::OF_START;
 use super::groups::Groups;
@@ -19,11 +18,12 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 
-/// Numbers stored per link and interval: those of a start, without the share of the way.
+/// Numbers stored per link and interval: those of a start, without the fraction of the interval.
 const KEPT: usize = OF_START - 1;
-/// Distance between two anchors (rad): a step of [`PoseSolver`], reduced by more than rounding may add.
+/// Distance between two anchors (rad). It is slightly smaller than a step of [`PoseSolver`], so that rounding cannot
+/// make it larger.
 const STEP: f64 = FOLLOWED_STEP * (1.0 - 1e-9);
-/// Largest number of intervals in one direction, about three hundred turns. Poses beyond them are solved one by one.
+/// Largest number of intervals in one direction, about three hundred turns. Poses farther away are solved one by one.
 const MOST: usize = 50_000;
 
 /// The anchors of a case in both directions of its crank.
@@ -67,12 +67,13 @@ impl<'a> Anchors<'a> {
         Ok(Some(Anchors { start: case.crank().start, ways: [way(STEP)?, way(-STEP)?] }))
     }
 
-    /// Writes the starts for the rows of a tile to the working memory; NaN where no interval is known.
+    /// Writes the starts for the rows of a tile to the working memory; NaN if the interval of a row is not known.
     pub(super) fn fill(&mut self, cranks: &[f64; TILE], groups: &Groups, work: &mut [Eight]) {
         for (row, crank) in cranks.iter().enumerate() {
             let way = &mut self.ways[usize::from(*crank < self.start)];
             let place = (crank - self.start) / way.step;
-            // An infinite `place` lies beyond every interval. NaN selects the first interval, and the share is NaN too.
+            // An infinite `place` lies beyond every interval. NaN selects the first interval, and its fraction of the
+            // interval is also NaN.
             let interval = place as usize;
             let is_known = way.reach(self.start, interval);
             let kept = way.intervals.chunks_exact(KEPT * way.links.len()).nth(interval).filter(|_| is_known);
@@ -96,14 +97,14 @@ impl<'a> Anchors<'a> {
 }
 
 impl Way<'_> {
-    /// Adds anchors until this interval is known. Returns whether it is.
+    /// Adds anchors until this interval is known. Returns `false` if this is impossible.
     fn reach(&mut self, start: f64, interval: usize) -> bool {
         if interval >= MOST {
             return false;
         }
         while self.is_open && self.count <= interval {
             let next = start + self.step * (self.count + 1) as f64;
-            // The error is reported by the pose that needs this interval.
+            // The pose that needs this interval reports the error.
             self.is_open = self.poses.solve(next, 1.0, 0.0, Stage::Accelerations).is_ok();
             if self.is_open {
                 self.add();
@@ -125,7 +126,8 @@ impl Way<'_> {
             let turn = cross(*from, *to).atan2(from.dot(to));
             let (h, h2) = (self.step, self.step * self.step);
             let (first, second) = (h * omega, 0.5 * h2 * alpha);
-            // Remainders of the angle, its rate and its second derivative at the end, after the first two terms.
+            // What the first two terms leave at the end of the interval: of the angle, of its rate and of its second
+            // derivative.
             let angle = turn - first - second;
             let rate = h * omega_to - first - 2.0 * second;
             let bend = h2 * alpha_to - 2.0 * second;

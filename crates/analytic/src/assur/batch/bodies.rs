@@ -1,4 +1,4 @@
-//! Constants of single links and joints, read from a case.
+//! Constants of individual links and joints, read from a case.
 
 use super::poses::Layout;
 use linkage::case::Case;
@@ -36,7 +36,7 @@ pub(super) struct Body {
 pub(super) struct Reader<'a> {
     pub(super) case: &'a Case,
     pub(super) layout: Layout,
-    /// For every joint: whether its reaction is known before the group is solved.
+    /// For every joint: whether its reaction is known before the current group is solved.
     pub(super) settled: &'a [bool],
 }
 

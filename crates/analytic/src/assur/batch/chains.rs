@@ -12,8 +12,8 @@ use crate::assur::groups::{self, Hangs};
 use linkage::math::Vec2;
 use linkage::mechanism::LinkId;
 
-/// Numbers per start: direction of the link at the anchor (2), share of the way to the next anchor (1), and
-/// coefficients of the turn from the anchor (5, rad).
+/// Numbers per start: direction of the link at the anchor (2), fraction of the interval to the next anchor (1), and
+/// coefficients of the rotation from the anchor (5, rad).
 pub(super) const OF_START: usize = 8;
 /// A link with the joint to its parent, which is the link's pole.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ struct Node {
     reaction: Action,
 }
 
-/// A vector from joint to joint on the link of a node.
+/// A vector between two joints on the link of a node.
 #[derive(Clone, Copy, Debug)]
 struct Arrow {
     node: usize,
@@ -53,7 +53,7 @@ pub(super) struct Chain {
     roots: Vec<(Option<usize>, Vec2)>,
     /// Sign of the determinant.
     branch: f64,
-    /// The links, as numbered in the mechanism.
+    /// The links of the group, with their numbers in the mechanism.
     links: Vec<LinkId>,
 }
 
@@ -91,14 +91,14 @@ impl Chain {
         })
     }
 
-    /// Number of columns in the working memory: the starts of the links, the joints of the tree (each as the vector
-    /// from its link's origin and the quantity needed at the present stage), the arrows, and the factors of the
-    /// Jacobian.
+    /// Number of columns in the working memory.
+    /// They hold the starts of the links, the joints of the tree, the arrows, and the factors of the Jacobian.
+    /// Each joint has the vector from its link's origin and the quantity needed at the present stage.
     pub(super) fn columns(&self) -> usize {
         self.first_factor(0) + elimination::columns(self.nodes.len())
     }
 
-    /// Returns the links as numbered in the mechanism, in the order of their starts.
+    /// Returns the links with their numbers in the mechanism, in the order of their starts.
     pub(super) fn links(&self) -> &[LinkId] {
         &self.links
     }

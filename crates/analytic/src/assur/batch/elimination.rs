@@ -1,6 +1,6 @@
 //! Linear systems of fixed order for several poses at once, by LU decomposition with partial pivoting.
 //!
-//! Every pose has its own row order: where a lower row has the larger pivot, the two rows are exchanged in that lane.
+//! Every pose has its own row order: if a lower row has the larger pivot, the two rows are exchanged in that lane only.
 
 use pulp::Simd;
 
@@ -12,7 +12,7 @@ pub(super) struct Factors<S: Simd, const N: usize> {
     rows: [[Lanes<S>; N]; N],
     /// Inverses of the diagonal.
     inverse: [Lanes<S>; N],
-    /// For each step k, in order: where row k was exchanged with a lower row.
+    /// For each step k, in order: the poses in which row k was exchanged with a lower row.
     exchanges: [[Choice<S>; N]; N],
     pub(super) determinant: Lanes<S>,
 }
@@ -112,7 +112,7 @@ impl<S: Simd, const N: usize> Factors<S, N> {
         }
     }
 
-    /// Reads the factors from the working memory. Their determinant is meaningless.
+    /// Reads the factors from the working memory. Their determinant is not stored and has no meaning.
     #[inline(always)]
     pub(super) fn kept(work: &Window<S>, mut column: usize) -> Self {
         let (one, zero) = (Lanes::splat(work.simd, 1.0), Lanes::splat(work.simd, 0.0));

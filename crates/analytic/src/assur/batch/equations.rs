@@ -13,8 +13,8 @@ use super::poses::{ACCELERATION, ALPHA, DIRECTION, OMEGA, ORIGIN, VELOCITY};
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
-/// Acceleration of the tip of the vector v on a rotating link relative to its foot: v turned by 90 degrees times alpha,
-/// minus omega^2 v.
+/// Acceleration of the tip of the vector v on a rotating link, relative to the foot of v.
+/// It is v rotated by 90 degrees, times alpha, minus omega^2 v.
 #[inline(always)]
 pub(super) fn swung<S: Simd>(v: Plane<S>, omega: Lanes<S>, alpha: Lanes<S>) -> Plane<S> {
     v.turned() * alpha - v * (omega * omega)
@@ -75,8 +75,7 @@ impl Driver {
 }
 
 impl Arm {
-    /// World vector from the base link's origin to the outer joint, and the base's first column; `None` for the
-    /// ground.
+    /// World vector from the base link's origin to the outer joint, and the base's first column; `None` for the ground.
     #[inline(always)]
     fn base<S: Simd>(&self, tile: &Window<S>) -> (Plane<S>, Option<usize>) {
         match self.base {
@@ -114,7 +113,7 @@ impl Arm {
 }
 
 impl Dyad {
-    /// Computes the motion of both links. Returns NaN where they cannot be assembled.
+    /// Computes the motion of both links. Returns NaN for poses that cannot be assembled.
     #[inline(always)]
     fn turn<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>, column: usize) -> Lanes<S> {
         let [first, second] = &self.arms;

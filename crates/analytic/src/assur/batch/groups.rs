@@ -9,10 +9,10 @@ use linkage::drive::Load;
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, JointId, LinkId};
 
-/// Columns of a dyad in the working memory: two each for its spans r1 and r2, and 1 / (r1 x r2).
+/// Columns of a dyad in the working memory: two for its span r1, two for r2, and one for 1 / (r1 x r2).
 const OF_DYAD: usize = 5;
 
-/// A driving link. The joint about which it turns on the ground is its pole.
+/// A driving link. Its pole is the joint about which it turns on the ground.
 #[derive(Clone, Debug)]
 pub(super) struct Driver {
     pub(super) ground: Vec2,
@@ -26,7 +26,7 @@ pub(super) struct Driver {
 pub(super) struct Arm {
     /// First column of the base link, `None` for the ground, and the position of the joint on that link.
     pub(super) base: (Option<usize>, Vec2),
-    /// The outer joint, and the vector from there to the inner one, in the link's frame.
+    /// The outer joint, and the vector from the outer joint to the inner joint, in the link's frame.
     pub(super) outer: Vec2,
     pub(super) span: Vec2,
     pub(super) squared: f64,
@@ -66,10 +66,10 @@ pub(super) struct Groups {
 }
 
 impl Groups {
-    /// Returns the constants of a case whose start pose the plan has placed.
+    /// Returns the constants of a case. The plan must already have placed the start pose of the case.
     /// `None` if a group is of another kind, a driving link is attached to another driving link, or a load is not a
     /// moment of resistance.
-    /// These cases are solved pose by pose.
+    /// Such cases are solved pose by pose.
     pub(super) fn of(case: &Case, plan: &SolutionPlan, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
         let simple = |load: &Load| load.resistance().is_some();

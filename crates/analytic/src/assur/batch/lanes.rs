@@ -80,7 +80,7 @@ impl<S: Simd> Lanes<S> {
         Lanes { value: self.simd.abs_f64s(self.value), ..self }
     }
 
-    /// Where this number is greater than `other`; `false` where either is NaN.
+    /// The lanes in which this number is greater than `other`; `false` if either number is NaN.
     #[inline(always)]
     pub(super) fn exceeds(self, other: Self) -> Choice<S> {
         Choice { simd: self.simd, mask: self.simd.greater_than_f64s(self.value, other.value) }
@@ -101,13 +101,13 @@ pub(super) struct Choice<S: Simd> {
 }
 
 impl<S: Simd> Choice<S> {
-    /// Returns the first number where the choice is true, elsewhere the second.
+    /// Returns the first number in the lanes where the choice is true, elsewhere the second.
     #[inline(always)]
     pub(super) fn of(self, chosen: Lanes<S>, other: Lanes<S>) -> Lanes<S> {
         Lanes { simd: self.simd, value: self.simd.select_f64s(self.mask, chosen.value, other.value) }
     }
 
-    /// Returns both numbers, exchanged where the choice is true.
+    /// Returns both numbers, exchanged in the lanes where the choice is true.
     #[inline(always)]
     pub(super) fn exchanged(self, a: Lanes<S>, b: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
         (self.of(b, a), self.of(a, b))

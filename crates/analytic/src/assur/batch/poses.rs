@@ -1,4 +1,4 @@
-//! Storage for the poses of a batch: columns, cut into tiles of eight rows that are adjacent in memory.
+//! Storage for the poses of a batch. Its columns are divided into tiles of eight rows that are adjacent in memory.
 
 use super::lanes::{Eight, TILE};
 use linkage::case::Case;
@@ -6,10 +6,10 @@ use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::State;
 
-/// Columns of one link's motion, in this order: two each for origin, direction, velocity and acceleration, one each for
-/// angular velocity and angular acceleration.
+/// Columns of one link's motion: origin (2), direction (2), velocity (2), acceleration (2), angular velocity (1),
+/// angular acceleration (1), in this order.
 const OF_LINK: usize = 10;
-/// Offsets of these quantities from the link's first column.
+/// Offset of each of these quantities from the link's first column.
 pub(super) const ORIGIN: usize = 0;
 pub(super) const DIRECTION: usize = 2;
 pub(super) const VELOCITY: usize = 4;
@@ -51,7 +51,7 @@ impl Layout {
         self.force(JointId(self.joints)) + drive
     }
 
-    /// Column that is NaN where the pose cannot be assembled.
+    /// Column that is NaN if the pose cannot be assembled.
     #[inline(always)]
     pub(super) fn reach(&self) -> usize {
         self.torque(self.drives)

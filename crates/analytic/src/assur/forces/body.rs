@@ -5,7 +5,8 @@ use linkage::drive::{Load, Wrench};
 use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::{JointId, JointSide, LinkId};
 
-/// Reactions that the first link of every joint exerts on the second, filled in from the last group to the first.
+/// Reactions that the first link of every joint exerts on the second. They are filled in from the last group to the
+/// first.
 #[derive(Debug)]
 pub(super) struct Reactions<'a> {
     /// Forces (N).
@@ -22,7 +23,7 @@ pub(super) struct Action {
     pub(super) joint: JointId,
     side: JointSide,
     sign: f64,
-    /// Whether the joint is prismatic and so transmits a moment too.
+    /// Whether the joint is prismatic. A prismatic joint also transmits a moment.
     slides: bool,
     /// Whether the joint is the origin of the link's frame.
     at_origin: bool,
@@ -49,8 +50,8 @@ impl Action {
         reactions.forces[self.joint] = force * self.sign;
     }
 
-    /// Stores a prismatic joint's reaction, given the force on the link and the moment of all other actions on the link
-    /// about `pole`, which the joint must balance.
+    /// Stores a prismatic joint's reaction, given the force on the link and a moment about `pole`.
+    /// This moment is that of all other actions on the link; the joint must balance it.
     #[inline]
     pub(super) fn put_guided(
         &self,
@@ -66,8 +67,8 @@ impl Action {
 }
 
 /// A link with the joints at which later groups are attached to it.
-/// It holds a copy of the masses: a look-up in the mechanism's list of links would add a tenth to the time of the force
-/// analysis.
+/// It holds a copy of the masses, because a look-up in the mechanism's list of links would make the force analysis a
+/// tenth slower.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     link: LinkId,

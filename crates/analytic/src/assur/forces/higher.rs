@@ -1,8 +1,8 @@
 //! Joint reactions of any higher group.
 //!
-//! The closing joints are cut; the principle of virtual work for the unknowns of the contours gives the forces in them
-//! (J^T lambda = -Q).
-//! The forces in the remaining joints follow from the outermost link inwards.
+//! The closing joints are cut. The principle of virtual work for the unknowns of the contours gives their forces (J^T
+//! lambda = -Q).
+//! The forces in the remaining joints follow, from the outermost link inwards.
 
 use super::body::{Action, Body, Reactions};
 use crate::assur::groups::{Chain, SolutionPlan, Step};
@@ -16,20 +16,20 @@ pub(super) struct Higher {
     /// Index of the group's [`Chain`] in the plan.
     step: GroupId,
     bodies: Vec<Body>,
-    /// For each node: action of the joint to its parent on the node's link.
+    /// For each node: the action on its link of the joint to its parent.
     hung: Vec<Action>,
-    /// For each node: known force on its link and on all links attached to it (N), and its moment about the node's
-    /// joint to its parent (N m).
+    /// For each node: the known force on its link and on all links attached to it (N), and the moment of this force
+    /// about the joint to the node's parent (N m).
     carried: Vec<(Vec2, f64)>,
-    /// The same quantities for the forces in the closing joints.
+    /// For each node: force and moment of the closing joints on the same links.
     cut: Vec<(Vec2, f64)>,
     multipliers: Vec<f64>,
-    /// From the outermost node inwards: how each node loads its parent.
+    /// The transfer of load from each node to its parent, in order from the outermost node inwards.
     inwards: Vec<Inwards>,
 }
 
-/// A node and its parent. A link on a pin transmits a force only; a link on a guide turns with its parent and transmits
-/// its moment too.
+/// A node and its parent. A link on a pin transmits only a force to its parent.
+/// A link on a guide turns with its parent and also transmits its moment.
 #[derive(Clone, Copy, Debug)]
 struct Inwards {
     child: usize,

@@ -1,14 +1,14 @@
 //! Joint reactions of the four dyads with prismatic joints.
 //!
-//! A revolute joint transmits a force, a prismatic joint a force across its axis and a moment.
+//! A revolute joint transmits a force. A prismatic joint transmits a force across its axis and a moment.
 //! F and M are the known force and moment on a link, u and w the vectors from the pole to the outer joints.
 //! R is the force on link a at its outer joint.
 //! RRP: u x R = -M_a about the inner joint, e . (R + F) = 0 for the whole dyad.
-//! RPR, with R on the second link of the prismatic joint: e . (R + F_b) = 0 on that link, d x R = -M for the whole dyad
-//! about the first pin.
-//! RPP: b . (R + F_a) = 0 on the pinned link, e . (R + F) = 0 for the whole dyad.
+//! RPR, with R on the second link of the prismatic joint: e . (R + F_b) = 0 for the second link, and d x R = -M about
+//! the first pin for the whole dyad.
+//! RPP: b . (R + F_a) = 0 for the pinned link, e . (R + F) = 0 for the whole dyad.
 //! PRP: the inner force I on link a has e . (I + F_a) = 0 and b . (I - F_b) = 0.
-//! The moments of the guides follow from the moments of their links.
+//! The moments of the guides follow from the moments on their links.
 //! Derived here from the equilibrium of the links and of the whole dyad.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
@@ -17,16 +17,15 @@ use linkage::case::Case;
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, GroupKind, JointId, LinkId};
 
-/// Force analysis of a dyad with prismatic joints. The links are in the order in which the formulas name them.
+/// Force analysis of a dyad with prismatic joints. Its links have the same order as in the formulas.
 #[derive(Clone, Debug)]
 pub(super) struct Sliding {
     kind: GroupKind,
     bodies: [Body; 2],
     outer: [Action; 2],
     inner: [Action; 2],
-    /// Axis of the prismatic joint: for RRP its guide, for RPR the inner joint, for PRP the first guide, for RPP its
-    /// guide.
-    /// The index is the link on which the axis is given.
+    /// Axis of a prismatic joint: the guide for RRP and RPP, the inner joint for RPR, the first guide for PRP.
+    /// The axis is given in the frame of the link with this index.
     axis: (LinkId, Vec2),
     /// Axis of PRP's second guide, or of RPP's inner pair.
     other: (LinkId, Vec2),

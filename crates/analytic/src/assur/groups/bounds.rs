@@ -1,23 +1,24 @@
-//! Bounds of speeds over a step of the crank, which prove that a dyad stays clear of its singular poses.
+//! Bounds of speeds over a step of the crank. They prove that a dyad passes no singular pose in this step.
 //!
 //! Every dyad that can be singular has a gauge g, a smooth function of the positions of its outer joints.
-//! Within the gauge's range the dyad can be assembled; at an end of the range it is singular.
+//! Inside the gauge's range the dyad can be assembled; at an end of the range it is singular.
 //! RRR: the squared distance of its outer joints, from (l1 - l2)^2 to (l1 + l2)^2.
 //! RRP: the distance h of its outer pin from the line of its inner joint, from -l to l.
-//! RPR: the squared distance of its outer pins, from the square of the axes' offset up.
-//! PRP: the sine of the angle between its axes, with the sign of its branch, from 0 up.
+//! RPR: the squared distance of its outer pins, from the square of the axes' offset upwards.
+//! PRP: the sine of the angle between its axes, with the sign of its branch, from 0 upwards.
 //! Between two crank angles g differs from linear interpolation by at most M h^2 / 8, where h is the step and M a bound
-//! of its second derivative.
-//! M follows from bounds of the links that carry the dyad, and these from the crank's motion, group by group.
+//! of the second derivative of g.
+//! M follows from the bounds of the links that carry the dyad. These bounds follow from the crank's motion, group by
+//! group.
 
 use linkage::math::{KeepNan, Vec2};
 
-/// Bounds of a link's motion during a step, as magnitudes of derivatives by the crank angle.
+/// Bounds of a link's motion during a step. They are magnitudes of derivatives with respect to the crank angle.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Bound {
     /// Reference point of the link, in its frame (m).
     pub(super) about: Vec2,
-    /// Speed and acceleration of the reference point (both in m, per unit of crank angle).
+    /// Speed and acceleration of the reference point (m per rad and m per rad^2 of the crank angle).
     pub(super) speed: f64,
     pub(super) second: f64,
     /// Angular velocity and angular acceleration of the link (per unit of crank angle).
@@ -30,7 +31,8 @@ impl Bound {
     pub(in crate::assur) const REST: Bound =
         Bound { about: Vec2::new(0.0, 0.0), speed: 0.0, second: 0.0, turn: 0.0, spin: 0.0 };
 
-    /// Bounds of a link that turns at a constant speed about a point with this speed and acceleration.
+    /// Bounds of a link that turns at a constant speed. The point `about` on its axis has the given speed and
+    /// acceleration.
     pub(super) fn driven(about: Vec2, [speed, second]: [f64; 2], turn: f64) -> Self {
         Bound { about, speed, second, turn, spin: 0.0 }
     }
@@ -45,7 +47,8 @@ impl Bound {
         [self.speed + self.turn * arm, self.second + self.centripetal() * arm]
     }
 
-    /// Acceleration of a point relative to the reference point, divided by its distance from it.
+    /// Acceleration of a point of the link relative to the reference point, divided by the distance between the two
+    /// points.
     pub(super) fn centripetal(&self) -> f64 {
         self.spin + self.turn * self.turn
     }
@@ -65,13 +68,14 @@ pub(in crate::assur) struct Limit {
     pub(in crate::assur) way: f64,
 }
 
-/// Bound of the second derivative of a squared distance, from the relative speed and acceleration of its ends, whose
-/// distance is at most `most`.
+/// Bound of the second derivative of a squared distance. It follows from the relative speed and acceleration of the two
+/// ends.
+/// `most` is the largest distance.
 pub(super) fn of_square([speed, second]: [f64; 2], most: f64) -> f64 {
     2.0 * (speed * speed + most * second)
 }
 
-/// Least value of (g - low) (high - g) on a band within the range; it lies at an end of the band.
+/// Smallest value of (g - low) (high - g) on a band within the range. The minimum is at an end of the band.
 pub(super) fn least_product([low, high]: [f64; 2], band: [f64; 2]) -> f64 {
     let [first, last] = band.map(|gauge| (gauge - low) * (high - gauge));
     first.smaller(last)

@@ -1,16 +1,15 @@
 //! Any higher group, by Newton's method on its vector contours.
 //!
-//! A tree of joints connects the group's links to the known ones. It contains all prismatic joints, which cannot form a
-//! loop.
+//! A tree of joints connects the group's links to the known links. The tree contains all prismatic joints, because
+//! prismatic joints cannot form a loop.
 //! Every remaining revolute joint closes a contour.
-//! The unknowns are one angle for every link with a revolute joint to its parent and one slide for every link with a
-//! prismatic joint.
+//! A link with a revolute joint to its parent has its angle as an unknown; a link with a prismatic joint has a slide.
 //! There are as many unknowns as contour equations.
-//! The gap of a closing joint is the sum of the link and slide vectors along both paths to it.
-//! Its derivative by an angle is the sum of the vectors that turn with that angle, turned by 90 degrees; its derivative
-//! by a slide is the axis.
-//! Velocities and accelerations follow from the same Jacobian: J q' = -(velocity of the ends),
-//! J q'' = -(acceleration of the ends) + centripetal and Coriolis parts.
+//! The gap of a closing joint is the sum of the link and slide vectors along both paths to this joint.
+//! Its derivative by an angle is the sum of the vectors that turn with that angle, rotated by 90 degrees. Its
+//! derivative by a slide is the axis.
+//! Velocities and accelerations follow from the same Jacobian: J q' = -(velocity of the ends), J q'' = -(acceleration
+//! of the ends) + centripetal and Coriolis parts.
 
 mod contour;
 mod predict;
@@ -27,30 +26,34 @@ use linkage::math::{KeepNan, Motion, Vec2, rotated, turned};
 use linkage::mechanism::{GROUND, Group, JointSide, Mechanism};
 use linkage::work::{Count, WorkTally};
 
-/// Largest number of iterations. Newton's method from the last pose needs a few; if it needs more, it has lost the
-/// branch.
+/// Largest number of iterations. Newton's method from the last pose needs only a few. More iterations mean that the
+/// branch is lost.
 const MAX_ITERATIONS: usize = 10;
-/// Largest turn of a link from the last pose (rad) that is accepted as a continuation of the branch.
-/// For a slide the limit is the same share of the mechanism's size.
+/// Largest rotation of a link from the last pose (rad) that is accepted as a continuation of the branch.
+/// The limit for a slide is the same fraction of the mechanism's size.
 const MAX_TURN: f64 = 0.3;
 
-/// Largest turn of the last iteration (rad). The remaining error is its square times the condition number of the pose.
+/// If no unknown changes by more than this (rad), the iteration is the last one.
+/// The remaining error is the square of the change, times the condition number of the pose.
 const LAST_CHANGE: f64 = 1e-8;
 
-/// Largest change of the last iteration (rad) at which the Jacobian is that of the pose itself, to rounding.
-/// Predictions from five steps amplify the rounding error of a turn up to 31 times.
-/// In steps of a tenth of a degree they come this near to the solution.
+/// If the last iteration changes no unknown by more than this (rad), its Jacobian is that of the final pose within
+/// rounding error.
+/// Predictions from five steps amplify the rounding error of an angle up to 31 times.
+/// For steps of a tenth of a degree, predictions meet this limit.
 const SAME_POSE: f64 = 4e-14;
 /// Largest correction of a predicted pose (rad). Near a dead point predictions are poor, and the corrected pose may be
 /// on another branch.
 const MAX_CORRECTION: f64 = 0.01;
-/// Share of the squared determinant that must remain after a step, as extrapolated from the last step.
+/// The squared determinant must not fall below this fraction of its value during a step. The fall is extrapolated from
+/// the last steps.
 const LEAST_LEFT: f64 = 0.25;
-/// Step of the driving angles (rad) below which a jump to another branch is impossible.
+/// If the driving angles change by no more than this (rad), a jump to another branch is impossible.
 const SMALLEST_STEP: f64 = 1e-6;
-/// Ratio of the determinant to the largest determinant so far, below which a pose is singular.
-/// At a change point the determinant is linear in the driving angles. Within [`SMALLEST_STEP`] of it Newton's method
-/// cannot distinguish the branches and may change to the branch that keeps the sign.
+/// A pose is singular if the ratio of its determinant to the largest determinant so far is below this value.
+/// At a change point the determinant is linear in the driving angles.
+/// Within [`SMALLEST_STEP`] of the change point, Newton's method cannot distinguish the branches.
+/// It may then change to the branch on which the determinant keeps its sign.
 /// At a dead point the determinant falls with the square root of the distance, and its sign distinguishes the branches.
 const SINGULAR: f64 = 1e-6;
 
@@ -62,11 +65,12 @@ fn slightly_turned(direction: Vec2, angle: f64) -> Vec2 {
     let sine = angle * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
     let cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)));
     let turned = rotated(direction, Vec2::new(cosine, sine));
-    // The length differs from 1 by at most 1e-8; the error of this inverse root is of the order of its square.
+    // The length differs from 1 by at most 1e-8. The error of this approximate inverse root is of the order of the
+    // square of that difference.
     turned * (1.5 - 0.5 * turned.norm_squared())
 }
 
-/// A joint in the world: the vector to it from the origin of its link's frame, and its motion.
+/// A joint in world coordinates: the vector from the origin of its link's frame to the joint, and the joint's motion.
 #[derive(Clone, Copy, Debug)]
 struct At {
     arm: Vec2,
@@ -79,7 +83,7 @@ struct At {
 #[derive(Clone, Debug)]
 struct World {
     arrows: Vec<Vec2>,
-    /// The vectors times the square of the angular velocity with which they turn (m/s^2).
+    /// Each vector times the square of its angular velocity (m/s^2).
     centripetal: Vec<Vec2>,
     roots: Vec<At>,
     /// The joints from the nodes to their parents.
@@ -95,16 +99,16 @@ pub struct Chain {
     unknown: Vec<f64>,
     branch: f64,
     /// Determinant at the last pose, its square, and the derivatives of the square by the driving angles (1/rad).
-    /// Every step corrects the derivative in its direction (Broyden's update).
+    /// Every step corrects the derivatives along the direction of the step (Broyden's update).
     determinant: f64,
     square: f64,
     slopes: Vec<f64>,
-    /// Driving angles at the last pose, and their changes to the requested pose (rad).
+    /// Driving angles at the last pose, and the changes from there to the requested pose (rad).
     at: Vec<f64>,
     step: Vec<f64>,
     /// Directions of the links at the last pose, restored if a step fails.
     kept: Vec<Vec2>,
-    /// Slides at this pose and at the last one, and their rates (m, m, m/s); 0 for revolute joints.
+    /// Slides at the present pose, slides at the last pose, and their rates (m, m, m/s); 0 for revolute joints.
     slides: Vec<f64>,
     kept_slides: Vec<f64>,
     speeds: Vec<f64>,
@@ -125,7 +129,7 @@ impl Chain {
         let n = contours.nodes.len();
         let none = Vec2::zeros();
         let at = At { arm: none, place: none, velocity: none, acceleration: none };
-        // Joints on the ground stay where they are.
+        // Joints on the ground do not move.
         let root = |side: &JointSide| At { arm: side.local, place: side.local, ..at };
         let world = World {
             arrows: vec![none; contours.arrows.len()],
@@ -195,15 +199,16 @@ impl Chain {
         self.is_sliding
     }
 
-    /// Treats the last pose as that of a first driving angle larger by `way` (rad), a whole number of turns.
+    /// Treats the last pose as the pose at a first driving angle that is larger by `way` (rad), a whole number of
+    /// turns.
     pub(super) fn skip(&mut self, way: f64) {
         self.at[0] += way;
-        // Whole turns are rounded, so the next step differs from the last.
+        // Rounding of the whole turns makes the next step differ from the last.
         self.memory.start_anew();
     }
 
     /// Computes the positions at these driving angles (rad), starting from the last pose.
-    /// Returns `false` and leaves the links' directions unchanged if the branch cannot be followed there.
+    /// If the branch cannot be followed to these angles, returns `false` and leaves the links' directions unchanged.
     pub(super) fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> bool {
         match self.is_sliding {
             true => self.positions_as::<true>(angles, motions),
@@ -234,7 +239,7 @@ impl Chain {
             self.kept_slides.copy_from_slice(&self.slides);
         }
         self.find_roots(motions);
-        // A prediction is the first change of the unknowns.
+        // If a prediction exists, it is the first change of the unknowns.
         let allowed = if self.memory.predict(&self.step) {
             for (index, node) in self.contours.nodes.iter().enumerate() {
                 let change = self.memory.change(index);
@@ -296,7 +301,7 @@ impl Chain {
     }
 
     /// Reads the slides of the start pose.
-    /// The links are still in that pose when the group is placed for the first time.
+    /// This is possible because the links are still in that pose when the group is placed for the first time.
     fn read_slides(&mut self, motions: &[Motion]) {
         for (slide, node) in self.slides.iter_mut().zip(&self.contours.nodes) {
             let from = motions[node.parent.link].point(node.parent.local);
@@ -315,7 +320,7 @@ impl Chain {
         }
     }
 
-    /// Computes the vectors of the tree from the links' directions, and turns every guided link with its parent.
+    /// Computes the vectors of the tree from the links' directions, and rotates every guided link with its parent.
     fn draw<const SLIDING: bool>(&mut self, motions: &mut [Motion]) {
         let Contours { nodes, arrows, .. } = &self.contours;
         if SLIDING {
@@ -361,7 +366,7 @@ impl Chain {
         }
     }
 
-    /// Iterates Newton's method to rounding. Leaves the factored Jacobian of the final pose.
+    /// Iterates Newton's method to rounding accuracy. Afterwards the factored Jacobian is that of the final pose.
     fn follow<const SLIDING: bool>(&mut self, allowed: f64, motions: &mut [Motion]) -> bool {
         for _ in 0..MAX_ITERATIONS {
             self.assemble::<SLIDING>(motions);
@@ -398,7 +403,7 @@ impl Chain {
                 } else if SLIDING {
                     self.draw::<SLIDING>(motions);
                 } else {
-                    // The arrows turn as little as their links.
+                    // Each arrow is rotated by the same small angle as its link.
                     for (vector, arrow) in self.world.arrows.iter_mut().zip(&self.contours.arrows) {
                         *vector -= turned(*vector) * self.unknown[arrow.node];
                     }
@@ -423,7 +428,7 @@ impl Chain {
             }
             let motion = &mut motions[node.link];
             if node.at_origin {
-                // The arm is zero and stays zero.
+                // The vector from the origin to the joint is zero and remains zero.
                 motion.origin = place;
             } else {
                 let arm = motion.arm(node.own);
@@ -433,7 +438,7 @@ impl Chain {
             joints[index].place = place;
         }
         self.determinant = self.jacobian.determinant();
-        // The product of many small pivots may underflow to zero; its sign is still known.
+        // The product of many small pivots may underflow to zero. Its sign is still known from the pivots.
         let vanishes = self.determinant == 0.0;
         let sign = if vanishes { self.jacobian.determinant_sign() } else { self.determinant.signum() };
         if self.branch == 0.0 {
@@ -461,7 +466,7 @@ impl Chain {
         self.square = square;
     }
 
-    /// Change of the squared determinant over this step, extrapolated from the last steps.
+    /// Change of the squared determinant in this step, extrapolated from the last steps.
     #[inline(always)]
     fn foreseen(&self) -> f64 {
         if let ([step], [slope]) = (&self.step[..], &self.slopes[..]) {
@@ -472,7 +477,7 @@ impl Chain {
 
     /// Whether this step might lead over a dead point, near which the squared determinant is linear in the driving
     /// angles.
-    /// A step in which the square would lose most of its value must be smaller.
+    /// If the step would reduce the square to a small fraction, it must be smaller.
     /// Otherwise it might end on the other side of a gap between two branches.
     fn is_bold(&self) -> bool {
         let goes = self.step.iter().any(|step| step.abs() > SMALLEST_STEP);
@@ -490,7 +495,7 @@ impl Chain {
     }
 }
 
-/// Changes one unknown: turns the node's link by an angle (rad), or slides it by a share of `size`.
+/// Changes one unknown: rotates the node's link by an angle (rad), or slides it by a fraction of `size`.
 #[inline]
 fn advance<const SLIDING: bool>(node: &Node, slide: &mut f64, change: f64, size: f64, motions: &mut [Motion]) {
     if SLIDING && node.is_guided() {

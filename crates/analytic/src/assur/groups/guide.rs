@@ -3,8 +3,8 @@
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{Joint, JointSide, LinkId};
 
-/// Returns `a` times the conjugate of `b` as complex numbers: the direction of a frame in which the unit vector `b`
-/// points along `a`.
+/// Returns `a` times the conjugate of `b` as complex numbers. In a frame with this direction, the unit vector `b` of
+/// the frame points along the world vector `a`.
 #[inline]
 pub(super) fn turn_between(a: Vec2, b: Vec2) -> Vec2 {
     Vec2::new(b.dot(&a), cross(b, a))
@@ -61,7 +61,7 @@ impl Guide {
         motions[self.link].origin = place - motions[self.link].arm(local);
     }
 
-    /// Gives the sliding link the guide's angular velocity and its point `local` a velocity.
+    /// Gives the sliding link the guide's angular velocity, and its point `local` the given velocity.
     #[inline]
     pub(super) fn put_velocity(&self, local: Vec2, velocity: Vec2, motions: &mut [Motion]) {
         let omega = motions[self.base.link].omega;
@@ -70,7 +70,7 @@ impl Guide {
         motion.velocity = velocity - turned(motion.arm(local)) * omega;
     }
 
-    /// Gives the sliding link the guide's angular acceleration and its point `local` an acceleration.
+    /// Gives the sliding link the guide's angular acceleration, and its point `local` the given acceleration.
     #[inline]
     pub(super) fn put_acceleration(&self, local: Vec2, acceleration: Vec2, motions: &mut [Motion]) {
         let alpha = motions[self.base.link].alpha;

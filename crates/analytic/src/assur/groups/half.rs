@@ -1,4 +1,4 @@
-//! The two links of a dyad, in the order that its equations require.
+//! The two links of a dyad, in the order of its equations.
 
 use linkage::mechanism::{Group, Joint, LinkId, Mechanism};
 

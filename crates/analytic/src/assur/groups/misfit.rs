@@ -3,7 +3,7 @@
 /// Reasons why a group cannot be placed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Misfit {
-    /// RRR: the distance of the outer joints lies outside the distances that the links can span.
+    /// RRR: the two links are too short or too long to span the distance of the outer joints.
     Span {
         /// Distance of the outer joints (m).
         distance: f64,
@@ -46,16 +46,16 @@ pub struct SingularityDistance {
     pub rate: f64,
 }
 
-/// Sine below which a pose is singular.
-/// The error of a dyad's angles is rounding divided by this sine: below the limit the sine itself is mostly rounding
-/// error.
+/// A pose is singular if its sine is below this value.
+/// The error of a dyad's angles is the rounding error divided by this sine. Below the limit the sine itself is mostly
+/// rounding error.
 pub const SINGULAR: f64 = 1e-7;
 
-/// Sine below which two axes are parallel within rounding error.
+/// If the sine of the angle between two axes is below this value, they are parallel within rounding error.
 const PARALLEL: f64 = 1e-14;
 
-/// Returns the sign of the sine of the angle between two axes, checked against `side` once that is known.
-/// A dyad that has passed through infinity is on another branch.
+/// Returns the sign of the sine of the angle between two axes.
+/// If `side` is known, the sign must agree with it: a dyad that has passed through infinity is on another branch.
 /// A dyad whose axes are parallel within rounding error has no pose.
 pub(super) fn kept_side(side: f64, sine: f64) -> Result<f64, Misfit> {
     let now = sine.signum();

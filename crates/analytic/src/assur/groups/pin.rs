@@ -19,7 +19,7 @@ impl Pin {
         Pin { link, base: joint.other(link), own: joint.on(link).expect("the joint is on the link") }
     }
 
-    /// Bounds of the pin's speed and acceleration; `None` if the bounds of the known link are not known.
+    /// Bounds of the pin's speed and acceleration; `None` if the known link has no bounds.
     pub(super) fn rates(&self, links: &Bounds) -> Option<[f64; 2]> {
         links[self.base.link].map(|link| link.at(self.base.local))
     }

@@ -2,9 +2,9 @@
 //!
 //! Both links turn with their guides.
 //! The inner joint C lies on two lines along the axes e and b: (C1 + s e - C2) x b = 0.
-//! C1 and C2 are its positions on the two links at slide zero.
-//! With E1, E2 the points of the guides' links at C, v_E1 + s' e = v_E2 + t' b.
-//! The accelerations have the same form, with their Coriolis parts.
+//! C1 and C2 are the positions of C on the two links at slide zero.
+//! E1 and E2 are the points of the guides' links at C. Their velocities satisfy v_E1 + s' e = v_E2 + t' b.
+//! The accelerations satisfy the same equation, with their Coriolis parts.
 //! Derived here from the closure of the vector contour; in Artobolevsky's classification this is the class II group of
 //! the fourth kind.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
@@ -28,7 +28,7 @@ pub struct Prp {
 }
 
 impl Prp {
-    /// Prepares the dyad `group`, which has only one configuration.
+    /// Prepares the dyad `group`. It has only one configuration.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Self {
         let joints = mechanism.joints();
@@ -48,7 +48,8 @@ impl Prp {
         self.gauge
     }
 
-    /// Limit of the gauge over a step of the crank. The angle between the axes turns with the guides.
+    /// Limit of the gauge during a step of the crank. The angle between the axes changes with the rotation of the
+    /// guides.
     pub(super) fn limit(&self, links: &Bounds) -> Option<Limit> {
         let [first, second] = self.guides.map(|guide| links[guide.base.link]);
         let (first, second) = (first?, second?);

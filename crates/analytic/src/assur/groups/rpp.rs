@@ -1,8 +1,8 @@
 //! Dyad of a pinned link that slides on a slider: outer revolute, inner and outer prismatic joint (class II, order 2).
 //!
-//! All angles follow from the guide's link. It has the axis e; b is the inner axis, and X a point of the slider on the
-//! inner axis.
-//! The guide carries X, which slides along e and lies on a line along b that turns about the pin:
+//! All angles follow from the guide's link, which carries the axis e.
+//! b is the inner axis, and X a point of the slider on the inner axis.
+//! X slides along e. It also lies on a line along b that turns about the pin.
 //! b x (X - line) = 0 gives s, and b x (v_E - v_A) + s' b x e = 0 gives s'.
 //! E and A are the points of the guide's link and of the pinned link at X.
 //! The accelerations, with both Coriolis parts, give s''.
@@ -24,13 +24,13 @@ pub struct Rpp {
     guide: Guide,
     /// Inner axis in the frames of the pinned link and of the slider.
     axes: [Vec2; 2],
-    /// The position of the inner joint in the same frames.
+    /// Position of the inner joint in the frame of the pinned link and in that of the slider.
     inner: [Vec2; 2],
     /// Sign of the sine of the angle between the axes on the followed branch; 0 before the first pose.
     side: f64,
 }
 
-/// Values shared by all derivatives.
+/// Values that positions, velocities and accelerations share.
 struct Pose {
     axis: Vec2,
     inner_axis: Vec2,
@@ -39,7 +39,7 @@ struct Pose {
 }
 
 impl Rpp {
-    /// Prepares the dyad `group`, which has only one configuration.
+    /// Prepares the dyad `group`. It has only one configuration.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Self {
         let [slider, pinned] = of_dyad(mechanism, group, |outer, _| outer.slides());

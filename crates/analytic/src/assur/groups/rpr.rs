@@ -1,10 +1,10 @@
 //! Dyad of a swinging guide and a block: outer revolute joints, inner prismatic joint (class II, order 2).
 //!
-//! The outer pins are P1 (on the prismatic joint's first link) and P2. With d = P2 - P1 and the axis e with its normal
-//! n, d = e s + n h.
+//! The outer pins are P1 (on the prismatic joint's first link) and P2. The axis is e, with the normal n.
+//! With d = P2 - P1, d = e s + n h.
 //! h is a constant of the two links, and s = +-sqrt(d^2 - h^2) gives the common direction.
 //! d' = s' e + omega x d gives omega = n . d' / s and s' = e . d' + omega h.
-//! A second derivative gives alpha = (n . d'' - 2 s' omega + omega^2 h) / s.
+//! The second derivative of d gives alpha = (n . d'' - 2 s' omega + omega^2 h) / s.
 //! Derived here from the closure of the vector contour; in Artobolevsky's classification this is the class II group of
 //! the third kind.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
@@ -22,10 +22,11 @@ pub struct Rpr {
     pins: [Pin; 2],
     /// The axis in the frame of each link.
     axes: [Vec2; 2],
-    /// Distance of the second pin from the line through the first pin along the axis, positive to its left.
+    /// Distance of the second pin from the line through the first pin along the axis; positive if the second pin is to
+    /// the left of this line.
     across: f64,
     sense: f64,
-    /// Size of the mechanism, with which the distance of the pins along the axis is compared (m).
+    /// Size of the mechanism (m). The distance of the pins along the axis is compared with it.
     size: f64,
     /// d^2 at the last pose (m^2).
     gauge: f64,
@@ -88,15 +89,15 @@ impl Rpr {
         self.gauge
     }
 
-    /// Limit of the gauge over a step of the crank. `farthest` is the largest squared distance of the pins at the ends
-    /// of the step (m^2); `step` bounds its growth between them.
+    /// Limit of the gauge during a step of the crank. `farthest` is the largest squared distance of the pins at the
+    /// ends of the step (m^2). `step` limits the growth of this distance between the ends.
     pub(super) fn limit(&self, links: &Bounds, farthest: f64, step: f64) -> Option<Limit> {
         let [[v1, a1], [v2, a2]] = [self.pins[0].rates(links)?, self.pins[1].rates(links)?];
         let second = of_square([v1 + v2, a1 + a2], farthest.sqrt() + (v1 + v2) * step);
         Some(Limit { range: [self.across * self.across, f64::INFINITY], second, way: f64::INFINITY })
     }
 
-    /// Writes the bounds of the dyad's links while its gauge stays above the lower end of `band`.
+    /// Writes the bounds of the dyad's links. They hold while the gauge stays above the lower end of `band`.
     /// They follow from the formulas of omega and alpha.
     pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
         let [Some(first), Some(second)] = self.pins.map(|pin| pin.rates(links)) else { return };

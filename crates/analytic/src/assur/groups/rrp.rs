@@ -2,10 +2,10 @@
 //!
 //! The outer pin is P, the inner joint C, r = C - P; the guide has the axis e and its normal n.
 //! C lies on a line along e, so that h = n . r is known and e . r = +-sqrt(l^2 - h^2).
-//! From v_P + omega x r = v_E + s' e, where E is the point of the guide's link at C: omega = n . (v_E - v_P) / (e
-//! . r).
+//! From v_P + omega x r = v_E + s' e, where E is the point of the guide's link at C: omega = n . (v_E - v_P) / (e . r).
 //! With the Coriolis part 2 omega_E s' n: alpha = (n . (a_E - a_P + omega^2 r) + 2 omega_E s') / (e . r).
-//! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the second kind.
+//! Derived here from the closure of the vector contour.
+//! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::bounds::{Bound, Bounds, Limit, least_product};
 use super::guide::{Guide, turn_between};
@@ -15,7 +15,7 @@ use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{AssemblyMode, Group, LinkId, Mechanism};
 
-/// Number of crank steps for which a bound of a moving guide holds.
+/// If the guide moves, a bound holds for this number of crank steps.
 const FAR: f64 = 16.0;
 
 /// RRP dyad, prepared for solving.
@@ -82,9 +82,10 @@ impl Rrp {
         self.gauge
     }
 
-    /// Returns bounds of the outer pin (speed and acceleration), of the point Q (the same) and of the guide's link.
+    /// Returns bounds of the speed and acceleration of the outer pin and of the point Q, and the bounds of the guide's
+    /// link.
     /// Q is the inner joint on the guide's link at slide zero.
-    /// The last value is the largest distance between pin and Q while the crank turns by `way` from here.
+    /// The last value is the largest distance between pin and Q while the crank turns by `way` from the present pose.
     fn outer_rates(&self, links: &Bounds, motions: &[Motion], way: f64) -> Option<([f64; 2], [f64; 2], Bound, f64)> {
         let (pin, link) = (self.rod.rates(links)?, links[self.guide.base.link]?);
         let (base, at_zero) = (&motions[self.guide.base.link], self.guide.at_zero(self.inner, motions));
@@ -93,7 +94,7 @@ impl Rrp {
         Some((pin, zero, link, (at_zero - self.rod.place(motions)).norm() + (pin[0] + zero[0]) * way))
     }
 
-    /// Limit of the gauge over a step of the crank.
+    /// Limit of the gauge during a step of the crank.
     /// h = n . (Q - P), so that |h''| <= |a| + 2 omega |v| + (alpha + omega^2) |Q - P|.
     /// v and a are the velocity and acceleration of Q relative to P.
     pub(super) fn limit(&self, links: &Bounds, motions: &[Motion], step: f64) -> Option<Limit> {
@@ -105,14 +106,13 @@ impl Rrp {
         Some(Limit { range: [-length, length], second, way: if rests { f64::INFINITY } else { way } })
     }
 
-    /// Writes the bounds of the dyad's links while its gauge stays in a band and the crank within `FAR` steps.
+    /// Writes the bounds of the dyad's links. They hold while the gauge stays in `band`, for `FAR` steps of the crank.
     /// They follow from the formulas of omega and alpha, with |e . r| >= l s.
     pub(super) fn bound(&self, band: [f64; 2], step: f64, motions: &[Motion], links: &mut Bounds) {
         let Some((pin, zero, guide, distance)) = self.outer_rates(links, motions, FAR * step) else { return };
         let length = self.span.norm();
         let along = least_product([-length, length], band).sqrt();
-        // Bounds of the guide's link at the inner joint. The distance of this joint from the pin is at most the rod's
-        // length.
+        // Bounds of the guide's link at the inner joint. The inner joint is at most one rod length away from the pin.
         let speed = zero[0] + guide.turn * (distance + length);
         let second = zero[1] + guide.centripetal() * (distance + length);
         let turn = (speed + pin[0]) / along;

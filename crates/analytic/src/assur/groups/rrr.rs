@@ -4,8 +4,8 @@
 //! r1 = d f + (z x d) h with d = P2 - P1, f = (l1^2 - l2^2 + d^2) / 2 d^2, 4 D^2 = 4 d^4 h^2 = ((l1 + l2)^2 - d^2) (d^2 - (l1 - l2)^2);
 //! omega1 = (v2 - v1) . r2 / D, omega2 = (v2 - v1) . r1 / D from v1 + omega1 x r1 = v2 + omega2 x r2.
 //! The same equations hold for the accelerations minus their centripetal parts.
-//! They follow from the vector contour of the group, for example Artobolevsky, "Theory of mechanisms and machines",
-//! chapter on the kinematics of class II groups.
+//! Derived here from the closure of the vector contour.
+//! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::bounds::{Bound, Bounds, Limit, least_product, of_square};
 use super::misfit::{Misfit, SINGULAR, SingularityDistance};
@@ -31,19 +31,19 @@ struct Arm {
 pub struct Rrr {
     arms: [Arm; 2],
     squared: [f64; 2],
-    /// (l1 - l2)^2 and (l1 + l2)^2, between which d^2 is (m^2).
+    /// Limits of d^2: (l1 - l2)^2 and (l1 + l2)^2 (m^2).
     range: [f64; 2],
     /// 1 / (l1 l2) (1/m^2).
     inverse_lengths: f64,
-    /// 4 D^2 at and below which the pose is singular: the square of 2 [`SINGULAR`] l1 l2 (m^4).
+    /// If 4 D^2 is at most this value, the pose is singular. The value is the square of 2 [`SINGULAR`] l1 l2 (m^4).
     least: f64,
-    /// A half with the sign of D on the branch.
+    /// One half, with the sign that D has on the branch.
     half: f64,
     /// World vectors from the origins of the known links to the outer joints (m).
     bases: [Vec2; 2],
     /// World vectors from the origins of the dyad's own links to the outer joints (m).
     outers: [Vec2; 2],
-    /// World vectors from the outer joints to the inner joint, r1 and r2 (m), and the position of the inner joint (m).
+    /// World vectors r1 and r2 from the outer joints to the inner joint (m), and the position of the inner joint (m).
     spans: [Vec2; 2],
     inner: Vec2,
     /// d^2 (m^2).
@@ -85,8 +85,8 @@ impl Rrr {
         }
     }
 
-    /// World vectors from the outer joints of the group's first and second link to the inner joint (m), and the
-    /// inverse of their vector product (1/m^2). Positions and velocities must be known.
+    /// World vectors from the outer joints of the group's first and second link to the inner joint (m), and the inverse
+    /// of their vector product (1/m^2). Positions and velocities must be known.
     #[inline]
     #[must_use]
     pub fn spans(&self) -> ([Vec2; 2], f64) {
@@ -99,7 +99,7 @@ impl Rrr {
         self.inner
     }
 
-    /// The outer joint on the known link of an arm: the vector to it from the link's origin, its position, velocity and
+    /// Vector to the outer joint of an arm from the origin of the known link, and the joint's position, velocity and
     /// acceleration.
     /// For joints on the ground, nothing is computed.
     #[inline(always)]
@@ -118,15 +118,15 @@ impl Rrr {
     fn close(&self, [p1, p2]: [Vec2; 2]) -> Result<([Vec2; 2], [f64; 2]), Misfit> {
         let d = p2 - p1;
         let d_squared = d.norm_squared();
-        // f d^2, and 4 D^2 by Heron's formula, which loses no digits near a singular pose.
-        // The root does not wait for the division by d^2.
+        // `along` is f d^2. 4 D^2 follows from Heron's formula, which loses no digits near a singular pose.
+        // The root does not depend on the division by d^2, so both can run at the same time.
         let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared);
         let square = (self.range[1] - d_squared) * (d_squared - self.range[0]);
         // The comparison is negated so that NaN is refused too.
         if !(square >= 0.0) {
             return Err(self.too_far(d_squared));
         }
-        // The sine of the transmission angle: D / (l1 l2).
+        // The sine of the transmission angle is D / (l1 l2).
         if square <= self.least {
             return Err(Misfit::Singular);
         }
@@ -151,7 +151,8 @@ impl Rrr {
         for (k, (pivot, r)) in pivots.into_iter().zip(self.spans).enumerate() {
             let Arm { link, outer, inverse_span, .. } = self.arms[k];
             let motion = &mut motions[link];
-            // Quotient of the world and the body vector as complex numbers: the direction of the frame.
+            // Quotient of the world vector and the vector in the link's frame, as complex numbers: the direction of the
+            // frame.
             motion.direction = Vec2::new(inverse_span.dot(&r), cross(inverse_span, r));
             self.outers[k] = motion.arm(outer);
             motion.origin = pivot - self.outers[k];
@@ -159,9 +160,9 @@ impl Rrr {
         Ok(())
     }
 
-    /// Positions, velocities and accelerations in one pass: shared values stay in registers, and every motion is
+    /// Positions, velocities and accelerations in one pass. Shared values stay in registers, and every motion is
     /// written once.
-    /// The arithmetic is that of the three separate functions, so the bits are the same.
+    /// The arithmetic operations are those of the three separate functions, so the bits are the same.
     #[inline(always)]
     pub(super) fn motions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         let [[bases0, p1, v1, a1], [bases1, p2, v2, a2]] = [0, 1].map(|k| Self::base(&self.arms[k], motions));
@@ -178,7 +179,7 @@ impl Rrr {
             (motion.omega, motion.alpha) = (omega, alpha);
             motion.direction = Vec2::new(arm.inverse_span.dot(&r), cross(arm.inverse_span, r));
             if arm.at_origin {
-                // The vector from the origin to the joint is zero, and stays so.
+                // The vector from the origin to the joint is zero and remains zero.
                 (motion.origin, motion.velocity, motion.acceleration) = (p, v, a);
                 return;
             }
@@ -206,22 +207,23 @@ impl Rrr {
         self.gauge
     }
 
-    /// Speeds and accelerations of the outer joints; `None` if the bounds of a carrying link are not known.
+    /// Speeds and accelerations of the outer joints; `None` if a carrying link has no bounds.
     fn outer_rates(&self, links: &Bounds) -> Option<[[f64; 2]; 2]> {
         let [first, second] = self.arms.map(|arm| links[arm.base.link].map(|link| link.at(arm.base.local)));
         Some([first?, second?])
     }
 
-    /// Limit of the gauge over a step of the crank.
+    /// Limit of the gauge during a step of the crank.
     pub(super) fn limit(&self, links: &Bounds, step: f64) -> Option<Limit> {
         let [[v1, a1], [v2, a2]] = self.outer_rates(links)?;
         let range = self.range;
-        // The dyad is assembled at both ends, so the outer joints are never farther apart than this.
+        // The dyad is assembled at both ends of the step. In between, the outer joints therefore stay within this
+        // distance.
         let most = range[1].sqrt() + (v1 + v2) * step;
         Some(Limit { range, second: of_square([v1 + v2, a1 + a2], most), way: f64::INFINITY })
     }
 
-    /// Writes the bounds of the dyad's links while its gauge stays in a band.
+    /// Writes the bounds of the dyad's links. They hold while the gauge stays in `band`.
     /// They follow from omega1 = (v2 - v1) . r2 / D and |D| = l1 l2 s, where 4 l1^2 l2^2 s^2 = (g - low) (high - g).
     pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
         let rates = self.outer_rates(links);

@@ -1,11 +1,10 @@
 //! Reactions near a change point.
 //!
-//! The motion and the power of the drives are smooth there, but reactions need not be.
-//! In the singular pose a group's links no longer hold it. It carries only loads that do no work along the other
-//! branch.
+//! The motion and the power of the drives are smooth there, but reactions need not be smooth.
+//! In the singular pose a group is movable. It carries only loads that do no work along the other branch.
 //! The reactions to all other loads grow with the inverse of the distance.
 //! A reaction is therefore the sum of a first-order pole and a smooth part.
-//! The residue is read from the reactions times the distance, which are smooth.
+//! The residue of the pole follows from the products of reaction and distance, which are smooth.
 
 use super::window::{Window, at_speed, weights};
 use crate::assur::forces::Kinetostatics;
@@ -14,15 +13,15 @@ use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Motion, Vec2, angle, cross};
 use linkage::solver::State;
 
-/// Threshold below which a residue counts as zero.
-/// It is a multiple of the residue's change without the innermost nodes, plus a share of the largest reaction times its
-/// distance.
+/// Residues below a threshold count as zero. The threshold has two terms.
+/// The first is this multiple of the residue's change when the innermost nodes are left out.
+/// The second is a fraction of the largest product of a reaction and its distance.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
-/// Distance from a change point (rad) within which reactions with a residue are not reported.
-/// The position of the change point is known to some 1e-14 rad.
-/// The relative error of these reactions is that error divided by the distance.
+/// If a pose is nearer to a change point than this (rad), reactions with a residue are not reported.
+/// The position of the change point has an error of some 1e-14 rad.
+/// The relative error of these reactions is the error of the position, divided by the distance.
 const NEAREST: f64 = 1e-7;
 
 /// Writes the loads on all links at their motions and angles (rad).
@@ -32,11 +31,12 @@ pub(in crate::assur) type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut 
 pub(in crate::assur) struct Unbounded;
 
 impl Window {
-    /// Writes the reactions and balancing moments to `state`, whose motions and angles are known.
-    /// The driving link is at `place`, with this angular velocity and acceleration.
+    /// Writes the reactions and balancing moments to `state`. Its motions and angles must be known.
+    /// The driving link is at the angle `place` and has the given angular velocity and acceleration.
     /// `loads` finds the loads from the motions and angles of the links.
     /// In free motion, `shaft` holds the moment on the driving link and the moment of inertia that turns with it.
-    /// Each neighbouring pose then has its own acceleration at the same speed, so that a residue is that of the motion.
+    /// Each neighbouring pose then has the acceleration that balances its driving link at the same speed.
+    /// A residue is then a property of the motion.
     pub(in crate::assur) fn reactions(
         &self,
         place: f64,
@@ -84,7 +84,7 @@ impl Window {
     }
 
     /// Values at the distance `x`, from the values at the nodes.
-    /// Each value is a polynomial and, where present, a pole of first order.
+    /// Each value is the sum of a polynomial and, if its residue is not zero, a pole of first order.
     fn with_poles(&self, x: f64, values: &[Vec<f64>]) -> Result<Vec<f64>, Unbounded> {
         let offsets = self.offsets();
         let nearest = offsets.iter().fold(f64::INFINITY, |least, offset| least.smaller(offset.abs()));

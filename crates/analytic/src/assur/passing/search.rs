@@ -5,22 +5,23 @@ use crate::assur::turns::FOLLOWED_STEP;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
-/// Step of the search, as a share of the estimated distance.
-/// At a dead point the estimate is twice the distance, so a step below half of it stays on the branch.
+/// Ratio of a search step to the estimated distance of the change point.
+/// At a dead point the estimate is twice the distance. A ratio below one half therefore keeps the search on the branch.
 const STEP: f64 = 0.4;
-/// Step of the search for a higher group, as a share of the estimated distance.
-/// The group refuses steps over which its squared determinant might vanish.
+/// Ratio of a search step to the estimated distance of the change point, for a higher group.
+/// The group refuses steps in which its squared determinant might vanish.
 const FOLLOWED: f64 = 0.2;
 /// Smallest step (rad) in which a higher group is followed.
 const SMALLEST: f64 = 1e-9;
-/// Sine below which a group counts as passing through zero, if its sine is linear there.
-/// Rounding of the lengths leaves at most the square root of the unit roundoff.
-/// A mechanism in which more remains is a different one.
+/// If the sine of a group is linear and falls below this value, it counts as passing through zero.
+/// Rounding of the lengths leaves a sine of at most the square root of the unit roundoff.
+/// If a larger sine remains, the mechanism has no change point there.
 const MET: f64 = 1e-6;
-/// Sine below which the slope for the comparison is taken. At a dead point the slope grows with the inverse of the
-/// sine.
+/// Below this sine, the search stores the slope of the sine, for comparison with the slope at `MET`.
+/// At a dead point the slope grows with the inverse of the sine.
 const LINEAR: f64 = 1e-3;
-/// Both limits for a higher group, as shares of its determinant at the start of the search. The start may be near.
+/// Limits `MET` and `LINEAR` for a higher group, divided by its determinant at the start of the search.
+/// The start may already be near the change point.
 const HIGHER: [f64; 2] = [1e-4, 3e-2];
 const MOST_STEPS: usize = 200;
 
@@ -31,8 +32,8 @@ pub(super) struct Start<'a> {
     pub(super) motions: &'a [Motion],
 }
 
-/// The angle of the driving link at which a group has a change point, about `ahead` (rad) from a pose.
-/// Otherwise the angle up to which the group has no change point.
+/// Searches for a change point of a group, at a distance of about `ahead` (rad) from a pose.
+/// Returns its angle of the driving link. The error is the angle up to which the group has no change point.
 pub(super) fn change_point(start: &Start, group: GroupId, ahead: f64) -> Result<f64, f64> {
     let (mut plan, mut motions) = (start.plan.clone(), start.motions.to_vec());
     let (way, mut angle) = (ahead.signum(), start.angle);
@@ -44,7 +45,7 @@ pub(super) fn change_point(start: &Start, group: GroupId, ahead: f64) -> Result<
         let (sine, towards) = match (whole, clearance(&mut plan, &mut motions, group)) {
             (None, Some(SingularityDistance { sine, rate })) => (sine, -rate * way),
             (None, None) => return Err(angle),
-            // For a higher group, secants give the slope of the determinant.
+            // For a higher group, the slope of the determinant follows from secants.
             (Some(whole), _) => {
                 let share = plan.determinant(group).map_or(f64::NAN, |now| now.abs() / whole);
                 let towards = before.map_or(share / ahead.abs(), |(x, last)| (last - share) / (angle - x).abs());
@@ -52,7 +53,7 @@ pub(super) fn change_point(start: &Start, group: GroupId, ahead: f64) -> Result<
                 (share, towards)
             }
         };
-        // Written so that NaN ends the search.
+        // The comparison is negated so that NaN ends the search.
         if !(towards > 0.0) {
             return Err(angle);
         }
@@ -82,7 +83,7 @@ pub(super) fn clearance(
     plan.clearances(motions).nth(group.index()).flatten()
 }
 
-/// Places a plan at an angle, from the last one. Higher groups are followed in small steps.
+/// Places a plan at an angle, starting from its last pose. Higher groups are followed in small steps.
 pub(super) fn walk(plan: &mut SolutionPlan, motions: &mut [Motion], [from, to]: [f64; 2]) -> Result<(), OutOfReach> {
     if plan.is_closed_form() {
         return plan.positions(&[to], motions);

@@ -2,13 +2,14 @@
 //!
 //! At the distance x, the rounding error of a pose grows as 1 / x, that of the second transfer functions as 1 / x^3.
 //! The error of the polynomials grows with the distance of the nodes.
-//! Each side has ten nodes at the Chebyshev points of x^2, from a tenth of the half width to all of it.
-//! This is nearly the best compromise.
-//! Let the next singular pose (real or complex) be r away.
+//! Each side has ten nodes at the Chebyshev points of x^2. Their distances are from a tenth of the half width to the
+//! full half width.
+//! This choice is nearly the best compromise between the two errors.
+//! Let r be the distance of the next singular pose (real or complex).
 //! Second transfer functions then have errors of about 5e-13 for r = 2 rad, 1e-12 for 1 rad, 4e-12 for 0.6 rad and
 //! 3e-11 for 0.3 rad.
 //! The half widths in these cases are from 0.5 to 0.15 rad.
-//! The half width is chosen by how much the result changes when nodes are left out.
+//! Among the half widths tried, the chosen one changes the result least when nodes are left out.
 
 use std::f64::consts::PI;
 
@@ -19,27 +20,28 @@ use linkage::mechanism::{GroupId, LinkId};
 
 /// Nodes on each side.
 const SIDE: usize = 10;
-/// Distance of the innermost node as a share of the half width.
+/// Distance of the innermost node, divided by the half width.
 const CORE: f64 = 0.1;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.012];
-/// After a half width at which the mechanism cannot be followed, only half widths up to this share of it are tried.
-/// The failing width contains another singular pose, towards which reactions may grow without bound.
+/// If the mechanism cannot be followed with one half width, the next half width is at most this fraction of it.
+/// The failing window contains another singular pose, towards which reactions may grow without bound.
 const CLEAR: f64 = 0.5;
-/// Largest error of a second transfer function at which a change point is passed, as a share of the largest one.
+/// A change point is passed only if the error of the second transfer functions, divided by the largest of them, is
+/// below this value.
 const WORST: f64 = 1e-6;
-/// Distance between two change points above which it is not due to rounding or curvature.
-/// It is a share of the distance between the innermost nodes.
+/// Upper limit of the distance between two change points, divided by the distance between the innermost nodes.
+/// Up to this limit, the distance counts as an effect of rounding or curvature.
 const APART: f64 = 0.2;
 /// Number of secant steps that improve the position of the change point.
 const POLISHING: usize = 4;
-/// Cube root of the sum of the weights' magnitudes. This sum is about four and amplifies the rounding error of the
-/// poses.
+/// Cube root of the sum of the weights' magnitudes. The sum is about four. It is the factor by which the rounding error
+/// of the poses is amplified.
 const WEIGHTS: f64 = 1.6;
-/// Rounding error of accelerations, divided by the unit roundoff and by the cube of the condition number.
+/// Ratio of the rounding error of accelerations to the unit roundoff times the cube of the condition number.
 const ULPS: f64 = 16.0;
 
-/// A pose beside a change point, at unit speed of the driving link without acceleration.
+/// A pose near a change point. The driving link has unit speed and no acceleration.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     /// Distance from the change point (rad).
@@ -60,7 +62,7 @@ pub(in crate::assur) struct Window {
     pub(in crate::assur) condition: f64,
 }
 
-/// Weights of nodes at these distances for the value at `x`.
+/// Weights of the values at nodes with these distances, for interpolation at `x`.
 pub(super) fn weights(offsets: &[f64], x: f64) -> Vec<f64> {
     let of = |(j, own): (usize, &f64)| {
         let others = offsets.iter().enumerate().filter(|&(k, _)| k != j);
@@ -70,7 +72,7 @@ pub(super) fn weights(offsets: &[f64], x: f64) -> Vec<f64> {
 }
 
 impl Window {
-    /// The surroundings of the change point of `group` at the angle `at` (rad), seen from a pose beside it.
+    /// The surroundings of the change point of `group` at the angle `at` (rad), seen from the pose `start` near it.
     pub(super) fn around(at: f64, group: GroupId, start: &Start, share: f64) -> Result<Self, OutOfReach> {
         let mut best: Option<(f64, Window)> = None;
         let (mut failed, mut allowed) = (None, f64::INFINITY);
@@ -100,7 +102,7 @@ impl Window {
                 let sines: Vec<f64> = window.nodes.iter_mut().map(sine).collect();
                 let (least, most) =
                     sines.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &sine| (a.smaller(sine), b.larger(sine)));
-                // About the inverse of the sine of the innermost pose.
+                // The first value is about the inverse of the sine of the innermost pose.
                 window.condition =
                     (WEIGHTS * most / least / window.reach).larger((error / (ULPS * f64::EPSILON)).cbrt());
                 Ok(window)
@@ -146,7 +148,7 @@ impl Window {
             }
             from = at + offset;
             let (node, sine) = put(offset, &mut plan, &motions);
-            // The determinant of a higher group is signed, the sine of a dyad is not.
+            // The determinant of a higher group has a sign, the sine of a dyad has none.
             sines.push(if node.plan.determinant(group).is_some() { sine } else { -sine });
             nodes.push(node);
         }
@@ -158,8 +160,8 @@ impl Window {
         Ok(window)
     }
 
-    /// A group with another change point between the innermost nodes, if there is one.
-    /// Reactions have poles at both change points, but only one is known here.
+    /// A group with another change point between the innermost nodes; `None` if there is no such group.
+    /// Reactions have poles at both change points, but the position of only one of them is known.
     fn other_inside(&mut self) -> Option<GroupId> {
         let near = |side: f64| {
             let own = self.nodes.iter().enumerate().filter(move |(_, node)| node.offset * side > 0.0);
@@ -173,7 +175,7 @@ impl Window {
             if let (Some(a), Some(b)) = (a, b) {
                 return a * b < 0.0 && is_apart(low + (high - low) * a / (a - b));
             }
-            // Both sides extrapolate to a change point away from the middle.
+            // Extrapolation from either side must lead to a change point away from the middle.
             let places = inner.map(|index| {
                 let node = &mut self.nodes[index];
                 let own = clearance(&mut node.plan, &mut node.motions.clone(), group);
@@ -206,7 +208,7 @@ impl Window {
         self.nodes.iter().map(|node| node.offset).collect()
     }
 
-    /// The outermost node on the side of an angle, and the next one inwards.
+    /// The outermost node on the same side as an angle, and the next node inwards.
     pub(super) fn ends(&self, angle: f64) -> [&Node; 2] {
         let side = angle - self.at;
         let mut all: Vec<&Node> = self.nodes.iter().filter(|node| node.offset * side > 0.0).collect();
@@ -222,9 +224,11 @@ impl Window {
         node.plan.steps().ids().map(|group| node.plan.determinant(group)).collect()
     }
 
-    /// Error of the second transfer functions at the change point, as a share of the largest one.
-    /// It is their change when the outermost or the innermost pair of nodes is left out.
-    /// The first change shows the error of the polynomials, the second the rounding error.
+    /// Relative error of the second transfer functions at the change point. Errors are divided by the largest transfer
+    /// function.
+    /// The error is the change of the result when the outermost or the innermost pair of nodes is left out.
+    /// Without the outermost pair, the change shows the error of the polynomials; without the innermost pair, the
+    /// rounding error.
     fn error(&self) -> f64 {
         let second = |kept: &dyn Fn(f64) -> bool| -> Vec<f64> {
             let nodes: Vec<&Node> = self.nodes.iter().filter(|node| kept(node.offset.abs())).collect();
@@ -247,14 +251,14 @@ impl Window {
         change(second(&|x| x < most - band)).larger(change(second(&|x| x > least + band)))
     }
 
-    /// Positions of all links with the driving link at an angle.
+    /// Computes the positions of all links for an angle of the driving link.
     pub(super) fn positions(&self, angle: f64, motions: &mut [Motion]) {
         interpolate(&self.nodes, &weights(&self.offsets(), angle - self.at), motions);
     }
 
-    /// Velocities and accelerations of all links with the driving link at an angle, from its angular velocity (rad/s)
-    /// and acceleration (rad/s^2).
-    /// Those of the driving link itself are exact.
+    /// Computes the velocities and accelerations of all links for an angle, angular velocity (rad/s) and angular
+    /// acceleration (rad/s^2) of the driving link.
+    /// The values of the driving link itself are exact.
     pub(in crate::assur) fn rates(
         &self,
         angle: f64,
@@ -279,7 +283,8 @@ impl Window {
     }
 }
 
-/// Converts a motion at unit speed without acceleration to this speed and acceleration of the driving link.
+/// Converts the motion of a link from unit speed of the driving link, without acceleration, to the given speed and
+/// acceleration.
 pub(super) fn at_speed(unit: &Motion, [omega, alpha]: [f64; 2]) -> Motion {
     Motion {
         velocity: unit.velocity * omega,

@@ -1,8 +1,8 @@
 //! Multipliers near a change point.
 //!
-//! The Jacobian is singular there, and multipliers generally grow with the inverse of the distance.
-//! The reason is that no constraint holds a load that does work along the other branch.
-//! Multiplier times distance is always smooth.
+//! The Jacobian is singular at the change point, and multipliers generally grow with the inverse of the distance.
+//! The reason is that no constraint resists a load that does work along the other branch.
+//! The product of multiplier and distance is always smooth.
 
 use super::WITHOUT_POLE;
 use super::window::{Window, neville};
@@ -12,12 +12,14 @@ use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
 
-/// Threshold below which a multiplier times its distance counts as zero at the change point.
-/// It is a multiple of the product's change without the inner poses, plus a share of the largest such product.
+/// At the change point, products of multiplier and distance below a threshold count as zero. The threshold has two
+/// terms.
+/// The first is this multiple of the product's change when the innermost poses are left out.
+/// The second is a fraction of the largest product.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
-/// Distance from a change point (rad) within which such multipliers are not reported.
+/// If a pose is nearer to a change point than this (rad), multipliers with a nonzero product are not reported.
 /// The position of the change point is known to about 1e-14 rad.
 const NEAREST: f64 = 1e-7;
 
@@ -25,11 +27,11 @@ const NEAREST: f64 = 1e-7;
 type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]);
 
 impl Window {
-    /// Writes the multipliers to the system, at the crank angle `angle` (rad) for the crank's angular velocity and
+    /// Writes the multipliers to the system, for the crank angle `angle` (rad) and the crank's angular velocity and
     /// acceleration.
     /// `loads` finds the loads on all links.
     /// In free motion, `shaft` holds the moment on the crank and the moment of inertia that turns with it.
-    /// Every pose then has its own acceleration at this speed.
+    /// Every pose then has the acceleration that balances its crank at this speed.
     pub(in crate::newton) fn multipliers(
         &self,
         system: &mut System,
@@ -57,8 +59,8 @@ impl Window {
             };
             let mut lambda = at(system, alpha);
             if let Some([moment, inertia]) = shaft {
-                // Multipliers are linear in the acceleration. Their gain per unit gives the acceleration that balances
-                // the crank.
+                // Multipliers are linear in the acceleration. `gain` is their increase per unit of acceleration. It
+                // gives the acceleration that balances the crank.
                 let unit = 1.0 + alpha.abs() + omega * omega;
                 let gain: Vec<f64> =
                     at(system, alpha + unit).iter().zip(&lambda).map(|(more, own)| (more - own) / unit).collect();
@@ -78,7 +80,8 @@ impl Window {
         Ok(())
     }
 
-    /// Multipliers at the distance `x`, from the multipliers at all poses. `None` where they grow without bound.
+    /// Multipliers at the distance `x`, from the multipliers at all poses. `None` if they grow without bound and `x` is
+    /// too small.
     fn beside(&self, x: f64, all: &[Vec<f64>]) -> Option<Vec<f64>> {
         let distances = &self.places;
         let nearest = distances.iter().fold(f64::INFINITY, |least, x| least.smaller(x.abs()));

@@ -15,7 +15,7 @@ fn product([a, da, dda]: Jet, [b, db, ddb]: Jet) -> Jet {
 #[derive(Clone, Debug)]
 pub(super) struct Osculating {
     places: Vec<f64>,
-    /// c0, c1, c2 of every function, position by position.
+    /// c0, c1, c2 of every function, first for the first position, then for the next.
     coefficients: Vec<Vec<Jet>>,
 }
 
@@ -35,7 +35,7 @@ impl Osculating {
         Osculating { places, coefficients }
     }
 
-    /// Values and derivatives at `x`, function by function.
+    /// Values and derivatives of all functions at `x`.
     pub(super) fn at(&self, x: f64) -> Vec<Jet> {
         let mut sum = vec![[0.0; 3]; self.coefficients[0].len()];
         for (i, (own, coefficients)) in self.places.iter().zip(&self.coefficients).enumerate() {
@@ -60,7 +60,7 @@ mod tests {
     use super::Osculating;
 
     #[test]
-    fn a_function_and_its_derivatives_are_met() {
+    fn the_polynomial_matches_the_function_and_its_derivatives() {
         let of = |x: f64| [[x.sin() + 3.0], [x.cos()], [-x.sin()]];
         let places = [-0.3, -0.2, -0.07, 0.07, 0.2, 0.3];
         let values = places.map(of);
@@ -69,7 +69,8 @@ mod tests {
         let polynomial = Osculating::through(&points);
         for x in [-0.3, -0.1, 0.0, 0.07, 0.25] {
             let found = polynomial.at(x)[0];
-            // Rounding: a few units in the last place of f, s f and 9 s^2 f, with s up to 19 and f up to 3.3.
+            // Bounds for rounding errors: a few units in the last place of f, s f and 9 s^2 f, with s up to 19 and f up
+            // to 3.3.
             for (k, bound) in [(0, 1e-14), (1, 1e-13), (2, 16.0 * f64::EPSILON * 9.0 * 19.0 * 19.0)] {
                 assert!((found[k] - of(x)[k][0]).abs() < bound, "{x} {k}: {}", found[k] - of(x)[k][0]);
             }

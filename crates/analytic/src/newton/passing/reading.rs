@@ -24,7 +24,7 @@ impl Passing {
         })
     }
 
-    /// Follows the path to an angle of the crank (rad, in the world). Sets the coordinates.
+    /// Follows the path to a crank angle (rad, in the world). Sets the coordinates.
     pub(in crate::newton) fn go_to(&mut self, system: &mut System, angle: f64) -> Result<()> {
         self.travel(system, angle)?;
         if self.inside().is_some() {
@@ -33,15 +33,15 @@ impl Passing {
         Ok(())
     }
 
-    /// Velocities and accelerations after [`Passing::go_to`], from those of the crank.
+    /// Computes velocities and accelerations after [`Passing::go_to`], from those of the crank.
     pub(in crate::newton) fn rates(&self, system: &mut System, omega: f64, alpha: f64) {
         for (i, (slope, curve)) in self.spot.slope.iter().zip(&self.spot.curve).enumerate() {
             (system.rate[i], system.second[i]) = (slope * omega, slope * alpha + curve * omega * omega);
         }
     }
 
-    /// Multipliers after [`Passing::go_to`] and [`Passing::rates`]; `loads` finds the loads on all links.
-    /// In free motion `shaft` has the moment on the crank and the moment of inertia that turns with it.
+    /// Computes the multipliers after [`Passing::go_to`] and [`Passing::rates`]; `loads` finds the loads on all links.
+    /// In free motion, `shaft` holds the moment on the crank and the moment of inertia that turns with it.
     pub(in crate::newton) fn multipliers(
         &self,
         system: &mut System,
@@ -71,13 +71,13 @@ impl Passing {
         Ok(())
     }
 
-    /// Condition number of the last pose, if it lies beside a change point.
+    /// Condition number of the last pose; `None` if the pose lies in no window around a change point.
     pub(in crate::newton) fn condition(&self) -> Option<f64> {
         self.inside().map(|window| window.condition)
     }
 }
 
-/// Gives the crank its exact pose, for which no polynomial is needed.
+/// Gives the crank its exact pose. No polynomial is needed for it.
 fn turn_crank(system: &mut System, spot: &mut Spot) {
     let crank = system.case.crank();
     let joint = &system.case.mechanism.joints()[crank.joint];

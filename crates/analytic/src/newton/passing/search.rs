@@ -5,21 +5,24 @@ use crate::newton::steps::TRACKING_STEP;
 use crate::newton::system::System;
 use linkage::math::KeepNan;
 
-/// Share of the estimated distance that a step takes.
+/// Ratio of a search step to the estimated distance of the change point.
 const STEP: f64 = 0.4;
-/// Ratio of a block's determinant to the largest possible one, below which it counts as zero if it falls linearly.
+/// If the ratio of a block's determinant to the largest possible one falls linearly below this value, it counts as
+/// zero.
 /// For a dyad the ratio is about a tenth of the sine of its transmission angle.
 const MET: f64 = 1e-7;
-/// Ratio below which slopes are compared.
+/// Below this ratio, the search stores the slope of the determinant, for comparison with the slope at `MET`.
 /// At a dead point the determinant falls with the square root of the distance, and its slope grows without bound.
 const LINEAR: f64 = 1e-4;
 const MOST_STEPS: usize = 200;
 
-/// Change at which Newton's method ends near a change point, where rounding is magnified.
+/// Newton's method ends at changes below this value if it searches for a change point, near which rounding errors are
+/// amplified.
 const COARSE: f64 = 1e-7;
 
-/// The angle (rad) at which the determinant of a block passes through zero, about `ahead` (rad) from a spot.
-/// Otherwise the angle up to which the determinant has no zero.
+/// Searches for the angle (rad) at which the determinant of a block passes through zero, about `ahead` (rad) from a
+/// spot.
+/// The error is the angle up to which the determinant has no zero.
 pub(super) fn change_point(system: &mut System, start: &Spot, block: usize, ahead: f64) -> Result<f64, f64> {
     let settled = std::mem::replace(&mut system.settled, COARSE);
     let found = approached(system, start, block, ahead);
@@ -36,7 +39,7 @@ fn approached(system: &mut System, start: &Spot, block: usize, ahead: f64) -> Re
         let Ok(next) = walked(system, &spot, to) else { return Err(spot.angle) };
         let share = next.shares[block].abs();
         let slope = (spot.shares[block].abs() - share) / (to - spot.angle).abs();
-        // Written so that NaN ends the search.
+        // The comparison is negated so that NaN ends the search.
         if !(slope > 0.0) {
             return Err(spot.angle);
         }

@@ -18,7 +18,7 @@ pub(in crate::newton) struct Spot {
     pub(in crate::newton) shares: Vec<f64>,
 }
 
-/// The spot of a system at its present pose, whose Jacobian is factored.
+/// The spot of a system at its present pose. The system's Jacobian must be factored at this pose.
 pub(super) fn spot(system: &mut System) -> Spot {
     (system.inputs[0].rate, system.inputs[0].acceleration) = (1.0, 0.0);
     system.differentiate();
@@ -32,7 +32,7 @@ pub(super) fn spot(system: &mut System) -> Spot {
     }
 }
 
-/// Places a system at a spot, with its Jacobian factored there.
+/// Places a system at a spot, and factors its Jacobian there.
 pub(super) fn place(system: &mut System, spot: &Spot) -> Result<()> {
     system.q.copy_from_slice(&spot.q);
     system.inputs[0].value = spot.angle;
@@ -44,7 +44,7 @@ pub(super) fn place(system: &mut System, spot: &Spot) -> Result<()> {
     }
 }
 
-/// One step from a spot to another angle, on the same branch.
+/// Takes one step from a spot to another angle, on the same branch.
 pub(super) fn walked(system: &mut System, from: &Spot, to: f64) -> Result<Spot> {
     let turn = to - from.angle;
     let expected = from.q.iter().zip(&from.slope).zip(&from.curve);

@@ -1,10 +1,12 @@
 //! The surroundings of a change point.
 //!
-//! Coordinates are polynomials through six poses with their first and second derivatives, multipliers through sixteen
-//! poses.
-//! The half width is chosen by the difference of two polynomials that share neither degree nor data.
-//! One is the second derivative of the osculating polynomial. The other passes through the second derivatives at all
-//! sixteen poses.
+//! Coordinates are polynomials through six poses with their first and second derivatives. Multipliers are polynomials
+//! through sixteen poses.
+//! Among the half widths tried, the chosen one has the smallest difference between two polynomials for the second
+//! derivatives.
+//! The first is the second derivative of the osculating polynomial. The second passes through the second derivatives at
+//! all sixteen poses.
+//! The two polynomials have different degrees and different data.
 //! At the distance x, the rounding error of second derivatives grows as 1 / x^3. The error of the polynomials grows
 //! with the width.
 
@@ -19,28 +21,30 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkId};
 
-/// Number of poses on each side, and indices of those used for coordinates, from the outermost inwards.
+/// Number of poses on each side, and indices of the poses used for coordinates, from the outermost inwards.
 const SIDE: usize = 8;
 const CHOSEN: [usize; 3] = [0, 3, 6];
-/// Distance of the innermost pose as a share of the half width.
+/// Distance of the innermost pose, divided by the half width.
 const CORE: f64 = 0.2;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025, 0.017, 0.01];
-/// After a half width over which the path is lost, only half widths up to this share of it are tried.
-/// Another singular pose is near, towards which multipliers may grow without bound.
+/// If the path is lost with one half width, the next half width is at most this fraction of it.
+/// The reason is another singular pose nearby, towards which multipliers may grow without bound.
 const CLEAR: f64 = 0.5;
-/// Largest error of second derivatives at which a change point is passed, as a share of the largest one.
+/// A change point is passed only if the error of the second derivatives, divided by the largest derivative, is below
+/// this value.
 const WORST: f64 = 1e-6;
 /// Number of secant steps that improve the position of a change point.
 const SECANTS: usize = 4;
-/// Distance between two change points above which it is not due to rounding, as a share of the innermost distance.
+/// Upper limit of the distance between two change points, divided by the distance of the innermost pose.
+/// Up to this limit, the distance counts as an effect of rounding.
 const APART: f64 = 0.01;
-/// Positions, as shares of the half width, at which the two polynomials are compared.
+/// Positions at which the two polynomials are compared, divided by the half width.
 const COMPARED: [f64; 3] = [-0.1, 0.0, 0.1];
-/// Cube root of the sum of the weights' magnitudes. This sum is about four and amplifies the rounding error of the
-/// poses.
+/// Cube root of the sum of the weights' magnitudes. The sum is about four. It is the factor by which the rounding error
+/// of the poses is amplified.
 const WEIGHTS: f64 = 1.6;
-/// Rounding error of accelerations, divided by the unit roundoff and by the cube of the condition number.
+/// Ratio of the rounding error of accelerations to the unit roundoff times the cube of the condition number.
 const ULPS: f64 = 16.0;
 
 /// The surroundings of a change point.
@@ -50,12 +54,12 @@ pub(in crate::newton) struct Window {
     pub(super) at: f64,
     /// Half width (rad).
     pub(super) reach: f64,
-    /// In ascending order of the angle.
+    /// The poses, in ascending order of the angle.
     pub(super) spots: Vec<Spot>,
     /// Distances of these poses from the change point (rad).
     pub(super) places: Vec<f64>,
-    /// Whole turns of the links' angles in the coordinates (rad; 0 for positions).
-    /// The polynomials use coordinates without these turns, which keep their last digits.
+    /// Whole turns in each coordinate that is an angle (rad); 0 for positions.
+    /// The polynomials use the coordinates without these turns, because large angles would lose digits.
     turns: Vec<f64>,
     coordinates: Osculating,
     /// Condition number that determines the rounding error in the window.
@@ -63,7 +67,7 @@ pub(in crate::newton) struct Window {
 }
 
 impl Window {
-    /// The surroundings of a change point of a block at the angle `at` (rad), seen from a spot beside it.
+    /// The surroundings of a change point of a block at the angle `at` (rad), seen from the spot `from` near it.
     pub(super) fn around(system: &mut System, from: &Spot, [at, share]: [f64; 2], block: usize) -> Result<Self> {
         let mut best: Option<(f64, Window)> = None;
         let (mut failed, mut allowed) = (None, f64::INFINITY);
@@ -105,8 +109,8 @@ impl Window {
                 window.turns = turns;
                 let shares = window.spots.iter().map(|spot| spot.shares[block].abs());
                 let (least, most) = shares.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.smaller(s), b.larger(s)));
-                // About the inverse of the sine of the innermost pose.
-                // The rounding errors of all blocks that are singular at once add up.
+                // The first value is about the inverse of the sine of the innermost pose.
+                // The rounding errors of all blocks that are singular together add up.
                 let inner = [&window.spots[SIDE - 1].shares, &window.spots[SIDE].shares];
                 let singular = inner[0].iter().zip(inner[1]).filter(|(a, b)| *a * *b < 0.0).count().max(1);
                 window.condition = (WEIGHTS * (singular as f64).cbrt() * most / least / window.reach)
@@ -152,7 +156,8 @@ impl Window {
         }
         spots.sort_by(|a, b| a.angle.total_cmp(&b.angle));
         let at = crossing(&spots, block).unwrap_or(at);
-        // No other change point may lie in between: reactions have poles at both, but only one is known here.
+        // No other change point may lie between the innermost poses: reactions have poles at both change points, but
+        // the position of only one is known.
         let inner = [&spots[SIDE - 1], &spots[SIDE]];
         let passes = |block: &usize| inner[0].shares[*block] * inner[1].shares[*block] < 0.0;
         for other in (0..spots[0].shares.len()).filter(passes) {
@@ -173,7 +178,8 @@ impl Window {
         Ok(Window { at, reach, spots, places, turns: Vec::new(), coordinates, condition: f64::INFINITY })
     }
 
-    /// Writes the pose at an angle to a spot, with the signs and determinants of the side on which it lies.
+    /// Writes the pose at an angle to a spot. Signs and determinants are those of the window's last pose on the same
+    /// side.
     pub(super) fn put(&self, angle: f64, spot: &mut Spot) {
         spot.angle = angle;
         for (index, [q, slope, curve]) in self.coordinates.at(angle - self.at).into_iter().enumerate() {
@@ -183,12 +189,13 @@ impl Window {
         spot.shares.clone_from(&self.end(angle).shares);
     }
 
-    /// The last pose on the side of an angle.
+    /// The window's last pose on the side of an angle.
     pub(super) fn end(&self, angle: f64) -> &Spot {
         if angle < self.at { &self.spots[0] } else { &self.spots[self.spots.len() - 1] }
     }
 
-    /// Largest difference of the two polynomials for the second derivatives, as a share of the largest one.
+    /// Relative error: largest difference of the two polynomials for the second derivatives, divided by the largest
+    /// derivative.
     fn error(&self) -> f64 {
         let (mut most, mut scale) = (0.0f64, 1.0f64);
         for x in COMPARED.map(|share| share * self.reach) {
@@ -202,7 +209,7 @@ impl Window {
     }
 }
 
-/// Whole turns of the angles among the coordinates (rad).
+/// Whole turns (rad) in each coordinate that is an angle; 0 for positions.
 fn whole_turns(q: &[f64]) -> Vec<f64> {
     q.iter().enumerate().map(|(index, q)| if index % 3 == 2 { TAU * (q / TAU).round() } else { 0.0 }).collect()
 }
@@ -218,7 +225,7 @@ fn followed(system: &mut System, from: &Spot, to: f64) -> Result<Spot> {
     Ok(spot)
 }
 
-/// Refuses a pose beyond a change point whose velocities are not the expected ones.
+/// Refuses a pose beyond a change point if its velocities differ from the expected velocities.
 fn check_slopes(system: &System, found: &Spot, expected: &[f64]) -> Result<()> {
     let size = system.case.mechanism.size();
     let unit = |index: usize| if index % 3 == 2 { 1.0 } else { size };
@@ -235,13 +242,13 @@ fn point(spot: &Spot, at: f64) -> (f64, [&[f64]; 3]) {
     (spot.angle - at, [&spot.q, &spot.slope, &spot.curve])
 }
 
-/// The chosen poses of one side, the outermost first.
+/// The poses with the indices `CHOSEN` of one side, the outermost first.
 fn chosen(spots: &[Spot], at: f64) -> Vec<(f64, [&[f64]; 3])> {
     CHOSEN.iter().map(|&k| point(&spots[k], at)).collect()
 }
 
 /// The angle at which a block's determinant is zero, by inverse interpolation.
-/// `None` if the determinant does not change its sign, or is not monotonic.
+/// `None` if the determinant keeps its sign, or is not monotonic.
 fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
     let shares: Vec<f64> = spots.iter().map(|spot| spot.shares[block]).collect();
     let inner = SIDE / 2..2 * SIDE - SIDE / 2;
@@ -251,7 +258,7 @@ fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
     if !is_crossing {
         return None;
     }
-    // First estimate by inverse interpolation, then secants on the polynomial through all poses.
+    // First estimate by inverse interpolation. The secant method on the polynomial through all poses improves it.
     let first = neville(&shares[inner.clone()], |k| spots[inner.start + k].angle, 0.0);
     let places: Vec<f64> = spots.iter().map(|spot| spot.angle - first).collect();
     let share = |x: f64| neville(&places, |k| shares[k], x);
@@ -266,7 +273,7 @@ fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
     Some(first + x)
 }
 
-/// Value at `x` of the polynomial through values at these positions (Neville's scheme).
+/// Value at `x` of the polynomial through `value` at the positions `places` (Neville's scheme).
 pub(super) fn neville(places: &[f64], value: impl Fn(usize) -> f64, x: f64) -> f64 {
     let mut row: Vec<f64> = (0..places.len()).map(value).collect();
     for level in 1..places.len() {

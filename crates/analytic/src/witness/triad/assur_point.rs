@@ -1,14 +1,14 @@
 //! Reactions of the group by its singular Assur point.
 //!
-//! At its foot a lead receives a force across its line and a force along it.
-//! The moments on the lead about its head give the force across, `N_n = -M_head / l`.
+//! The force on a lead at its foot has a component across the lead and a component along the lead.
+//! The moments on the lead about its head give the component across the lead, `N_n = -M_head / l`.
 //! The forces along two leads pass through the intersection S of their lines, the singular Assur point.
-//! In the moments of the base link and these two leads about S, one unknown remains: the force along the third lead.
-//! The equilibrium of the same three links gives the other two forces along leads.
-//! The equilibrium of each lead gives the reaction at its head (kinetostatics of class III groups: Artobolevsky,
-//! "Theory of mechanisms and machines").
-//! Of the three Assur points, that of the two leads nearest to a right angle is used. Parallel leads have theirs at
-//! infinity.
+//! The moments about S on the base link and these two leads contain one unknown: the force along the third lead.
+//! The equilibrium of the same three links gives the forces along the other two leads.
+//! The equilibrium of each lead gives the reaction at its head.
+//! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
+//! Of the three Assur points, that of the two leads nearest to a right angle is used. The Assur point of parallel leads
+//! is at infinity.
 
 use super::{KnownResultant, Places, Reactions, singular};
 use crate::sentences;
@@ -18,7 +18,7 @@ use linkage::math::{Vec2, cross, turned};
 /// The Assur point of two leads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AssurPoint {
-    /// The two leads whose lines meet there, then the third.
+    /// The two leads whose lines meet at the Assur point, then the third lead.
     pub leads: [usize; 3],
     /// World position of the Assur point (m); infinite or NaN if all leads are parallel.
     pub place: Vec2,
@@ -57,7 +57,7 @@ pub fn reactions(places: &Places, known: &[KnownResultant; 4]) -> Result<Reactio
     });
     let point = best(places);
     let ([i, j, k], pole) = (point.leads, point.place);
-    // The actions on the base link and the leads i and j. Lead k pushes at its head.
+    // The actions on the base link and on the leads i and j. Lead k acts on the base link at its head.
     let third = across[k] + known[k].force;
     let with_two = |pole: Vec2| {
         let at_feet: f64 = [i, j].map(|lead| cross(places.feet[lead] - pole, across[lead])).iter().sum();
@@ -85,7 +85,8 @@ mod tests {
         KnownResultant { force, moment: 0.0, at }
     }
 
-    /// A beam of length 2 on two upright leads and one level lead at its left end. Forces calculated by hand.
+    /// A beam of length 2 on two vertical leads and one horizontal lead at its left end. The forces were calculated by
+    /// hand.
     fn beam() -> Places {
         let at = Vec2::new;
         Places {
@@ -100,7 +101,7 @@ mod tests {
         let load = known(Vec2::new(3.0, -8.0), Vec2::new(0.5, 0.0));
         let found = reactions(&beam(), &[rest, rest, rest, load]).unwrap();
         let expected = [Vec2::new(0.0, 6.0), Vec2::new(0.0, 2.0), Vec2::new(-3.0, 0.0)];
-        // A few operations on numbers below ten.
+        // The tolerance allows for a few operations on numbers below ten.
         let near = |found: [Vec2; 3]| found.iter().zip(expected).all(|(own, known)| (own - known).norm() < 1e-14);
         assert!(near(found.feet) && near(found.heads), "{found:?}");
         assert_eq!(best(&beam()).sine, 1.0);
@@ -117,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn leads_through_one_point_and_parallel_leads_carry_nothing() {
+    fn concurrent_or_parallel_leads_are_an_error() {
         let load = known(Vec2::new(1.0, 2.0), Vec2::new(0.25, 0.25));
         let mut places = beam();
         places.heads[1] = Vec2::new(0.0, 0.0);

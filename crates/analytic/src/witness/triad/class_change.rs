@@ -1,28 +1,29 @@
 //! The class III group by exchange of the driving link.
 //!
-//! With one of its ground leads as conditional driver, the mechanism is a chain of class II dyads.
+//! If one of its ground leads is taken as conditional driver, the mechanism is a chain of class II dyads.
 //! The first dyad is the base link and the other ground lead, the second is lead 3 and the crank.
 //! The first dyad is placed in closed form.
-//! The second requires that the distance from the head F of lead 3 to the crank pin C is the length of lead 3.
-//! So the crank angle alpha is a function of the lead's angle theta, and the true motion is its inverse.
+//! For the second, the distance from the head F of lead 3 to the crank pin C must be the length of lead 3.
+//! The crank angle alpha is therefore a function of the lead's angle theta, and the true motion is the inverse
+//! function.
 //! For a given alpha, the second dyad closes at the theta with `|F(theta) - C(alpha)| = l_3`.
 //! Newton's method with bisection finds this theta between bounds. With q = F - C
 //!
 //! `d alpha / d theta = (q . F') / (q . C')`, `omega_lead = omega_crank / (d alpha / d theta)`,
 //!
-//! and all other rates and the accelerations follow by differentiating twice along the same chain (class III groups
-//! reduced to class II by another driving link; Artobolevsky, "Theory of mechanisms and machines").
+//! and all other rates and the accelerations follow from the first and second derivatives along the same chain.
+//! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 //! No system of equations is solved.
 //!
 //! Dead points. At the limit positions of a ground lead d alpha / d theta is infinite: the conditional driver cannot
 //! drive there.
 //! There are two kinds.
 //! If the base link and the *other* lead are in line, the first dyad is at its limit.
-//! The driver is therefore the ground lead whose first dyad is farther from its limit.
-//! If the crank and lead 3 are in line, both ground leads stand still at once, and neither is the better driver.
+//! The ground lead whose first dyad is farther from its limit is therefore chosen as the driver.
+//! If the crank and lead 3 are in line, both ground leads stand still, and neither is the better driver.
 //! The second dyad then changes from one of its two configurations to the other.
 //! Its closing condition holds for both configurations and is smooth in theta.
-//! Solving this condition, instead of the angle of the dyad, passes such points without difficulty.
+//! This condition is solved instead of the angle of the dyad, so such points are passed without difficulty.
 //! A dead point of the group itself, q . F' = 0, cannot be passed.
 
 mod chain;
@@ -36,13 +37,13 @@ use linkage::input::Input;
 use linkage::math::{KeepNan, Vec2, cross, root, rotated, turned, unit};
 use linkage::mechanism::{GROUND, LinkId};
 
-/// Largest turn of the crank between two poses (rad): one degree.
+/// Largest rotation of the crank between two poses (rad): one degree.
 const TRACKING_STEP: f64 = std::f64::consts::PI / 180.0;
-/// How often a failing step is halved: down to a millionth of it.
+/// Largest number of times a failing step is halved. The last step is a millionth of the first.
 const HALVINGS: u32 = 20;
-/// Largest turn of a link in one step (rad) that is accepted as a continuation.
+/// Largest rotation of a link in one step (rad) that is accepted as a continuation of the branch.
 const MAX_TURN: f64 = 0.3;
-/// Largest change of the last iteration of Newton's method (rad).
+/// Newton's method ends if the last change is at most this value (rad).
 const LAST_CHANGE: f64 = 1e-9;
 
 /// Transfer functions of leads and base link at one crank angle, in the order of [`Triad::links`].
@@ -56,14 +57,15 @@ pub struct Transfer {
     pub second: [f64; 4],
     /// The conditional driver: 0, 1 or 2 as in [`Triad::leads`].
     pub driver: usize,
-    /// Factor by which rounding can grow in the angles, at least 1.
-    /// It follows from the inverse sines of the angle between base link and other lead, and of the angle between lead 3
-    /// and the path of its head.
+    /// Factor by which rounding errors of the angles can be amplified, at least 1.
+    /// It follows from the inverse sines of two angles: the angle between base link and other lead, and the angle
+    /// between lead 3 and the path of its head.
     pub condition: f64,
 }
 
 impl Transfer {
-    /// Angular velocities (rad/s) and accelerations (rad/s^2) of leads and base link for those of the crank.
+    /// Angular velocities (rad/s) and accelerations (rad/s^2) of leads and base link, for the given values of the
+    /// crank.
     #[must_use]
     pub fn rates(&self, omega: f64, alpha: f64) -> [[f64; 4]; 2] {
         let second = |k: usize| self.second[k] * omega * omega + self.first[k] * alpha;
@@ -78,13 +80,13 @@ pub struct ClassChange {
     /// World angle of the crank at crank angle zero (rad).
     zero: f64,
     names: String,
-    /// The crank's pivot in the world, and the vector from there to its pin in the crank's frame (m).
+    /// World position of the crank's pivot, and the vector from there to the crank pin in the crank's frame (m).
     pivot: Vec2,
     pin: Vec2,
     /// Indices of the ground leads and of lead 3 among the triad's leads.
     order: [usize; 3],
     grounded: [Grounded; 2],
-    /// Head of lead 3 in the base link's frame, and its length (m).
+    /// Head of lead 3 in the base link's frame, and length of lead 3 (m).
     third: Vec2,
     length: f64,
     /// Vectors from foot to head in the frames of the triad's leads, then the vector between the heads of the ground
@@ -148,8 +150,8 @@ impl ClassChange {
         Ok(change)
     }
 
-    /// Transfer functions at the crank angle `crank` (rad, as the scenario states it), reached from the last one in
-    /// small steps.
+    /// Transfer functions at the crank angle `crank` (rad, as the scenario states it). The crank moves there from the
+    /// last angle in small steps.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if the branch has a dead point in between.
@@ -179,7 +181,8 @@ impl ClassChange {
         self.step_to(target, halvings - 1)
     }
 
-    /// The chain driven by one of the two ground leads, in its configuration at the last pose, and that pose.
+    /// The chain driven by one of the two ground leads, and the last pose. The chain has the configuration of this
+    /// pose.
     fn chain(&self, driver: usize) -> Option<(Chain, Place)> {
         let other = 1 - driver;
         let leads = [self.grounded[driver], self.grounded[other]];
@@ -207,8 +210,8 @@ impl ClassChange {
         let turn = zero(gap, expected)?;
         let place = chain.place(rotated(unit(turn), before.driver))?;
         let found = self.transfer(driver, &place, closing(&place), pin);
-        // q . F' times the first dyad's area is the determinant of the group.
-        // Exchanging the ground leads exchanges two columns.
+        // q . F' times the area of the first dyad is the determinant of the group.
+        // If the ground leads are exchanged, two columns are exchanged and the sign changes.
         let sense = if driver == 0 { 1.0 } else { -1.0 };
         let branch = (closing(&place).dot(&place.slopes().third[0]) * place.sine() * sense).signum();
         let near = |k: usize| {
@@ -255,8 +258,9 @@ impl ClassChange {
 /// The error of a chain that cannot be placed.
 struct Ended;
 
-/// The zero next to `guess` (rad) of a function with its derivative, between bounds by Newton's method with bisection.
-/// `None` if there is no zero within [`MAX_TURN`], or the function ends before it.
+/// The zero next to `guess` (rad) of a function, found by Newton's method with bisection between bounds.
+/// `gap` returns the function and its derivative.
+/// `None` if there is no zero within [`MAX_TURN`], or if the function is undefined before the zero.
 fn zero(gap: impl Fn(f64) -> Option<(f64, f64)>, guess: f64) -> Option<f64> {
     let (value, slope) = gap(guess)?;
     if value == 0.0 {
@@ -287,8 +291,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_zero_is_found_where_newton_alone_runs_away() {
-        // From 0.1 Newton's method on atan(20 x) goes to -0.18, then to 0.7, and farther out each time.
+    fn a_zero_is_found_where_plain_newton_diverges() {
+        // From 0.1, Newton's method on atan(20 x) goes to -0.18, then to 0.7, and diverges.
         let steep = |x: f64| Some(((20.0 * x).atan(), 20.0 / (1.0 + 400.0 * x * x)));
         assert!(zero(steep, 0.1).unwrap().abs() < f64::EPSILON);
         assert_eq!(zero(|x| Some((x * x + 1.0, 2.0 * x)), 0.1), None);

@@ -2,12 +2,12 @@
 //!
 //! Leads and base link have the two vector contours A_1 B_1 B_k A_k, k = 2, 3:
 //! `l_1 e(alpha_1) + b_k e(alpha_4 + beta_k) = A_1 A_k + l_k e(alpha_k)`.
-//! Differentiated by the crank angle (or by time), they give four linear equations for alpha_1' .. alpha_4', with the
-//! velocities of the feet on the right.
-//! Differentiated again, they have the same determinant, with the accelerations of the feet and the centripetal parts
-//! of the links on the right.
-//! Each unknown is a quotient of two 4 x 4 determinants (method of the transfer functions for class III groups;
-//! Artobolevsky, "Theory of mechanisms and machines", analytical kinematics by vector contours).
+//! The derivatives by the crank angle (or by time) give four linear equations for alpha_1' .. alpha_4'. The velocities
+//! of the feet are on the right.
+//! The second derivatives give equations with the same determinant. The accelerations of the feet and the centripetal
+//! parts of the links are on the right.
+//! Each unknown is a quotient of two 4 x 4 determinants (method of the transfer functions).
+//! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::{Triad, singular};
 use linkage::error::Result;
@@ -25,7 +25,7 @@ pub struct Contours {
 type Matrix = [[f64; 4]; 4];
 
 impl Contours {
-    /// The contours of a group in the pose of `motions`, which supplies only the links' directions.
+    /// The contours of a group in the pose of `motions`. Only the links' directions are used.
     #[must_use]
     pub fn of(triad: &Triad, motions: &[Motion]) -> Self {
         let base = &motions[triad.base];
@@ -49,7 +49,8 @@ impl Contours {
     }
 
     /// Angular velocities of the three leads and the base link (rad/s) from the velocities of the three feet (m/s).
-    /// From the feet's derivatives by the crank angle (m) they are the first transfer functions alpha_i'.
+    /// If `feet` holds the feet's derivatives by the crank angle (m), the results are the first transfer functions
+    /// alpha_i'.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
@@ -59,7 +60,7 @@ impl Contours {
 
     /// Angular accelerations (rad/s^2) from the accelerations of the feet (m/s^2) and the angular velocities `first`
     /// (rad/s).
-    /// From derivatives by the crank angle they are the second transfer functions.
+    /// If the arguments are derivatives by the crank angle, the results are the second transfer functions.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
@@ -84,7 +85,7 @@ impl Contours {
 }
 
 /// Angular velocities (rad/s) and angular accelerations (rad/s^2) of leads and base link.
-/// `motions` supplies the directions of the group's links and the whole motion of the links that carry its feet.
+/// `motions` must contain the directions of the group's links and the complete motion of the links that carry its feet.
 ///
 /// # Errors
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
@@ -96,7 +97,7 @@ pub fn rates(triad: &Triad, motions: &[Motion]) -> Result<[[f64; 4]; 2]> {
     Ok([first, second])
 }
 
-/// Determinant by cofactors of the first row.
+/// Determinant, expanded by cofactors along the first row.
 fn determinant4(a: &Matrix) -> f64 {
     let minor = |skipped: usize| {
         let mut rest = [[0.0; 3]; 3];
@@ -121,7 +122,7 @@ mod tests {
 
     #[test]
     fn determinants_of_known_matrices() {
-        // Vandermonde: the product of all differences of 1, 2, 3, 5.
+        // The determinant of a Vandermonde matrix is the product of all differences of 1, 2, 3, 5.
         let vandermonde = [1.0f64, 2.0, 3.0, 5.0].map(|x| [1.0, x, x * x, x * x * x]);
         assert_eq!(determinant4(&vandermonde), 1.0 * 2.0 * 4.0 * 1.0 * 3.0 * 2.0);
         let mut swapped = vandermonde;
@@ -130,11 +131,10 @@ mod tests {
     }
 
     #[test]
-    fn a_parallelogram_turns_as_one_and_three_parallel_leads_have_no_determinant() {
+    fn a_parallelogram_translates_and_three_parallel_leads_fail() {
         let (up, along) = (Vec2::new(0.0, 1.0), Vec2::new(1.0, 0.0));
         let contours = Contours { leads: [up, up, along], sides: [along, along * 2.0] };
-        // All feet are at rest except the third, which is pulled along its lead. The base link moves along x without
-        // turning.
+        // The third foot moves along its lead; the other feet are at rest. The base link moves along x without turning.
         let rates = contours.first([Vec2::zeros(), Vec2::zeros(), along * 3.0]).unwrap();
         assert_eq!(rates, [-3.0, -3.0, 0.0, 0.0]);
         let parallel = Contours { leads: [up; 3], ..contours };

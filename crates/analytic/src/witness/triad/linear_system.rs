@@ -1,9 +1,9 @@
 //! Reactions of the group from all its equations of equilibrium at once.
 //!
 //! There are twelve unknowns: x and y of the forces at the three feet and the three heads.
-//! Each of the four links has three equations: forces along x and y, and moments.
-//! Moments of a lead are about its head, those of the base link about the first head. They are divided by a length so
-//! that all rows are forces.
+//! Each of the four links has three equations: forces along x, forces along y, and moments.
+//! The moments of a lead are about its head, those of the base link about the first head. They are divided by a length
+//! so that all rows are forces.
 //! The system is solved without any order among the links.
 
 use super::{KnownResultant, Places, Reactions, singular};
@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_forces_on_every_link_vanish() {
+    fn forces_and_moments_balance_on_every_link() {
         let at = Vec2::new;
         let places = Places {
             feet: [at(0.0, -1.0), at(2.5, -1.0), at(-1.0, 0.5)],
@@ -80,7 +80,7 @@ mod tests {
         let Reactions { feet, heads } = reactions(&places, &known).unwrap();
         for k in 0..3 {
             let moment = known[k].about(places.heads[k]) + cross(places.feet[k] - places.heads[k], feet[k]);
-            // Forces of a few tens of newtons in a well-shaped group.
+            // The tolerance allows for forces of a few tens of newtons in a well-shaped group.
             assert!((feet[k] + known[k].force - heads[k]).norm() < 1e-13 && moment.abs() < 1e-13);
         }
         let pole = at(7.0, -3.0);

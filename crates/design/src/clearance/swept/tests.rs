@@ -11,7 +11,7 @@ use linkage::mechanism::LinkId;
 /// A crank of 0.1 m, rounded by 0.02 m, sweeps a disc of 0.12 m.
 /// Every covered square lies inside the disc and every free square outside.
 #[test]
-fn squares_are_covered_or_free_with_all_their_corners() {
+fn squares_are_covered_or_free_including_their_corners() {
     let case = slider_crank();
     let mut tubes = Tubes::new(&case, [0.0, TAU], 0.12).unwrap();
     let outline = Outline::line(&[Vec2::new(0.0, 0.0), Vec2::new(0.1, 0.0)], 0.02).unwrap();
@@ -37,10 +37,12 @@ fn squares_are_covered_or_free_with_all_their_corners() {
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }
 
-/// If a side passes, every point of the disc is on one side of it at the start and on the other at the end.
-/// The point stays between the side's ends throughout. This holds for any ends within their errors.
+/// If a side of the outline passes, every point of the disc moves from the left to the right of its line, or vice
+/// versa.
+/// The point stays between the two ends of the line throughout.
+/// This holds for all positions of the ends within their errors.
 #[test]
-fn what_passes_over_a_disc_passes_over_each_of_its_places() {
+fn a_side_that_passes_a_disc_passes_all_its_points() {
     // Knuth's MMIX generator: repeatable random numbers.
     let mut state: u64 = 7;
     let mut number = || {

@@ -1,12 +1,12 @@
 //! Tests the bounds against samples: random joints between random tubes.
-//! Some samples leave out a quantity, so that every term of a bound dominates somewhere.
+//! In some samples one quantity is zero, so that every term of a bound dominates in some sample.
 
 use linkage::math::unit;
 use linkage::mechanism::{JointKind, JointSide, LinkId};
 
 use super::*;
 
-/// Number of joints, and of poses tried for each.
+/// Number of random joints. The second constant is the number of poses that are tried for each joint.
 const JOINTS: usize = 4_000;
 const POSES: usize = 30;
 
@@ -24,7 +24,7 @@ impl Random {
         self.number() > 0.0
     }
 
-    /// Returns a number of at most `most` in magnitude, or zero just as often.
+    /// Returns, with equal probability, zero or a random number of at most `most` in magnitude.
     fn some(&mut self, most: f64) -> f64 {
         let number = most * self.number();
         if self.yes() { number } else { 0.0 }
@@ -43,7 +43,7 @@ fn point(tube: &Tube, (at, angle): Place, local: Vec2) -> Vec2 {
     at + rotated(unit(angle), local - tube.centre)
 }
 
-/// Returns a pose within the tube at the distance `by` from the middle crank angle, often on the tube's wall.
+/// Returns a random pose within the tube, often on its boundary. `by` is the crank angle from the middle.
 fn place(tube: &Tube, by: f64, random: &mut Random) -> Place {
     let mut share = || if random.yes() { random.number() } else { random.number().signum() };
     let (off, twist) = (tube.off * share(), tube.twist * share());
@@ -64,7 +64,8 @@ fn tube(random: &mut Random, half: f64) -> Tube {
     }
 }
 
-/// Joint of two links that nearly closes at the middle, the tubes of both, and which of them belong to the group.
+/// Random joint of two links, which nearly closes at the middle.
+/// Also the tubes of both links, and which of the links belong to the group.
 struct Sample {
     joint: Joint,
     tubes: [Tube; 2],
@@ -81,7 +82,7 @@ impl Sample {
         let slides = random.yes();
         let axis = unit(4.0 * random.number());
         if slides {
-            // The axes are nearly parallel, and the sliding point is near the line.
+            // The axes are nearly parallel, and the sliding point is near the line of the guide.
             let turn = unit(random.some(0.01));
             let along = rotated(tubes[0].direction, axis);
             let gap = along * random.some(1.0) + turned(along) * random.some(0.01);
@@ -117,7 +118,7 @@ impl Sample {
         [cross(one, gap), cross(one, two).atan2(one.dot(&two))]
     }
 
-    /// Derivative of the equations with respect to the poses of the group's links, by differences.
+    /// Derivative of the equations with respect to the poses of the group's links, by central differences.
     fn derivative(&self, places: [Place; 2]) -> Matrix {
         const STEP: f64 = 1e-5;
         let mut found = Matrix::zeros(2, 6);
@@ -151,7 +152,7 @@ impl Sample {
     }
 }
 
-/// Distance from the middle crank angle, often one of the ends.
+/// Random crank angle from the middle. Half of the samples lie at an end of the part.
 fn distance(half: f64, random: &mut Random) -> f64 {
     half * if random.yes() { random.number() } else { random.number().signum() }
 }
@@ -173,9 +174,9 @@ fn points_stay_within_the_error_of_their_tracks() {
     }
 }
 
-/// Links of the group move uniformly; other links are anywhere in their tubes.
+/// Links of the group move uniformly. Other links have random poses in their tubes.
 #[test]
-fn equations_are_open_by_no_more_than_is_said() {
+fn closure_errors_are_within_their_bound() {
     let mut random = Random(2);
     let mut tightest = [[0.0; 2]; 2];
     for _ in 0..JOINTS {
@@ -196,7 +197,7 @@ fn equations_are_open_by_no_more_than_is_said() {
             }
         }
     }
-    // The bound is tight, too.
+    // The bound is also tight.
     assert!(tightest.iter().flatten().all(|share| *share > 0.99), "{tightest:?}");
 }
 
@@ -211,9 +212,9 @@ fn the_derivative_is_the_limit_of_differences() {
     }
 }
 
-/// Bound on the change of the derivative over the box, times the radii of the box.
+/// Tests the bound on the change of the derivative over the box, times the radii of the box.
 #[test]
-fn the_derivative_changes_by_no_more_than_is_said() {
+fn the_change_of_the_derivative_is_within_its_bound() {
     let mut random = Random(4);
     let mut tightest: f64 = 0.0;
     for _ in 0..JOINTS {

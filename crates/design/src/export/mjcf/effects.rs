@@ -31,7 +31,8 @@ pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: LinkId) {
     }
 }
 
-/// Tendons: sums of angles on which frictions and actuators act, and springs and dampers between points.
+/// Writes the tendons. Fixed tendons are sums of angles on which frictions and actuators act.
+/// Spatial tendons are springs and dampers between points.
 pub(super) fn tendons<'a>(xml: &mut Xml, model: &MjcfModel, forces: &'a Forces) {
     let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();
     let sum = |own: &'a Actuator| match &own.target {
@@ -96,7 +97,8 @@ fn places(forces: &Forces, link: LinkId) -> Vec<(String, Vec2)> {
     ends.chain(pushed).filter(|(side, _)| side.link == link).map(|(side, name)| (name, side.local)).collect()
 }
 
-/// Motors and loads. They have no control input: the force is `biasprm[0] + biasprm[1] length + biasprm[2] rate`.
+/// Writes the actuators of motors and loads. They have no control input.
+/// The force is `biasprm[0] + biasprm[1] length + biasprm[2] rate`.
 pub(super) fn actuators(xml: &mut Xml, model: &MjcfModel, forces: &Forces) {
     if forces.actuators.is_empty() {
         return;

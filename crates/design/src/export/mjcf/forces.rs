@@ -7,10 +7,10 @@ use linkage::error::Result;
 use linkage::math::{Vec2, angle};
 use linkage::mechanism::{JointSide, LinkId};
 
-/// Limit of a force that is never reached.
+/// Limit of a force, so large that no force reaches it.
 const ENDLESS: f64 = 1e30;
 
-/// What an actuator acts on.
+/// The element on which an actuator acts.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Target {
     /// The hinge of a branch.
@@ -23,7 +23,7 @@ pub(super) enum Target {
         at: JointSide,
         /// The force.
         force: Vec2,
-        /// Whether the force is given in the axes of the link; otherwise in those of the world.
+        /// Whether the force is given in the axes of the link. Otherwise it is given in those of the world.
         follows: bool,
     },
 }
@@ -72,7 +72,7 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
             for &(link, sign) in links {
                 sum.extend(model.hinges(link).into_iter().map(|branch| (branch, sign)));
             }
-            // A hinge that turns both links has no effect on the twist between them.
+            // If a hinge turns both links, its angle has no effect on the twist between them.
             let both: Vec<usize> = sum.iter().filter(|(_, sign)| *sign < 0.0).map(|(branch, _)| *branch).collect();
             let is_common = |branch: usize| both.contains(&branch) && sum.contains(&(branch, 1.0));
             sum.iter().copied().filter(|&(branch, _)| !is_common(branch)).collect::<Vec<_>>()
@@ -85,7 +85,7 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
             };
             found.actuators.push(Actuator { name: name.clone(), target, bias, range: None });
         };
-        // Resistances are frictions. Types that cannot be written were refused before.
+        // Resistances become frictions elsewhere. Loads that MJCF cannot express have been refused before.
         if let Load::Moment { link, moment, .. } = load {
             put(Target::Sum(turning(&[(*link, 1.0)])), [constant(moment), 0.0, 0.0]);
         } else if let Load::Force { at, force: [x, y], follows } = load {
@@ -96,7 +96,8 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
         } else if let &Load::Damper { ends, damping } = load {
             found.tendons.push(Tendon { name, ends, stiffness: 0.0, free_length: 0.0, damping });
         } else if let &Load::TorsionSpring { links: [first, second], stiffness, free_angle } = load {
-            // A tendon's length is the difference of the angles in the poses. The twist starts in (-pi, pi].
+            // A tendon's length is the difference of the link angles as the start pose states them.
+            // The twist is this difference, reduced to (-pi, pi] at t = 0.
             let begun = model.case.start.0[second].angle - model.case.start.0[first].angle;
             let free = free_angle + begun - angle::wrapped(begun);
             put(Target::Sum(turning(&[(second, 1.0), (first, -1.0)])), [stiffness * free, -stiffness, 0.0]);
@@ -107,7 +108,7 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
     Ok(found)
 }
 
-/// A motor on the crank's hinge. With losses it becomes two actuators: one drives, the other brakes.
+/// Actuators of a motor on the crank's hinge. A motor with losses gets two: one drives, the other brakes.
 fn motors(motor: &Motor, sense: f64, joint: &str, branch: usize) -> Result<Vec<Actuator>> {
     let [at_rest, slope] = line(&motor.law)?;
     let (constant, damping) = (sense * motor.ratio * at_rest, motor.ratio * motor.ratio * slope);

@@ -1,4 +1,4 @@
-//! Refuses by name what MJCF cannot express.
+//! Refuses loads and drives that MJCF cannot express, and names them.
 
 use crate::sentences;
 use linkage::drive::{Acts, Drive, Load, MotorLaw};
@@ -36,7 +36,7 @@ pub(super) fn check_drive(drive: &Drive) -> Result<()> {
     if let Some(motor) = drive.moving_motor() {
         return line(&motor.law).map(|_| ());
     }
-    // A rotor keeps a constant speed and permits no other law.
+    // A rotor can only keep a constant speed.
     match drive.constant_speed() {
         Some(_) => Ok(()),
         None => Err(refused(sentences::a_drive_with_the_law(&drive.law_name()), sentences::GIVE_THE_DRIVE_A_CONSTANT)),

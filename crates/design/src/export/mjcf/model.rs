@@ -10,18 +10,17 @@ use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::{GROUND, JointId, JointKind, LinkId, PerLink, SpanningTree, TreeBranch};
 use linkage::solver::State;
 
-/// Inertia of a drive's rotor divided by the largest moment of inertia that the mechanism could have about one of its
-/// points.
-/// Inertia forces are of the size of that moment times the speed squared.
+/// Inertia of a drive's rotor, divided by an upper limit of the mechanism's moment of inertia about any of its points.
+/// Inertia forces are of the size of that moment of inertia times the speed squared.
 /// They therefore change the speed by 1e-9 of its value per radian.
 const ROTOR: f64 = 1e9;
-/// Mass of a massless link, as a share of the mass of the whole mechanism: MuJoCo refuses zero.
-/// A smaller share would falsify reactions less.
-/// But MuJoCo softens every loop in proportion to the inverse of the masses that it connects.
+/// Mass of a massless link, divided by the mass of the whole mechanism. MuJoCo refuses a mass of zero.
+/// A smaller mass would falsify reactions less.
+/// But MuJoCo softens every loop in proportion to the inverse of the masses that the loop connects.
 /// docs/mjcf.md has the figures.
 const LIGHT: f64 = 1e-5;
-/// Radius of gyration of a link without inertia, divided by its size.
-/// The second constant is the smallest size used for this, divided by the mechanism's size.
+/// Radius of gyration of a link without inertia, divided by the link's size.
+/// The second constant is the lower limit of the size in this ratio, divided by the mechanism's size.
 const GYRATION: f64 = 0.3;
 const SHORTEST: f64 = 0.1;
 
@@ -34,7 +33,7 @@ pub(super) struct Friction {
     pub moment: f64,
     /// Hinges from the ground to the link, as indices of branches: the sum of their angles is the link's angle.
     pub hinges: Vec<usize>,
-    /// Whether the link has only one hinge, and that is the joint that carries it.
+    /// Whether only one hinge lies between the ground and the link, and this hinge carries the link in the tree.
     pub own_hinge: bool,
 }
 
@@ -74,7 +73,7 @@ impl<'a> MjcfModel<'a> {
         Ok(model)
     }
 
-    /// Mass of the mechanism (kg); 1 kg if it has none, so that its motion can still be simulated.
+    /// Mass of the mechanism (kg). A mechanism without mass gets 1 kg, so that its motion can still be simulated.
     fn mass(&self) -> f64 {
         let mass: f64 = self.case.mechanism.links().iter().map(|link| link.mass).sum();
         if mass > 0.0 { mass } else { 1.0 }
@@ -106,7 +105,8 @@ impl<'a> MjcfModel<'a> {
         self.case.drives.iter().any(|drive| drive.joint == joint)
     }
 
-    /// Mass (kg) and moment of inertia (kg m^2) of a link for MuJoCo: its own, or those of a light rod if it has none.
+    /// Mass (kg) and moment of inertia (kg m^2) of a link for MuJoCo.
+    /// A value that the link lacks is replaced by that of a light rod.
     #[must_use]
     pub fn inertial(&self, link: LinkId) -> (f64, f64) {
         let link = &self.case.mechanism.links()[link];
@@ -144,7 +144,7 @@ impl<'a> MjcfModel<'a> {
         order
     }
 
-    /// Hinges from the ground to `link`, as indices of branches, innermost last.
+    /// Hinges from the ground to `link`, as indices of branches. The hinge nearest to `link` is last.
     pub(super) fn hinges(&self, mut link: LinkId) -> Vec<usize> {
         let mut hinges = Vec::new();
         while link != GROUND {
@@ -158,7 +158,7 @@ impl<'a> MjcfModel<'a> {
         hinges
     }
 
-    /// One friction for each link with a resistance; a link that cannot turn has none.
+    /// One friction for each link with a resistance. A link that cannot turn gets no friction.
     fn frictions(&self) -> Vec<Friction> {
         let mut moments = PerLink::from(vec![0.0; self.case.mechanism.links().len()]);
         for (link, moment) in self.case.loads.iter().filter_map(Load::resistance) {
@@ -199,7 +199,7 @@ pub(super) struct Body {
     pub rate: f64,
 }
 
-/// The body of a branch. Poses are those of the case at t = 0, rates those of `start`.
+/// The body of a branch. Poses are those of the case at t = 0; rates are those of `start`.
 pub(super) fn body(case: &Case, start: &State, branch: &TreeBranch) -> Body {
     let joint = &case.mechanism.joints()[branch.joint];
     let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link]);

@@ -97,7 +97,8 @@ fn body(xml: &mut Xml, model: &MjcfModel, forces: &Forces, link: LinkId) {
         if model.is_lent(link) {
             xml.comment(sentences::IT_HAS_NO_MASS_OR_NO_INERTIA);
         }
-        // Three equal moments satisfy the triangle inequality; those about x and y have no effect in planar motion.
+        // Three equal moments of inertia satisfy the triangle inequality. Those about x and y have no effect in planar
+        // motion.
         let (centre, mass, inertia) = (flat(data.mass_centre), number(mass), numbers([inertia; 3]));
         xml.leaf(format_args!(r#"inertial pos="{centre}" mass="{mass}" diaginertia="{inertia}""#));
         joint(xml, model, index);
@@ -158,7 +159,8 @@ fn loops(xml: &mut Xml, model: &MjcfModel) {
     });
 }
 
-/// Reactions in the joints of the tree, and moments where there are any.
+/// Writes sensors of the reaction in every joint of the tree.
+/// Prismatic and driven joints also get a sensor of the moment.
 fn sensors(xml: &mut Xml, model: &MjcfModel) {
     xml.comment(sentences::WHAT_ACTS_ON_THE_BODY_IN_THE_JOINT);
     xml.nest("sensor", |xml| {

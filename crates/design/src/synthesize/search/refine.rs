@@ -13,26 +13,27 @@ use crate::synthesize::task::Task;
 
 /// Largest crank angle between two rows (rad): 3 degrees.
 const STEP: f64 = std::f64::consts::PI / 60.0;
-/// Cost of a candidate that cannot be assembled; twice as much if no pose can.
+/// Lowest cost of a candidate that cannot be assembled over the whole turn.
+/// The cost is twice as high if no pose can be assembled.
 const BROKEN: f64 = 100.0;
-/// Share of the evaluations for the evolution strategy.
+/// Fraction of the evaluations that the evolution strategy takes.
 const EVOLUTION: f64 = 0.5;
-/// First step size of the evolution strategy, as a share of the bounds.
-/// The second constant is the step size at which the strategy restarts with a larger step.
+/// First step size of the evolution strategy, as a fraction of the bounds.
+/// If the step size falls below the second constant, the strategy restarts with the first step size.
 const FIRST: f64 = 0.05;
 const LAST: f64 = 1e-5;
-/// Factor by which the step grows after a success. After a failure, the step is divided by the fourth root of this
-/// factor.
-/// The step is therefore stationary with one success in five.
+/// Factor by which the step grows after a success.
+/// After a failure, the step is divided by the fourth root of this factor.
+/// The step is therefore stationary if one trial in five succeeds.
 const GROWTH: f64 = 1.5;
-/// Share of the variables that change from parent to child.
+/// Probability that a variable changes from parent to child.
 const CHANGED: f64 = 0.4;
-/// Initial step sizes of COBYLA, one run after another, each from the best so far.
+/// Initial step sizes of COBYLA. The runs follow one another, and each starts from the best candidate so far.
 const RADII: [f64; 4] = [3e-2, 1e-2, 3e-3, 1e-3];
-/// Relative change of the cost at which a run ends.
+/// A run of COBYLA ends if the relative change of the cost is below this limit.
 const SETTLED: f64 = 1e-7;
 
-/// Computes the cost of shares of the bounds, on rows that include all limits.
+/// Computes the cost of a candidate that is given by fractions of the bounds. The rows include all limits of phases.
 struct Bench<'a> {
     task: &'a Task,
     evaluator: Evaluator<'a>,
@@ -80,10 +81,10 @@ pub(super) fn refine(task: &Task, candidate: &Candidate) -> Candidate {
     Candidate { shares: bench.best, cost: bench.cost, ..*candidate }
 }
 
-/// One parent and one child; the better one becomes the parent.
+/// Evolution strategy with one parent and one child. The better of the two becomes the parent.
 fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: usize) {
     let mut rng = ChaCha8Rng::seed_from_u64(bench.task.effort.seed);
-    // Separate random streams, beyond those of the blocks.
+    // Every candidate has a separate random stream, beyond the streams of the blocks.
     rng.set_stream((1 << 40) + number as u64);
     let mut child = bench.best.clone();
     let mut step = FIRST;
@@ -107,10 +108,10 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
     }
 }
 
-/// COBYLA from the best so far, with decreasing initial steps.
+/// Runs COBYLA from the best candidate so far, with decreasing initial steps.
 fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
     let each = evaluations / RADII.len();
-    // COBYLA would take zero as no limit.
+    // COBYLA would treat zero evaluations as no limit.
     if each == 0 {
         return;
     }
@@ -125,7 +126,7 @@ fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
         let objective = |shares: &[f64], _: &mut ()| shared.borrow_mut().cost(shares);
         let none: [fn(&[f64], &mut ()) -> f64; 0] = [];
         let stop = cobyla::StopTols { ftol_rel: SETTLED, ..cobyla::StopTols::default() };
-        // Its return value is not needed: the best candidate that it tried is kept during the run.
+        // The return value of COBYLA is not needed, because the best candidate is recorded during the run.
         let _ = minimize(objective, &from, &bounds, &none, (), each, RhoBeg::All(radius), Some(stop));
     }
 }

@@ -1,11 +1,11 @@
-//! Wanted motion of an output over one turn of the crank: phases of motion in either sense and of dwell.
+//! Required motion of an output over one turn of the crank: phases of motion in either sense and of dwell.
 
 use crate::sentences;
 use std::f64::consts::TAU;
 
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Largest number of phases per turn: ten degrees each.
+/// Upper limit of the number of phases per turn: one for every ten degrees.
 const MOST_PHASES: usize = 36;
 
 linkage::words! {
@@ -43,8 +43,8 @@ pub struct Phase {
     pub to: f64,
     /// Motion of the output.
     pub sense: Sense,
-    /// Wanted position at the end, as a share of the stroke from the rearmost position: 0 to 1.
-    /// `None` leaves it to the search.
+    /// Required position at the end, as a fraction of the stroke from the rearmost position: 0 to 1.
+    /// `None` if the search may choose the position.
     pub level: Option<f64>,
     /// Least displacement of a moving phase, as a share of the stroke.
     pub least: f64,
@@ -111,7 +111,7 @@ impl Timing {
         Ok(Timing { levels: levels(&phases), phases, follow: false })
     }
 
-    /// The same, with a curve that the output must follow.
+    /// The same timing, with a curve that the output must follow.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if a level is not known.
@@ -135,7 +135,7 @@ impl Timing {
         self.follow
     }
 
-    /// Level wanted at the end of a phase: given, implied, or `None`.
+    /// Level required at the end of a phase: given or implied. `None` if it is unknown.
     #[must_use]
     pub fn level(&self, phase: usize) -> Option<f64> {
         self.levels.as_ref().map(|levels| levels[phase]).or(self.phases[phase].level)
@@ -160,7 +160,8 @@ fn wrong(key: &str, message: String) -> Error {
     Error::new(ErrorKind::Input, message).key(key)
 }
 
-/// Levels at the ends of all phases: those given, those that a dwell keeps, and 1 and 0 if there is one motion forward and one back.
+/// Levels at the ends of all phases: those given, and those that a dwell keeps.
+/// If there is only one motion forward and one back, their ends have the levels 1 and 0.
 fn levels(phases: &[Phase]) -> Option<Vec<f64>> {
     let alone = |sense: Sense| phases.iter().filter(|phase| phase.sense == sense).count() == 1;
     let simple = alone(Sense::Forward) && alone(Sense::Back);
@@ -173,7 +174,7 @@ fn levels(phases: &[Phase]) -> Option<Vec<f64>> {
         })
         .collect();
     let count = phases.len();
-    // Two passes: a dwell at the start of the turn keeps the level of the end.
+    // Two passes are needed, because a dwell at the start of the turn has the level of the turn's end.
     for index in 0..2 * count {
         let (own, before) = (index % count, (index + count - 1) % count);
         if phases[own].sense == Sense::Dwell && found[own].is_none() {
@@ -199,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn levels_follow_from_one_motion_either_way() {
+    fn levels_follow_from_one_motion_in_each_direction() {
         use Sense::{Back, Dwell, Forward};
         let all = phases(&[(30.0, Dwell, None), (130.0, Forward, None), (240.0, Back, None), (360.0, Dwell, None)]);
         let timing = Timing::of(all).unwrap().followed().unwrap();
@@ -210,16 +211,16 @@ mod tests {
     }
 
     #[test]
-    fn levels_that_are_not_known_stay_open() {
+    fn unknown_levels_stay_undefined() {
         use Sense::{Back, Dwell, Forward};
         let open = [(90.0, Forward, None), (180.0, Dwell, None), (270.0, Forward, Some(1.0)), (360.0, Back, Some(0.0))];
         let timing = Timing::of(phases(&open)).unwrap();
         assert_eq!([timing.level(0), timing.level(2), timing.wanted(1.0)], [None, Some(1.0), None]);
-        assert!(timing.followed().unwrap_err().message().contains("not all levels"));
+        assert!(timing.followed().unwrap_err().message().contains("some levels"));
     }
 
     #[test]
-    fn phases_that_make_no_turn_say_so() {
+    fn phases_that_do_not_form_a_turn_are_refused() {
         use Sense::{Back, Dwell, Forward};
         for (all, words) in [
             (vec![(360.0, Forward, None)], "found 1 phases"),

@@ -1,4 +1,4 @@
-//! Angles and speeds of driving links.
+//! Faults in angles and speeds of driving links.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,46 +9,46 @@ use linkage::drive::{Drive, DriveMotion, MotionLaw};
 use prover::diagnosis::{at_speed, driven, reassembled};
 
 kinds! { Drive, Case:
-    "start-angle" (1e-2): "the crank starts at another angle (rad)",
+    "start-angle" (1e-2): "the start angle of the crank is off (rad)",
         |case, size| started(case, 0, |start| start + size);
     "start-degrees": "the crank's start angle in degrees is taken for radians",
         |case, _| started(case, 0, f64::to_degrees);
     "start-radians": "the crank's start angle is converted to radians twice",
         |case, _| started(case, 0, f64::to_radians);
-    "start-sense": "the crank's start angle is counted clockwise", |case, _| started(case, 0, |start| -start);
-    "start-from-y": "the crank's angle is measured from the y axis",
+    "start-sense": "the start angle of the crank is measured clockwise", |case, _| started(case, 0, |start| -start);
+    "start-from-y": "the start angle of the crank is measured from the y axis",
         |case, _| started(case, 0, |start| start + PI / 2.0);
-    "speed" (1e-2): "the drive is faster by a share of its speed", |case, size| faster(case, 0, 1.0 + size);
-    "speed-reversed": "the drive turns the other way", |case, _| faster(case, 0, -1.0);
+    "speed" (1e-2): "the drive is too fast by a fraction of its speed", |case, size| faster(case, 0, 1.0 + size);
+    "speed-reversed": "the drive rotates backwards", |case, _| faster(case, 0, -1.0);
     "speed-rpm": "the speed in rad/s is taken for rpm", |case, _| faster(case, 0, PI / 30.0);
     "speed-hertz": "the speed in rad/s is taken for revolutions per second", |case, _| faster(case, 0, TAU);
-    "law-constant": "a speed that changes is taken for the constant top speed", |case, _| {
+    "law-constant": "a variable speed is replaced by the constant top speed", |case, _| {
         (!case.is_free() && case.crank().constant_speed().is_none()).then_some(())?;
         turned(case, 0, |drive| if let DriveMotion::Prescribed { law, .. } = &mut drive.motion {
             *law = MotionLaw::ConstantSpeed(law.top_speed());
         })
     };
-    "initial-speed" (1e-2): "the free crank starts faster by a share of its nominal speed", |case, size| {
+    "initial-speed" (1e-2): "the free crank starts too fast by a fraction of its nominal speed", |case, size| {
         let nominal = case.crank().top_speed();
         initial(case, |speed| speed + size * nominal)
     };
     "initial-speed-missing": "the free crank starts from rest", |case, _| initial(case, |_| 0.0);
-    "initial-speed-reversed": "the free crank starts the other way", |case, _| initial(case, |speed| -speed);
-    "free-held": "a free crank turns with its nominal speed all the time", |case, _| {
+    "initial-speed-reversed": "the free crank starts backwards", |case, _| initial(case, |speed| -speed);
+    "free-held": "a free crank rotates at its nominal speed all the time", |case, _| {
         (case.crank().is_free() && case.drives.iter().count() == 1).then_some(())?;
         turned(case, 0, |drive| *drive = drive.nominal())
     };
-    "second-angle" (1e-2): "the last driving link starts at another angle (rad)",
+    "second-angle" (1e-2): "the start angle of the last driving link is off (rad)",
         |case, size| started(case, last(case)?, |start| start + size);
-    "second-reversed": "the last driving link turns the other way", |case, _| faster(case, last(case)?, -1.0);
-    "second-speed" (1e-2): "the last driving link is faster by a share of its speed",
+    "second-reversed": "the last driving link rotates backwards", |case, _| faster(case, last(case)?, -1.0);
+    "second-speed" (1e-2): "the last driving link is too fast by a fraction of its speed",
         |case, size| faster(case, last(case)?, 1.0 + size);
-    "late" (1e-3): "every instant is taken later by a share of a radian of the crank", |case, size| shifted(case, size);
-    "clock" (1e-3): "the clock goes slow: time is counted in units larger by a share",
+    "late" (1e-3): "all instants are too early, by a small crank rotation (rad)", |case, size| shifted(case, size);
+    "clock" (1e-3): "the clock runs slow: all times are too small by a relative amount",
         |case, size| scaled(case, 1.0 - size);
 }
 
-/// The last driving link after the crank.
+/// Index of the last drive other than the crank.
 fn last(case: &Case) -> Option<usize> {
     Some(case.drives.further().len()).filter(|last| *last > 0)
 }
@@ -92,8 +92,8 @@ fn initial(case: &Case, to: impl Fn(f64) -> f64) -> Option<Case> {
     })
 }
 
-/// Instants moved earlier by the time of a rotation (rad) at top speed.
-/// If the motion begins at t = 0, no instant moves before that.
+/// Moves all instants earlier, by the time of a rotation `angle` (rad) at top speed.
+/// If the motion begins at t = 0, instants before that are set to 0.
 fn shifted(case: &Case, angle: f64) -> Option<Case> {
     let begins = case.is_free() || case.crank().constant_speed().is_none();
     let by = angle / case.crank().top_speed().abs();

@@ -1,4 +1,4 @@
-//! Reactions and moments in the answers.
+//! Faults in the reactions and moments of the answers.
 
 use super::kind::kinds;
 use super::touch::{crank, crank_pin, output, slider};
@@ -7,18 +7,18 @@ use linkage::math::{Vec2, cross, rotated};
 use linkage::solver::State;
 
 kinds! { Force, Answer:
-    "reaction" (1e-2): "the reaction in the last joint is larger by a share",
+    "reaction" (1e-2): "the reaction in the last joint is too large by a relative amount",
         |_, state, size| state.forces.last_mut().map(|force| *force *= 1.0 + size);
     "reaction-sign": "the reaction in the last joint is that of the second link on the first",
         |_, state, _| state.forces.last_mut().map(|force| *force *= -1.0);
     "reaction-axes": "x and y of the reaction in the last joint are exchanged",
         |_, state, _| state.forces.last_mut().map(|force| *force = Vec2::new(force.y, force.x));
-    "reaction-frame": "the reaction in the crank's pin is in the crank's frame", |at, state, _| {
+    "reaction-frame": "the reaction in the crank pin is given in the crank's frame", |at, state, _| {
         let direction = state.motions[crank(at.case)].direction;
         let force = &mut state.forces[crank_pin(at.case)];
         *force = rotated(Vec2::new(direction.x, -direction.y), *force);
     };
-    "reaction-component": "of the reaction in the crank's pin only the part across the next link is left",
+    "reaction-component": "the reaction in the crank pin has only its component perpendicular to the next link",
         |at, state, _| {
             let pin = crank_pin(at.case);
             (pin != at.case.crank().joint).then_some(())?;
@@ -26,12 +26,12 @@ kinds! { Force, Answer:
             let force = &mut state.forces[pin];
             *force -= along * along.dot(force);
         };
-    "pivot-component": "the crank's pivot has only the part of the pin's reaction across the next link",
+    "pivot-component": "the crank-pivot reaction lacks the crank-pin reaction's component along the next link",
         |at, state, _| {
             let dropped = dropped(at.case, state)?;
             state.forces[at.case.crank().joint] -= dropped;
         };
-    "moment-component": "the balancing moment is that of one component of the reaction in the crank's pin",
+    "moment-component": "the balancing moment lacks the crank-pin reaction's component along the next link",
         |at, state, _| {
             let dropped = dropped(at.case, state)?;
             let pin = at.case.mechanism.joints()[crank_pin(at.case)].on(crank(at.case))?;
@@ -62,7 +62,7 @@ kinds! { Force, Answer:
         |at, state, _| state.moments[slider(at.case)?] = 0.0;
     "guide-moment-sign": "the moment in the first slider has the wrong sign",
         |at, state, _| state.moments[slider(at.case)?] *= -1.0;
-    "guide-moment-point": "the moment in the first slider is about the place on the guide", |at, state, _| {
+    "guide-moment-point": "the moment in the first slider is about the joint's point on the guide", |at, state, _| {
         let index = slider(at.case)?;
         let joint = &at.case.mechanism.joints()[index];
         let [first, second] = [joint.first, joint.second].map(|side| state.motions[side.link].point(side.local));
@@ -72,7 +72,7 @@ kinds! { Force, Answer:
         let (last, _) = at.case.mechanism.joints().entries().rfind(|(_, joint)| joint.slides())?;
         state.moments[last] = 0.0;
     };
-    "moment" (1e-2): "the balancing moment is larger by a share",
+    "moment" (1e-2): "the balancing moment is too large by a relative amount",
         |at, state, size| has_moment(at.case).then(|| state.torques[0] *= 1.0 + size);
     "moment-sign": "the balancing moment is that of the crank on the drive",
         |at, state, _| has_moment(at.case).then(|| state.torques[0] *= -1.0);
@@ -103,7 +103,7 @@ kinds! { Force, Answer:
     };
 }
 
-/// Whether the first drive has a moment in the answers.
+/// Whether the answers contain a moment of the first drive.
 fn has_moment(case: &Case) -> bool {
     case.crank().has_moment()
 }
@@ -115,7 +115,7 @@ fn crank_arm(case: &Case, state: &State, place: Vec2) -> Option<Vec2> {
     Some(motion.arm(place) - motion.arm(pivot))
 }
 
-/// Component of the reaction in the crank's pin along the next link, as it acts on the crank.
+/// Component along the next link of the force in the crank's pin. The sign is that of the force on the crank.
 fn dropped(case: &Case, state: &State) -> Option<Vec2> {
     let (pin, own) = (crank_pin(case), case.crank().joint);
     (pin != own && has_moment(case)).then_some(())?;

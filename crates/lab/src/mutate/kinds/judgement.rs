@@ -1,4 +1,4 @@
-//! Faults that only one comparison sees: each escapes if that part of the judgement is left out.
+//! Faults that only one comparison can find: each escapes if that part of the judgement is left out.
 
 use super::kind::kinds;
 use super::touch::turner;
@@ -8,15 +8,15 @@ use linkage::mechanism::{GROUND, JointId};
 use linkage::solver::State;
 
 kinds! { Judgement, Answer:
-    "first-instant" (1e-3): "the angle of the last link that turns, at the first instant",
+    "first-instant" (1e-3): "the angle of the last rotating link is off (rad) at the first instant",
         |at, state, size| turned(at.case, state, at.row == 0, size);
-    "last-instant" (1e-3): "the angle of the last link that turns, at the last instant",
+    "last-instant" (1e-3): "the angle of the last rotating link is off (rad) at the last instant",
         |at, state, size| turned(at.case, state, at.row + 1 == at.case.grid.len(), size);
-    "second-moment" (1e-2): "the moment of the second drive is larger by a share", |at, state, size| {
+    "second-moment" (1e-2): "the moment of the second drive is too large by a relative amount", |at, state, size| {
         at.case.drives.further().first().filter(|drive| drive.has_moment())?;
         *state.torques.get_mut(1)? *= 1.0 + size;
     };
-    "frame-couple" (1e-2): "the reactions in two joints of the frame are off by a couple, by a share of the larger",
+    "frame-couple" (1e-2): "two frame reactions are off by a couple, by a fraction of the larger reaction",
         |at, state, size| {
             let joints = at.case.mechanism.joints();
             let on_frame = |index: &JointId| joints[*index].on(GROUND).is_some();
@@ -30,8 +30,8 @@ kinds! { Judgement, Answer:
             (arm.norm() > 0.0).then_some(())?;
             let across = Vec2::new(-arm.y, arm.x) / arm.norm();
             let force = across * (size * state.forces[first].norm().larger(state.forces[last].norm()));
-            // The force of a joint on its second link. If the frame is the first link, the force on the frame has the
-            // opposite sign.
+            // `forces` are the forces on the second links.
+            // If the frame is the first link, the force on the frame has the opposite sign.
             let sign = |index: JointId| if joints[index].first.link == GROUND { -1.0 } else { 1.0 };
             state.forces[first] -= force * sign(first);
             state.forces[last] += force * sign(last);

@@ -26,7 +26,7 @@ linkage::words! {
         Acceleration = "acceleration",
         /// Reactions and moments.
         Force = "force",
-        /// Faults that only one comparison sees.
+        /// Faults that only one comparison can find.
         Judgement = "judgement",
         /// Formulas of the scenario, and their claims.
         Formula = "formula",
@@ -43,23 +43,23 @@ pub struct FaultInstant<'a> {
 }
 
 /// Method of planting a fault.
-/// A size is relative to the affected part: a share of a length or of a mass, or an angle in rad.
+/// A size is relative to the affected part: a fraction of a length or of a mass, or an angle in rad.
 #[derive(Clone, Copy)]
 pub enum Plant {
-    /// In the case given to a party. `None` if the case has no such part.
+    /// The fault is in the case given to a party. `None` if the case has no such part.
     Case(fn(&Case, f64) -> Option<Case>),
-    /// In every state of a party's answer. `None` if the state has no such part.
+    /// The fault is in every state of a party's answer. `None` if the state has no such part.
     Answer(fn(FaultInstant, &mut State, f64) -> Option<()>),
-    /// In a formula of the scenario.
+    /// The fault is in a formula of the scenario.
     Formula(Mistake),
 }
 
-/// A mistake in a formula that claims an exact value, or in a step that it uses.
+/// A mistake in a formula that claims an exact value, or in a step of its derivation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mistake {
     /// One slip in writing.
     Slip(Slip),
-    /// The whole formula is larger by a share.
+    /// The value of the whole formula is too large by a relative amount.
     Larger,
     /// The same quantity of another link, point or joint is claimed.
     Subject,
@@ -76,14 +76,14 @@ pub struct FaultKind {
     pub says: &'static str,
     /// What it is in.
     pub family: FaultFamily,
-    /// Its initial size, if the fault can be made smaller.
+    /// Initial size of the fault; `None` if the fault cannot be made smaller.
     pub size: Option<f64>,
     /// How it is planted.
     pub plant: Plant,
 }
 
 impl FaultKind {
-    /// The same with a size, so that the fault can be made smaller.
+    /// The kind with an initial size, so that its faults can be made smaller.
     pub(in crate::mutate) const fn sized(self, size: f64) -> FaultKind {
         FaultKind { size: Some(size), ..self }
     }

@@ -12,19 +12,19 @@ use linkage::mechanism::LinkId;
 kinds! { Load, Case:
     "load-missing": "the first load is missing", |case, _| times(case, 0, 0.0);
     "last-load-missing": "the last load is missing", |case, _| times(case, case.loads.len().checked_sub(1)?, 0.0);
-    "load-size" (1e-2): "the first load is larger by a share", |case, size| times(case, 0, 1.0 + size);
+    "load-size" (1e-2): "the first load is too large by a relative amount", |case, size| times(case, 0, 1.0 + size);
     // Springs are excluded: a spring that pushes where it should pull drives a free motion to infinity.
     // No scenario file can describe such a spring.
-    "load-sign": "the first load that can, but no spring, acts the other way", |case, _| {
+    "load-sign": "the first reversible load that is not a spring acts in the opposite direction", |case, _| {
         let others = (0..case.loads.len()).filter(|&index| !is_spring(&case.loads[index]));
         others.filter_map(|index| times(case, index, -1.0)).next()
     };
     "load-twice": "the first load is counted twice", |case, _| times(case, 0, 2.0);
-    "load-by-ratio": "the first load is divided by the reducer's ratio once more", |case, _| {
+    "load-by-ratio": "the first load is divided by the reducer's ratio", |case, _| {
         let ratio = case.drives.iter().find_map(Drive::motor)?.ratio;
         (ratio != 1.0).then(|| times(case, 0, 1.0 / ratio))?
     };
-    "load-other-link": "the first moment acts on the link before its own", |case, _| changed(case, &|load| {
+    "load-other-link": "the first moment acts on the preceding link", |case, _| changed(case, &|load| {
         if let Load::Resistance { link: link @ LinkId(2..), moment } = load {
             return Some(Load::Resistance { link: LinkId(link.index() - 1), moment: *moment });
         }
@@ -41,22 +41,22 @@ kinds! { Load, Case:
         let Load::Force { at, force: [x, y], follows } = load else { return None };
         Some(Load::Force { at: *at, force: [y.clone(), x.clone()], follows: *follows })
     });
-    "load-frame": "a force in world axes is taken in the link's axes, or the other way round",
+    "load-frame": "a force in world axes is taken in link axes, or vice versa",
         |case, _| changed(case, &|load| {
             let Load::Force { at, force, follows } = load else { return None };
             Some(Load::Force { at: *at, force: force.clone(), follows: !follows })
         });
-    "load-one-sense": "a resistance acts in one sense whatever the motion", |case, _| changed(case, &|load| {
+    "load-one-sense": "a resistance acts in the same direction whatever the motion", |case, _| changed(case, &|load| {
         let Load::Resistance { link, moment } = load else { return None };
         Some(Load::Moment { link: *link, moment: Course::Constant(-moment), acts: Acts::Always })
     });
-    "load-always": "a moment that acts for one sense of rotation acts always", |case, _| changed(case, &|load| {
+    "load-always": "a moment for one sense of rotation always acts", |case, _| changed(case, &|load| {
         let Load::Moment { link, moment, acts: Acts::Clockwise | Acts::CounterClockwise } = load else {
             return None;
         };
         Some(Load::Moment { link: *link, moment: moment.clone(), acts: Acts::Always })
     });
-    "load-mean": "a load over the crank angle is taken at its value at angle zero", |case, _| {
+    "load-mean": "a load that depends on the crank angle keeps its value at angle zero", |case, _| {
         let at_zero = |course: &Course| Course::Constant(course.at(0.0));
         changed(case, &|load| {
             load.nature().courses.iter().any(|course| course.knots().is_some()).then_some(())?;
@@ -69,19 +69,19 @@ kinds! { Load, Case:
     };
     "spring-missing": "the first spring is missing", |case, _| times(case, sprung(case)?, 0.0);
     "spring-twice": "the first spring is counted twice", |case, _| times(case, sprung(case)?, 2.0);
-    "spring-stiffness" (1e-2): "the first spring is stiffer by a share",
+    "spring-stiffness" (1e-2): "the first spring is too stiff by a relative amount",
         |case, size| times(case, sprung(case)?, 1.0 + size);
-    "spring-free-length": "the first spring has no free length", |case, _| changed(case, &|load| {
+    "spring-free-length": "the free length of the first spring is zero", |case, _| changed(case, &|load| {
         let Load::Spring { ends, stiffness, free_length } = load else { return None };
         (*free_length != 0.0).then_some(Load::Spring { ends: *ends, stiffness: *stiffness, free_length: 0.0 })
     });
-    "spring-free-angle": "a torsion spring is free one turn further on", |case, _| changed(case, &|load| {
+    "spring-free-angle": "the free angle of a torsion spring is one turn too large", |case, _| changed(case, &|load| {
         let &Load::TorsionSpring { links, stiffness, free_angle } = load else { return None };
         Some(Load::TorsionSpring { links, stiffness, free_angle: free_angle + TAU })
     });
     "damper-missing": "the first damper is missing", |case, _| times(case, damped(case)?, 0.0);
-    "damper-sign": "the first damper drives", |case, _| times(case, damped(case)?, -1.0);
-    "damper" (1e-2): "the first damper is stronger by a share", |case, size| times(case, damped(case)?, 1.0 + size);
+    "damper-sign": "the first damper has the wrong sign", |case, _| times(case, damped(case)?, -1.0);
+    "damper" (1e-2): "the first damper is too strong by a relative amount", |case, size| times(case, damped(case)?, 1.0 + size);
     "damper-degrees": "a torsion damper's speed is in degrees per second", |case, _| {
         let index = case.loads.iter().position(|load| matches!(load, Load::TorsionDamper { .. }))?;
         times(case, index, 1f64.to_degrees())

@@ -1,4 +1,4 @@
-//! Motor and reducer of a free crank.
+//! Faults in motor and reducer of a free crank.
 
 use super::kind::kinds;
 use super::touch::parts;
@@ -6,17 +6,17 @@ use linkage::case::Case;
 use linkage::drive::{Motor, ShaftInertia};
 
 kinds! { Motor, Case:
-    "motor-size" (1e-2): "the motor is stronger by a share",
+    "motor-size" (1e-2): "the motor torque is too large by a relative amount",
         |case, size| of(case, |motor| motor.law = motor.law.scaled(1.0 + size));
-    "motor-missing": "the motor exerts nothing", |case, _| of(case, |motor| motor.law = motor.law.scaled(0.0));
-    "motor-reversed": "the motor drives the other way", |case, _| of(case, |motor| motor.law = motor.law.scaled(-1.0));
+    "motor-missing": "the motor torque is zero", |case, _| of(case, |motor| motor.law = motor.law.scaled(0.0));
+    "motor-reversed": "the motor drives backwards", |case, _| of(case, |motor| motor.law = motor.law.scaled(-1.0));
     "motor-without-ratio": "the motor's torque is not multiplied by the ratio",
         |case, _| geared(case, |motor| motor.law = motor.law.scaled(1.0 / motor.ratio));
     "motor-ratio-twice": "the motor's torque is multiplied by the ratio twice",
         |case, _| geared(case, |motor| motor.law = motor.law.scaled(motor.ratio));
-    "motor-ratio" (1e-2): "the reducer's ratio is larger by a share",
+    "motor-ratio" (1e-2): "the reducer's ratio is too large by a relative amount",
         |case, size| of(case, |motor| motor.ratio *= 1.0 + size);
-    "motor-lossless": "the reducer's efficiency is not counted", |case, _| {
+    "motor-lossless": "the reducer's efficiency is ignored", |case, _| {
         (case.crank().moving_motor()?.efficiency < 1.0).then_some(())?;
         of(case, |motor| motor.efficiency = 1.0)
     };
@@ -41,7 +41,7 @@ fn of(case: &Case, change: impl Fn(&mut Motor)) -> Option<Case> {
     })
 }
 
-/// The same for a motor behind a reducer.
+/// The case with a changed motor; `None` if the motor has no reducer.
 fn geared(case: &Case, change: impl Fn(&mut Motor)) -> Option<Case> {
     (case.crank().moving_motor()?.ratio != 1.0).then_some(())?;
     of(case, change)

@@ -1,4 +1,4 @@
-//! What faults are planted on, and how parts of a case are changed.
+//! Helpers that select the part in which a fault is planted, and that change this part.
 
 use linkage::case::{Case, CaseParts};
 use linkage::math::{Motion, Vec2};
@@ -31,7 +31,7 @@ pub(super) fn output(case: &Case) -> LinkId {
     LinkId(case.mechanism.links().len() - 1)
 }
 
-/// The last link without a pin on the ground, so that its frame moves; the last link if every link has such a pin.
+/// The last link without a pin on the ground: its frame moves. If all links have such a pin, the last link.
 pub(super) fn floating(case: &Case) -> LinkId {
     let held = |link: LinkId| {
         let joints = case.mechanism.joints().iter();
@@ -50,20 +50,21 @@ pub(super) fn crank(case: &Case) -> LinkId {
     case.crank().link
 }
 
-/// The heaviest moving link; the last one if several are equal.
+/// The heaviest moving link; if several are equal, the last of them.
 pub(super) fn heaviest(case: &Case) -> Option<LinkId> {
     let moving = case.mechanism.links().entries().skip(1).filter(|(_, link)| link.mass > 0.0);
     moving.max_by(|a, b| a.1.mass.total_cmp(&b.1.mass)).map(|(index, _)| index)
 }
 
-/// The first moving link that is not driven and has joints at two positions; else the last link with two.
+/// The first moving link that is not driven and has joints at two or more positions.
+/// If there is none, the last link with joints at two or more positions.
 pub(super) fn coupler(case: &Case) -> Option<LinkId> {
     let is_driven = |link: LinkId| case.drives.iter().any(|drive| drive.link == link);
     let long = || case.mechanism.links().ids().skip(1).filter(|&link| ends(case, link).is_some());
     long().find(|&link| !is_driven(link)).or_else(|| long().next_back())
 }
 
-/// The joint positions on a link, each once, in the order of joints.
+/// The joint positions on a link, without repetition, in the order of joints.
 pub(super) fn places(case: &Case, link: LinkId) -> Vec<Vec2> {
     let mut places: Vec<Vec2> = Vec::new();
     for place in case.mechanism.joints().iter().filter_map(|joint| joint.on(link)) {
@@ -74,7 +75,7 @@ pub(super) fn places(case: &Case, link: LinkId) -> Vec<Vec2> {
     places
 }
 
-/// The first and the last joint position on a link that has two or more.
+/// The first and the last joint position on a link; `None` if the link has fewer than two.
 pub(super) fn ends(case: &Case, link: LinkId) -> Option<[Vec2; 2]> {
     match places(case, link).as_slice() {
         [first, .., last] => Some([*first, *last]),
@@ -100,7 +101,7 @@ pub(super) fn moving_guide(case: &Case) -> Option<JointId> {
     case.mechanism.joints().find(is_moving)
 }
 
-/// The joint between the crank and the next link; the crank's driven joint if there is no other.
+/// The joint between the crank and the next link. If the crank has only its driven joint, that joint.
 pub(super) fn crank_pin(case: &Case) -> JointId {
     let (own, link) = (case.crank().joint, crank(case));
     let joints = case.mechanism.joints().entries();
@@ -118,7 +119,8 @@ pub(super) fn on_arm(case: &Case, state: &mut State, change: impl FnOnce(&mut Mo
     (arm.norm() > 0.0).then(|| change(&mut state.motions[link], arm))
 }
 
-/// World vector from a link's frame to its last joint position, or to its mass centre if that position is the origin.
+/// World vector from the origin of a link's frame to its last joint position.
+/// If this position is the origin, the vector to the mass centre.
 pub(super) fn arm(case: &Case, state: &State, link: LinkId) -> Vec2 {
     let last = places(case, link).last().copied().unwrap_or_else(Vec2::zeros);
     let own = &case.mechanism.links()[link];

@@ -1,4 +1,4 @@
-//! Chains of four-bars: the rocker of each is the crank of the next.
+//! Chains of four-bars: the rocker of each four-bar is the crank of the next.
 
 use linkage::case::Case;
 use linkage::error::Result;
@@ -14,11 +14,11 @@ const PITCH: f64 = 1.0;
 const ANGLES: [f64; 2] = [1.1, 2.0];
 /// Instants, less one.
 const INSTANTS: usize = 24;
-/// Largest length of chains that engines run too.
+/// Engines run only on chains of at most this length.
 const MOST_ENGINES: usize = 10;
 
-/// A chain of `count` four-bars, nearly parallelograms.
-/// The bars differ by some thousandths, so that no two are alike and no four-bar comes near a dead point.
+/// A chain of `count` four-bars that are nearly parallelograms.
+/// The bars differ by some thousandths, so that no two bars are equal and no four-bar comes near a dead point.
 pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
     let length = |k: usize| BAR * (1.0 + 2e-3 * (k as f64).sin());
     let rod = |length: f64| (10.0 * length, [0.5 * length, 0.05 * length], 10.0 * length.powi(3) / 12.0);
@@ -27,7 +27,7 @@ pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
     let places = pivots.iter().enumerate().map(|(k, name)| (name.as_str(), [PITCH * k as f64, 0.0]));
     let mut builder = Case::builder().ground(&places.collect::<Vec<_>>());
     for k in 0..=count {
-        // At A, a bar carries the rod that moves it; at B, in the same position, the next rod.
+        // At A, a bar is joined to the rod that drives it. At B, in the same position, it is joined to the next rod.
         let [o, a, b, bar, rod_name] = &names(k);
         let (end, (mass, centre, inertia)) = ([length(k), 0.0], rod(length(k)));
         builder = builder.link(bar, &[(o, [0.0; 2]), (a, end), (b, end)]).mass(bar, mass, centre, inertia);
@@ -52,7 +52,7 @@ pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
 pub(super) const CHAIN: StressFamily = StressFamily {
     name: "chain",
     dial: "number of four-bars in the chain",
-    title: "a chain of as many as 1000 four-bars, each driven by the rocker before",
+    title: "a chain of up to 1000 four-bars, each driven by the rocker of the previous one",
     points: &[1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0],
     quick: &[1.0, 5.0, 20.0],
     samples: 1,

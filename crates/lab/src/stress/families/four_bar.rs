@@ -51,7 +51,7 @@ fn usual(lengths: [f64; 4], masses: [f64; 3], speed: f64) -> Result<Setup> {
 /// Masses of neighbours.
 pub(super) const MASS_RATIO: StressFamily = StressFamily {
     name: "mass_ratio",
-    dial: "mass of the rocker over that of the coupler",
+    dial: "ratio of rocker mass to coupler mass",
     title: "a crank-rocker whose rocker is up to 1e8 times as heavy as its coupler",
     points: &[1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8],
     quick: &[1.0, 1e4, 1e8],
@@ -62,8 +62,8 @@ pub(super) const MASS_RATIO: StressFamily = StressFamily {
 /// Lengths of neighbours.
 pub(super) const LENGTH_RATIO: StressFamily = StressFamily {
     name: "length_ratio",
-    dial: "length of the coupler over that of the crank",
-    title: "a crank-rocker whose crank is up to 1e4 times as short as its coupler",
+    dial: "ratio of coupler length to crank length",
+    title: "a crank-rocker whose coupler is up to 1e4 times as long as its crank",
     points: &[3.5, 10.0, 30.0, 1e2, 3e2, 1e3, 3e3, 1e4],
     quick: &[3.5, 1e2, 1e4],
     samples: 1,
@@ -73,20 +73,20 @@ pub(super) const LENGTH_RATIO: StressFamily = StressFamily {
     },
 };
 
-/// Nearness of a dead point.
+/// Family that approaches a dead point.
 pub(super) const TRANSMISSION: StressFamily = StressFamily {
     name: "transmission_angle",
-    dial: "least transmission angle of the turn (deg)",
-    title: "a crank-rocker that comes as near to a dead point as 0.01 deg of its transmission angle",
+    dial: "smallest transmission angle (deg)",
+    title: "a crank-rocker whose transmission angle falls as low as 0.01 deg, near a dead point",
     points: &[0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0],
     quick: &[0.01, 1.0, 30.0],
     samples: 1,
     setup: |degrees, _, _| {
         // Coupler and rocker are equal.
-        // With the crank on the base line, they are the legs of a triangle whose base is the remaining length.
+        // If the crank lies on the base line, they are the legs of a triangle whose base is the remaining length.
         let (crank, rod) = (0.1, 0.3);
         let lengths = [crank + 2.0 * rod * (0.5 * degrees.to_radians()).sin(), crank, rod, rod];
-        // The revolution begins at the smallest transmission angle, so that one instant is there.
+        // The revolution begins at the smallest transmission angle, so that one instant has exactly this angle.
         let case = builder(lengths, rods(lengths), SPEED_OF_ALL).start(0.0).build()?;
         Ok(Setup::usual(case))
     },
@@ -96,7 +96,7 @@ pub(super) const TRANSMISSION: StressFamily = StressFamily {
 pub(super) const SPEED: StressFamily = StressFamily {
     name: "speed",
     dial: "speed of the crank (rad/s)",
-    title: "a crank-rocker under gravity, from a turn in 17 hours to 95 000 rpm",
+    title: "a crank-rocker under gravity, from one revolution in 17 hours to 95 000 rpm",
     points: &[1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 1e2, 1e3, 1e4],
     quick: &[1e-4, 1.0, 1e4],
     samples: 1,
@@ -107,7 +107,7 @@ pub(super) const SPEED: StressFamily = StressFamily {
 pub(super) const SIZE: StressFamily = StressFamily {
     name: "size",
     dial: "length of the base (m)",
-    title: "a crank-rocker of one density, from 1 um to 1 km",
+    title: "a crank-rocker of constant density, from 1 um to 1 km",
     points: &[1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 1e2, 1e3],
     quick: &[1e-6, 1e-2, 1e3],
     samples: 1,

@@ -8,16 +8,17 @@ use linkage::error::Result;
 use super::four_bar::{LENGTHS, SPEED_OF_ALL, builder, rods};
 use crate::stress::{EngineUse, Setup, StressFamily};
 
-/// Instants of the last revolution.
+/// Number of intervals between the instants of the last revolution.
 const INSTANTS: usize = 12;
-/// Step (deg of the crank) of the engines, and their sweeps.
+/// Step of the engines (deg of the crank), and their number of sweeps.
 const STEP_OF_ALL: f64 = 1.0;
 const SWEEPS_OF_ALL: usize = 16;
 
-/// A crank-rocker whose requested instants divide the last revolution before `turns`, or all of them if they are fewer.
+/// A crank-rocker whose requested instants divide the last of `turns` revolutions.
+/// If `turns` is below 1, they divide the whole motion.
 fn last_turn(turns: f64) -> Result<Case> {
     let span = if turns < 1.0 { turns } else { 1.0 };
-    // The last instant is one interval before the end, so that rounding moves no grid beyond the limit.
+    // The last instant is one interval before the end, so that rounding moves no instant beyond the limit.
     let at = |part: usize| TAU / SPEED_OF_ALL * (turns - span * (1.0 - part as f64 / (INSTANTS + 1) as f64));
     let times: Vec<f64> = (0..=INSTANTS).map(at).collect();
     // Crank angles are measured from 0, so that the last one is not beyond `turns` revolutions.
@@ -27,8 +28,8 @@ fn last_turn(turns: f64) -> Result<Case> {
 /// Steps of a run.
 pub(super) const STEPS: StressFamily = StressFamily {
     name: "steps",
-    dial: "steps of one degree until the last instant",
-    title: "a crank-rocker over as many as 1e6 steps at 16 sweeps, held against its last turn",
+    dial: "number of one-degree steps to the last instant",
+    title: "a crank-rocker over up to 1e6 steps at 16 sweeps, compared over its last revolution",
     points: &[1e2, 1e3, 1e4, 1e5, 1e6],
     quick: &[1e2, 1e4],
     samples: 1,
@@ -42,8 +43,8 @@ pub(super) const STEPS: StressFamily = StressFamily {
 /// Turns.
 pub(super) const TURNS: StressFamily = StressFamily {
     name: "turns",
-    dial: "turns of the crank until the last instant",
-    title: "a crank-rocker after as many as 1e5 turns, by the analytic sides",
+    dial: "number of crank revolutions to the last instant",
+    title: "a crank-rocker after up to 1e5 revolutions, analytic sides only",
     points: &[1.0, 10.0, 1e2, 1e3, 1e4, 1e5],
     quick: &[1.0, 1e2],
     samples: 1,

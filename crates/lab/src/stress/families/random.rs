@@ -6,7 +6,7 @@ use crate::specimens::dyads::{SORTS, chain, sample};
 use crate::specimens::sketch::RandomSource;
 use crate::stress::{Setup, StressFamily};
 
-/// Largest number of drawings until one stays away from dead points.
+/// Upper limit of the number of trials until a random mechanism stays away from dead points.
 const MOST_DRAWN: usize = 100_000;
 /// Step of the grid (rad) and number of steps.
 const STEP: f64 = 0.05;
@@ -15,8 +15,8 @@ const STEPS: usize = 12;
 /// Random mechanisms.
 pub(super) const RANDOM: StressFamily = StressFamily {
     name: "random",
-    dial: "links, the ground among them",
-    title: "random mechanisms of dyads with revolute and prismatic pairs, at least 10 deg from dead points",
+    dial: "number of links, including the ground",
+    title: "random mechanisms of dyads with revolute and prismatic joints, at least 10 deg from dead points",
     points: &[4.0, 6.0, 8.0, 10.0, 12.0, 14.0],
     quick: &[4.0, 8.0],
     samples: 4,
@@ -28,16 +28,16 @@ fn drawn(dyads: usize, number: u64, seed: u64) -> Result<Setup> {
     let mut random = RandomSource::of_sample(seed, 1000 * dyads as u64 + number);
     for _ in 0..MOST_DRAWN {
         let (mut spec, _) = chain(&mut random, &SORTS, dyads);
-        // Moments that jump where a link reverses have a separate family of tests.
+        // Moments that jump where a link reverses are excluded: another family of tests covers them.
         // The double-double reference does not support them.
         spec.loads.clear();
         spec.dt = None;
-        // The grid begins at the start and follows the crank's direction.
+        // The grid begins at the start pose and follows the crank's direction.
         spec.grid = (spec.start, STEP.copysign(spec.speed), STEPS);
         if let Some(found) = sample(spec) {
             return Ok(Setup::usual(found.scenario.case));
         }
     }
-    let message = format!("none of {MOST_DRAWN} drawings of {dyads} dyads keeps away from dead points");
+    let message = format!("none of {MOST_DRAWN} random mechanisms of {dyads} dyads stays away from dead points");
     Err(Error::new(ErrorKind::Geometry, message))
 }

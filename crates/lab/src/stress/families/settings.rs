@@ -1,12 +1,12 @@
-//! Settings of engines: steps to blow-up, sweeps.
+//! Settings of engines: step up to divergence, and number of sweeps.
 
 use super::chain::chain;
 use super::four_bar::{LENGTHS, SPEED_OF_ALL, builder, rods};
 use crate::stress::{EngineUse, Setup, StressFamily};
 
-/// Number of sweeps if the step is the dial.
+/// Number of sweeps in the family that varies the step.
 const SWEEPS_OF_ALL: usize = 64;
-/// Step if the number of sweeps is the dial (deg of the crank).
+/// Step in the family that varies the number of sweeps (deg of the crank).
 const STEP_OF_ALL: f64 = 0.5;
 
 fn step_of(degrees: f64) -> f64 {
@@ -31,7 +31,7 @@ pub(super) const STEP: StressFamily = StressFamily {
 /// Sweeps of the iteration.
 pub(super) const SWEEPS: StressFamily = StressFamily {
     name: "sweeps",
-    dial: "sweeps of the iteration in a step",
+    dial: "sweeps of the iteration per step",
     title: "a chain of three four-bars at a step of half a degree, with few to many sweeps",
     points: &[1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0, 2048.0, 4096.0],
     quick: &[1.0, 16.0, 256.0],

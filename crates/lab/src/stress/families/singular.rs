@@ -9,11 +9,11 @@ use crate::stress::{Setup, StressFamily};
 /// Lengths of a parallelogram (m).
 const PARALLELOGRAM: [f64; 4] = [0.4, 0.1, 0.4, 0.1];
 
-/// Nearness of a change point.
+/// Family that approaches a change point.
 pub(super) const CHANGE_POINT: StressFamily = StressFamily {
     name: "change_point",
-    dial: "share by which the crank is shorter than the rocker",
-    title: "a parallelogram whose crank is shorter by a share, so that it just misses its change points",
+    dial: "fraction by which the crank is shorter than the rocker",
+    title: "a parallelogram whose crank is slightly too short, so that it just misses its change points",
     points: &[1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1],
     quick: &[1e-12, 1e-6, 0.1],
     samples: 1,
@@ -27,8 +27,8 @@ pub(super) const CHANGE_POINT: StressFamily = StressFamily {
 /// More links than needed.
 pub(super) const REDUNDANT: StressFamily = StressFamily {
     name: "redundant",
-    dial: "number of bars that the parallelogram does not need, plus one",
-    title: "a parallelogram that passes its change points, with bars beside it that fit but are not needed",
+    dial: "number of redundant bars of the parallelogram, plus one",
+    title: "a parallelogram that passes its change points, with redundant bars that fit",
     points: &[1.0, 2.0, 3.0, 4.0],
     quick: &[1.0, 2.0],
     samples: 1,

@@ -1,4 +1,4 @@
-//! The smallest fault in each part of a case, and the error that it raises.
+//! The smallest fault in each part of a case, and the resulting error.
 
 use crate::case::{Case, CaseParts, Grid};
 use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor, MotorLaw};
@@ -7,7 +7,7 @@ use crate::math::Vec2;
 use crate::mechanism::{AssemblyMode, JointId, JointSide, LinkId, LinkPose, Structure};
 use crate::{Error, ErrorKind};
 
-/// Error of the four-bar after `change`.
+/// The error for the four-bar after `change`.
 fn refused(change: impl FnOnce(&mut CaseParts)) -> Error {
     turning(four_bar()).with(change).unwrap_err()
 }
@@ -24,7 +24,7 @@ fn says(kind: ErrorKind, key: &str, words: &[&str], change: impl FnOnce(&mut Cas
 use ErrorKind::{Geometry, Input, Unsupported};
 
 #[test]
-fn parts_that_fit_are_a_case_and_come_back_unchanged() {
+fn valid_parts_form_a_case_and_are_returned_unchanged() {
     let case = turning(four_bar());
     assert_eq!(Case::new(case.clone().into_parts()).unwrap(), case);
     assert_eq!(case.with(|_| {}).unwrap(), case);
@@ -36,14 +36,14 @@ fn a_drive_belongs_to_a_moving_link_and_its_joint() {
     says(Input, "drive", &["link 4", "4 links"], |parts| parts.drives.crank_mut().link = LinkId(4));
     says(Input, "drive", &["\"ground\"", "\"O\""], |parts| parts.drives.crank_mut().link = LinkId(0));
     says(Input, "drive", &["\"rocker\"", "\"O\""], |parts| parts.drives.crank_mut().link = LinkId(3));
-    says(Input, "drive", &["driven already"], |parts| {
+    says(Input, "drive", &["already driven"], |parts| {
         let crank = parts.drives.crank().clone();
         parts.drives = Drives::new(crank.clone(), vec![crank]);
     });
 }
 
 #[test]
-fn numbers_of_a_drive_are_such() {
+fn invalid_numbers_of_a_drive_are_refused() {
     for value in [f64::NAN, f64::INFINITY] {
         says(Input, "drive", &["\"crank\"", "not finite"], |parts| parts.drives.crank_mut().zero = value);
         says(Input, "drive", &["\"crank\"", "not finite"], |parts| parts.drives.crank_mut().start = value);
@@ -65,14 +65,14 @@ fn numbers_of_a_drive_are_such() {
 }
 
 #[test]
-fn a_drive_starts_within_the_turns_that_a_grid_may_have() {
+fn a_start_beyond_the_allowed_turns_is_refused() {
     for start in [-7e5, 7e5, 1e18] {
         says(Input, "start.crank", &["turns away", "1e5"], |parts| parts.drives.crank_mut().start = start);
     }
 }
 
 #[test]
-fn numbers_of_a_motor_are_such() {
+fn invalid_numbers_of_a_motor_are_refused() {
     let good = || Motor::ideal(MotorLaw::Linear { at_rest: 2.0, slope: -0.1 }, 10.0);
     let case = turning(four_bar());
     assert!(case.with_motor(Some(good())).is_ok());
@@ -98,9 +98,9 @@ fn numbers_of_a_motor_are_such() {
     }
 }
 
-/// Regression mechanism: a double pendulum with two driving links has two degrees of freedom.
+/// Regression: a double pendulum with two driving links has two degrees of freedom.
 #[test]
-fn drives_together_are_what_is_solved() {
+fn unsupported_combinations_of_drives_are_refused() {
     let links = vec![
         crate::fixtures::link("ground", &[("O", 0.0, 0.0)]),
         crate::fixtures::link("upper", &[("O", 0.0, 0.0), ("A", 1.0, 0.0)]),
@@ -145,14 +145,14 @@ fn drives_together_are_what_is_solved() {
     assert!(error.kind() == Unsupported && error.message().contains("\"lower\"") && error.message().contains("motor"));
     let prescribed = Drive::prescribed(JointId(1), LinkId(2), 0.0, 0.0, MotionLaw::ConstantSpeed(1.0));
     let error = of(free(JointId(0), None), prescribed).unwrap_err();
-    assert!(error.kind() == Unsupported && error.message().contains("hangs on a moving link"), "{error}");
+    assert!(error.kind() == Unsupported && error.message().contains("is attached to a moving link"), "{error}");
     let ramp = Drive::prescribed(JointId(0), LinkId(1), 0.0, 0.0, MotionLaw::Ramp { speed: 1.0, time: 1.0 });
     let error = of(ramp, free(JointId(1), None)).unwrap_err();
     assert!(error.kind() == Unsupported && error.message().contains("changes"), "{error}");
 }
 
 #[test]
-fn a_structure_is_that_of_the_mechanism() {
+fn the_structure_of_another_mechanism_is_refused() {
     says(Input, "structure", &["of 1 parts", "of 2"], |parts| parts.structure.groups = Vec::new().into());
     says(Input, "structure", &[], |parts| {
         parts.structure = Structure::of(&class_four(1.0, 1.0), &[JointId(0)]).unwrap()
@@ -161,7 +161,7 @@ fn a_structure_is_that_of_the_mechanism() {
 }
 
 #[test]
-fn loads_act_on_links_with_numbers() {
+fn loads_need_existing_links_and_valid_numbers() {
     let at = |link: LinkId| JointSide { link, local: Vec2::zeros() };
     let wrong = [
         (Load::Resistance { link: LinkId(4), moment: 1.0 }, "link 4"),
@@ -181,13 +181,13 @@ fn loads_act_on_links_with_numbers() {
 }
 
 #[test]
-fn a_start_pose_closes_the_joints_where_the_drive_starts() {
+fn a_start_pose_must_close_the_joints_at_the_start_angle() {
     says(Input, "start", &["3 places", "4 links"], |parts| parts.start.0 = parts.start.0[1..].to_vec().into());
     says(Input, "start", &["ground"], |parts| parts.start.0[LinkId(0)].angle = 1e-15);
     says(Input, "start", &["\"rocker\""], |parts| parts.start.0[LinkId(3)].angle = f64::NAN);
     says(Geometry, "start", &["\"B\"", "e-8 m"], |parts| parts.start.0[LinkId(3)].angle += 1e-8);
     says(Geometry, "start", &["\"crank\"", "1.000e-8 rad"], |parts| parts.drives.crank_mut().start = 1e-8);
-    // Whole turns and rounding errors are accepted.
+    // Angles of the start pose may differ by whole turns and by rounding errors.
     let turned = turning(four_bar()).with(|parts| {
         parts.start.0[LinkId(2)].angle += 3.0 * std::f64::consts::TAU;
         parts.start.0[LinkId(3)].angle += 1e-14;
@@ -196,7 +196,7 @@ fn a_start_pose_closes_the_joints_where_the_drive_starts() {
 }
 
 #[test]
-fn every_group_has_a_mode_of_its_kind() {
+fn every_group_needs_a_mode_of_its_kind() {
     says(Input, "start", &["0 assembly modes", "1 groups"], |parts| parts.modes.clear());
     for mode in [AssemblyMode::Ahead, AssemblyMode::Behind, AssemblyMode::Only, AssemblyMode::Followed] {
         says(Input, "start", &[mode.name(), "coupler, rocker"], |parts| parts.modes[0] = mode);
@@ -204,7 +204,7 @@ fn every_group_has_a_mode_of_its_kind() {
 }
 
 #[test]
-fn a_grid_is_where_the_crank_comes() {
+fn an_invalid_grid_is_refused() {
     let far = Grid { times: vec![0.0, 1e9], inputs: vec![0.0, 1e9] };
     says(Input, "grid", &["1.6e8 turns"], |parts| parts.grid = far.clone());
     let case = turning(four_bar());

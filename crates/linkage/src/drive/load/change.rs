@@ -1,4 +1,4 @@
-//! Changed loads: the same load on other links, at other points or times a factor.
+//! Changes loads: the same load on other links, at other points or multiplied by a factor.
 
 use super::{Acts, Load, LoadPart, LoadRole, On};
 use crate::drive::Course;
@@ -6,7 +6,7 @@ use crate::math::Vec2;
 use crate::mechanism::{JointSide, LinkId};
 
 impl Load {
-    /// Numbers of the links on which the load acts and on whose motion it depends: one or two.
+    /// Numbers of the links on which the load acts and on whose motion it depends: one or two links.
     #[must_use]
     pub fn links(&self) -> Vec<LinkId> {
         match self.nature().on {
@@ -40,7 +40,7 @@ impl Load {
         load
     }
 
-    /// Moves the point with this number in [`Load::points`] to the position `local` on its link (m).
+    /// Moves the point with the index `number` in [`Load::points`] to the position `local` on its link (m).
     pub fn put_point(&mut self, number: usize, local: Vec2) {
         let mut points = self.parts().into_iter().filter_map(|part| match part {
             LoadPart::Point(side) => Some(side),
@@ -64,7 +64,7 @@ impl Load {
         })
     }
 
-    /// Whether all numbers are finite, and not negative where they must not be.
+    /// Whether all numbers are finite, and those that must not be negative are not.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         self.clone().parts().into_iter().all(|part| match part {
@@ -75,16 +75,17 @@ impl Load {
         })
     }
 
-    /// Loads that together equal this load times `factor`: an empty list for 0; a negative factor reverses the load.
-    /// For a spring or damper the stiffness or damping is multiplied, not the free length or angle.
-    /// `None` where no combination of loads has this effect: a resisting force cannot drive.
+    /// Loads that together equal this load multiplied by `factor`. The list is empty for 0; a negative factor reverses
+    /// the load.
+    /// In a spring or damper the factor multiplies the stiffness or damping, but not the free length or angle.
+    /// `None` if no combination of loads has this effect: a resisting force cannot drive.
     #[must_use]
     pub fn times(&self, factor: f64) -> Option<Vec<Load>> {
         if factor == 0.0 {
             return Some(Vec::new());
         }
         if let (&Load::Resistance { link, moment }, true) = (self, factor < 0.0) {
-            // A reversed resistance drives: one moment for each sense of rotation.
+            // A reversed resistance drives. It consists of one moment for each sense of rotation.
             let acting = |acts, moment| Load::Moment { link, moment: Course::Constant(moment), acts };
             let size = -factor * moment;
             return Some(vec![acting(Acts::CounterClockwise, size), acting(Acts::Clockwise, -size)]);

@@ -1,4 +1,4 @@
-//! Properties that every load has, whatever its kind.
+//! Properties that all kinds of load have in common.
 
 use crate::drive::Course;
 use crate::mechanism::{JointSide, LinkId};
@@ -6,7 +6,7 @@ use crate::mechanism::{JointSide, LinkId};
 /// The sense of rotation of the link for which a moment acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acts {
-    /// In every motion of the link.
+    /// For any motion of the link, and at standstill.
     Always,
     /// While the link turns counter-clockwise, not at standstill.
     CounterClockwise,
@@ -14,9 +14,9 @@ pub enum Acts {
     Clockwise,
 }
 
-/// The motion on whose sense a load depends.
-/// The load's law changes where that motion reverses, so integration stops at that instant.
-/// The load need not jump at that instant: see [`Load::jump`](super::Load::jump).
+/// The motion whose sense a load depends on.
+/// The law of the load changes when this motion reverses, so integration stops at that instant.
+/// The load does not always jump at that instant: see [`Load::jump`](super::Load::jump).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Senses {
     /// The load does not depend on a sense of motion.
@@ -27,31 +27,31 @@ pub enum Senses {
     Point(JointSide),
 }
 
-/// Place of action of a load.
+/// Point or link on which a load acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum On {
     /// A moment on a link.
     Link(LinkId),
     /// A force on a point.
     Point(JointSide),
-    /// A force between two points: it pulls them together or pushes them apart.
+    /// A force between two points. It pulls them together or pushes them apart.
     Points([JointSide; 2]),
-    /// A moment between two links: opposite on the second link to that on the first.
+    /// A moment between two links. The moment on the second link is opposite to that on the first.
     Links([LinkId; 2]),
 }
 
-/// Name, place of action and dependencies of a load: see [`Load::nature`](super::Load::nature).
+/// Name, point or link of action, and dependencies of a load: see [`Load::nature`](super::Load::nature).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadNature<'a> {
     /// Name of this kind of load in scenario files.
     pub sort: &'static str,
     /// Place of action.
     pub on: On,
-    /// Motion on whose sense the load depends.
+    /// Motion whose sense the load depends on.
     pub senses: Senses,
-    /// Whether the load depends on the size of speeds, not only on their senses.
+    /// Whether the load depends on the size of speeds and not only on their signs.
     pub is_viscous: bool,
-    /// The two links whose [`Setting::twist`](super::LoadState::twist) it depends on.
+    /// The two links on whose [`Setting::twist`](super::LoadState::twist) the load depends.
     pub twist: Option<[LinkId; 2]>,
     /// Quantities that may depend on the crank angle.
     pub courses: &'a [Course],
@@ -60,23 +60,23 @@ pub struct LoadNature<'a> {
 /// Meaning of a number of a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LoadRole {
-    /// The load is proportional to it.
+    /// The load is proportional to the number.
     Amount,
-    /// The load is proportional to it; not negative.
+    /// The load is proportional to the number, which must not be negative.
     Size,
-    /// Value at which the load vanishes, in this unit.
+    /// Value, in this unit, at which the load vanishes.
     Rest {
         /// `m` or `rad`.
         unit: &'static str,
     },
 }
 
-/// A part of a load, to be read or changed: see [`Load::parts`](super::Load::parts).
+/// A part of a load, for reading or changing: see [`Load::parts`](super::Load::parts).
 #[derive(Debug, PartialEq)]
 pub enum LoadPart<'a> {
     /// A link on which the load acts.
     Link(&'a mut LinkId),
-    /// A point on which the load acts.
+    /// A point at which the load acts.
     Point(&'a mut JointSide),
     /// A number.
     Number {
@@ -94,7 +94,7 @@ pub enum LoadPart<'a> {
         /// The quantities, in SI units.
         values: &'a mut [Course],
     },
-    /// Sense of rotation for which it acts.
+    /// Sense of rotation for which the moment acts.
     Acts(&'a mut Acts),
     /// Whether the force's direction turns with the link.
     Follows(&'a mut bool),

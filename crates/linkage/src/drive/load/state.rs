@@ -12,7 +12,7 @@ pub struct LoadState<'a> {
     pub angles: &'a [f64],
     /// Poses at t = 0.
     pub start: &'a [LinkPose],
-    /// Crank angle (rad, as the scenario states it). Only tables use it.
+    /// Crank angle (rad, in the scenario's convention). Only tables use it.
     pub crank: f64,
 }
 
@@ -45,7 +45,7 @@ impl Action {
         Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
     }
 
-    /// Total moment of force and moment about a world point (N m), counter-clockwise positive.
+    /// Total moment of the action about a world point (N m), from its force and its moment. Counter-clockwise positive.
     #[inline]
     #[must_use]
     pub fn about(&self, pole: Vec2) -> f64 {

@@ -36,7 +36,7 @@ fn resistance_opposes_the_rotation() {
 }
 
 #[test]
-fn a_moment_may_rest_while_its_link_turns_back() {
+fn a_moment_may_act_in_one_sense_of_rotation_only() {
     for (acts, expected) in
         [(Acts::Always, [7.0, 7.0, 7.0]), (Acts::CounterClockwise, [7.0, 0.0, 0.0]), (Acts::Clockwise, [0.0, 7.0, 0.0])]
     {
@@ -60,9 +60,9 @@ fn a_force_keeps_its_direction_or_follows_its_link() {
 }
 
 #[test]
-fn a_resisting_force_opposes_the_point_not_the_link() {
-    // The point one metre along the link's x axis is above its origin. It moves with (-1, 2) m/s when the link turns
-    // with 1 rad/s.
+fn a_resisting_force_opposes_the_velocity_of_its_point() {
+    // The loaded point is one metre along the link's x axis, which lies above the link's origin.
+    // The point moves with (-1, 2) m/s when the link turns with 1 rad/s.
     let load = Load::ResistingForce { at: side(LinkId(1), 1.0, 0.0), force: 10.0 };
     let found = act(&load, &motions(1.0), &[], 0.0)[0];
     assert!((found.force - Vec2::new(1.0, -2.0) * (10.0 / 5f64.sqrt())).norm() < 1e-14);
@@ -73,7 +73,7 @@ fn a_resisting_force_opposes_the_point_not_the_link() {
 
 #[test]
 fn a_spring_pulls_when_it_is_long_and_pushes_when_it_is_short() {
-    // From (0, 1) on the ground to (3, 5): 5 m.
+    // The spring goes from (0, 1) on the ground to (3, 5), a length of 5 m.
     for (free_length, pull) in [(3.0, 200.0), (6.0, -100.0), (5.0, 0.0)] {
         let load = Load::Spring {
             ends: [side(LinkId(0), 0.0, 1.0), side(LinkId(1), 5.0, 0.0)],
@@ -106,8 +106,8 @@ fn a_damper_resists_the_rate_of_its_length() {
 
 #[test]
 fn a_torsion_spring_counts_turns_from_the_start() {
-    // At the start the link's angle is 90 degrees. Two turns later the spring is wound up by two turns, whatever angle
-    // the pose reports.
+    // At the start the link's angle is 90 degrees.
+    // Two revolutions later the spring is wound up by two revolutions, whatever angle the pose reports.
     let load = Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.5 };
     let still = motions(0.0);
     for turns in [0.0, 2.0, -1.0] {
@@ -131,7 +131,7 @@ fn a_torsion_damper_resists_the_relative_rotation() {
 }
 
 #[test]
-fn moments_in_a_sense_are_those_of_the_action() {
+fn moment_in_equals_the_moment_of_the_action() {
     let table = Course::table(&[(0.0, 1.0), (2.0, 3.0)], 2, true);
     for acts in [Acts::CounterClockwise, Acts::Clockwise] {
         let load = Load::Moment { link: LinkId(1), moment: table.clone(), acts };
@@ -142,7 +142,7 @@ fn moments_in_a_sense_are_those_of_the_action() {
 }
 
 #[test]
-fn loads_of_another_amount_act_in_proportion() {
+fn scaled_loads_act_in_proportion() {
     let moments = |loads: &[Load], omega: f64| -> f64 {
         loads
             .iter()
@@ -162,7 +162,7 @@ fn loads_of_another_amount_act_in_proportion() {
     ];
     for load in &loads {
         for omega in [2.0, -1.5] {
-            // Without the ground: its entry would cancel that of the other end.
+            // The ground is left out, because its moment would cancel that of the other end.
             let one = moments(std::slice::from_ref(load), omega);
             for factor in [0.0, 0.5, 3.0, -2.0] {
                 match load.times(factor) {
@@ -183,9 +183,9 @@ fn loads_of_another_amount_act_in_proportion() {
     }
 }
 
-/// A load that vanishes where its link reverses has at most a kink there; so has a load of size zero.
+/// A load that vanishes when its link reverses has at most a kink. The same holds for a load of size zero.
 #[test]
-fn a_load_jumps_by_what_it_is_for_either_sense() {
+fn the_jump_of_a_load_is_its_difference_between_both_senses() {
     let one_way = |moment, acts| Load::Moment { link: LinkId(1), moment, acts };
     let table = || Course::table(&[(0.0, 0.0), (1.0, 4.0)], 1, false);
     let loads = [

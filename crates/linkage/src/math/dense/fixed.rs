@@ -1,11 +1,11 @@
-//! The same elimination for orders known to the compiler: its loops become straight-line arithmetic.
+//! The same elimination for orders known to the compiler. Its loops become straight-line code.
 //!
 //! The operations and their order are those of the general elimination, so the results agree bit for bit.
 //! NaN is rejected in any position.
-//! A group of four links costs a third of the time of the general loops.
-//! The resulting order of rows is stored instead of the single exchanges.
+//! For a group of four links it takes a third of the time of the general loops.
+//! It stores the resulting order of rows instead of the single exchanges.
 
-/// The first `N` numbers of a slice that has at least so many.
+/// The first `N` numbers of a slice with at least `N` numbers.
 #[inline(always)]
 fn first<T, const N: usize>(of: &[T]) -> &[T; N] {
     of.first_chunk().expect("as many numbers as the order says")
@@ -64,7 +64,7 @@ pub(super) fn factor<const N: usize>(a: &mut [f64], order: &mut [usize], inverse
     let (order, inverse): (&mut [usize; N], &mut [f64; N]) = (first_mut(order), first_mut(inverse));
     *order = std::array::from_fn(|row| row);
     let mut signs = [1.0; 2];
-    // Unrolled, because only then are the bounds of the inner loops constants.
+    // The loop is unrolled, because only then are the bounds of the inner loops constants.
     macro_rules! each {
         ($($column:literal)*) => {
             $(if $column < N && !eliminate::<N, $column>(rows, order, inverse, &mut signs) {

@@ -14,23 +14,26 @@ fn sure<T>(answer: Result<T, Infallible>) -> T {
 const EXACT: Close = Close { value: 0.0, width: 0.0 };
 
 #[test]
-fn signs_change_over_zero_and_not_over_what_is_no_number() {
+fn a_sign_change_includes_zero_but_not_nan() {
     assert!(changes(-1.0, 2.0) && changes(2.0, -1.0) && changes(0.0, 1.0) && changes(-1.0, 0.0) && changes(0.0, 0.0));
-    // The product of these values would underflow to zero.
+    // The product of the two values would underflow to zero.
     assert!(!changes(1e-200, 1e-200) && !changes(-1e-200, -1e-200));
     assert!(!changes(f64::NAN, 1.0) && !changes(-1.0, f64::NAN) && !changes(f64::NAN, 0.0));
 }
 
 #[test]
-fn halves_end_at_an_end_where_nothing_changes() {
+fn bisection_without_a_change_returns_an_end() {
     let ends = |before: bool| sure(halved([1.0, 2.0], 60, |_| Ok(before)));
     assert_eq!((ends(true), ends(false)), ([2.0; 2], [1.0; 2]));
-    assert_eq!(halved([0.0, 1.0], 3, |x| if x < 0.3 { Err("out of reach") } else { Ok(false) }), Err("out of reach"));
+    assert_eq!(
+        halved([0.0, 1.0], 3, |x| if x < 0.3 { Err("cannot be reached") } else { Ok(false) }),
+        Err("cannot be reached")
+    );
     assert_eq!(sure(halved([0.0, 1.0], 0, |_| Ok(true))), [0.0, 1.0]);
 }
 
 #[test]
-fn a_change_of_sign_is_looked_for_both_ways() {
+fn a_sign_change_is_sought_in_either_direction() {
     let f = |x: f64| Ok::<f64, Infallible>(x * x - 9.0);
     assert_eq!(sure(widened((0.0, -9.0), 1.0, 100.0, f)), Some([(2.0, -5.0), (4.0, 7.0)]));
     assert_eq!(sure(widened((0.0, -9.0), -1.0, 100.0, f)), Some([(-2.0, -5.0), (-4.0, 7.0)]));
@@ -42,7 +45,7 @@ fn a_change_of_sign_is_looked_for_both_ways() {
 }
 
 #[test]
-fn regula_falsi_refuses_what_has_no_change_of_sign() {
+fn regula_falsi_needs_a_sign_change() {
     let f = |x: f64| Ok::<f64, Infallible>(x - 0.3);
     assert_eq!(sure(regula_falsi([(1.0, 0.7), (2.0, 1.7)], EXACT, 60, f)), None);
     assert_eq!(sure(regula_falsi([(1.0, f64::NAN), (2.0, 1.7)], EXACT, 60, f)), None);
@@ -52,9 +55,9 @@ fn regula_falsi_refuses_what_has_no_change_of_sign() {
     assert_eq!(regula_falsi([(0.0, -0.3), (2.0, 1.7)], EXACT, 60, |_| Err("fails")), Err("fails"));
 }
 
-/// A bound that never moves would make regula falsi converge linearly, here in 1000 steps or more.
+/// If one bound never moved, regula falsi would converge linearly, here in 1000 steps or more.
 #[test]
-fn a_bound_does_not_stay_for_long() {
+fn regula_falsi_moves_both_ends_of_the_bracket() {
     let mut steps = 0;
     let f = |x: f64| x.powi(9) - 1e-3;
     let found = regula_falsi([(0.0, f(0.0)), (2.0, f(2.0))], EXACT, 100, |x| {
@@ -65,13 +68,13 @@ fn a_bound_does_not_stay_for_long() {
 }
 
 #[test]
-fn newton_is_held_between_bounds() {
-    // From 0.1 Newton's method on atan(20 x) goes to -0.18, then to 0.7, and then diverges.
+fn newton_stays_within_its_bounds() {
+    // From 0.1, Newton's method on atan(20 x) goes to -0.18, then to 0.7, and then diverges.
     let steep = |x: f64| Ok::<_, Infallible>(((20.0 * x).atan(), 20.0 / (1.0 + 400.0 * x * x)));
     for (bounds, rises) in [([-0.3, 0.1], true), ([0.1, -0.3], false)] {
         assert!(sure(newton(bounds, rises, 0.1, 1e-9, steep)).unwrap().abs() < f64::EPSILON);
     }
-    // The reported slope is zero, so only bisection is left.
+    // The function reports a slope of zero, so only bisection can find the zero.
     let flat = |x: f64| Ok::<_, Infallible>((x - 0.3, 0.0));
     assert!((sure(newton([0.0, 1.0], true, 0.5, 1e-9, flat)).unwrap() - 0.3).abs() < 1e-15);
     let touched = |x: f64| Ok::<_, Infallible>(((x - 0.5).powi(3), 3.0 * (x - 0.5).powi(2)));
@@ -81,7 +84,7 @@ fn newton_is_held_between_bounds() {
 }
 
 #[test]
-fn long_steps_are_not_taken() {
+fn polishing_rejects_long_steps() {
     let f = |x: f64| Ok::<_, Infallible>((x * x - 2.0, 2.0 * x));
     assert!((sure(polished(1.4, 4, f64::INFINITY, f)) - 2f64.sqrt()).abs() < 1e-15);
     assert_eq!(sure(polished(1.4, 4, 1e-3, f)), 1.4);
@@ -90,22 +93,22 @@ fn long_steps_are_not_taken() {
 }
 
 #[test]
-fn secants_keep_to_positive_lengths() {
+fn the_secant_method_keeps_lengths_positive() {
     let mut asked = 0;
     let found = secants((2.0, 2f64.exp() - 3.0), 1.0, 10, |x: f64| {
         asked += 1;
         Ok::<f64, Infallible>(x.exp() - 3.0)
     });
     assert!((sure(found) - 3f64.ln()).abs() < 1e-15 && asked < 9, "{found:?} {asked}");
-    // The line through both values meets zero at -1.
+    // The line through both values crosses zero at -1.
     assert_eq!(sure(secants((2.0, 3.0), 1.0, 6, |_| Ok(2.0))), 1.0);
     assert_eq!(sure(secants((2.0, 3.0), 1.0, 6, |_| Ok(f64::NAN))), 1.0);
     assert_eq!(secants((2.0, 3.0), 1.0, 6, |_| Err("fails")), Err("fails"));
 }
 
-/// Close to the zero the values differ only by rounding, and the secant through two of them is arbitrary.
+/// Close to the zero, values differ only by rounding, and the secant through two such values is arbitrary.
 #[test]
-fn secants_end_at_rounding() {
+fn the_secant_method_stops_at_rounding() {
     let mut asked = 0.0;
     let found = secants((2.0, 2f64.exp() - 3.0), 1.0, 20, |x: f64| {
         asked += 1.0;
@@ -115,7 +118,7 @@ fn secants_end_at_rounding() {
     assert!((sure(found) - 3f64.ln()).abs() < 1e-10, "{found:?}");
 }
 
-/// A cubic that rises everywhere, with this zero; returns value and slope.
+/// A cubic that rises everywhere and has this zero. Returns value and slope.
 fn cubic(zero: f64, a: f64, b: f64) -> impl Fn(f64) -> (f64, f64) {
     move |x: f64| {
         let d = x - zero;
@@ -126,7 +129,7 @@ fn cubic(zero: f64, a: f64, b: f64) -> impl Fn(f64) -> (f64, f64) {
 proptest! {
     /// All methods find the same zero up to rounding error, for both signs.
     #[test]
-    fn every_way_finds_the_zero(zero in -5.0f64..5.0, below in 0.01f64..10.0, above in 0.01f64..10.0, a in 0.0f64..10.0, b in 0.1f64..10.0,
+    fn every_method_finds_the_zero(zero in -5.0f64..5.0, below in 0.01f64..10.0, above in 0.01f64..10.0, a in 0.0f64..10.0, b in 0.1f64..10.0,
         falls in any::<bool>()) {
         let sign = if falls { -1.0 } else { 1.0 };
         let f = |x: f64| { let (value, slope) = cubic(zero, a, b)(x); (sign * value, sign * slope) };
@@ -143,7 +146,7 @@ proptest! {
         }
         let polish = sure(polished(zero + 1e-3, 5, 1e-2, |x| Ok(f(x))));
         prop_assert!(near(polish) || a * 1e-4 > b, "{polish}");
-        // From one end towards the zero, however far away it is.
+        // The search starts at one end and goes towards the zero, however far away it is.
         let wide = sure(widened(ends[0], 1e-3, 100.0, |x| Ok(f(x).0))).unwrap();
         prop_assert!(wide[0].0 <= zero && zero <= wide[1].0 && changes(wide[0].1, wide[1].1));
         let of_length = |length: f64| f(low + length).0;
@@ -154,7 +157,7 @@ proptest! {
 
     /// The search keeps the requested width and makes no unnecessary steps.
     #[test]
-    fn regula_falsi_ends_when_it_is_told(zero in -1.0f64..1.0, tolerance in 1e-9f64..1e-2) {
+    fn regula_falsi_stops_at_the_requested_tolerance(zero in -1.0f64..1.0, tolerance in 1e-9f64..1e-2) {
         let f = |x: f64| (x - zero).exp() - 1.0;
         let ends = [-2.0, 2.0].map(|x| (x, f(x)));
         let by_value = sure(regula_falsi(ends, Close { value: tolerance, width: 0.0 }, 100, |x| Ok(f(x)))).unwrap();

@@ -6,7 +6,7 @@ use crate::error::{Advice, Error, ErrorKind, ErrorSubject};
 use crate::mechanism::{AssemblyMode, Group, GroupId, Mechanism, Structure};
 use crate::sentences;
 
-/// A group whose configuration makes it impossible to place a later one.
+/// A group whose configuration makes it impossible to place a later group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blame {
     /// Index of the group in the structure.
@@ -26,8 +26,8 @@ pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> 
     }
 }
 
-/// The earlier group that, in another configuration, lets the group of `error` be placed.
-/// The other arguments are those with which [`first_choices`] gave the error.
+/// The earlier group that must change its configuration so that the group of `error` can be placed.
+/// The other arguments must be those of the call to [`first_choices`] that returned the error.
 ///
 /// A group is not blamed if its own approximate positions confirm its configuration.
 #[must_use]
@@ -46,8 +46,8 @@ pub fn blame(
     let part = before(failed.index() + 1);
     let mut own = wanted.to_vec();
     own[failed].near.clear();
-    // Without its approximate positions the group may be placed in the present pose.
-    // If so, the positions must clearly favour the change.
+    // Without its approximate positions the group may fit the present pose.
+    // In that case the positions must clearly favour the change.
     let stands = first_choices(mechanism, &part, drive_angles, &own).is_ok();
     let earlier = part.groups.entries().rev().filter(|(index, _)| *index < failed && wanted[*index].near.is_empty());
     for (index, group) in earlier {
@@ -66,8 +66,8 @@ pub fn blame(
     None
 }
 
-/// Whether the change of an earlier group clearly improves the fit of the last group.
-/// `found` is the distance (m) from the approximate positions after the change.
+/// Whether another configuration of an earlier group clearly improves the fit of the last group.
+/// `found` is the distance (m) of the last group from its approximate positions after the change.
 /// It must be less than half of the smallest distance without the change.
 fn clearly_nearer(
     mechanism: &Mechanism,
@@ -88,7 +88,8 @@ fn clearly_nearer(
     matches!((found, least), (Some(found), Ok(least)) if 2.0 * found < least)
 }
 
-/// Rewrites `error` for the group to blame. It keeps the message and adds the configuration in which the group fits.
+/// Rewrites `error` so that it names the group to blame. The message stays, and the configuration that allows the later
+/// group to be placed is added.
 #[must_use]
 pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error: &Error) -> Error {
     let names = |group: &Group| group.names(mechanism);

@@ -1,4 +1,4 @@
-//! The configuration of a group at the start: by required mode, number or approximate positions.
+//! Chooses the configuration of a group at the start: by required mode, number or approximate positions.
 
 use super::configurations::configurations;
 use super::mode::{AssemblyMode, Configuration, ConfigurationChoice, StartGroup};
@@ -75,7 +75,7 @@ fn nothing_asked(group: &Group) -> Error {
     }
 }
 
-/// "the rough place of point "B" is", or "the rough places of points "B" and "C" are".
+/// Words for the rough places: "the rough place of point "B" is", or "the rough places of points "B" and "C" are".
 fn rough_places(wanted: &StartGroup) -> String {
     let names: Vec<String> = wanted.near.iter().map(|(point, _)| format!("\"{}\"", point.name)).collect();
     match &names[..] {
@@ -100,8 +100,8 @@ pub(super) fn distance(group: &Group, wanted: &StartGroup, one: &Configuration) 
     distances.fold(0.0, f64::larger)
 }
 
-/// The configuration nearest to the approximate positions, with its largest distance from them (m) and that of the next
-/// configuration.
+/// The configuration nearest to the approximate positions, its largest distance from them (m), and the largest distance
+/// of the second nearest configuration.
 fn nearest<'a>(
     mechanism: &Mechanism,
     group: &Group,
@@ -110,8 +110,8 @@ fn nearest<'a>(
 ) -> Result<(&'a Configuration, f64, Option<f64>)> {
     let mut order: Vec<(f64, &Configuration)> = all.iter().map(|one| (distance(group, wanted, one), one)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Two rejections. The nearest configuration must be at least twice as near as the next one.
-    // It must also not be farther away than the size of the mechanism.
+    // Two conditions. The nearest configuration must be at least twice as near as the next one.
+    // Its distance must also not exceed the size of the mechanism.
     if let [(first, a), (second, b), ..] = order[..]
         && 2.0 * first > second
     {
@@ -139,7 +139,7 @@ fn nearest<'a>(
     }
 }
 
-/// The mode of a dyad. For higher groups, whose configurations have no names, `rank`.
+/// The name of a dyad's mode. Configurations of higher groups have no names; for them, `rank`.
 fn named(mode: AssemblyMode, rank: &'static str) -> &'static str {
     if mode == AssemblyMode::Followed { rank } else { mode.name() }
 }

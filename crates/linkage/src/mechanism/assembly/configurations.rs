@@ -5,8 +5,8 @@ use super::{dyads, four_link};
 use crate::error::Result;
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 
-/// All real configurations of a group, with the links before it posed as in `pose`.
-/// A dyad has up to two, a group of four links up to six.
+/// All real configurations of a group. The links of earlier groups have their places in `pose`.
+/// A dyad has up to two configurations, a group of four links up to six.
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if there is no configuration.

@@ -1,10 +1,10 @@
 //! All configurations of the five dyads, and their transmission angles.
 //!
-//! With one outer joint on each link and the inner joint between them, a dyad is closed by one scalar equation.
+//! A dyad has one outer joint on each link and the inner joint between the links. One scalar equation closes it.
 //! It is the equation of two circles (RRR), a circle and a line (RRP, and RPR seen from the guide), or two lines (RPP,
 //! PRP).
-//! A prismatic pair gives the angle of one link from that of the other.
-//! It keeps the joint's point on the second link on a line along the axis through its point on the first link.
+//! A prismatic pair fixes the angle between its two links.
+//! It keeps the joint's point on the second link on a line through its point on the first link, parallel to the axis.
 
 #[cfg(test)]
 mod tests;
@@ -15,8 +15,9 @@ use crate::math::{Vec2, cross, rotated, turned, unit};
 use crate::mechanism::{Group, GroupKind, Joint, LinkId, LinkPose, Mechanism, Pose};
 use crate::sentences;
 
-/// Sine of the angle between two axes below which they count as parallel.
-/// At this angle, rounding errors of their directions move the links by more than a ten-thousandth of the mechanism.
+/// Two axes count as parallel if the sine of the angle between them is below this.
+/// At this angle, rounding errors of the axes' directions move the links by more than a ten-thousandth of the
+/// mechanism.
 const PARALLEL: f64 = 1e-12;
 
 /// Angle (rad) that rotates `from` into the direction of `to`.
@@ -125,12 +126,12 @@ pub(super) fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pos
     }
 }
 
-/// The link with the outer revolute pair, then the link with the outer prismatic one.
+/// The link with the outer revolute pair, then the link with the outer prismatic pair.
 fn prismatic_last<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
     if a.outer.slides() { [b, a] } else { [a, b] }
 }
 
-/// First and second link of the inner joint.
+/// The first, then the second link of the inner joint.
 fn in_pair_order<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
     if a.inner.first.link == a.link { [a, b] } else { [b, a] }
 }
@@ -177,7 +178,8 @@ fn rrr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Left, across), one(AssemblyMode::Right, -across)])
 }
 
-/// The inner joint lies on a line along the guide, where the circle of the rod about the outer pin intersects it.
+/// The inner joint lies on a line parallel to the guide, at its intersections with the rod's circle about the outer
+/// pin.
 fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [rod, slider] = prismatic_last(members);
     let (axis, pin, length) = (slider.guide(), rod.hook(), rod.span().norm());
@@ -199,9 +201,9 @@ fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
 }
 
-/// Across the axis e, both links' offsets give the distance of the outer pins: e x d = h.
-/// Along the axis the distance is sqrt(d^2 - h^2), in one direction or the other.
-/// d and its components give e.
+/// Perpendicular to the axis e, the offsets of both links give the distance of the outer pins: e x d = h.
+/// Along the axis the distance is +sqrt(d^2 - h^2) or -sqrt(d^2 - h^2).
+/// The direction e follows from d and these components.
 fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [first, second] = in_pair_order(members);
     let offset = |member: &Member| cross(member.axis_of(member.inner), member.span());
@@ -224,7 +226,8 @@ fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
 }
 
-/// The guides give both angles. The slider moves along the outer axis until the points of the inner joint are in line.
+/// The guides give the angles of both links. The slider moves along the outer axis until the points of the inner joint
+/// are in line.
 fn rpp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [swivel, slider] = prismatic_last(members);
     let outer = slider.guide();

@@ -2,9 +2,9 @@
 //!
 //! There are two such groups. The class III group of order 3 is a base link on three leads.
 //! The class IV group of order 2 is a movable quadrilateral of two ternary and two binary links.
-//! Seen from one of its ternary links, the second group is the first.
-//! That link is then the frame, and the other ternary link the base.
-//! The leads are the two binary links and the links before the group, taken as one body.
+//! Relative to one of its ternary links, the class IV group has the form of the class III group.
+//! That ternary link is then the frame, and the other ternary link the base.
+//! The three leads are the two binary links and the world (all links before the group, taken as one body).
 
 use super::mode::{AssemblyMode, Configuration};
 use super::three_leads::{Conditions, LeadPair, PairEnd, PlatformLead};
@@ -34,7 +34,7 @@ struct Layout {
 }
 
 impl Layout {
-    /// Assigns the roles of the links; `None` if the group is neither of the two.
+    /// Assigns the roles of the links; `None` if the group has neither of the two forms.
     fn of(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<Self> {
         if group.links.len() != 4 {
             return None;
@@ -89,7 +89,8 @@ impl Layout {
             in_frame.push((*body, lead.near.lead.place, lead.pose(base)?));
         }
         let frame = match in_frame.iter().find(|(body, ..)| *body == Body::World) {
-            // Seen from the frame, the world is a lead. One point of the world gives the frame's position in the world.
+            // Relative to the frame, the world is a lead. One point of the world gives the frame's position in the
+            // world.
             Some((_, place, world)) => LinkPose::through(world.point(*place), *place, -world.angle),
             None => LinkPose::GROUND,
         };
@@ -106,15 +107,17 @@ impl Layout {
     }
 }
 
-/// Whether all real configurations of the group can be found.
+/// Whether this module can find all real configurations of the group.
 pub(super) fn is_handled(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
     Layout::of(mechanism, group, pose).is_some()
 }
 
-/// All real configurations of the group, ordered by the angle of its base or, in class IV, of its last ternary link.
+/// All real configurations of the group, in the order of the angle of its base or, in class IV, of its last ternary
+/// link.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] if there is no configuration, [`ErrorKind::Unsupported`] if the group is neither of the two.
+/// [`ErrorKind::Geometry`] if there is no configuration, [`ErrorKind::Unsupported`] if the group has neither of the two
+/// forms.
 pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     let layout = Layout::of(mechanism, group, pose).ok_or_else(|| {
         let (links, class) = (group.links.len(), group.class);
@@ -135,8 +138,8 @@ pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) 
             .help(sentences::CHECK_THE_LENGTHS_AND_THE_GROUND));
     }
     let index = group.links.iter().position(|&link| link == layout.base).expect("the base is a link of the group");
-    // Angles count from just below zero, so that an angle that is zero up to rounding has a unique position in the
-    // order.
+    // Angles are counted from just below zero.
+    // An angle that is zero up to rounding error then has a unique position in the order.
     let rank = |one: &Configuration| (one.links[index].angle + 1e-9).rem_euclid(TAU);
     all.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
     Ok(all)

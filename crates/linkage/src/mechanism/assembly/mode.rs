@@ -15,11 +15,11 @@ pub enum AssemblyMode {
     /// RPR dyad: along that axis, the outer pin of the pair's second link lies ahead of the outer pin of its first
     /// link.
     Ahead,
-    /// RRP or RPR dyad: the same joint or pin lies behind.
+    /// RRP or RPR dyad: the same joint or pin lies behind the outer pin.
     Behind,
     /// RPP or PRP dyad, which has only one configuration.
     Only,
-    /// Higher group: the configuration of the start pose, followed from there.
+    /// Higher group: the configuration that the group has in the start pose and from there on.
     Followed,
 }
 
@@ -75,6 +75,7 @@ pub struct ConfigurationChoice {
     pub mode: AssemblyMode,
     /// Largest distance of the configuration's points from their approximate positions (m), if any were given.
     pub nearest_m: Option<f64>,
-    /// The same distance for the next configuration (m), if there is one and all configurations are known.
+    /// The same distance for the second nearest configuration (m). `None` if there is no other configuration, or if not
+    /// all configurations are known.
     pub next_m: Option<f64>,
 }

@@ -1,9 +1,9 @@
 //! First pose of a group whose configurations are not all known, from a rough drawing.
 //!
-//! Each link is placed by the approximate positions of its points, by joints with links already placed, and by their
-//! axes.
+//! The approximate positions of a link's points place the link, together with its joints with links already placed and
+//! the axes of these joints.
 //! Then a Newton method with Levenberg-Marquardt damping closes all joints of the group at once:
-//! (J^T J + lambda) dx = -J^T f. The vector f has the gaps of all joints, as many as unknowns.
+//! (J^T J + lambda) dx = -J^T f. The vector f contains the gaps of all joints; there are as many gaps as unknowns.
 
 use super::dyads::turn;
 use super::mode::{AssemblyMode, ConfigurationChoice};
@@ -20,10 +20,11 @@ mod tests;
 
 type Near = [(SidePoint, Vec2)];
 
-/// Largest gap of a closed joint, as a fraction of the mechanism's size. It is at the level of rounding errors.
+/// A joint counts as closed if its gap is at most this fraction of the mechanism's size. It is at the level of rounding
+/// errors.
 const CLOSED: f64 = 1e-13;
 /// Largest number of steps of the damped iteration.
-/// From a drawing with errors of a tenth of a link it takes about ten.
+/// If the drawing has errors of a tenth of a link, about ten steps are enough.
 const STEPS: usize = 200;
 
 /// Poses the links of the group near the approximate positions `near`.
@@ -61,7 +62,7 @@ fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     0.5 * if least.is_finite() { least } else { mechanism.size() }
 }
 
-/// Places every link of the group as well as the approximate positions and the placed links allow.
+/// Places every link of the group as well as its approximate positions and the links already placed allow.
 fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<()> {
     let mut left = group.links.clone();
     while !left.is_empty() {
@@ -81,7 +82,8 @@ fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -
     Ok(())
 }
 
-/// The pose of a link from its approximate positions and its joints with placed links; `None` if they are not enough.
+/// The pose of a link from its approximate positions and its joints with links already placed.
+/// `None` if this information is not enough.
 fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose: &Pose) -> Option<LinkPose> {
     let own = |name: &str| mechanism.links()[link].points.iter().find(|point| point.name == name);
     let rough = near.iter().filter_map(|(point, place)| Some((own(&point.name)?.local, *place)));
@@ -98,7 +100,7 @@ fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose:
         let axis = rotated(unit(pose.0[other].angle), joint.axis_on(other)?);
         Some(turn(joint.axis_on(link)?, axis))
     });
-    // The rotation that fits the positions best: that of the sum of conj(local) world, as complex numbers.
+    // The rotation that fits the positions best: the direction of the sum of conj(local) world, as complex numbers.
     let fit: Vec2 = places
         .iter()
         .map(|place| (place.0 - local, place.1 - world))
@@ -109,7 +111,7 @@ fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose:
     Some(LinkPose::through(local, world, guided.or(fitted)?))
 }
 
-/// The gaps of a group's joints as functions of x, y and size * angle of its links.
+/// The gaps of a group's joints as functions of the unknowns: x, y and size * angle of each link.
 struct System<'a> {
     mechanism: &'a Mechanism,
     group: &'a Group,
@@ -150,7 +152,7 @@ impl System<'_> {
             let places = sides.map(|side| pose.0[side.link].point(side.local));
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
                 let Some(at) = self.group.links.iter().position(|&link| link == sides[k].link) else { continue };
-                // The point moves by (dx, dy) and by the rotation of its arm.
+                // The displacement of the point is (dx, dy) plus that from the rotation of its arm.
                 let arm = turned(places[k] - pose.0[sides[k].link].origin) / self.size;
                 let moves = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), arm];
                 for (column, by) in moves.into_iter().enumerate() {
@@ -245,7 +247,7 @@ impl System<'_> {
             jacobian.solve(&mut step);
             *pose = self.moved(pose, &step);
         }
-        // The usual measure, in which opposite axes count as open.
+        // The same measure as elsewhere: opposite axes count as open.
         let open = |joint: &Joint| {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| pose.0[side.link].point(side.local));

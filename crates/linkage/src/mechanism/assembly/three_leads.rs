@@ -13,8 +13,8 @@
 //! With |X| = l this leaves |q2 p1 - q1 p2|^2 = l^2 (q1 x q2)^2.
 //! In e^(i beta), p has the powers -1 to 1, and q has 0 to 1 (circle), 0 (line of the frame) or 1 (line of the base).
 //! So the vector on the left has the powers -1 to 2, and its square -3 to 3.
-//! This is a trigonometric polynomial of degree 3 with at most six zeros, and all of them are found.
-//! If all conditions are lines, they meet in one point where a determinant of degree 2 is zero.
+//! This is a trigonometric polynomial of degree 3 with at most six zeros, and all six can be found.
+//! If all conditions are lines, they meet in one point if a determinant of degree 2 is zero.
 
 mod condition;
 
@@ -79,7 +79,7 @@ impl Conditions {
         let linear = |index: usize| match self.all[index].locus(b) {
             Some(Locus::Circle { centre: other, radius: length }) => {
                 let apart = centre - other;
-                // Divided by the size, so that lines and circles have the same weight.
+                // The equation is divided by the size, so that lines and circles have the same weight.
                 let p = apart.norm_squared() + (radius - length) * (radius + length);
                 (p / self.size, apart * (2.0 / self.size))
             }
@@ -102,8 +102,9 @@ impl Conditions {
         for beta in harmonic::zeros(3, self.most(terms), eliminant)? {
             let ([(p1, q1), (p2, q2)], centre, radius) = self.reduced(unit(beta));
             let met = turned(q2 * p1 - q1 * p2) / cross(q1, q2);
-            // Where the two lines coincide, the solutions are the intersections of that line with the circle.
-            // Computing them always costs little, and a candidate counts only if it satisfies all conditions.
+            // If the two lines coincide, the solutions are the intersections of that line with the circle.
+            // They are always computed, because they cost little. A candidate counts only if it satisfies all
+            // conditions.
             let (p, q) = if q1.norm() > q2.norm() { (p1, q1) } else { (p2, q2) };
             let foot = -q * (p / q.norm_squared());
             let along = turned(q) * (((radius - foot.norm()) * (radius + foot.norm())).larger(0.0).sqrt() / q.norm());
@@ -137,7 +138,7 @@ impl Conditions {
         Some(found)
     }
 
-    /// Solutions for a given angle of the base; two conditions remain.
+    /// Solutions for a given angle of the base. Two conditions remain to be satisfied.
     fn at_angle(&self, beta: f64) -> Option<Vec<Found>> {
         let mut loci = self.all.iter().filter_map(|one| one.locus(unit(beta)));
         let (first, second) = (loci.next()?, loci.next()?);
@@ -147,7 +148,7 @@ impl Conditions {
             let along_squared = (radius - distance) * (radius + distance);
             let (normal, along) = (q / q.norm(), along_squared.sqrt());
             let foot = centre - normal * distance;
-            // The root of a negative number is NaN, and `keep` drops it.
+            // The square root of a negative number is NaN, and `keep` drops it.
             [foot + turned(normal) * along, foot - turned(normal) * along]
         };
         let candidates: Vec<Vec2> = match (first, second) {
@@ -180,7 +181,7 @@ impl Conditions {
         (0..8).map(|k| of(f64::from(k) * std::f64::consts::FRAC_PI_4)).fold(0.0, f64::larger)
     }
 
-    /// Refines a candidate to rounding error. Adds it if it satisfies the conditions and is not known yet.
+    /// Refines a candidate to rounding error. Adds it if it satisfies the conditions and was not found before.
     /// If Newton's method fails because the base can move, adds a nearby pose that satisfies the conditions.
     fn keep(&self, found: &mut Vec<Found>, candidate: Found) {
         let apart = |known: &Found, one: &Found| {
@@ -203,9 +204,10 @@ impl Conditions {
     }
 
     /// Whether the base can move from a pose while all conditions hold.
-    /// The test makes a step to either side along the free direction of the Jacobian.
-    /// If the base then returns to the conditions but not to the pose, it can move.
-    /// At a double root it cannot.
+    /// The test makes one step each way along the free direction of the Jacobian.
+    /// Damped steps then bring the base back to the conditions. If both results differ from the pose, the base can
+    /// move.
+    /// At a double root the base cannot move.
     fn is_loose(&self, at: Found) -> bool {
         let rows = self.rows(at).map(|(row, _)| row);
         let product = |a: [f64; 3], b: [f64; 3]| {
@@ -215,7 +217,7 @@ impl Conditions {
         let products = [0, 1, 2].map(|k: usize| product(rows[(k + 1) % 3], rows[(k + 2) % 3]));
         let free = products.into_iter().fold([0.0; 3], |best, one| if norm(one) > norm(best) { one } else { best });
         let volume: f64 = (0..3).map(|k| rows[0][k] * products[0][k]).sum();
-        // A double root is accurate to half the digits, 1e-7 of the size, and the volume tends to zero there.
+        // A double root is accurate to half the digits, 1e-7 of the size. The volume tends to zero at such a root.
         if volume.abs() > 1e-5 * rows.map(norm).iter().product::<f64>() {
             return false;
         }
@@ -227,7 +229,7 @@ impl Conditions {
         })
     }
 
-    /// Result of damped steps from a pose, if the conditions hold there.
+    /// Pose after damped steps from a given pose, if all conditions hold there.
     /// Unlike Newton steps, damped steps do not move along free directions.
     fn settled(&self, mut pose: Found) -> Option<Found> {
         for _ in 0..30 {
@@ -252,8 +254,8 @@ impl Conditions {
     fn polish(&self, start: Found) -> Option<Found> {
         let (mut at, mut best, mut least) = (start, start, f64::INFINITY);
         let mut worse = 0;
-        // Near a double root the first steps may lead away. At the level of rounding errors no step improves on the
-        // last.
+        // Near a double root the first steps may increase the residual. At the level of rounding errors, further steps
+        // give no improvement.
         while worse < 4 {
             let rows = self.rows(at);
             let worst = rows.iter().map(|(_, gap)| gap.abs()).fold(0.0, f64::larger);
@@ -272,13 +274,13 @@ impl Conditions {
             system.solve(&mut step);
             at = (at.0 - Vec2::new(step[0], step[1]) * self.size, at.1 - step[2]);
         }
-        // Lines may intersect far away. Rounding errors then scale with that distance.
+        // Lines may intersect far away. Rounding errors are then proportional to that distance.
         let reach = self.size + best.0.norm();
         let near = (best.0 - start.0).norm() <= 0.1 * reach && (best.1 - start.1).abs() <= 0.1;
         (least <= CLOSED * reach && near).then_some(best)
     }
 }
 
-/// Largest residual of the conditions in a valid pose, as a fraction of the size.
+/// Upper limit of the residual of a condition in a valid pose, as a fraction of the size.
 /// It is rounding error with a margin for double roots, for which Newton's method finds only half the digits.
 const CLOSED: f64 = 1e-13;

@@ -3,8 +3,8 @@
 use super::group::Group;
 use crate::mechanism::{JointId, LinkId, Mechanism};
 
-/// Number of sides of the highest closed contour of a group.
-/// A link with three or more pairs is a contour with as many sides.
+/// Number of sides of the closed contour with the most sides.
+/// A link with three or more inner pairs is a contour with as many sides as inner pairs.
 /// Every shortest loop of inner joints is a contour too.
 pub(super) fn highest_contour(mechanism: &Mechanism, group: &Group) -> usize {
     let joint = |&index: &JointId| &mechanism.joints()[index];

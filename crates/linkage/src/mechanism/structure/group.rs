@@ -7,7 +7,7 @@ use crate::sentences;
 /// Kind of Assur group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GroupKind {
-    /// Dyad with an outer, the inner and an outer revolute pair: class II, order 2, like all dyads.
+    /// Dyad with three revolute pairs. Class II and order 2, like all dyads.
     Rrr,
     /// Dyad with an outer revolute pair, the inner revolute pair and an outer prismatic pair: connecting rod and
     /// slider.

@@ -1,4 +1,5 @@
-//! Ownership of equations: every equation of a joint or drive goes to one of the two links it touches, three per link.
+//! Ownership of equations. One of the two links that an equation concerns owns the equation; a link owns three
+//! equations.
 
 use crate::sentences;
 use petgraph::algo::tarjan_scc;
@@ -7,11 +8,11 @@ use petgraph::graph::{DiGraph, NodeIndex};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::{GROUND, JointId, LinkId, Mechanism};
 
-/// Checks Laman's condition for plane bodies: a part of k links, the ground included, carries at most 3 k - 3
+/// Checks Laman's condition for plane bodies: the joints among k links, the ground included, have at most 3 k - 3
 /// equations.
-/// An equivalent condition is tested: three copies of any one equation are added.
-/// All equations must still find owners among all links, three per link (Lee and Streinu, "Pebble game algorithms and
-/// sparse graphs", 2008).
+/// The function tests an equivalent condition, for each joint in turn. Three copies of one of its equations are added.
+/// All equations must still find owners, with at most three equations per link, the ground included (Lee and Streinu,
+/// "Pebble game algorithms and sparse graphs", 2008).
 pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[JointId]) -> Result<()> {
     let mut owners = Owners::unassigned(mechanism, drives, OWNED);
     owners.assign_all(mechanism)?;
@@ -20,14 +21,14 @@ pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[JointId]) -> Result<
         let ends = [joint.first.link, joint.second.link];
         owners.add((0..3).map(|_| Equation { joint: index, of_drive: false, ends }));
         owners.assign_from(count, mechanism)?;
-        // Equations that the copies pushed to other links stay there, so all equations except the copies still have
-        // owners.
+        // The copies may have moved other equations to other links. These equations stay there, so all equations except
+        // the copies still have owners.
         owners.keep(count);
     }
     Ok(())
 }
 
-/// One scalar equation of a joint or of a drive. One of the two links it touches will own it.
+/// One scalar equation of a joint or of a drive. It concerns two links, and one of them will own it.
 #[derive(Clone, Copy)]
 struct Equation {
     joint: JointId,
@@ -77,7 +78,7 @@ impl Owners {
         self.assign_from(0, mechanism)
     }
 
-    /// Finds owners for the equations from `first` on. None of them has an owner yet.
+    /// Finds owners for the equations from `first` on, which have no owners yet.
     fn assign_from(&mut self, first: usize, mechanism: &Mechanism) -> Result<()> {
         let mut visited = vec![false; mechanism.links().len()];
         for equation in first..self.equations.len() {
@@ -100,7 +101,7 @@ impl Owners {
         self.owner.truncate(count);
     }
 
-    /// Finds an owner for one equation; moves other equations if necessary (Kuhn's augmenting paths).
+    /// Finds an owner for one equation. Moves other equations to other owners if necessary (Kuhn's augmenting paths).
     fn assign(&mut self, equation: usize, visited: &mut [bool]) -> bool {
         for link in self.equations[equation].ends {
             let most = if link == GROUND { self.of_ground } else { OWNED };

@@ -15,13 +15,13 @@ fn four_bar_is_a_crank_and_a_dyad() {
 }
 
 #[test]
-fn the_same_chain_driven_at_the_other_pivot_turns_round() {
+fn driving_the_other_pivot_puts_the_crank_into_the_dyad() {
     let mechanism = four_bar();
     let structure = Structure::of(&mechanism, &[JointId(3)]).unwrap();
     assert_eq!(structure.formula(&mechanism), "I(ground, rocker) -> II.2 RRR(crank, coupler)");
 }
 
-/// Crank and a base link on three leads, one of them attached to the crank: class III, order 3.
+/// A crank and a base link on three leads. One of the leads is attached to the crank: class III, order 3.
 fn triad() -> Mechanism {
     let links = vec![
         link("ground", &[("O", 0.0, 0.0), ("A", 3.0, 0.0), ("B", 0.0, 3.0)]),
@@ -65,7 +65,7 @@ fn a_changeable_quadrilateral_is_class_four_order_two() {
 }
 
 #[test]
-fn a_rigid_part_beside_a_loose_one_is_found_although_the_count_is_right() {
+fn a_rigid_part_is_found_despite_the_right_mobility() {
     let links = vec![
         link("ground", &[("O", 0.0, 0.0), ("P", 4.0, 0.0)]),
         link("crank", &[("O", 0.0, 0.0), ("A", 1.0, 0.0)]),
@@ -85,7 +85,7 @@ fn a_rigid_part_beside_a_loose_one_is_found_although_the_count_is_right() {
 }
 
 #[test]
-fn two_links_pinned_together_twice_are_over_constrained_and_no_dyad() {
+fn two_links_with_two_common_pins_are_over_constrained() {
     let links = vec![
         link("ground", &[("O", 0.0, 0.0)]),
         link("crank", &[("O", 0.0, 0.0), ("A", 1.0, 0.0)]),
@@ -100,9 +100,9 @@ fn two_links_pinned_together_twice_are_over_constrained_and_no_dyad() {
 }
 
 #[test]
-fn a_floating_part_with_one_joint_too_many_is_found() {
-    // Four links in a ring, two of which share a fifth joint: 10 equations where 3*4 - 3 are enough.
-    // A loose link keeps the mobility right.
+fn an_over_constrained_floating_part_is_found() {
+    // Four links in a ring, two of which share a fifth joint: 10 equations, although 3*4 - 3 are enough.
+    // An additional loose link keeps the mobility correct.
     let links = vec![
         link("ground", &[("O", 0.0, 0.0)]),
         link("crank", &[("O", 0.0, 0.0), ("A", 1.0, 0.0)]),

@@ -149,7 +149,7 @@ mod tests {
     use super::{is_confused, short};
 
     #[test]
-    fn digits_that_were_confused_are_told_from_simple_factors() {
+    fn confused_digits_are_distinguished_from_simple_factors() {
         for (wrong, right) in
             [(0.0352, 0.0325), (164.0, 146.0), (106.0, 160.0), (105.0, 150.0), (10.0, 9.81), (0.105, 0.1055)]
         {
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn only_numbers_that_somebody_writes_are_short() {
+    fn only_numbers_with_few_digits_are_short() {
         assert_eq!(short(0.032_500_000_000_001, 1e-14), Some(0.0325));
         assert_eq!(short(0.032_512_345_678, 1e-14), None);
     }

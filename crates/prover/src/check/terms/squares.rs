@@ -14,7 +14,7 @@ pub struct Wrong<'a> {
     pub bounds: Vec<f64>,
     /// The right numbers.
     pub right: Vec<f64>,
-    /// Some of the places. Everything is tried there first.
+    /// Indices of some instants, at which everything is tried first.
     pub few: &'a [usize],
 }
 
@@ -54,7 +54,7 @@ pub struct Explanation<'a> {
 const FEWEST: usize = 8;
 /// Error of a quantity's values, relative to its largest value.
 const KNOWN: f64 = 1e-10;
-/// Largest remaining share of the difference at a few places for all places to be tried.
+/// An explanation that leaves less than this share of the difference at `few` is tried at all instants.
 const PROMISING: f64 = 1e-6;
 
 /// Calls `whole` with every explanation by one or two quantities that leaves nothing, up to the first single one.

@@ -38,7 +38,8 @@ impl Chain {
             (forces[index], moments[index]) = node.body.resultant(gravity, tile);
         }
         self.gather(&mut forces);
-        // Adds the moments of the forces at the ends of the arrows, about the poles of the links that carry the arrows.
+        // Adds the moments of the forces at the arrows' ends. Each moment is about the pole of the link that carries
+        // the arrow.
         for (index, node) in self.nodes.iter().enumerate().rev() {
             if let Hangs::Arrow(arrow) = node.hangs {
                 let parent = self.arrows[arrow].node;
@@ -63,7 +64,8 @@ impl Chain {
         }
     }
 
-    /// Sums the forces from the outermost link inwards: a pin transmits a force only.
+    /// Sums the forces from the outermost link inwards. Moments are not passed on, because a pin transmits only a
+    /// force.
     #[inline(always)]
     fn gather<S: Simd>(&self, forces: &mut [Plane<S>]) {
         for (index, node) in self.nodes.iter().enumerate().rev() {

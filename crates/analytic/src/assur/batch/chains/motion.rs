@@ -14,11 +14,12 @@ use crate::assur::groups::Hangs;
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
-/// Largest correction of an interpolated direction (rad). Its square is below rounding.
+/// Largest accepted correction of an interpolated direction (rad). The square of this correction is below rounding
+/// error.
 const LAST_CHANGE: f64 = 1e-8;
 
 impl Chain {
-    /// Computes the motion of all links. Returns NaN where Newton's method does not reach the pose from its start.
+    /// Computes the motion of all links. Returns NaN for poses that Newton's method does not reach from their starts.
     #[inline(always)]
     pub(in crate::assur::batch) fn turn<S: Simd>(
         &self,
@@ -221,7 +222,7 @@ impl Chain {
     }
 }
 
-/// Direction from which a link starts: its direction at the anchor, turned by the interpolating polynomial.
+/// Start direction of a link: its direction at the anchor, rotated by the interpolating polynomial.
 #[inline(always)]
 fn start<S: Simd>(work: &Window<S>, column: usize) -> Plane<S> {
     let way = work.get(column + 2);

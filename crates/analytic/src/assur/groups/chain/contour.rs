@@ -20,22 +20,23 @@ pub struct Node {
     pub link: LinkId,
     /// The joint to its parent.
     pub joint: JointId,
-    /// The joint in the link's frame, and whether it is the origin there.
+    /// Position of the joint in the link's frame, and whether this position is the origin.
     pub own: Vec2,
     pub(super) at_origin: bool,
     /// The joint on the parent.
     pub parent: JointSide,
     /// Index of the parent among the nodes; `None` for a link outside the group.
     pub parent_node: Option<usize>,
-    /// Index of the node whose unknown is this link's angle: the node itself if its joint is revolute, otherwise that
-    /// of its parent; `None` if a link outside the group leads it.
+    /// Index of the node whose unknown is this link's angle.
+    /// If the link's joint is revolute, it is the node itself; otherwise it is the node of its parent.
+    /// `None` if the rotation of a link outside the group determines the angle.
     pub spin: Option<usize>,
-    /// Position of the joint on the parent's side.
+    /// Position of the joint to the parent, on the parent's side.
     pub(in crate::assur) hangs: Hangs,
     pub(super) guided: Option<Guided>,
 }
 
-/// Position of a joint on the side that is known first.
+/// Position of a joint on the link that is placed first.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) enum Hangs {
     /// A joint on a link outside the group: index in [`Contours::roots`].
@@ -87,13 +88,14 @@ impl Node {
     }
 }
 
-/// A vector of the tree: from a node's joint to its parent to another joint on its link, or the slide of a node.
+/// A vector of the tree. It leads from the joint of a node to its parent to another joint on the node's link, or it is
+/// the slide of the node.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Arrow {
     pub(in crate::assur) node: usize,
-    /// The vector in the frame of the node's link; `None` for the node's slide.
+    /// The vector in the frame of the node's link; `None` if it is the node's slide.
     pub(in crate::assur) local: Option<Vec2>,
-    /// The link with which the vector turns, and the node whose unknown is that link's angle.
+    /// The link with which the vector turns, and the node that has this link's angle as its unknown.
     pub(super) carrier: LinkId,
     pub(in crate::assur) spin: Option<usize>,
 }
@@ -101,13 +103,13 @@ pub(in crate::assur) struct Arrow {
 /// An arrow on the path to a closing joint.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::assur) struct Stretch {
-    /// Index in [`Contours::arrows`], and sign.
+    /// Index in [`Contours::arrows`], and the sign of the arrow on this path.
     pub(in crate::assur) arrow: usize,
     pub(in crate::assur) sign: f64,
     /// As in [`Arrow`].
     pub(super) carrier: LinkId,
     pub(super) spin: Option<usize>,
-    /// The node whose slide this arrow is.
+    /// The node whose slide is this arrow; `None` for a vector fixed to a link.
     pub(super) slide: Option<usize>,
 }
 
@@ -116,12 +118,12 @@ pub(in crate::assur) struct Stretch {
 pub struct ClosingJoint {
     /// The joint.
     pub joint: JointId,
-    /// Nodes of the joint's first and second link; `None` for a link outside the group.
+    /// Nodes of the joint's first and second link; `None` if that link is outside the group.
     pub nodes: [Option<usize>; 2],
     /// The joint on its second link.
     place: JointSide,
-    /// Indices of the known joints at which the two paths start, with signs: +1 for the path to the second link, -1 for
-    /// the first.
+    /// Indices of the known joints at which the two paths start, with the signs of the paths: +1 for the path to the
+    /// second link, -1 for the path to the first link.
     pub(in crate::assur) ends: [(usize, f64); 2],
     /// Arrows along both paths.
     pub(in crate::assur) ways: Vec<Stretch>,
@@ -154,7 +156,7 @@ impl Contours {
         let joints = mechanism.joints();
         let mut all = Contours::default();
         let mut used = vec![false; joints.len()];
-        // Breadth first: all outer joints, then inner joints from the links already in the tree.
+        // Breadth first: all outer joints come first, then inner joints on links already in the tree.
         while all.nodes.len() < group.links.len() {
             let known = |link: LinkId| !group.links.contains(&link) || all.nodes.iter().any(|node| node.link == link);
             let hung = |&joint: &JointId| {
@@ -190,8 +192,8 @@ impl Contours {
         })
     }
 
-    /// Index of the arrow from a node's joint to the position `to` on its link, or of the node's slide if `to` is
-    /// `None`.
+    /// Index of the arrow from a node's joint to the position `to` on its link.
+    /// If `to` is `None`, index of the node's slide.
     fn arrow(&mut self, node: usize, to: Option<Vec2>) -> usize {
         let own = &self.nodes[node];
         let local = to.map(|to| to - own.own);
@@ -207,7 +209,8 @@ impl Contours {
     fn closing(&mut self, found: &Joint, joint: JointId) -> ClosingJoint {
         let mut ways = Vec::new();
         let mut way = |side: JointSide, sign: f64| {
-            // Where sliders carry all links, an outer pin remains too. The path to it over the link outside is empty.
+            // If sliders carry all links, an outer pin also closes a contour. The path to this pin through the link
+            // outside the group is empty.
             let node = self.nodes.iter().position(|node| node.link == side.link);
             let (mut next, mut to) = (node, side);
             while let Some(index) = next {

@@ -3,7 +3,7 @@
 /// Number of steps that a prediction uses.
 const MEMORY: usize = 5;
 
-/// Copies one number per driving link; usually there is one driving link.
+/// Copies one number per driving link. The usual case of one driving link is treated separately.
 #[inline(always)]
 pub(super) fn copy(from: &[f64], to: &mut [f64]) {
     match (from, &mut *to) {
@@ -15,13 +15,13 @@ pub(super) fn copy(from: &[f64], to: &mut [f64]) {
 /// Changes of the unknowns from pose to pose.
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
-    /// Changes of the unknowns in the last step, and their backward differences over the last steps, from the first to
-    /// the fourth; zero where fewer steps are known.
-    /// Then the number of equal steps, and the last step (rad of the driving angles).
+    /// For each unknown: its change in the last step, and the first to fourth backward differences of this change.
+    /// They are zero if too few steps are known.
+    /// The next fields are the number of equal steps and the last step (rad of the driving angles).
     differences: Vec<[f64; MEMORY]>,
     equal_steps: usize,
     last_step: Vec<f64>,
-    /// Changes of the unknowns in the present step so far, and whether this step equals the last one.
+    /// Changes of the unknowns so far in the present step, and whether the present step equals the last step.
     present: Vec<f64>,
     is_repeated: bool,
 }
@@ -48,10 +48,10 @@ impl Memory {
         self.equal_steps = 0;
     }
 
-    /// Begins a step of the driving angles. Returns whether it equals the last step.
+    /// Begins a step of the driving angles. Returns whether this step equals the last step.
     /// If it does, the changes of the unknowns are extrapolated from the last steps; otherwise they are zero.
-    /// The polynomial through the last steps is continued: its next difference is zero, so that the sum of all lower
-    /// differences is the next change.
+    /// The extrapolation assumes that the next backward difference is zero.
+    /// The next change is then the sum of the last change and all its differences.
     pub(super) fn predict(&mut self, step: &[f64]) -> bool {
         let same = |(step, last): (&f64, &f64)| (step - last).abs() <= 1e-6 * step.abs();
         self.is_repeated = step.iter().zip(&self.last_step).all(same);

@@ -5,7 +5,7 @@ use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::GROUND;
 
 impl Chain {
-    /// Computes the velocities of the group's links. Those of the links that carry the group must be known.
+    /// Computes the velocities of the group's links. The velocities of the links that carry the group must be known.
     pub(in crate::assur::groups) fn velocities(&mut self, motions: &mut [Motion]) {
         match self.is_sliding {
             true => self.velocities_as::<true>(motions),
@@ -62,8 +62,8 @@ impl Chain {
         }
     }
 
-    /// Computes the accelerations of the group's links. Their velocities, and the accelerations of the links that carry
-    /// the group, must be known.
+    /// Computes the accelerations of the group's links.
+    /// The velocities of the group's links and the accelerations of the links that carry the group must be known.
     pub(in crate::assur::groups) fn accelerations(&mut self, motions: &mut [Motion]) {
         match self.is_sliding {
             true => self.accelerations_as::<true>(motions),
@@ -139,7 +139,7 @@ impl Chain {
         }
     }
 
-    /// The nodes whose rotation is led by links outside the group, parents first.
+    /// The nodes that turn with links outside the group, parents first.
     /// Their angles are not unknowns of the group: their rotation is known before the group is solved.
     fn led(&self) -> impl Iterator<Item = &Node> {
         let nodes: &[Node] = if self.is_sliding { &self.contours.nodes } else { &[] };

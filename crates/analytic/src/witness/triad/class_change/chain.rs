@@ -1,4 +1,4 @@
-//! The chain of dyads that remains when a ground lead drives: the other ground lead and the base link, then lead 3 and
+//! The chain of dyads that remains if a ground lead drives: the other ground lead and the base link, then lead 3 and
 //! the crank.
 
 use linkage::math::{Vec2, cross, rotated, turned};
@@ -6,11 +6,11 @@ use linkage::math::{Vec2, cross, rotated, turned};
 /// A ground lead.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grounded {
-    /// Its foot (m, world axes).
+    /// Foot of the lead (m, world axes).
     pub(super) foot: Vec2,
     /// Its length (m).
     pub(super) length: f64,
-    /// Its head in the base link's frame (m).
+    /// Head of the lead in the base link's frame (m).
     pub(super) on_base: Vec2,
 }
 
@@ -21,7 +21,7 @@ pub(super) struct Chain {
     pub(super) leads: [Grounded; 2],
     /// Head of lead 3 in the base link's frame (m).
     pub(super) third: Vec2,
-    /// Side of the line from the driver's head to the other foot on which the other head lies: +1 left, -1 right.
+    /// Position of the other head relative to the line from the driver's head to the other foot: +1 left, -1 right.
     pub(super) side: f64,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Place {
     pub(super) third: Vec2,
 }
 
-/// Derivatives of the chain by the driving lead's angle: first and second.
+/// First and second derivatives of the chain by the driving lead's angle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slopes {
     pub(super) base: [f64; 2],
@@ -50,10 +50,9 @@ pub(super) struct Slopes {
 }
 
 impl Chain {
-    /// First dyad: the driver's head is D, the other foot is G, d = |DG|, b = |DE| on the base link and l the other
-    /// lead.
-    /// The cosine rule gives E = D + DG (b^2 - l^2 + d^2 +- i sqrt((b + l + d)(b + l - d)(d + b - l)(d - b + l))) / 2
-    /// d^2 as complex numbers.
+    /// Places the first dyad. D is the driver's head, E the other head and G the other foot.
+    /// With d = |DG|, b = |DE| on the base link and the length l of the other lead, the cosine rule gives, as complex
+    /// numbers, E = D + DG (b^2 - l^2 + d^2 +- i sqrt((b + l + d)(b + l - d)(d + b - l)(d - b + l))) / 2 d^2.
     /// The root is four times the area of the triangle by Heron's formula. `None` if the dyad cannot be assembled.
     pub(super) fn place(&self, driver: Vec2) -> Option<Place> {
         let [lead, other] = self.leads;
@@ -74,14 +73,14 @@ impl Chain {
 }
 
 impl Place {
-    /// Sine of the angle between base link and other lead, signed. It is zero where the conditional driver has a dead
-    /// point in the first dyad.
+    /// Signed sine of the angle between base link and other lead. It is zero if the conditional driver has a dead point
+    /// in the first dyad.
     pub(super) fn sine(&self) -> f64 {
         cross(self.base, self.other) / (self.base.norm() * self.other.norm())
     }
 
-    /// From driver + base = FG + other, differentiated once and twice. The scalar product with one of the two vectors
-    /// leaves the rate of the other.
+    /// The slopes follow from the first and second derivatives of driver + base = FG + other.
+    /// The scalar product with one of the vectors base and other eliminates the rate of this vector.
     pub(super) fn slopes(&self) -> Slopes {
         let (p, r) = (self.base, self.other);
         let d = [turned(self.driver), -self.driver];
@@ -94,7 +93,7 @@ impl Place {
     }
 }
 
-/// Direction of a frame in which the vector `local` has the world direction `world`.
+/// Direction of a frame if its vector `local` has the world direction `world`.
 pub(super) fn along(local: Vec2, world: Vec2) -> Vec2 {
     Vec2::new(local.dot(&world), cross(local, world)).normalize()
 }

@@ -6,7 +6,7 @@ use crate::mechanism::{Joint, JointId, JointKind, LinkId};
 
 const CASES: usize = 100_000;
 
-/// A dyad of links 3 and 4 on links 1 and 2, which have random poses.
+/// A dyad of links 3 and 4, attached to links 1 and 2. Links 1 and 2 have random poses.
 struct Case {
     mechanism: Mechanism,
     group: Group,
@@ -42,7 +42,8 @@ impl Case {
         rotated(unit(pose.0[joint.first.link].angle), joint.axis_on(joint.first.link).unwrap())
     }
 
-    /// The pose with link `link` rotated so that the axis of its prismatic `joint` agrees with that of the other side.
+    /// The pose with link `link` rotated: the axis of its prismatic `joint` then agrees with the axis on the other
+    /// link.
     fn with_turned(&self, mut pose: Pose, joint: JointId, link: LinkId) -> Pose {
         let other = self.joint(joint).other(link).link;
         let angle = |axis: Vec2| axis.y.atan2(axis.x);
@@ -51,7 +52,7 @@ impl Case {
         pose
     }
 
-    /// Distance of the second point of a prismatic `joint` from the line through the first.
+    /// Distance of the second link's point of a prismatic `joint` from the line through the first link's point.
     fn off_line(&self, pose: &Pose, joint: JointId) -> f64 {
         let own = self.joint(joint);
         cross(
@@ -60,8 +61,8 @@ impl Case {
         )
     }
 
-    /// Margin by which the dyad has configurations: positive if it has, negative if not.
-    /// It comes from the zeros of a sampled function, not from a derived formula.
+    /// Margin to the limit of assembly: positive if the dyad has configurations, negative if not.
+    /// It comes from the triangle inequality or from samples of a function, not from the formulas under test.
     fn reach(&self) -> f64 {
         let outer_pin =
             |joint: JointId, link: LinkId| self.place(&self.pose, joint, self.joint(joint).other(link).link);
@@ -76,8 +77,8 @@ impl Case {
                 (a + b - c).smaller(a + c - b).smaller(b + c - a)
             }
             GroupKind::Rrp => {
-                // Squared distance of the inner joint from the outer pin as a function of the slide:
-                // a parabola through three values.
+                // Squared distance of the inner joint from the outer pin as a function of the slide. Three values
+                // determine the function, a parabola.
                 let (slider, outer, rod, pin) =
                     if self.joint(JointId(0)).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
                 let ([slider, rod], [outer, pin]) = ([slider, rod].map(LinkId), [outer, pin].map(JointId));
@@ -98,8 +99,8 @@ impl Case {
                 rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
-                // Distance from the line as a function of the common angle: a sinusoid plus a constant, from three
-                // values.
+                // Distance from the line as a function of the common angle.
+                // Three values determine the function, a sinusoid plus a constant.
                 let off = |angle: f64| {
                     let mut pose = self.pose.clone();
                     pose.0[LinkId(3)].angle = angle;
@@ -141,9 +142,10 @@ impl Case {
 }
 
 /// Checks 100 000 dyads of every kind, in all orders of links and sides.
-/// Every configuration closes and has the mode that it reports. Its transmission sine has the sign of that mode.
+/// Every configuration closes and has the mode that it reports. The sign of its transmission sine agrees with that
+/// mode.
 /// Two configurations of a dyad differ.
-/// An independent criterion agrees on whether there is a configuration.
+/// An independent criterion agrees on whether a configuration exists.
 #[test]
 fn random_dyads_of_every_kind() {
     let kinds = [GroupKind::Rrr, GroupKind::Rrp, GroupKind::Rpr, GroupKind::Rpp, GroupKind::Prp];
@@ -156,7 +158,7 @@ fn random_dyads_of_every_kind() {
             let all = match configurations(&case.mechanism, &case.group, &case.pose) {
                 Ok(all) => all,
                 Err(error) => {
-                    // The criterion has other rounding errors, so it cannot decide exactly at the edge.
+                    // The criterion has other rounding errors, so it cannot decide exactly at the limit of assembly.
                     assert!(reach <= 1e-14, "{kind:?}: {error}, but there is room of {reach}");
                     assert!(error.kind() == ErrorKind::Geometry && error.way_out().is_some(), "{error}");
                     continue;
@@ -173,7 +175,7 @@ fn random_dyads_of_every_kind() {
                 })
                 .collect();
             for (one, pose) in all.iter().zip(&poses) {
-                // Two nearly parallel axes intersect far away, so the size is that of the assembled dyad.
+                // Two nearly parallel axes intersect far away, so the size is taken from the assembled dyad.
                 let size = size(&case.mechanism, pose);
                 let sine = transmission_sine(&case.mechanism, &case.group, pose).unwrap();
                 worst = worst.larger(pose.closure(&case.mechanism) / size);
@@ -194,13 +196,13 @@ fn random_dyads_of_every_kind() {
         }
         println!("{kind:?}: {some} of {CASES} assembled, closure at worst {worst:.1e} of the size");
         assert!(some > CASES / 5, "{kind:?}: {some}");
-        // 1e-12 as for all closures.
+        // The bound 1e-12 is the same as for all closures.
         assert!(worst <= 1e-12, "{kind:?}: {worst}");
     }
 }
 
-/// Dyads of two sliders have no configuration if their axes are parallel. A tiny angle between the axes is enough for
-/// one.
+/// Dyads of two sliders have no configuration if their axes are parallel.
+/// A tiny angle between the axes is enough for a configuration.
 #[test]
 fn parallel_axes_are_refused() {
     for kind in [GroupKind::Rpp, GroupKind::Prp] {
@@ -213,8 +215,8 @@ fn parallel_axes_are_refused() {
             else {
                 panic!("two prismatic joints");
             };
-            // PRP: rotate one base until its guide is parallel to the other one. RPP: give the slider two parallel
-            // axes.
+            // PRP: rotate one base until its guide is parallel to the guide of the other base. RPP: give the slider two
+            // parallel axes.
             let turned_by = |case: &mut Case, angle: f64| {
                 if kind == GroupKind::Prp {
                     let guide = |k: JointId, link: LinkId| {
@@ -246,14 +248,14 @@ fn parallel_axes_are_refused() {
 }
 
 #[test]
-fn what_does_not_reach_is_told_in_metres() {
+fn unreachable_distances_are_reported_in_metres() {
     let mut random = Lcg(5);
     let mut told = [false; 2];
     while told != [true; 2] {
         for (index, kind) in [GroupKind::Rrp, GroupKind::Rpr].into_iter().enumerate() {
             let case = case(&mut random, kind);
             if let Err(error) = configurations(&case.mechanism, &case.group, &case.pose) {
-                let words = ["its rod spans", "across the axis of its prismatic joint"][index];
+                let words = ["but its rod is", "perpendicular to the axis of its prismatic joint"][index];
                 assert!(error.to_string().contains(words) && error.to_string().contains(" m"), "{error}");
                 told[index] = true;
             }

@@ -7,7 +7,7 @@ use crate::math::KeepNan;
 use crate::mechanism::{GROUND, GroupId, GroupKind, JointId, LinkId, Structure};
 use scan::{Scan, scanned};
 
-/// For each of the three leads: whether its pair with the frame and its pair with the base slide.
+/// For each of the three leads: whether the pair with the frame slides, and whether the pair with the base slides.
 type Pairs = [[bool; 2]; 3];
 
 const REVOLUTE: Pairs = [[false; 2]; 3];
@@ -19,14 +19,14 @@ struct Case {
     pose: Pose,
 }
 
-/// A random case. If `fitted`, the joints are closed in its pose.
+/// A random case. If `fitted`, the joints are closed in the pose of the case.
 fn case(random: &mut Lcg, pairs: Pairs, triad: bool, fitted: bool) -> Case {
     let hook = |random: &mut Lcg| usize::from(random.yes());
     let ends = if triad {
-        // Leads 2, 4 and 5 of base 3.
+        // Links 2, 4 and 5 are leads of the base 3.
         [2, 4, 5].map(|lead| [[hook(random), lead], [lead, 3]])
     } else {
-        // Frame 2 and base 5, leads 3 and 4 and the world.
+        // The frame is link 2 and the base link 5. The leads are links 3 and 4 and the world.
         let (near, far) = (hook(random), hook(random));
         [[[2, 3], [3, 5]], [[2, 4], [4, 5]], [[2, near], [far, 5]]]
     };
@@ -56,7 +56,8 @@ struct Tally {
     counts: [usize; 7],
     /// Largest closure error, as a fraction of the size.
     closure: f64,
-    /// Cases with a root that is double to within 1e-9. Neither method can distinguish it from a near miss.
+    /// Number of cases with a root that is double to within 1e-9. Neither method can distinguish such a root from a
+    /// near miss.
     double: usize,
 }
 
@@ -97,14 +98,14 @@ fn compare(random: &mut Lcg, pairs: Pairs, triad: bool, cases: usize, tally: &mu
     }
 }
 
-/// Asserts the bounds of every comparison. Closure has the usual bound.
-/// A double root has a probability of 1e-9^(1/2) per root, times some tens.
+/// Asserts the bounds of every comparison. The bound of the closure is the usual one.
+/// The probability of a double root is some tens times 1e-9^(1/2) per root.
 fn check(tally: &Tally, cases: usize) {
     assert!(tally.closure <= 1e-12, "{tally:?}");
     assert!(tally.double <= 1 + cases / 200, "{tally:?}");
 }
 
-/// Whether to test the large number of groups, which takes minutes, as `.ci/nightly` does.
+/// Whether to test the large number of groups. That takes minutes, and `.ci/nightly` does so.
 fn many() -> bool {
     std::env::var_os("LINKPROOF_DRAWS").is_some()
 }
@@ -122,8 +123,8 @@ fn as_many_configurations_as_a_scan_finds() {
     }
 }
 
-/// All placements of prismatic pairs in the leads.
-/// At most one lead may have two of them, or links would slide in a loop.
+/// All ways to place prismatic pairs in the leads.
+/// At most one lead may have two prismatic pairs; otherwise links would slide in a loop.
 fn sliding() -> impl Iterator<Item = Pairs> {
     let lead = |bits: usize| [bits & 1 == 1, bits & 2 == 2];
     let all = (1..64).map(move |bits: usize| [lead(bits & 3), lead(bits >> 2 & 3), lead(bits >> 4)]);
@@ -146,7 +147,7 @@ fn as_many_configurations_as_a_scan_finds_with_prismatic_pairs() {
     assert_eq!(patterns, 2 * 53);
 }
 
-/// Three parallel leads of equal length let the base move on circles: every angle of the leads is a configuration.
+/// Three parallel leads of equal length let the base move on circles, so every angle of the leads is a configuration.
 #[test]
 fn a_group_that_can_move_is_refused() {
     let mut random = Lcg(3);
@@ -154,7 +155,7 @@ fn a_group_that_can_move_is_refused() {
         let mut case = case(&mut random, REVOLUTE, triad, true);
         let mut joints = case.mechanism.joints().to_vec();
         for pair in joints.chunks_mut(2) {
-            // The vector between the two joints is the same in the world for every lead.
+            // For every lead, the world vector between its two joints is the same.
             let Some(lead) =
                 [pair[0].first.link, pair[0].second.link].into_iter().find(|&link| pair[1].on(link).is_some())
             else {
@@ -209,7 +210,7 @@ fn val_fourth_class_configurations_at_70_degrees() {
             assert!(pose.closure(&mechanism) < 1e-15 && pose.0[GROUND] == LinkPose::GROUND);
         }
         total += all.len();
-        // The printed configuration: angles of AC, BD, CE, KE.
+        // The printed configuration: angles (deg) of AC, BD, CE, KE.
         let printed = [-53.70258, 2.58635, 20.59796, 151.55247];
         let is_printed = |one: &&Configuration| {
             one.links.iter().zip(printed).all(|(place, angle)| (place.angle.to_degrees() - angle).abs() < 0.5e-5)

@@ -4,7 +4,7 @@ use crate::math::KeepNan;
 use crate::mechanism::{GroupKind, JointSide, LinkId};
 
 /// Two base links 6 and 5, pinned to each other, each on two leads.
-/// They form a group of six links and nine joints, closed in the pose.
+/// They form a group of six links and nine joints. All joints are closed in the pose.
 fn case(random: &mut Lcg, slides: impl Fn(&mut Lcg) -> bool) -> (Mechanism, Group, Pose) {
     let mut pose = Pose((0..7).map(|_| random.pose()).collect());
     pose.0[LinkId(0)] = LinkPose::GROUND;
@@ -20,7 +20,7 @@ fn case(random: &mut Lcg, slides: impl Fn(&mut Lcg) -> bool) -> (Mechanism, Grou
     (mechanism, group, pose)
 }
 
-/// All points of the group's links, moved at random by up to `by` in each coordinate.
+/// All points of the group's links, moved at random by at most `by` in each coordinate.
 fn drawing(random: &mut Lcg, mechanism: &Mechanism, group: &Group, pose: &Pose, by: f64) -> Vec<(SidePoint, Vec2)> {
     let mut near = Vec::new();
     for &link in &group.links {
@@ -60,7 +60,7 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
     }
 }
 
-/// A drawing with errors of two hundredths leads to the pose from which it was drawn, and that pose closes.
+/// If the approximate positions have errors of two hundredths, the method returns to their pose, and the pose closes.
 #[test]
 fn a_rough_drawing_finds_its_configuration() {
     let mut random = Lcg(22);
@@ -96,12 +96,12 @@ fn a_rough_drawing_finds_its_configuration() {
         }
     }
     println!("{found} found, {refused} refused of 500");
-    // The other drawings are nearer to another configuration, or their poses are nearly singular.
+    // The drawings of the other samples are nearer to another configuration, or their poses are nearly singular.
     assert!(found > 350, "{found}");
 }
 
 #[test]
-fn too_few_places_name_the_link() {
+fn too_few_positions_are_refused_with_the_link() {
     let mut random = Lcg(23);
     let (mechanism, group, pose) = case(&mut random, |_| false);
     let near = drawing(&mut random, &mechanism, &group, &pose, 0.0);

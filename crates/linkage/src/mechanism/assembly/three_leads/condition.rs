@@ -38,7 +38,7 @@ pub enum Condition {
     Angle(f64),
 }
 
-/// A condition at a given angle: the possible positions of O.
+/// A condition at a given angle of the base: the possible positions of O.
 #[derive(Clone, Copy, Debug)]
 pub enum Locus {
     Circle {
@@ -53,7 +53,7 @@ pub enum Locus {
 }
 
 impl Condition {
-    /// The condition of a lead, with the frame's origin at `frame` and the base's at `base`.
+    /// The condition of a lead. The frame's origin is at `frame`, the base's origin at `base`.
     pub fn of(lead: &PlatformLead, frame: Vec2, base: Vec2) -> Self {
         let (near, far) = (lead.near, lead.far);
         let span = far.lead.place - near.lead.place;

@@ -3,9 +3,9 @@
 //!
 //! For every angle of the base, two leads allow one or two positions of its reference point.
 //! The condition of the third lead holds where a function of the angle changes sign.
-//! Each position is followed over the angles at which it exists, out on one branch and back on the other.
-//! The function is then smooth and periodic.
-//! Samples are closer where the position changes fast.
+//! The scan follows the position over all angles at which it exists: forwards on one branch, backwards on the other.
+//! Along this path the function is smooth and periodic.
+//! Samples are closer together where the position changes fast.
 //! Between samples of the same sign the extremum is computed, which distinguishes pairs of zeros from near misses.
 
 use crate::math::KeepNan;
@@ -15,11 +15,12 @@ use std::f64::consts::{PI, TAU};
 use crate::math::{Vec2, cross, extremum, root, rotated, turned, unit};
 use crate::mechanism::assembly::three_leads::{LeadPair, PlatformLead};
 
-/// Bisections of an interval with a zero, and golden section steps about an extremum. Both reach rounding error.
+/// Number of bisections of an interval with a zero, and of golden section steps for an extremum. Both searches reach
+/// rounding error.
 const STEPS: usize = 60;
 
-/// An extremum below this fraction of the function's largest value is a double root, for which neither method can
-/// decide.
+/// An extremum below this fraction of the function's largest value counts as a double root. For a double root neither
+/// method can decide.
 const DOUBLE: f64 = 1e-9;
 
 /// Result of a scan.
@@ -34,17 +35,17 @@ pub struct Scan {
 #[derive(Clone, Copy)]
 enum Locus {
     Circle(Vec2, f64),
-    /// A point and a direction.
+    /// A point on the line and the direction of the line.
     Line(Vec2, Vec2),
 }
 
-/// Possible positions, taken literally from the definition of the pairs: the lead is placed, then the base's far joint
-/// is put on that of the lead.
+/// Possible positions of the base's reference point, taken literally from the definition of the pairs.
+/// The lead is placed, then the base's far joint is put on the lead's far joint.
 fn locus(lead: &PlatformLead, b: Vec2) -> Option<Locus> {
     let (near, far) = (lead.near, lead.far);
     let span = far.lead.place - near.lead.place;
     let arm = rotated(b, far.body.place);
-    // Direction of the lead at which its axis of a pair points along `axis`.
+    // Direction of the lead for which the lead's axis of a pair points along `axis`.
     let onto = |pair: LeadPair, axis: Vec2| rotated(Vec2::new(pair.lead.axis.x, -pair.lead.axis.y), axis);
     match (near.slides, far.slides) {
         (false, false) => Some(Locus::Circle(near.body.place - arm, span.norm())),
@@ -60,7 +61,7 @@ fn locus(lead: &PlatformLead, b: Vec2) -> Option<Locus> {
     }
 }
 
-/// Function of a point that is zero on the locus and changes its sign there.
+/// A function of a point: zero on the locus, with opposite signs on its two sides.
 fn off(locus: Locus, o: Vec2) -> f64 {
     match locus {
         Locus::Circle(centre, radius) => (o - centre).norm_squared() - radius * radius,
@@ -68,7 +69,7 @@ fn off(locus: Locus, o: Vec2) -> f64 {
     }
 }
 
-/// A smooth function that is positive where the circle intersects the other locus, and the intersection on the branch
+/// A smooth function that is positive if the circle intersects the other locus, and the intersection on the branch
 /// `sign`.
 fn meet(centre: Vec2, radius: f64, other: Locus, sign: f64) -> (f64, Vec2) {
     match other {
@@ -142,7 +143,7 @@ fn least(f: &dyn Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// Counts the configurations. `None` if a lead fixes the base's angle, because then there is nothing to scan.
+/// Counts the configurations. `None` if a lead fixes the base's angle, because no angle is left to scan.
 pub fn scanned(leads: &[PlatformLead; 3]) -> Option<Scan> {
     let at =
         |beta: f64| Some([locus(&leads[0], unit(beta))?, locus(&leads[1], unit(beta))?, locus(&leads[2], unit(beta))?]);
@@ -188,7 +189,7 @@ pub fn scanned(leads: &[PlatformLead; 3]) -> Option<Scan> {
         let to = ends.get(index + 1).copied().unwrap_or(ends[0] + TAU);
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         if both(middle, 1.0).0 > 0.0 {
-            // Out on one branch and back on the other.
+            // Forwards on one branch and backwards on the other.
             let on = |turn: f64| both(middle - half * turn.cos(), if turn < PI { 1.0 } else { -1.0 });
             add(&|turn| on(turn).2, &|turn| on(turn).1);
         }

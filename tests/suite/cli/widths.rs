@@ -1,0 +1,99 @@
+//! Every command on every shipped file at 80 columns: no line is wider.
+
+use std::fs;
+use std::thread;
+
+use assert_cmd::Command;
+
+use super::tools::{Place, listed};
+
+/// Columns of the terminal.
+const COLUMNS: usize = 80;
+
+/// Runs a command at 80 columns and checks both streams. Lines of a file in a message are quoted as they are.
+fn assert_fits(place: &Place, arguments: &str) {
+    let mut command = Command::cargo_bin("linkproof").unwrap();
+    let command = command.current_dir(place.path("")).env("COLUMNS", "80").args(arguments.split_whitespace());
+    let output = command.output().unwrap();
+    for bytes in [output.stdout, output.stderr] {
+        for line in String::from_utf8(bytes).unwrap().lines() {
+            let quotes = line.trim_start().starts_with(|sign: char| sign.is_ascii_digit() || sign == '|');
+            let is_quoted = quotes && line.contains(" | ") || line.trim_start().starts_with("--> ");
+            assert!(line.chars().count() <= COLUMNS || is_quoted, "{arguments}: {line}");
+        }
+    }
+}
+
+#[test]
+fn every_command_on_every_shipped_file_fits_80_columns() {
+    const ON_FILES: [&str; 9] = [
+        "inspect",
+        "inspect --modes",
+        "inspect --range",
+        "plan",
+        "bearings",
+        "drive --table",
+        "list --channels",
+        "check --verbose",
+        "clearance",
+    ];
+    let place = Place::new();
+    let in_folder = |folder: &'static str| {
+        let names = fs::read_dir(place.path(folder)).unwrap().map(|entry| entry.unwrap().file_name());
+        names.map(move |name| format!("{folder}/{}", name.to_str().unwrap()))
+    };
+    let all = ["scenarios", "scenarios/formulas"].into_iter().flat_map(in_folder);
+    let mut files: Vec<String> = all.filter(|name| name.ends_with(".toml")).collect();
+    files.sort();
+    assert!(files.len() > 40, "{files:?}");
+    let halves = files.chunks(files.len().div_ceil(2));
+    thread::scope(|scope| {
+        for half in halves {
+            let place = &place;
+            scope.spawn(move || {
+                for (file, command) in half.iter().flat_map(|file| ON_FILES.map(|command| (file, command))) {
+                    assert_fits(place, &format!("{command} {file}"));
+                }
+            });
+        }
+    });
+    assert_fits(&place, &format!("run --no-record --verbose --explain {}", files.join(" ")));
+    assert_fits(&place, &format!("run --no-record {}", files.join(" ")));
+}
+
+#[test]
+fn lists_helps_and_the_other_commands_fit_80_columns() {
+    let place = Place::new();
+    let help = place.ok("--help");
+    let names: Vec<&str> = listed(&help).collect();
+    assert!(names.len() > 20 && names.contains(&"stress"), "{names:?}");
+    for name in names {
+        assert_fits(&place, &format!("{name} --help"));
+    }
+    for command in [
+        "--help",
+        "new",
+        "list",
+        "list --channels",
+        "list --solvers",
+        "docs",
+        "mutate --list",
+        "tune scenarios/crank_rocker.toml --within 1e-3",
+        "diagram scenarios/crank_rocker.toml --channel point.B.x_m",
+        "drive scenarios/crank_rocker.toml --non-uniformity 0.02",
+        "synthesize slider-crank --stroke-mm 100 --offset-mm 30 --time-ratio 1.2",
+        "synthesize crank-rocker --pivot-mm 150,15 --rocker-mm 250 --extreme-deg 50 --swing-deg 32",
+        "synthesize check scenarios/ov7_drives/sinker_task.toml scenarios/ov7_drives/sinker.toml",
+        "mutate scenarios/crank_rocker.toml --no-sizes --kind mass-heaviest",
+        "stress speed --quick -o stress",
+        "bench scenarios/five_bar.toml --quick --only positions -o bench",
+        "accept scenarios/crank_rocker.toml",
+        "compare scenarios/crank_rocker.toml scenarios/crank_rocker.toml",
+        "run scenarios/crank_rocker.toml --dt 2e-2",
+        "run nothing.toml",
+        "run scenarios/crank_rocker.toml --no-such-option",
+        "solve scenarios/crank_rocker.toml --only nothing",
+    ] {
+        assert_fits(&place, command);
+    }
+}
