@@ -1,5 +1,6 @@
-//! Accepted values: the values kept from a proof to judge later runs, and what has changed since.
-//! Values are compared within the bounds of both runs, never by bytes.
+//! Accepted values of a proof: they are stored to judge later runs by.
+//! Also reports what has changed since they were stored.
+//! Values are compared within the bounds of both runs, never byte by byte.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,17 +11,17 @@ use linkage::math::KeepNan;
 use linkage::math::statistics::{rms, share};
 use scenario::accepted::{Accepted, AcceptedChannel};
 
-/// Number of instants at which values are kept, evenly spaced over the grid including its ends.
+/// Number of instants at which values are kept. They are evenly spaced over the grid and include its ends.
 const INSTANTS: usize = 5;
 
-/// Share of a bound that the rounding of a written number may take.
+/// Fraction of a bound that is added to it for the rounding of written numbers.
 const WRITTEN: f64 = 0.05;
 
 /// Ratio of the accepted and the found bound from which agreement proves nothing.
 /// The channel is then known much worse than before, or its accepted bound was much too wide.
 const WIDER: f64 = 100.0;
 
-/// Largest difference of two times that count as the same instant, relative to the larger of them.
+/// Two times count as the same instant if they differ by at most this fraction of the larger one.
 const SAME_TIME: f64 = 1e-9;
 
 /// Returns the values of a proof that are accepted. A channel whose bound is not finite is left out.
@@ -58,7 +59,7 @@ fn rows(count: usize) -> Vec<usize> {
 fn rounded_up(bound: f64) -> f64 {
     let unit = 10f64.powf(bound.log10().floor() - 1.0);
     let rounded: f64 = format!("{:.1e}", (bound / unit).ceil() * unit).parse().unwrap_or(bound);
-    // Zero and numbers too small to have two digits stay as they are.
+    // Zero stays as it is, and so do numbers too small to have two digits.
     if rounded >= bound { rounded } else { bound }
 }
 
@@ -91,14 +92,14 @@ pub enum ChannelFigure {
 }
 
 impl Moved {
-    /// Difference of both values over the largest difference that both bounds allow.
+    /// Difference of both values divided by the largest difference that both bounds allow.
     #[must_use]
     pub fn bounds(&self) -> f64 {
         share((self.found - self.accepted).abs(), self.bound)
     }
 }
 
-/// A channel whose bound, accepted or found, is so wide that agreement proves nothing.
+/// A channel with an accepted or found bound so wide that agreement proves nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wider {
     /// Name of the channel.
@@ -118,23 +119,25 @@ pub struct FigureComparison {
     pub moved: Vec<Moved>,
     /// Channels whose bound is now much wider than the accepted bound.
     pub wider: Vec<Wider>,
-    /// Channels whose accepted bound is much wider than the bound found now: it would have accepted any similar value.
+    /// Channels whose accepted bound is much wider than the bound found now.
+    /// The accepted bound would have accepted any similar value.
     pub looser: Vec<Wider>,
     /// Channels without accepted values.
     pub new: Vec<String>,
-    /// Accepted channels that were not found.
+    /// Accepted channels that are missing in the found values.
     pub gone: Vec<String>,
     /// Whether the grids have different instants. If so, values are not compared.
     pub is_other_grid: bool,
     /// Verdict words of the accepted and the found proof; `None` if both are `agree`.
     pub proof: Option<[String; 2]>,
-    /// The verdict: disagree if anything but a bound has moved or the proof disagrees; inconclusive if only bounds have
-    /// moved or one of the proofs proves nothing.
+    /// The verdict.
+    /// It is disagree if the proof disagrees or if anything other than a bound has changed.
+    /// It is inconclusive if only bounds have changed or if one of the proofs proves nothing.
     pub verdict: Verdict,
 }
 
 impl FigureComparison {
-    /// Whether everything that a file of accepted values records is unchanged.
+    /// Whether everything recorded in the file of accepted values is unchanged.
     #[must_use]
     pub fn is_same(&self) -> bool {
         let is_other_proof = self.proof.as_ref().is_some_and(|[accepted, found]| accepted != found);
@@ -203,7 +206,7 @@ fn by_name(accepted: &Accepted) -> BTreeMap<&str, &AcceptedChannel> {
     accepted.channels.iter().map(|kept| (kept.name.as_str(), kept)).collect()
 }
 
-/// Returns the accepted values of a channel if both have a root mean square or neither has.
+/// Returns the accepted values of a channel. `None` if only one of the two has a root mean square.
 fn counterpart<'a>(
     known: &BTreeMap<&str, &'a AcceptedChannel>,
     found: &AcceptedChannel,
@@ -220,9 +223,9 @@ fn is_same_grid(accepted: &Accepted, found: &Accepted) -> bool {
         && accepted.times.iter().zip(&found.times).all(is_same)
 }
 
-/// Pairs all values of a channel, accepted and found, on the same grid.
+/// Pairs every accepted value of a channel with the found value on the same grid.
 fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<Moved> {
-    // Angles that differ by a constant number of whole turns are the same motion.
+    // Angles that differ by a constant number of whole revolutions describe the same motion.
     let turns = match (found.rms, kept.at.first(), found.at.first()) {
         (None, Some(kept), Some(found)) => ((found - kept) / std::f64::consts::TAU).round() * std::f64::consts::TAU,
         _ => 0.0,
@@ -246,8 +249,8 @@ fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<
     at.chain(ends).chain(rms).collect()
 }
 
-/// Returns the values to keep after `found`. Channels that have not moved keep their accepted values, so that the file
-/// changes only where values have moved.
+/// Returns the values to store after the run `found`.
+/// Channels that have not moved keep their accepted values. So the file changes only where values have moved.
 #[must_use]
 pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &FigureComparison) -> Accepted {
     if comparison.is_other_grid {

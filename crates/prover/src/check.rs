@@ -1,8 +1,8 @@
-//! Claims: compares the formulas of a scenario with what a side of the proof finds, by value and by derivative.
+//! Claims: compares the formulas of a scenario with the results of one side of the proof, by value and by derivative.
 //!
-//! The rounding error of a formula is propagated through its operations ([`formula::Rounded`]), the error of the side's
-//! channels through the claim.
-//! The bound is the sum of both; it is not chosen.
+//! The rounding error of a formula is propagated through its operations ([`formula::Rounded`]).
+//! The error of the side's channels is propagated through the claim.
+//! The bound is the sum of both errors; it is not chosen.
 
 mod cause;
 mod course;

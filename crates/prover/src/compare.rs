@@ -1,8 +1,8 @@
-//! Two parties side by side: scenarios, recordings, tables of other programs.
+//! Compares two parties: scenarios, recordings, or tables of other programs.
 //!
-//! One party is brought to the instants of the other: a scenario is solved there; a table has values there or is
-//! interpolated.
-//! Then each channel is compared within the known errors of both parties plus the allowed tolerance.
+//! One party is evaluated at the instants of the other.
+//! A scenario is solved at these instants; a table has values there or is interpolated.
+//! Each channel is then compared within the known errors of both parties plus the allowed tolerance.
 
 mod align;
 mod allowed;
@@ -55,16 +55,16 @@ impl ComparedParty {
     }
 
     /// A CSV or Parquet file, and the mapping of its columns to channels.
-    /// A column with the name of a channel, unit included, needs no line in the mapping.
+    /// A column named like a channel, unit included, needs no line in the mapping.
     ///
     /// # Errors
     /// [`ErrorKind::Io`] if the file cannot be read.
-    /// [`ErrorKind::Input`], with the location, if it is not a table of numbers or the mapping does not fit it.
+    /// [`ErrorKind::Input`], with the location, if the file is not a table of numbers or the mapping does not fit it.
     pub fn table(path: impl AsRef<Path>, mapping: &Mapping) -> Result<ComparedParty> {
         ComparedParty::table_within(path, mapping, &|_, _| Ok(()))
     }
 
-    /// As [`ComparedParty::table`], but asks `may` before it takes memory.
+    /// As [`ComparedParty::table`], but calls `may` before memory is allocated.
     ///
     /// # Errors
     /// Those of [`ComparedParty::table`], and those of `may`.
@@ -98,7 +98,7 @@ impl From<Held> for ComparedParty {
 
 /// Two parties compared.
 pub struct PartyComparison {
-    /// The compared pairs of sides, in order: a recording may have several sides.
+    /// The compared pairs of sides, in order. A recording may have several sides.
     pub pairs: Vec<SidePair>,
     /// The verdict on all pairs.
     pub verdict: Verdict,
@@ -110,7 +110,8 @@ const REFERENCE: &str = "reference";
 /// Compares two parties channel by channel, within the known errors of both plus the allowed tolerance.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if they have no instant or no channel in common, and the errors of the sides.
+/// [`ErrorKind::Input`] if the parties have no instant or no channel in common.
+/// Also the errors of the sides.
 pub fn compare(parties: [ComparedParty; 2], how: &ComparisonRule) -> Result<PartyComparison> {
     let names = parties.each_ref().map(|party| party.name.clone());
     let [first, second] = parties.map(|party| party.holds);
@@ -166,7 +167,8 @@ fn asked(all: Vec<(String, Trajectory)>, how: &ComparisonRule) -> Result<Vec<Sid
     }
 }
 
-/// Pairs the sides of two parties: a single side with each side of the other party, otherwise sides of the same name.
+/// Pairs the sides of two parties.
+/// A single side is paired with each side of the other party. Otherwise sides of the same name are paired.
 fn paired<'a>(ones: &'a [Side], others: &'a [Side], names: &[String; 2]) -> Result<Vec<[&'a Side; 2]>> {
     let pairs: Vec<[&Side; 2]> = match (ones, others) {
         ([one], others) => others.iter().map(|other| [one, other]).collect(),

@@ -1,5 +1,5 @@
-//! Diagnosis of a disagreement: which party stands alone, since when, in which channels, and the simple cause that
-//! explains it.
+//! Diagnosis of a disagreement: which party contradicts the others, since when, in which channels, and the simple
+//! cause.
 //! Pure functions of data. See docs/numerics/diagnosis.md.
 
 mod alone;

@@ -1,4 +1,4 @@
-//! All engines: one variant and one line for each.
+//! All engines of this build. Each engine is one variant and one line here.
 
 #[cfg(feature = "simbody")]
 pub use simbody_twin::Simbody;
@@ -60,8 +60,8 @@ const USUAL_TURN: f64 = std::f64::consts::PI / 720.0;
 const COARSE_TURN: f64 = std::f64::consts::PI / 90.0;
 
 /// A time step (s) at which an engine is accurate to about 1e-4 in most cases.
-/// The fastest driving link rotates by a quarter of a degree in it.
-/// Where forces decide the motion, the step is at most a ten-thousandth of the duration.
+/// The fastest driving link rotates by a quarter of a degree per step.
+/// If forces determine the motion, the step is at most a ten-thousandth of the duration.
 #[must_use]
 pub fn usual_step(case: &Case) -> f64 {
     step(case, USUAL_TURN, 1e-4)
@@ -75,7 +75,7 @@ pub(crate) fn coarse_step(case: &Case) -> f64 {
 fn step(case: &Case, turn: f64, share: f64) -> f64 {
     let last = case.grid.times.iter().fold(0.0f64, |last, t| last.larger(t.abs()));
     let (by_turn, by_time) = (turn / case.drives.top_speed(), share * if last > 0.0 { last } else { 1.0 });
-    // Links at rest do not rotate, and a motion under forces may become much faster than at its start.
+    // Links at rest do not rotate. A motion under forces may become much faster than at its start.
     if case.is_free() || !by_turn.is_finite() { by_turn.smaller(by_time) } else { by_turn }
 }
 
@@ -91,9 +91,8 @@ pub fn named(name: &str, step: f64) -> Option<Box<dyn Engine>> {
     with_step(EngineName::named(name)?, step).ok()
 }
 
-/// Whether the current thread is inside a call whose panics are caught and turned into errors, such as a step of an
-/// engine.
-/// The panic hook of a program may then stay silent.
+/// Whether the current thread is inside a call whose panics are caught and returned as errors, such as an engine step.
+/// The panic hook of a program may then print nothing.
 #[must_use]
 pub fn panic_is_caught() -> bool {
     linkage::quiet::is_guarded()

@@ -1,4 +1,4 @@
-//! Numbers as people write them: plain decimals where those are short, no meaningless digits, and zero as `0`.
+//! Formats numbers for people: plain decimals if those are short, no meaningless digits, and zero as `0`.
 //!
 //! Whether a value counts as zero depends on a scale.
 //! So every function takes a number of digits or the resolution of the value.
@@ -8,29 +8,29 @@ use linkage::math::KeepNan;
 /// Digits of an error or a bound. An estimate does not justify more.
 const DIGITS: usize = 3;
 
-/// Digits that a double holds for certain.
+/// Number of decimal digits that a double always preserves.
 const MOST_DIGITS: usize = 15;
 
-/// A difference above this share of a value shows in its first four digits.
+/// A difference above this fraction of a value shows in the value's first four digits.
 const FAR: f64 = 1e-3;
 
-/// Smallest resolution of two values within their bound, as a share of the value: seven digits.
+/// Lower limit of the shown resolution / value of two values within their bound. It leaves seven digits.
 const NEAR: f64 = 1e-6;
 
-/// An error, a bound or a share of a bound: three significant digits.
+/// An error, a bound or a fraction of a bound: three significant digits.
 #[must_use]
 pub fn error(value: f64) -> String {
     significant(value, DIGITS)
 }
 
-/// An error with its unit, or alone if it has none.
+/// An error with its unit, or without one if the unit is empty.
 #[must_use]
 pub fn error_in(value: f64, unit: &str) -> String {
     with_unit(&error(value), unit)
 }
 
-/// A number with at most `digits` significant digits: plain from a thousandth to a hundred thousand, else with an
-/// exponent.
+/// A number with at most `digits` significant digits.
+/// It is written plainly from a thousandth to a hundred thousand, otherwise with an exponent.
 #[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
@@ -47,7 +47,7 @@ pub fn significant(value: f64, digits: usize) -> String {
 }
 
 /// A value known to `resolution` (its bound or rounding error).
-/// Digits below the resolution are left out, and a value below it is `0`.
+/// Digits below the resolution are left out. A value smaller than the resolution is `0`.
 /// With a resolution of 0 the value has all its digits.
 #[must_use]
 pub fn resolved(value: f64, resolution: f64) -> String {
@@ -107,7 +107,7 @@ pub fn fixed_in(value: f64, decimals: usize, unit: &str) -> String {
 /// Significant digits of a quantity in a report.
 const SHOWN: usize = 6;
 
-/// Units that take a decimal prefix, and the least value in kilo.
+/// Units that take a decimal prefix, and the value from which kilo is used.
 const PREFIXED: [(&str, f64); 4] = [("N", 1e4), ("N m", 1e4), ("W", 1e3), ("Pa", 1e3)];
 
 /// A quantity in an SI unit, with six significant digits and the decimal prefix of its size: `115.101 kN`.
@@ -134,13 +134,13 @@ pub fn shown(unit: &str) -> String {
     unit.replace("N m", "N·m").replace("kg m", "kg·m").replace("^2", "²")
 }
 
-/// A number with its unit after a blank, or alone without a unit.
+/// A number followed by a blank and its unit, or the number alone if the unit is empty.
 #[must_use]
 pub fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.into() } else { format!("{number} {}", shown(unit)) }
 }
 
-/// From a thousandth to a hundred thousand, decimals are shorter than an exponent.
+/// Whether plain decimals are shorter than an exponent: from a thousandth to a hundred thousand.
 fn is_plain(value: f64) -> bool {
     (1e-3..1e5).contains(&value.abs())
 }

@@ -56,10 +56,11 @@ use linkage::trajectory::Trajectory;
 use linkage::work::limited;
 use scenario::Scenario;
 
-/// Work granted to the analytic sides whatever the budget, a second or two: without them there is no result.
+/// Work that the analytic sides may always do, whatever the budget. It takes a second or two.
+/// Without the analytic sides there is no result.
 pub const SIDES: f64 = 1e6;
-/// Work that a diagnosis may add, as a multiple of the proof's budget.
-/// With half of it, the diagnosis of a free motion with two degrees of freedom had no work left to confirm its finding.
+/// Upper limit of a diagnosis's work / the proof's budget.
+/// With half of this limit, the diagnosis of a free motion with two degrees of freedom could not confirm its finding.
 const DIAGNOSIS: f64 = 1.0;
 
 /// All results of one proof.
@@ -91,9 +92,9 @@ pub struct Proof {
     /// The engines, in the order asked for.
     pub engines: Vec<EngineProof>,
     /// Channels in which the reference and the engines do not all agree.
-    /// Empty with a single engine: its own verdicts show the disagreement.
+    /// Empty if there is only one engine: the verdicts on its channels then show the disagreement.
     pub disputes: Vec<Dispute>,
-    /// Diagnosis if a channel disagrees: which party stands alone, since when, and why.
+    /// Diagnosis if a channel disagrees: which party contradicts the others, since when, and why.
     pub diagnosis: Option<Diagnosis>,
     /// Whether the search for the diagnosis reached its work limit before it had tried all causes.
     pub diagnosis_is_cut: bool,
@@ -145,7 +146,7 @@ pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
     prove_with(scenario, options, &mut |_| {})
 }
 
-/// As [`prove`]; `progress` is called with the finished share of the work, from 0 to 1.
+/// As [`prove`]. Calls `progress` with the finished fraction of the work, from 0 to 1.
 ///
 /// # Errors
 /// Those of [`prove`].
@@ -153,8 +154,8 @@ pub fn prove_with(scenario: &Scenario, options: &Options, progress: &mut dyn FnM
     joined(scenario, &scenario.case, options, progress).map_err(|error| explained(&scenario.case, error))
 }
 
-/// As [`prove`], but the engines solve `engine_case` on the scenario's instants.
-/// A fault planted in that case shows what a proof can find.
+/// As [`prove`], but the engines solve `engine_case` at the scenario's instants.
+/// A fault planted in `engine_case` shows which faults a proof can find.
 ///
 /// # Errors
 /// Those of [`prove`].

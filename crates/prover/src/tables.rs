@@ -26,8 +26,8 @@ pub fn load(path: impl AsRef<Path>) -> Result<Raw> {
     load_within(path.as_ref(), &|_, _| Ok(()))
 }
 
-/// As [`load`], but asks `may` before it takes memory.
-/// It asks by size before it reads the file, and by rows and cells before it stores the numbers.
+/// As [`load`], but calls `may` before memory is allocated.
+/// It passes the size before the file is read, and rows and cells before the numbers are stored.
 ///
 /// # Errors
 /// Those of [`load`], and those of `may`.

@@ -4,7 +4,7 @@
 use crate::sentences;
 use std::fmt;
 
-/// Origin of a bound, or of the number compared with.
+/// Origin of a bound, or of the reference number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BoundOrigin {
     /// Claimed by the formula that is judged.
@@ -13,11 +13,11 @@ pub enum BoundOrigin {
     Derived,
     /// Estimated from an engine's own runs at several resolutions.
     Estimated,
-    /// Measured on cases like this one, with a margin added.
+    /// Measured on similar cases, with a margin added.
     Measured,
-    /// Chosen: the requested size of the number.
+    /// Chosen: a limit that the number is required to keep.
     Wanted,
-    /// Recomputed with this project's own solvers, from data published by others.
+    /// Recomputed by this project's solvers from data that others published.
     Recomputed,
     /// Printed in a source.
     Published,
@@ -42,25 +42,25 @@ impl BoundOrigin {
 /// Basis of a bound.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BoundBasis {
-    /// Chosen for a number that only rounding keeps from zero. The text says why rounding allows this bound.
+    /// Chosen for a number that would be zero without rounding. The text states why rounding allows this bound.
     Wanted(&'static str),
-    /// Error of the engine, estimated from its runs at three resolutions and with fewer sweeps.
+    /// Error of the engine, estimated from runs at three resolutions and from runs with fewer sweeps.
     Truncation {
-        /// Order of convergence observed between the runs; NaN where the differences are only rounding.
+        /// Order of convergence observed between the runs. NaN if the differences are only rounding.
         observed: f64,
-        /// Order that the method should have.
+        /// Order of convergence that the method has in theory.
         formal: f64,
         /// Step (s) or accuracy of the run that is judged.
         resolution: f64,
-        /// Safety factor on the estimate of the discretisation error.
+        /// Factor applied to the estimate of the discretisation error.
         safety: f64,
         /// The parts of the bound, safety factors included, in the channel's unit.
         parts: Parts,
         /// Origin of the rounding part. The discretisation and iteration parts are estimated.
         noise: BoundOrigin,
     },
-    /// Half a unit of the last digit of a number, plus its known error, plus its change within the rounding of its
-    /// instant.
+    /// The sum of three parts: half a unit of the last digit of a number, the number's known error, and its change
+    /// within the rounding of its instant.
     Digits {
         /// How the number is known: published, recomputed or derived.
         origin: BoundOrigin,
@@ -81,7 +81,7 @@ pub enum BoundBasis {
 }
 
 impl BoundBasis {
-    /// Origin of the bound, or of the number compared with.
+    /// Origin of the bound, or of the reference number.
     #[must_use]
     pub fn origin(&self) -> BoundOrigin {
         match self {
@@ -108,7 +108,7 @@ pub struct Parts {
     pub iteration: f64,
     /// Rounding: reduced by neither.
     pub rounding: f64,
-    /// Error of the reference: how accurately the analytic sides know the number.
+    /// Error of the reference: the accuracy to which the analytic sides know the number.
     pub reference: f64,
 }
 

@@ -145,8 +145,7 @@ fn slope_of_the_inertia_is_its_derivative() {
             let rows = model.rows(&[crank - step, crank, crank + step]).unwrap();
             let slope = (rows[2].inertia - rows[0].inertia) / (2.0 * step);
             // Error of central differences: the third derivative (some hundred times the inertia) times 1e-10 / 6, plus
-            // rounding error
-            // divided by 2e-5.
+            // rounding error divided by 2e-5.
             assert_within!(
                 (slope - rows[1].slope).abs(),
                 1e-6 * rows[1].inertia.larger(1e-9),

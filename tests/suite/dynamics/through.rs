@@ -417,8 +417,7 @@ const SMOOTH: &str = "through = \"smooth\"";
 const MOTION: &str = "want = [\"positions\", \"velocities\", \"accelerations\"]";
 
 /// Parallel cranks with a length ratio of two to five and a load on the coupler, over a whole revolution in steps of
-/// `step`
-/// (deg).
+/// `step` (deg).
 /// `want` gives the requested channels, and `through` is the key of the drive.
 fn parallel_cranks(through: &str, want: &str, step: f64) -> Case {
     let mut spec = four_bar([0.127, 0.0508, 0.127, 0.0508], true);

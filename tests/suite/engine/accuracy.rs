@@ -235,8 +235,7 @@ fn regress_63_extrapolation_raises_the_order_by_one() {
 
 /// Story 14.
 /// Symptom: errors of velocities are proportional to the step, and errors of forces are several times the forces where
-/// a
-/// tree is cut at the crank.
+/// a tree is cut at the crank.
 /// Cause: too few sweeps for a light crank before a heavy coupler.
 /// Remedy: a flywheel on the crank, which has no effect at constant speed.
 /// With it, 32 sweeps must be as accurate as 1024.

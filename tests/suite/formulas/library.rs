@@ -22,8 +22,7 @@ fn the_library_is_right() {
 
 /// Names that a diagnosis may give each kind of slip.
 /// "Per radian" is also accepted where a power and a moment are confused: they differ by the crank's speed, as rates
-/// per
-/// second and per radian do.
+/// per second and per radian do.
 const NAMED: &[(&str, &[&str])] = &[
     ("sign", &["a sign"]),
     ("unit", &["a unit", "per radian"]),

@@ -256,8 +256,7 @@ fn regress_a_sampling_error_of_one_percent_is_found() {
         }
     }
     // Some channels enter no balance of the whole mechanism: points and slides of joints, angles without a load, and
-    // reactions
-    // between moving links.
+    // reactions between moving links.
     // Independent numbers check these channels.
     for must in ["frame.fx_N", "frame.fy_N", "frame.moment_N_m", "drive.torque_N_m", "joint.O.fx_N", "omega", "alpha"] {
         assert!(!unseen.iter().any(|name| name.contains(must)), "{must}: {unseen:?}");

@@ -48,8 +48,7 @@ fn points_in_fixed_guides_move_along_them() {
 }
 
 /// Numerical differentiation of the sliding point's position, in the axes of the guide's link, gives the relative
-/// velocity
-/// and acceleration.
+/// velocity and acceleration.
 /// The Coriolis component is 2 omega x the relative velocity.
 /// The test uses neither the solvers' derivatives nor the slide's channels.
 #[test]

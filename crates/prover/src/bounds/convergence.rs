@@ -1,9 +1,9 @@
-//! Error of an engine, estimated from its runs at three resolutions and with fewer sweeps.
+//! Error of an engine, estimated from its runs at three resolutions and from runs with fewer sweeps.
 //!
 //! Let e1 = y(2h) - y(h) and e2 = y(h) - y(h/2).
 //! The observed order is p = log2(|e1| / |e2|).
 //! The error of the run at h is estimated as |e2| 2^p / (2^p - 1) (Richardson), times a safety factor.
-//! Where the observed order agrees with the formal one, p is the formal order and the factor is 1.25.
+//! If the observed order agrees with the formal order, p is the formal order and the factor is 1.25.
 //! Otherwise p is the smaller of the two orders and the factor is 3 (Oberkampf and Roy, "Verification and validation in
 //! scientific computing", 2010, section 8.7; grid convergence index of Roache and ASME V&V 20).
 //! For the factor 1.25, Oberkampf and Roy let the observed order differ by a tenth of the formal one.
@@ -16,11 +16,13 @@ use linkage::math::statistics::{differences, rms};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Largest deviation of the observed order for the smaller safety factor, as a share of the formal order.
-/// With a tenth, random chains with an order of 1.91 had errors 1.1 times the bound.
+/// If the observed order deviates from the formal order by at most this fraction of it, the smaller safety factor
+/// holds.
+/// With a tenth, random chains with an observed order of 1.91 had errors of 1.1 times the bound.
 const AS_GOOD: f64 = 0.02;
 
-/// Largest deviation of the observed order for an estimate of the limit of the runs, as a share of the formal order.
+/// If the observed order deviates from the formal order by more than this fraction of it, the limit of the runs is not
+/// estimated.
 const BEARS_OUT: f64 = 0.1;
 
 /// Runs of one engine on one grid.
@@ -32,12 +34,12 @@ pub struct Ladder<'a> {
     pub other_sweeps: OtherSweeps<&'a Trajectory>,
 }
 
-/// What the runs show about the error of the middle run, in one channel.
+/// Estimate of the error of the middle run in one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Convergence {
-    /// Observed order; NaN where the differences are only rounding.
+    /// Observed order of convergence. NaN if the differences are only rounding.
     pub observed: f64,
-    /// Order that the method should have.
+    /// Order of convergence that the method has in theory.
     pub formal: f64,
     /// Estimated largest error of the middle run, without safety factor, in the channel's unit.
     pub error: f64,
@@ -58,7 +60,7 @@ impl Convergence {
         let largest = largest_size(&fine);
         let (before, after) = (rms(&coarse), rms(&fine));
         let quotient = (before / after).log2();
-        // NaN means only differences that are rounding. Any other NaN counts as no convergence.
+        // NaN means that all differences are rounding. Any other NaN counts as no convergence.
         let observed = match quotient.is_nan() {
             _ if after <= noise => f64::NAN,
             true => f64::NEG_INFINITY,
@@ -71,10 +73,10 @@ impl Convergence {
         } else {
             (observed.clamp(0.5, formal), 3.0)
         };
-        // Without a usable order, the coarser difference is as likely as the finer one.
-        // Where only the finer difference is rounding, the coarser one gives the estimate.
-        // The same holds where the finer difference shrinks by a whole order more than any step explains: errors of
-        // several orders then cancel in it, as they may at few instants.
+        // Without a usable order, the error may be as large as the coarser difference.
+        // If only the finer difference is rounding, the coarser one gives the estimate.
+        // The coarser one also counts if the finer one is smaller by a whole order than any step explains.
+        // Errors of several orders then cancel in the finer difference, which may happen if there are few instants.
         let before = largest_size(&coarse);
         let largest = match observed {
             _ if observed.is_nan() => largest.larger(before * 0.5f64.powf(order)),
@@ -87,8 +89,8 @@ impl Convergence {
     }
 
     /// The same estimate for extrapolated runs.
-    /// Errors that are not a power series in the step do not cancel, such as those near a jump of a load or a knot of
-    /// its table.
+    /// Errors that are not a power series in the step do not cancel.
+    /// Examples are errors near a jump of a load or near a knot of its table.
     /// They were measured to be up to ten times the difference of neighbouring runs (`benches/peers`).
     #[must_use]
     pub fn extrapolated(self, times: usize) -> Self {
@@ -116,8 +118,8 @@ impl Convergence {
         Convergence { iteration: others.left(single, noise, periodic), ..self }
     }
 
-    /// Limit of the runs, from the middle and the finest one: y(h/2) + (y(h/2) - y(h)) / (2^p - 1) with the formal
-    /// order p. `None` where the observed order is too far from the formal one.
+    /// Limit of the runs, extrapolated from the middle and the finest run: y(h/2) + (y(h/2) - y(h)) / (2^p - 1).
+    /// p is the formal order. `None` if the observed order is too far from it.
     #[must_use]
     pub fn limit(&self, single: &[f64], half: &[f64], periodic: bool) -> Option<Vec<f64>> {
         if !((self.observed - self.formal).abs() <= BEARS_OUT * self.formal) {
@@ -151,8 +153,8 @@ impl Convergence {
     }
 }
 
-/// Order observed between two runs at steps h and h/2 whose true errors are known from a reference: log2 of the ratio
-/// of their root mean square errors.
+/// Order of convergence observed between two runs at steps h and h/2.
+/// A reference gives the true errors of both runs. The order is log2 of the ratio of their root mean square errors.
 ///
 /// # Errors
 /// If the grids differ.
@@ -210,7 +212,7 @@ mod tests {
 
     #[test]
     fn a_coarse_difference_replaces_a_fine_one_below_rounding() {
-        // At half the step a quarter of the difference is expected. The estimate adds a third of that.
+        // At half the step a quarter of the difference is expected. The estimate adds a third of that quarter.
         let found = Convergence::of(&[3e-6], &[0.0], &[0.0], false, 2.0, 1e-12);
         assert!(found.observed.is_nan() && (found.error - 1e-6).abs() < 1e-18, "{found:?}");
     }
@@ -275,7 +277,7 @@ mod tests {
             let mut runs = [2.0f64, 1.0, 0.5].map(|h| vec![h * h, 2.0 * h * h]);
             runs[place][0] = f64::NAN;
             let found = Convergence::of(&runs[0], &runs[1], &runs[2], false, 2.0, 0.0);
-            // The double step is not part of the estimate, but it determines the order.
+            // The double step determines the order but does not enter the estimate.
             let bound = found.parts(0.0).sum();
             assert!(bound.is_nan() || !found.is_trusted(), "{place}: {found:?}");
             assert!(found.limit(&runs[1], &runs[2], false).is_none(), "{place}: {found:?}");

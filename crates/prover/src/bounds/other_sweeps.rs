@@ -1,20 +1,20 @@
 //! Iteration error of an engine, estimated from runs with fewer sweeps.
 //!
 //! Sweeps converge geometrically.
-//! Half of the sweeps leave a share q of the initial error, all of them leave q^2, and the two runs differ by q - q^2.
+//! Half of the sweeps leave a fraction q of the initial error, and all of them leave q^2. The two runs differ by q -
+//! q^2.
 //! The remaining error is q / (1 - q) of this difference.
 //! The safety factor 3 covers q up to 3/4 (ASME V&V 20 also counts the iteration error separately).
 //! A run with a quarter of the sweeps leaves q, and all sweeps leave q^4. The factor then covers q^3 up to 3/4.
 //!
 //! A third run shows how the differences develop.
-//! Let each number of sweeps be r times the one before, and each difference s times the one before.
+//! Let each number of sweeps be r times the previous one, and each difference s times the previous one.
 //!
-//! - Shrinking differences leave s / (1 - s) of the last one, if they go on so (Aitken). This is the worst case:
-//!   differences of a geometric convergence shrink faster and faster.
-//! - Differences may grow at first: an iteration that has hardly begun changes little from one number of sweeps to the
-//!   next, and s is close to r. At most (r - 1) s / (r - s) of the last difference is then left, as long as one mode
-//!   dominates the iteration.
-//! - The position with the slowest convergence decides for all channels. If its differences grow, nothing can be said.
+//! - If the differences shrink and go on so, s / (1 - s) of the last difference remains (Aitken). This is the worst
+//!   case: differences of a geometric convergence shrink faster and faster.
+//! - Differences may grow at first: an iteration that has hardly begun changes little from run to run, and s is close
+//!   to r. At most (r - 1) s / (r - s) of the last difference then remains if one mode dominates the iteration.
+//! - The position with the slowest convergence decides for all channels. If its differences grow, the error is unknown.
 //!
 //! See docs/numerics/bounds.md.
 
@@ -25,13 +25,14 @@ use linkage::trajectory::{Channel, Trajectory};
 /// Safety factor on the iteration error: see the module's text.
 pub(super) const SAFETY: f64 = 3.0;
 
-/// Runs at the middle step with other numbers of sweeps. `T` is what is read from a run.
+/// Runs at the middle step with other numbers of sweeps. `T` is the data kept of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct OtherSweeps<T> {
-    /// A run with another number of sweeps than the middle one, and one with fewer again by the same factor.
+    /// Two runs: the first has another number of sweeps than the middle run. The second has fewer sweeps than the
+    /// first, by the same factor.
     /// `None` for an engine that does not iterate, and for a missing run.
     pub runs: [Option<T>; 2],
-    /// Ratio of the numbers of sweeps of each run and the next.
+    /// Ratio of the numbers of sweeps of successive runs.
     pub factor: f64,
     /// Largest [growth](OtherSweeps::growth) of the positions; 0 if it is not known.
     pub growth: f64,
@@ -56,7 +57,9 @@ impl<'a> OtherSweeps<&'a Trajectory> {
 }
 
 impl OtherSweeps<&[f64]> {
-    /// Largest difference between the two runs with more sweeps, over that between the two with fewer.
+    /// Ratio of two differences between runs.
+    /// The first is the largest difference between the two runs with more sweeps; the second is that between the two
+    /// with fewer.
     /// The result is 0 if a run is missing, or if the first difference is at most `negligible`.
     /// `single` is the middle run.
     #[must_use]
@@ -73,12 +76,12 @@ impl OtherSweeps<&[f64]> {
         match self.runs {
             [None, _] => 0.0,
             [Some(fewer), None] => last(fewer),
-            // A channel that no sweep changes has no iteration error.
+            // A channel that sweeps do not change has no iteration error.
             [Some(fewer), Some(_)] if last(fewer) == 0.0 => 0.0,
             // Even small differences are then not rounding: the iteration has not reached this channel yet.
             [Some(_), Some(_)] if self.growth > 1.0 => f64::INFINITY,
             [Some(fewer), Some(_)] => match self.growth(single, noise, periodic) {
-                // A difference that is only rounding counts as it is.
+                // A difference that is only rounding is taken as the error itself.
                 0.0 => last(fewer),
                 own => last(fewer) * part_left(own.larger(self.growth), self.factor),
             },
@@ -86,8 +89,8 @@ impl OtherSweeps<&[f64]> {
     }
 }
 
-/// Part of the last difference that the iteration still leaves, where each difference is `share` of the one before: see
-/// the module's text.
+/// Fraction of the last difference that remains as error, if each difference is `share` of the one before: see the
+/// module's text.
 fn part_left(share: f64, factor: f64) -> f64 {
     if share < 1.0 {
         share.larger(share / (1.0 - share) / SAFETY)
@@ -111,7 +114,7 @@ mod tests {
     fn early_iterations_do_not_count_as_converged() {
         for factor in [2.0f64, 4.0] {
             for q in [0.2f64, 0.5, 0.8, 0.9, 0.97, 0.99] {
-                // The error of n sweeps is q^n. The run with the fewest sweeps has one.
+                // The error after n sweeps is q^n. The run with the fewest sweeps has one sweep.
                 let [fewest, fewer, all] = [0, 1, 2].map(|k| [q.powf(factor.powi(k))]);
                 let bound = left([&fewest, &fewer, &all], factor, 0.0, 0.0);
                 assert!(bound >= all[0] && bound <= 20.0, "{factor} {q}: {bound} for {}", all[0]);
@@ -129,8 +132,8 @@ mod tests {
         assert!((left(shrinking, 4.0, 0.0, 0.0) - 3.0 * 0.1 * (1.0 / 9.0)).abs() < 1e-12);
         assert!((left(shrinking, 4.0, 0.9, 0.0) - 0.1 * 9.0).abs() < 1e-12);
         assert_eq!(left(shrinking, 4.0, 1.5, 0.0), f64::INFINITY);
-        // The same holds where the channel's own differences could be rounding. A channel that no sweep changes has no
-        // iteration error.
+        // The same holds if the channel's differences could be rounding.
+        // A channel that sweeps do not change has no iteration error.
         assert_eq!(left(shrinking, 4.0, 1.5, 5.0), f64::INFINITY);
         assert_eq!(left([&[1.0], &[1.0], &[1.0]], 4.0, 1.5, 0.0), 0.0);
     }

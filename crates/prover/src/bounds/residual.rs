@@ -10,11 +10,11 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::{differences, half_range, quantile, rms, share, sorted_sizes};
 use linkage::trajectory::{Channel, Trajectory, Unit};
 
-/// Smallest scale of a channel, as a share of the natural size of its quantity. The errors of a nearly constant
-/// coordinate come from its neighbours, not from its own motion.
+/// Lower limit of a channel's scale / the natural size of its quantity.
+/// The errors of a nearly constant coordinate come from its neighbours, not from its own motion.
 const SMALLEST_SHARE: f64 = 1e-3;
 
-/// Smallest scale of a rate, a force or a moment, as a share of its largest value.
+/// Lower limit of the scale of a rate, a force or a moment / its largest value.
 const SMALLEST_OWN_SHARE: f64 = 0.1;
 
 /// Distribution of the absolute differences in one channel.
@@ -39,43 +39,43 @@ pub struct Residual {
 }
 
 impl Residual {
-    /// Largest absolute difference as a share of the channel's scale; 0 if there is no difference.
+    /// Largest absolute difference divided by the channel's scale; 0 if there is no difference.
     #[must_use]
     pub fn share(&self) -> f64 {
         share(self.max, self.scale)
     }
 }
 
-/// Share of the largest force below which forces are rounding: the sides know forces to a tenth of it.
-/// Any quantity is rounding below this share of the size that the mechanism is built for.
+/// Forces below this fraction of the largest force are rounding. The sides know forces to a tenth of this limit.
+/// Any quantity is rounding below this fraction of its size in `Built`.
 const VANISHING: f64 = 1e-9;
 
 /// Scale of every channel: half the range of its values over the run.
 /// The scale is at least a thousandth of the natural size of the quantity.
-/// For a rate, a force or a moment it is also at least a tenth of the largest value, so that a constant channel is
-/// measured by its own value.
+/// For a rate, a force or a moment the scale is also at least a tenth of the largest value.
+/// So a constant channel has a scale that depends on its own value.
 /// Coordinates have no such limit, because their origin is arbitrary.
 ///
-/// The natural size is the widest half range among the quantity's channels, or their largest value if they are not
-/// coordinates.
+/// The natural size is the largest half range among the quantity's channels.
+/// If the channels are not coordinates, it is their largest value instead.
 /// It is at least the value that follows from the crank's motion and the sizes of coordinates and forces.
 /// So a quantity that vanishes in the whole mechanism has a scale too.
 ///
-/// On a grid of one instant nothing has a range.
+/// On a grid of one instant every range is zero.
 /// The scale is then the natural size: one radian for angles, half the extent of all coordinates for lengths.
 #[must_use]
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     scales_beyond(&vec![0.0; trajectory.channels().len()], trajectory, &Built::default())
 }
 
-/// The same for a trajectory that is known to `errors` (in the units of its channels).
+/// The same for a trajectory with known `errors` (in the units of its channels).
 /// A rate, a force or a moment that is zero throughout, within its error, has no size: its values are rounding.
 /// The cause may be a constant speed, a link that only translates, a joint that guides nothing, or a parallelogram.
-/// Such a channel is measured by a tenth of the natural size of its quantity, as a constant channel is measured by a
-/// tenth of its value.
+/// The scale of such a channel is a tenth of the natural size of its quantity.
+/// This corresponds to the scale of a constant channel, which is a tenth of its value.
 ///
-/// If nothing of the trajectory has a size (a balanced rotor without gravity, a mechanism in equilibrium), the natural
-/// size is what the case is `built` for.
+/// If every quantity of the trajectory is rounding, the natural size is the size in `built`.
+/// Examples are a balanced rotor without gravity and a mechanism in equilibrium.
 #[must_use]
 pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Built) -> Vec<f64> {
     let is_instant = trajectory.times().len() == 1;
@@ -107,19 +107,19 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
     trajectory.channels().iter().enumerate().map(of).collect()
 }
 
-/// Sizes that a case is built for, whatever moves in it.
+/// Sizes that follow from the data of a case, whatever moves in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Built {
     /// Size of the mechanism (m).
     pub(crate) length: f64,
     /// Fastest speed of a drive; for a free link, its nominal speed (rad/s).
     pub(crate) speed: f64,
-    /// Weight of all links or, if larger, the force that accelerates them at that speed and size (N).
+    /// The weight of all links (N). If larger, the force that accelerates the links at that speed and size.
     pub(crate) force: f64,
 }
 
 impl Built {
-    /// Value of a unit that follows from these sizes, and from a rotation `turn` (rad) for angles and their rates.
+    /// Value of a unit that follows from these sizes. Angles and their rates also use a rotation `turn` (rad).
     fn of(&self, unit: Unit, turn: f64) -> f64 {
         let Built { length, speed, force } = *self;
         match unit {
@@ -134,7 +134,7 @@ impl Built {
         }
     }
 
-    /// The `size`, unless it is rounding of the built size of its unit: then the built size.
+    /// Returns `size`, or the size that the case has for this unit if `size` is only rounding of it.
     pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
         let own = self.of(unit, 1.0);
         if size <= VANISHING * own { own } else { size }
@@ -146,7 +146,7 @@ fn is_coordinate(channel: &Channel) -> bool {
     matches!(channel.kind.unit, Unit::Radian | Unit::Metre)
 }
 
-/// Size of the numbers in every channel: the rounding error is proportional to it.
+/// Size of the numbers in every channel, to which the rounding error is proportional.
 /// It is the largest absolute value among the channels of the quantity.
 /// It is at least the value that follows from a rotation of one radian and the largest coordinates and forces.
 #[must_use]
@@ -156,9 +156,9 @@ pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.channels().iter().map(|channel| all.rounded_with(channel)).collect()
 }
 
-/// As `magnitudes`, but by sets of channels. The numbers of a channel in set `sets[channel]` come from all channels
-/// whose set feeds that set.
-/// The first argument of `feeds` is the set that feeds.
+/// As `magnitudes`, but by sets of channels.
+/// `sets[channel]` is the set of a channel. Its numbers are computed from all channels whose set feeds that set.
+/// `feeds(from, to)` tells whether set `from` feeds set `to`.
 pub(crate) fn magnitudes_by(trajectory: &Trajectory, sets: &[usize], feeds: &dyn Fn(usize, usize) -> bool) -> Vec<f64> {
     let largest = largest_sizes(trajectory);
     let count = 1 + sets.iter().copied().max().unwrap_or(0);
@@ -218,8 +218,8 @@ impl Sizes {
         self
     }
 
-    /// Size of the numbers that make up a channel.
-    /// The force on the frame is the sum of the joint forces, which may cancel and leave their rounding errors.
+    /// Size of the numbers from which a channel is computed.
+    /// The force on the frame is the sum of the joint forces. They may cancel, but their rounding errors remain.
     fn rounded_with(&self, channel: &Channel) -> f64 {
         let own = self.natural(channel, 1.0);
         if channel.kind.unit == Unit::Newton { own.larger(self.largest.force) } else { own }
@@ -230,8 +230,8 @@ impl Sizes {
     /// coordinates and forces.
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
         let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);
-        // Only the forces are known here, not their causes: the shaking force of a balanced mechanism is the rounding
-        // error of the joint forces.
+        // Only the forces are known here, not their causes. The shaking force of a balanced mechanism is only the
+        // rounding error of the joint forces.
         match channel.kind.unit == Unit::Newton && !(own <= VANISHING * self.largest.force) {
             true => own.larger(0.0),
             false => own.larger(self.largest.of(channel.kind.unit, turn)),
@@ -240,8 +240,8 @@ impl Sizes {
 }
 
 /// `other` minus `reference`, channel by channel, for the channels that both have.
-/// Angles that differ by a constant number of whole turns are the same motion: the whole turns between the first
-/// samples are subtracted.
+/// Angles that differ by a constant number of whole revolutions describe the same motion.
+/// So the whole revolutions between the first samples are subtracted.
 ///
 /// # Errors
 /// If the grids differ.
@@ -268,7 +268,7 @@ pub fn residuals(reference: &Trajectory, other: &Trajectory) -> Result<Vec<Resid
     residuals_on(&scales(reference), reference, other)
 }
 
-/// Residuals of all channels that both trajectories have, on other scales: one for each channel of the reference.
+/// Residuals of all channels that both trajectories have. `scales` holds one scale for each channel of the reference.
 ///
 /// # Errors
 /// If the grids differ.
@@ -323,7 +323,7 @@ mod tests {
     fn a_nearly_constant_channel_takes_the_scale_of_its_family() {
         let a = trajectory(&[("joint.A.fx_N", vec![-500.0, 500.0]), ("joint.A.fy_N", vec![1.0, 1.0])]);
         assert_eq!(scales(&a), [500.0, 0.5]);
-        // A constant force is measured by its own value.
+        // The scale of a constant force follows from its own value.
         let b = trajectory(&[("joint.A.fx_N", vec![-500.0, 500.0]), ("joint.A.fy_N", vec![30.0, 30.0])]);
         assert_eq!(scales(&b), [500.0, 3.0]);
     }
@@ -382,7 +382,7 @@ mod tests {
         let built = Built { length: 0.5, speed: 4.0, force: 30.0 };
         let found = scales_beyond(&[1e-10; 5], &still, &built);
         assert_eq!(found, [1e-3, 0.1 * 4.0, 0.1 * 16.0 * 0.5, 0.1 * 30.0, 0.1 * 15.0]);
-        // A size is kept, however small, unless it is rounding of the built size.
+        // A size remains unchanged, however small, unless it is only rounding of the case's size.
         assert_eq!([3e-9, 4e-8, 1.0].map(|own| built.unless(own, Unit::Newton)), [30.0, 4e-8, 1.0]);
     }
 
@@ -405,7 +405,7 @@ mod tests {
         .unwrap();
         let (turn, speed, length, force) = (3.0, 1.5, 3.0, 500.0);
         let natural = [turn, speed * turn, speed * speed * turn, speed * length, speed * speed * length];
-        // An angle counts by its range, not by its value.
+        // The scale of an angle follows from its range, not from its value.
         let shares = [1e-3, 0.1, 0.1, 0.1, 0.1];
         let wanted = natural.iter().zip(shares).map(|(size, share)| share * size);
         let wanted = wanted.chain([length, force, 0.1 * force * length]);

@@ -14,14 +14,14 @@ use linkage::math::statistics::share;
 /// Outcome of one comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// The residual is within its bound.
+    /// The residual is at most its bound.
     Agree {
-        /// Bound over residual; infinite where the residual is zero.
+        /// Bound divided by residual; infinite if the residual is zero.
         margin: f64,
     },
-    /// The residual is beyond its bound.
+    /// The residual exceeds its bound.
     Disagree {
-        /// The place of the largest residual, in words.
+        /// Location of the largest residual, in words.
         place: String,
     },
     /// A printed number disagrees as a finding predicts, and the corrected number agrees.
@@ -35,7 +35,7 @@ pub enum Verdict {
     Inconclusive {
         /// Why it is inconclusive.
         reason: String,
-        /// What would decide it, as alternatives; empty if nothing is known.
+        /// Alternative actions that would decide the verdict; empty if none is known.
         advice: Vec<Advice>,
     },
 }
@@ -65,7 +65,7 @@ impl Verdict {
         Verdict::Inconclusive { reason: reason.into(), advice: Vec::new() }
     }
 
-    /// Reason of a verdict other than agreement, with the advice worded by `tell`.
+    /// Reason of a verdict other than agreement. `tell` words the advice.
     #[must_use]
     pub fn reason(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
         match self {
@@ -104,8 +104,9 @@ impl Verdict {
         }
     }
 
-    /// Verdict on an engine's channel. A small residual proves nothing where the engine does not converge, or where its
-    /// error may exceed the share `wanted` of the channel's scale.
+    /// Verdict on an engine's channel.
+    /// A small residual proves nothing if the engine does not converge.
+    /// It also proves nothing if the engine's error may exceed the fraction `wanted` of the channel's scale.
     #[must_use]
     pub fn of_engine(residual: &Residual, convergence: &Convergence, parts: Parts, wanted: f64) -> Self {
         let place = || {
@@ -118,9 +119,10 @@ impl Verdict {
         Verdict::of_estimate(residual.max, residual.scale, convergence, parts, wanted, place)
     }
 
-    /// Verdict on a number whose bound, the sum of `parts`, comes from an engine's own runs; `scale` is the channel's
-    /// scale. The verdict is inconclusive where the runs do not confirm the bound, or where it exceeds the share
-    /// `wanted` of the scale.
+    /// Verdict on a number whose bound comes from an engine's own runs. The bound is the sum of `parts`; `scale` is the
+    /// channel's scale.
+    /// The verdict is inconclusive if the runs do not confirm the bound, or if the bound exceeds the fraction `wanted`
+    /// of the scale.
     #[must_use]
     pub fn of_estimate(
         value: f64,
@@ -132,7 +134,7 @@ impl Verdict {
     ) -> Self {
         let bound = parts.sum();
         if scale == 0.0 && value > 0.0 {
-            // The grid is one instant at rest, or there is no mass and no load.
+            // The grid is a single instant at rest, or masses and loads are missing.
             let reason = sentences::THE_REFERENCE_IS_ZERO_THROUGHOUT;
             return Verdict::open(reason);
         }
@@ -147,7 +149,7 @@ impl Verdict {
         if !convergence.is_trusted() && !(bound <= NEGLIGIBLE * wanted * scale) {
             return open(sentences::the_engine_converges_with_order(&convergence.observed, &convergence.formal));
         }
-        // A bound that is too wide to prove agreement does not disprove a number close to it.
+        // A bound that is too wide to prove agreement cannot disprove a number close to the bound.
         if bound > wanted * scale && value <= DISPROVEN * bound {
             let (reached, proves) = (percent(bound / scale), percent(wanted));
             return open(sentences::the_engine_error_may_reach(&reached, &proves));
@@ -156,15 +158,15 @@ impl Verdict {
     }
 }
 
-/// Share of the widest conclusive bound below which a bound needs no order of convergence.
-/// If runs at three steps differ so little, rounding or the end of an iteration decides the order. The bound is then
-/// ten times the larger difference.
+/// If a bound is below this fraction of the widest conclusive bound, no order of convergence is required.
+/// Runs at three steps then differ so little that rounding or the last iterations determine the order.
+/// The bound is then ten times the larger difference.
 const NEGLIGIBLE: f64 = 0.1;
-/// Factor on a bound that is too wide to prove agreement. A number beyond the product is disproven.
-/// It is the larger safety factor of the estimate, applied once more.
+/// If a bound is too wide to prove agreement, a number disagrees only if it exceeds this multiple of the bound.
+/// The factor is the larger safety factor of the estimate, applied once more.
 const DISPROVEN: f64 = 3.0;
 
-/// The largest part of an engine's error as an addition to a reason, and advice to make it smaller.
+/// Names the largest part of an engine's error, to be added to a reason, with advice to make this part smaller.
 fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     match parts.largest() {
         BoundPart::Rounding => {
@@ -176,12 +178,12 @@ fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     }
 }
 
-/// A number that must stay below a bound, besides the comparison of channels.
+/// A number that must stay below a bound, in addition to the compared channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {
-    /// What is checked. A report shows the checks of one family on one line.
+    /// The subject of the check. A report shows the checks of one family on one line.
     pub family: String,
-    /// Which check of the family; empty if there is only one.
+    /// Identifies the check within its family; empty if the family has only one check.
     pub detail: String,
     /// The number.
     pub value: f64,
@@ -191,7 +193,7 @@ pub struct Check {
     pub unit: &'static str,
     /// Basis of the bound.
     pub basis: BoundBasis,
-    /// For a bound that comes from an engine's own runs: its parts, and how the runs converge.
+    /// Parts of the bound and the convergence of the runs, if the bound comes from an engine's own runs.
     pub estimate: Option<(Parts, Convergence)>,
     /// The outcome.
     pub verdict: Verdict,
@@ -206,8 +208,9 @@ impl Check {
         Check { family: family.into(), detail: String::new(), value, bound, unit, basis, estimate: None, verdict }
     }
 
-    /// A check of a relative number whose bound comes from an engine's own runs. As with channels, it is inconclusive
-    /// where the runs do not confirm the bound, or where the bound exceeds the share `wanted`.
+    /// A check of a relative number whose bound comes from an engine's own runs.
+    /// As for channels, the check is inconclusive if the runs do not confirm the bound or if the bound exceeds the
+    /// fraction `wanted`.
     #[must_use]
     pub fn estimated(
         family: impl Into<String>,
@@ -223,14 +226,14 @@ impl Check {
         Check { estimate: Some((parts, *convergence)), verdict, ..own }
     }
 
-    /// States which check of its family this is.
+    /// Sets the detail that identifies this check within its family.
     #[must_use]
     pub fn of(mut self, detail: impl Into<String>) -> Self {
         self.detail = detail.into();
         self
     }
 
-    /// Adds the place of the largest residual to the reason of a disagreement.
+    /// Adds the location of the largest residual to the reason of a disagreement.
     #[must_use]
     pub fn located(mut self, place: impl FnOnce() -> String) -> Self {
         if let Verdict::Disagree { place: reason } = &mut self.verdict {
@@ -239,9 +242,9 @@ impl Check {
         self
     }
 
-    /// Joins this check against the correct number with the check against the `printed` number, which a finding calls
-    /// wrong.
-    /// The printed number must disagree, and the correct one must agree. NaN and any third number disagree.
+    /// Combines this check against the correct number with the check against the `printed` number, which a finding
+    /// calls wrong.
+    /// The printed number must disagree, and the correct number must agree. NaN and any third number disagree.
     #[must_use]
     pub fn expected(mut self, finding: &str, printed: &Check) -> Self {
         self.verdict = match (self.verdict, &printed.verdict) {
@@ -265,7 +268,7 @@ impl Check {
         if self.detail.is_empty() { self.family.clone() } else { format!("{}, {}", self.family, self.detail) }
     }
 
-    /// Share of the bound that is used; infinite for NaN, so that NaN counts as the worst.
+    /// Fraction of the bound that the number uses; infinite for NaN, so that NaN counts as the worst.
     #[must_use]
     pub fn used(&self) -> f64 {
         let used = share(self.value, self.bound);
@@ -278,7 +281,7 @@ fn beyond(value: f64, bound: f64, unit: &str) -> String {
     sentences::is_beyond_the_bound(&error_in(value, unit), &error_in(bound, unit))
 }
 
-/// Verdict on the whole. One disagreement makes it disagree; otherwise one inconclusive verdict leaves it inconclusive.
+/// Overall verdict. One disagreement makes it disagree. Otherwise one inconclusive verdict makes it inconclusive.
 #[must_use]
 pub fn overall<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Verdict {
     let mut margin = f64::INFINITY;
@@ -369,11 +372,11 @@ mod tests {
         assert_eq!(judged(1e-4, 2.0, 1e-3).word(), "agree");
         assert_eq!(judged(1e-2, 2.0, 1e-3).word(), "disagree");
         assert_eq!(judged(1e-4, 0.3, 2e-3).word(), "inconclusive");
-        // A bound below a tenth of the requested one needs no order.
+        // A bound below a tenth of the requested bound needs no order of convergence.
         assert_eq!(judged(1e-4, 0.3, 9e-4).word(), "agree");
         assert_eq!(judged(1e-3, 0.3, 9e-4).word(), "disagree");
         assert_eq!(judged(1e-4, 2.0, 5e-2).word(), "inconclusive");
-        // A bound that is too wide to prove agreement does not disprove a number close to it.
+        // A bound that is too wide to prove agreement cannot disprove a number close to the bound.
         assert_eq!(judged(6e-2, 2.0, 5e-2).word(), "inconclusive");
         assert_eq!(judged(2e-1, 2.0, 5e-2).word(), "disagree");
         assert_eq!(judged(1e-4, f64::NAN, 1e-3).word(), "agree");

@@ -15,13 +15,13 @@ use linkage::error::Result;
 use linkage::math::KeepNan;
 use scenario::{Claim, Formulas};
 
-/// The simplest explanation of a wrong formula. Unless the variant says otherwise, no difference remains once it is
-/// corrected.
+/// The simplest explanation of a wrong formula.
+/// Unless the variant says otherwise, correcting this cause removes the whole difference.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FormulaCause {
     /// One slip in writing.
     Slip(FormulaSlip),
-    /// Constant error, in the unit of the claim; positive if the formula gives too much.
+    /// Constant error, in the unit of the claim; positive if the formula's value is too large.
     Offset(f64),
     /// Constant factor by which the formula is too large.
     Factor(f64),
@@ -29,14 +29,14 @@ pub enum FormulaCause {
     Missing(Missing),
     /// Terms of the mechanism are missing from the formula.
     Terms(Vec<Term>),
-    /// The formula is right up to a crank angle (rad) and follows another branch beyond it.
+    /// The formula is right up to a crank angle (rad). Beyond this angle it follows another branch.
     Leaves {
-        /// Last crank angle (rad) at which it is right.
+        /// Last crank angle (rad) at which the formula is right.
         after: f64,
-        /// First crank angle (rad) at which it is wrong.
+        /// First crank angle (rad) at which the formula is wrong.
         before: f64,
     },
-    /// Several causes explain it equally well; more of them may be left out.
+    /// Several causes explain the error equally well. Some of them may be left out here.
     Several {
         /// The simplest causes.
         causes: Vec<FormulaCause>,
@@ -45,20 +45,20 @@ pub enum FormulaCause {
     },
     /// The formula gives another channel of the mechanism, by name.
     Other(String),
-    /// The formula is constant; the claimed quantity is not.
+    /// The formula is constant, but the claimed quantity varies.
     Constant,
-    /// Nothing simple explains the error, but the formula is nearly right.
+    /// The formula is nearly right, but no simple cause explains the error.
     Near {
         /// Largest error, in the unit of the claim.
         error: f64,
-        /// Largest error over the mechanism's largest value.
+        /// Largest error divided by the mechanism's largest value.
         share: f64,
     },
-    /// Nothing simple explains the whole error; this cause explains most of it.
+    /// This cause explains most of the error. No simple cause explains the whole error.
     Mostly {
         /// Cause of most of the error.
         cause: Box<FormulaCause>,
-        /// Share of the difference that remains once the cause is corrected.
+        /// Fraction of the difference that remains after the cause is corrected.
         left: f64,
     },
 }
@@ -126,7 +126,7 @@ impl fmt::Display for Term {
 }
 
 impl FormulaCause {
-    /// Whether the cause explains everything.
+    /// Whether the cause explains the whole error.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         !matches!(self, FormulaCause::Mostly { .. } | FormulaCause::Near { .. } | FormulaCause::Constant)
@@ -136,29 +136,29 @@ impl FormulaCause {
 /// Result of a search for a cause.
 #[derive(Clone, Debug, Default)]
 pub struct CauseSearch {
-    /// The cause, if there is a simple one.
+    /// The cause, or `None` if no simple cause was found.
     pub cause: Option<FormulaCause>,
-    /// Whether the search reached its limit of work before everything was tried.
+    /// Whether the search reached its work limit before all causes were tried.
     pub is_cut: bool,
-    /// Operations used: evaluations of a part of a formula at an instant, and steps of equal cost.
+    /// Number of operations used. One operation evaluates one part of a formula at one instant, or costs as much.
     pub work: u64,
 }
 
-/// The reason given when a search ended at its limit without a cause.
+/// The reason given if a search reached its limit without finding a cause.
 pub const CUT: &str = sentences::THE_SEARCH_ENDED_AT_ITS_LIMIT;
 
 /// Most operations of the search for the cause of one formula.
 pub const MOST_WORK: u64 = 60_000_000;
 /// Largest number of equally good explanations that are reported.
 const TOLD: usize = 3;
-/// Largest error of an approximation, as a share of the mechanism's largest value.
+/// A formula counts as an approximation if its error is at most this fraction of the mechanism's largest value.
 const NEAR: f64 = 0.02;
 
-/// Finds why the formula called `name` is wrong on a course, with no more operations than `limit`.
-/// There is no cause if the formula claims nothing or nothing simple explains the error.
+/// Finds why the formula called `name` is wrong on a trajectory. The search uses at most `limit` operations.
+/// Returns no cause if the formula claims nothing or if nothing simple explains the error.
 ///
 /// # Errors
-/// If the course lacks a channel of the claim.
+/// If the trajectory lacks a channel of the claim.
 pub fn cause(formulas: &Formulas, name: &str, course: &KnownTrajectory, limit: u64) -> Result<CauseSearch> {
     if limit == 0 {
         return Ok(CauseSearch { is_cut: true, ..CauseSearch::default() });
@@ -184,12 +184,12 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     let is_sound = |own: &&Mended| !own.rank.0;
     let is_simple = |own: &&Mended| own.slip.kind != SlipKind::Value || !own.rank.1;
     let mut sound: Vec<&Mended> = tried.right.iter().filter(is_sound).filter(is_simple).collect();
-    // If the mechanism's value is constant, or the formula is wrong by a factor or an offset, a slip has to match only
-    // one number.
+    // In these cases a slip has to match only one number: the mechanism's value is constant, or the formula is wrong by
+    // a factor or an offset.
     let is_weak = trial.is_constant() || trial.is_number;
     if let Some(first) = sound.first().copied() {
-        // A sign, a unit, or units that become consistent only with the correction are stronger evidence than the
-        // number.
+        // Some evidence is stronger than the number: a sign, a unit, or units that only the correction makes
+        // consistent.
         let own = formulas.list[trial.index].tree.clone();
         let is_natural = match first.slip.kind {
             SlipKind::Sign | SlipKind::Branch | SlipKind::PerRadian | SlipKind::PerSecond => true,
@@ -213,7 +213,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
                 let is_near = own.rank.2 == rank.2 || trial.is_constant();
                 return own.rank.1 == rank.1 && is_near && !is_same && kinds.insert((own.slip.kind, own.rank.2));
             }
-            // In the numbers of a mechanism one length may happen to be twice another, or a ratio twice its inverse.
+            // A mechanism's numbers may coincide by chance: one length is twice another, or a ratio is twice its
+            // inverse.
             let is_number = |kind: SlipKind| kind == SlipKind::Factor;
             let is_other = own.rank.1 == rank.1
                 && (matches!(rank.3, SlipKind::Name | SlipKind::Exchanged) && is_number(own.slip.kind)
@@ -222,7 +223,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
         });
         return one_of(sound.into_iter().map(|own| FormulaCause::Slip(own.slip.clone())).collect());
     }
-    // A missing term or factor is preferred to slips with inconsistent units.
+    // A missing term or factor is preferred to a slip that makes the units inconsistent.
     let lacks = if trial.is_spent() { Vec::new() } else { missing(trial, &dimensions) };
     let found: Vec<FormulaCause> = lacks.into_iter().map(FormulaCause::Missing).collect();
     if !found.is_empty() {
@@ -245,7 +246,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     if trial.gives_one_number() && !trial.is_constant() {
         return Some(FormulaCause::Constant);
     }
-    // An approximation is right by chance where it crosses the exact curve.
+    // An approximation is right by chance at the instants at which it crosses the exact curve.
     let is_exact = trial.formula.error.is_none();
     if let Some(found) = leaves(&rows).filter(|_| is_exact) {
         return Some(found);
@@ -268,8 +269,8 @@ fn one_of(mut causes: Vec<FormulaCause>) -> Option<FormulaCause> {
     if causes.len() > 1 { Some(FormulaCause::Several { causes, more }) } else { causes.pop() }
 }
 
-/// Recognises a formula that is right to within a small share of the largest value, like a series or a small-angle
-/// formula.
+/// Recognises a formula that is right to within a small fraction of the largest value, such as a series or a
+/// small-angle formula.
 fn near(rows: &[Row]) -> Option<FormulaCause> {
     let largest = |of: &dyn Fn(&Row) -> f64| rows.iter().map(|row| of(row).abs()).fold(0.0, f64::larger);
     let (error, scale) = (largest(&|row| row[2] - row[3]), largest(&|row| row[3]));
@@ -277,10 +278,11 @@ fn near(rows: &[Row]) -> Option<FormulaCause> {
     is_near.then_some(FormulaCause::Near { error, share: error / scale })
 }
 
-/// Fewest instants from which an approximation is recognised.
+/// Smallest number of instants from which an approximation is recognised.
 const FEWEST: usize = 8;
 
-/// Values at an instant: time, crank angle, formula without whole turns, mechanism, bound.
+/// Values at an instant: time, crank angle, value of the formula (without whole revolutions), value of the mechanism,
+/// bound.
 pub(super) type Row = [f64; 5];
 
 impl Trial<'_> {
@@ -301,7 +303,7 @@ fn of_numbers(rows: &[Row]) -> Option<FormulaCause> {
     }
     let left = |row: &Row| row[2] - row[3];
     let largest = |column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::larger);
-    // A fitted coefficient is known only as well as the numbers.
+    // A fitted coefficient is known only to the accuracy of the numbers.
     let slack = 8.0 * f64::EPSILON * (largest(2) + largest(3));
     let by = |basis: &dyn Fn(&Row) -> f64| {
         let [above, below] = rows.iter().fold([0.0, 0.0], |[above, below], row| {
@@ -330,7 +332,8 @@ fn leaves(rows: &[Row]) -> Option<FormulaCause> {
 mod tests {
     use super::*;
 
-    /// Ten numbers known to 1e-12: an offset or a factor must leave a remainder as small as that in each of them.
+    /// Ten numbers known to 1e-12. After an offset or a factor is removed, the remainder of each number must be as
+    /// small as that error.
     #[test]
     fn an_offset_or_factor_must_explain_every_row() {
         let found = |of: &dyn Fn(f64) -> f64, off: f64| {

@@ -8,15 +8,15 @@ use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
 use scenario::{Claim, Formula, MechanismFigure, PrintedChannel};
 
-/// A side's trajectory with the error of every value (by column and row, in SI units).
+/// A side's trajectory with the error of every value, by column and row (SI units).
 pub struct KnownTrajectory<'a> {
     trajectory: &'a Trajectory,
     error: &'a dyn Fn(usize, usize) -> f64,
     crank_name: &'a str,
-    /// Columns of the angular velocity and acceleration of the crank, where the side has them.
+    /// Columns of the crank's angular velocity and acceleration. `None` if the side does not have them.
     crank: [Option<usize>; 2],
-    /// Column of the angle of a crank that moves under forces, where the side has it; its error is that of the
-    /// integration.
+    /// Column of the angle of a crank that moves under forces. `None` if the side does not have it.
+    /// The error of this angle is that of the integration.
     angle: Option<usize>,
     /// Values of the whole mechanism, in SI units.
     figures: &'a [(MechanismFigure, Rounded)],
@@ -24,13 +24,13 @@ pub struct KnownTrajectory<'a> {
     least: &'a [f64],
 }
 
-/// One column in the unit of a claim.
+/// One column, converted to the unit of a claim.
 pub(super) struct Column<'a> {
     values: &'a [f64],
     error: Box<dyn Fn(usize) -> f64 + 'a>,
-    /// The other component, if the claim is a vector's magnitude.
+    /// The other component of the vector, if the claim is a magnitude.
     across: Option<Box<Column<'a>>>,
-    /// SI unit over the claim's unit.
+    /// SI unit divided by the claim's unit.
     factor: f64,
 }
 
@@ -73,7 +73,7 @@ pub fn needed(claim: &Claim, case: &Case) -> Vec<Channel> {
 
 /// Returns the channels among which a diagnosis may find a missing term: angles, velocities and accelerations of all
 /// links and points.
-/// Also returns every channel with the unit of a claim, because the claim may have meant it.
+/// Also returns every channel with the unit of a claim, because the author of the formula may have meant that channel.
 #[must_use]
 pub fn telling<'a>(case: &Case, claims: impl Iterator<Item = &'a Claim>) -> Vec<Channel> {
     let claimed: Vec<_> =
@@ -91,7 +91,8 @@ fn across(channel: &PrintedChannel) -> Option<Channel> {
 }
 
 impl<'a> KnownTrajectory<'a> {
-    /// Creates the course of a case; `error` returns the error of a value by column and row, in SI units.
+    /// Creates the trajectory of a case with known errors. `error` returns the error of a value by column and row (SI
+    /// units).
     #[must_use]
     pub fn new(case: &'a Case, trajectory: &'a Trajectory, error: &'a dyn Fn(usize, usize) -> f64) -> Self {
         let crank = &case.mechanism.links()[case.crank().link].name;
@@ -140,8 +141,7 @@ impl<'a> KnownTrajectory<'a> {
         (0..self.len()).filter(|&row| formula.holds_at(self.cranks()[row])).collect()
     }
 
-    /// Links other than the crank whose angle (rad), angular velocity and angular acceleration are all known here, by
-    /// name.
+    /// Links other than the crank with known angle (rad), angular velocity and angular acceleration, by name.
     pub(super) fn links(&self) -> impl Iterator<Item = (&str, [&[f64]; 3])> {
         let channels = self.trajectory.channels();
         let column = |channel: &Channel| {
@@ -170,7 +170,7 @@ impl<'a> KnownTrajectory<'a> {
         })
     }
 
-    /// Values of the formulas' inputs at an instant.
+    /// Input values of the formulas at an instant.
     pub(super) fn inputs(&self, row: usize) -> [Rounded; 4] {
         let of = |column: Option<usize>| {
             let column = column?;
@@ -257,7 +257,8 @@ mod tests {
     use linkage::solver::Solver;
     use scenario::of_repository;
 
-    /// The error is the larger of the error at the instant and the channel's limit, in the unit of the claim.
+    /// The error is the larger of two: the error at the instant, and the channel's smallest error in the unit of the
+    /// claim.
     #[test]
     fn the_error_of_a_channel_is_at_least_its_limit() {
         let case = of_repository("scenarios/crank_rocker.toml").case;
@@ -276,7 +277,7 @@ mod tests {
         }
     }
 
-    /// Root of the sum of squares of both components, with both errors propagated.
+    /// The magnitude is the root of the sum of squares of both components. The errors of both are propagated.
     #[test]
     fn a_magnitude_has_the_errors_of_its_components() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

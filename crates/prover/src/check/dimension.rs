@@ -1,5 +1,5 @@
-//! Dimensions of formulas, as far as the units of their parameters determine them: a corrected formula that adds metres
-//! to kilograms is rejected while another explanation exists.
+//! Dimensions of formulas, as far as the units of their parameters determine them.
+//! A corrected formula that adds metres to kilograms is rejected if another explanation exists.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -13,11 +13,11 @@ pub(super) type Dimension = [f64; 3];
 /// A dimension; `None` if unknown.
 pub(super) type Known = Option<Dimension>;
 
-/// Dimensions are inconsistent: the parts cannot be added, or cannot be arguments of a function.
+/// Error: inconsistent dimensions. The parts cannot be added, or cannot be arguments of a function.
 struct Unsound;
 
 const NONE: Dimension = [0.0; 3];
-/// Cost of inspecting a formula or looking up a name, in evaluations of a part.
+/// Cost of inspecting a formula or looking up a name. The unit is one evaluation of a part.
 const LOOK: u64 = 4;
 
 /// Dimensions of the formulas of a derivation.
@@ -25,7 +25,7 @@ pub(super) struct Dimensions<'a> {
     formulas: &'a Formulas,
     of: usize,
     claimed: Known,
-    /// Dimensions of the formulas as written, up to the first inconsistent one.
+    /// Dimensions of the formulas as written. The list ends at the first inconsistent formula.
     written: Vec<Known>,
     /// Indices of the formulas by name.
     steps: BTreeMap<&'a str, usize>,
@@ -56,7 +56,7 @@ impl<'a> Dimensions<'a> {
         LOOK * self.looked.take()
     }
 
-    /// Whether the units are consistent with other trees in some of the formulas.
+    /// Whether the units are consistent after some formulas get other trees.
     pub(super) fn are_sound(&self, changed: &[(usize, FormulaTree)]) -> bool {
         let first = changed.iter().map(|(index, _)| *index).min().unwrap_or(self.of);
         let Some(known) = self.written.get(..first) else { return false };
@@ -71,9 +71,11 @@ impl<'a> Dimensions<'a> {
         same(known[self.of], self.claimed).is_ok()
     }
 
-    /// Judges by units whether a formula with other trees may have been meant.
-    /// `Some(true)` if the units are consistent; `Some(false)` if they are inconsistent but no worse than before,
-    /// because in the formula `index` a part was `replaced` by another with the same dimension; `None` otherwise.
+    /// Judges by units whether the author may have meant a formula with other trees.
+    /// `Some(true)` if the units are consistent.
+    /// `Some(false)` if they are inconsistent but no worse than before: in the formula `index`, a part was `replaced`
+    /// by another of the same dimension.
+    /// `None` otherwise.
     pub(super) fn standing(
         &self,
         changed: &[(usize, FormulaTree)],
@@ -126,7 +128,7 @@ fn claimed(claim: &Claim) -> Known {
     if !claim.unit().is_empty() {
         return of_unit(claim.unit());
     }
-    // Claims reduced to the crank contain masses as plain numbers.
+    // A claim reduced to the crank contains masses as plain numbers.
     if claim.channels.iter().any(|(name, _)| !claim.text.contains(name.as_str())) {
         return None;
     }
@@ -184,7 +186,7 @@ fn of_tree(tree: &FormulaTree, named: &dyn Fn(&str) -> Known) -> Result<Known, U
         Some([0, 1, 2].map(|axis: usize| one[axis] + sign * other[axis]))
     };
     Ok(match &tree.shape {
-        // Zero fits every dimension; a number that is not whole may carry a unit, like 9.81.
+        // Zero fits every dimension. A number such as 9.81, which is not whole, may have a unit.
         NodeShape::Number(value) => (*value != 0.0 && (24.0 * value).fract() == 0.0).then_some(NONE),
         NodeShape::Name(name) => named(name),
         NodeShape::Negative(part) => of_tree(part, named)?,

@@ -1,4 +1,4 @@
-//! Compares formulas with their claims over a course.
+//! Compares formulas with their claims along a trajectory.
 
 use std::collections::BTreeMap;
 
@@ -8,8 +8,8 @@ use formula::{FormulaGraph, NodeId, Program, Rounded};
 use linkage::error::Result;
 use scenario::{Claim, Formula, Formulas};
 
-/// A claim and its derivatives over a course, as functions of its values, its channels and their first and second
-/// derivatives.
+/// A claim and its derivatives along a trajectory.
+/// They are functions of the claim's values, its channels, and the first and second derivatives of these channels.
 pub(super) struct Claimed<'a> {
     program: Program,
     columns: Vec<Column<'a>>,
@@ -90,18 +90,18 @@ struct One<'a> {
 
 /// Number of derivatives by which a formula is judged.
 fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<usize> {
-    // An approximation, or a number for one instant, says nothing about derivatives.
+    // An approximation does not hold for derivatives, and neither does a number for one instant.
     let is_instant = formula.valid[0].is_some() && formula.valid[0] == formula.valid[1];
     let known = course.orders(claim)?;
     Ok(if formula.error.is_some() || is_instant { 0 } else { known })
 }
 
-/// Judges all claims of a scenario's formulas for which a course has the channels, each by value, then by every
-/// derivative.
-/// Shared parts of formulas, and claims made by several formulas, are evaluated once at every instant.
+/// Judges all claims of a scenario's formulas for which the trajectory has the channels.
+/// Each claim is judged by value, then by every derivative.
+/// Shared parts of formulas are evaluated once at every instant, and so are claims made by several formulas.
 ///
 /// # Errors
-/// Only if the course changes between two calls.
+/// Only if the trajectory changes between two calls.
 pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<JudgedFormula>>> {
     let mut derived = formulas.clone();
     let (mut nodes, mut all) = (Vec::new(), Vec::new());
@@ -159,7 +159,7 @@ pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<Ju
 }
 
 impl KnownTrajectory<'_> {
-    /// Returns the values of the formulas that claim something, each at the instants at which it holds.
+    /// Returns the values of all formulas with a claim, each at the instants at which it is claimed to hold.
     #[must_use]
     pub fn given(&self, formulas: &Formulas) -> Vec<Vec<Rounded>> {
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
@@ -176,10 +176,10 @@ impl KnownTrajectory<'_> {
         all
     }
 
-    /// Returns what the side finds for a claim, instant by instant, in the claim's unit, with its error.
+    /// Returns the side's values of a claim, instant by instant, in the claim's unit and with their errors.
     ///
     /// # Errors
-    /// If the course lacks a channel of the claim.
+    /// If the trajectory lacks a channel of the claim.
     pub fn values(&self, claim: &Claim) -> Result<Vec<Rounded>> {
         let mut claimed = Claimed::of(claim, 0, self)?;
         Ok((0..self.len()).map(|row| claimed.at(row)[0]).collect())

@@ -1,4 +1,4 @@
-//! Judgement of a formula's course against that of the mechanism.
+//! Judgement of a formula's values against those of the mechanism.
 
 use crate::sentences;
 use formula::Rounded;
@@ -17,14 +17,14 @@ pub struct FormulaAtInstant {
     pub formula: f64,
     /// Value of the mechanism.
     pub mechanism: f64,
-    /// Formula minus mechanism; for angles without whole turns.
+    /// Formula minus mechanism; for angles, without whole revolutions.
     pub difference: f64,
     /// Largest difference allowed.
     pub bound: f64,
 }
 
 impl FormulaAtInstant {
-    /// Difference over bound; infinite if the difference is not a number.
+    /// Difference divided by bound; infinite if the difference is not a number.
     #[must_use]
     pub fn used(&self) -> f64 {
         let used = if self.difference == 0.0 { 0.0 } else { self.difference.abs() / self.bound };
@@ -61,13 +61,13 @@ pub enum FormulaOutcome {
 pub struct JudgedFormula {
     /// Name of the formula.
     pub name: String,
-    /// The quantity that it claims to be.
+    /// The quantity that the formula claims to give.
     pub claim: String,
     /// Unit of the claimed values; empty for an expression of several channels.
     pub unit: &'static str,
     /// Number of derivatives with respect to time (s): 0, 1 or 2.
     pub order: usize,
-    /// Whether the bound is the error stated with the formula.
+    /// Whether the bound is the error that the formula itself states.
     pub claimed: bool,
     /// Number of instants judged.
     pub judged: usize,
@@ -75,22 +75,22 @@ pub struct JudgedFormula {
     pub lost: usize,
     /// Number of instants at which the claimed quantity is undefined, like a value reduced to a crank at rest.
     pub undefined: usize,
-    /// Number of instants at which the formula is undefined though the claimed quantity is not.
+    /// Number of instants at which the claimed quantity is defined but the formula is not.
     pub without: usize,
-    /// First instant beyond the bound.
+    /// First instant at which the bound is exceeded.
     pub since: Option<FormulaAtInstant>,
-    /// Instant with the largest difference over bound.
+    /// Instant with the largest ratio of difference to bound.
     pub worst: Option<FormulaAtInstant>,
     /// Largest value of the mechanism.
     pub scale: f64,
 }
 
-/// Largest bound, as a share of the scale, that still decides anything.
+/// If the formula's error exceeds this fraction of the scale, digits may count as lost: see `NO_WORSE`.
 const TELLING: f64 = 1e-6;
-/// Ratio of a formula's error to the mechanism's error up to which no digits count as lost.
-/// It allows a few products of numbers known as well as the mechanism's.
+/// If a formula's error is at most this multiple of the mechanism's error, no digits count as lost.
+/// The limit allows for a few products of numbers that are known as accurately as the mechanism's.
 const NO_WORSE: f64 = 1e3;
-/// Share of instants without a decisive bound beyond which the judgement is inconclusive.
+/// If the bound is not decisive at more than this fraction of the instants, the judgement is inconclusive.
 const MOST_LOST: f64 = 0.03;
 
 /// Whether the mechanism's value is defined.
@@ -111,7 +111,7 @@ impl JudgedFormula {
         }
     }
 
-    /// Judges the courses of a formula and its claim by value. Angles a `turn` apart are equal.
+    /// Judges the values of a formula and its claim. Angles that differ by a multiple of `turn` are equal.
     pub(super) fn of(
         (formula, claim): (&Formula, &Claim),
         turn: Option<f64>,
@@ -144,9 +144,10 @@ impl JudgedFormula {
         let rounding = if found.is_undefined() { 0.0 } else { found.error };
         let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
         let at = FormulaAtInstant { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
-        // If the mechanism is hardly known better, the loss is not due to the formula.
+        // If the mechanism's value is hardly more accurate, the formula is not the cause of the lost digits.
         let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
-        // At the end of a function's domain, like acos at 1, the derivative is not finite though the value is right.
+        // At the end of a function's domain, such as acos at 1, the derivative is not finite although the value is
+        // right.
         let is_end = self.order > 0 && !found.value.is_finite();
         if is_end || has_lost && at.used() <= 1.0 {
             self.lost += 1;
@@ -190,8 +191,8 @@ mod tests {
     use super::*;
     use scenario::{Formulas, of_repository};
 
-    /// Errors of a formula and of the mechanism as shares of the scale.
-    /// A formula decides nothing if it is known much worse than the mechanism, and to less than six digits.
+    /// Errors of a formula and of the mechanism as fractions of the scale.
+    /// A formula decides nothing if it is known to less than six digits and much less accurately than the mechanism.
     #[test]
     fn lost_digits_count_only_if_the_mechanism_has_them() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

@@ -1,7 +1,7 @@
-//! Missing terms and factors: finds from the numbers what must be added at one place of a formula to make it right.
+//! Missing terms and factors: finds from the numbers what one position of a formula lacks.
 //!
-//! At every place the missing summand or factor is calculated instant by instant.
-//! If it is proportional to an expression that the derivation contains, that expression is missing.
+//! At every position the missing summand or factor is calculated instant by instant.
+//! If it is proportional to an expression of the derivation, this expression is what is missing.
 
 mod dictionary;
 mod monomials;
@@ -18,9 +18,9 @@ pub(in crate::check) use monomials::Monomials;
 /// A term or a factor that is missing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missing {
-    /// The formula that lacks it.
+    /// The formula with the missing term or factor.
     pub formula: String,
-    /// The part beside which it is missing; `None` for the whole formula.
+    /// The part next to which the term or factor is missing; `None` for the whole formula.
     pub beside: Option<String>,
     /// The missing expression with its sign: `+ m*g*s*cos(phi)`, `/ cos(beta)^3`.
     pub what: String,
@@ -36,19 +36,20 @@ const ACCURACY: f64 = 1e-9;
 /// Missing amount at one position of the formula, per instant, with its error; `None` if it cannot be determined.
 type Needed = Vec<Option<[f64; 2]>>;
 
-/// Largest expected number of products that match by chance.
-/// A number that is the only evidence must be one that the parameters do not produce anyway.
+/// Upper limit of the expected number of products that match by chance.
+/// If a number is the only evidence, the parameters must be unlikely to produce the same number by chance.
 const CHANCE: f64 = 0.5;
-/// Number of ways to miss a product of several quantities in a formula that is wrong only by a number.
+/// Assumed number of ways in which a product of several quantities may be missing. It is used if the formula is wrong
+/// only by a number.
 const LONG: f64 = 100.0;
 
-/// Returns the missing term or factor that makes the formula right at one place with consistent units.
+/// Returns the missing term or factor that makes the formula right, at one position and with consistent units.
 /// Returns several if the parameters produce the same number in several ways.
 pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing> {
     let dictionary = Dictionary::of(trial);
     let monomials = Monomials::of(&trial.formulas, trial.index, &dictionary.constants, dimensions);
     trial.sheet.count((30 * dictionary.entries.len() * trial.few.len() + monomials.len()) as u64);
-    // Units that are inconsistent as written and become consistent with the missing expression are evidence too.
+    // Units are evidence too if only the missing expression makes them consistent.
     let own = trial.formulas.list[trial.index].tree.clone();
     let units = if dimensions.are_sound(&[(trial.index, own)]) { 1.0 } else { 0.05 };
     let is_weak = trial.is_number || trial.is_constant();
@@ -67,7 +68,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                         if trial.is_spent() {
                             break;
                         }
-                        // A formula that is wrong only by a number lacks no expression that varies.
+                        // If a formula is wrong only by a number, no varying expression is missing.
                         if entry.after > index || trial.is_number && !entry.is_one() {
                             continue;
                         }
@@ -92,8 +93,8 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                             {
                                 continue;
                             }
-                            // An expression missing in the formula itself, made of names that it already has, is
-                            // simpler.
+                            // The simpler explanation is missing in the formula itself and uses only names that the
+                            // formula already contains.
                             let outside = usize::from(index != trial.index) + depth + own.strangers;
                             found.push((weight + 2 * outside, own));
                         }
@@ -106,7 +107,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
     found.dedup_by(|one, other| one.1.changed == other.1.changed);
     let mut right: Vec<(usize, Candidate)> = Vec::new();
     for (weight, own) in found {
-        // Equally simple, and at the same place.
+        // Equally simple, and at the same position.
         let is_equal = right.first().is_none_or(|(least, first)| weight <= least + 1 && own.is_beside(first));
         if is_equal && right.len() < MOST && trial.fits(&own.changed, 0.0) {
             right.push((weight, own));
@@ -118,15 +119,16 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
 /// Largest number of equally good products that are reported.
 const MOST: usize = 3;
 
-/// Entries of a dictionary by the ratio of their values at two instants: entries proportional to an amount are found
-/// without testing all of them.
+/// Entries of a dictionary, sorted by the ratio of their values at two instants.
+/// So entries proportional to an amount are found without testing all of them.
 #[derive(Default)]
 struct Ratios {
     sorted: BTreeMap<[usize; 2], Vec<(f64, usize)>>,
 }
 
 impl Ratios {
-    /// Indices of the entries that may be proportional to the missing amount, in order, and of the entry for constants.
+    /// Indices in ascending order of the entries that may be proportional to the missing amount.
+    /// If fewer than two instants are known, only the index of the constant 1.
     fn alike(&mut self, entries: &[Entry], needed: &Needed) -> Vec<usize> {
         let mut known: Vec<(usize, [f64; 2])> =
             needed.iter().enumerate().filter_map(|(instant, own)| Some((instant, (*own)?))).collect();
@@ -154,10 +156,10 @@ impl Ratios {
     }
 }
 
-/// A possibly missing expression, and the formula with it.
+/// An expression that may be missing, and the formula that includes it.
 struct Candidate {
     changed: Vec<(usize, FormulaTree)>,
-    /// Number of names in it that the formula lacks.
+    /// Number of names in the expression that the formula does not contain.
     strangers: usize,
     missing: Missing,
 }
@@ -168,7 +170,7 @@ impl Candidate {
         of(self) == of(other)
     }
 
-    /// Returns `None` if the formula would need one that comes later.
+    /// Returns `None` if the formula would then use a later formula.
     fn of(trial: &Trial, [index, number]: [usize; 2], operator: Operator, what: &FormulaTree) -> Option<Self> {
         let later = &trial.formulas.list[index..];
         if what.names().iter().any(|(name, _)| later.iter().any(|own| own.name == *name)) {
@@ -189,9 +191,9 @@ impl Candidate {
 }
 
 /// Whether a number alone proves that a product is missing.
-/// The number must have more digits than chance explains among this many products with its unit.
-/// `places` is the number of places at which the product may be missing; it is given if the formula is wrong only by a
-/// number. All these places then fit.
+/// The number must have more digits than chance explains, given the number of products with the same unit.
+/// `places` is the number of positions at which the product may be missing.
+/// It is given if the formula is wrong only by a number, because all these positions then fit.
 fn is_believed(
     monomials: &Monomials,
     dimensions: &Dimensions,
@@ -203,7 +205,7 @@ fn is_believed(
 ) -> bool {
     let dimension = dimensions.of_constant(what);
     let (products, one) = monomials.by_chance(coefficient, ACCURACY, weight, dimension);
-    // The only quantity with the missing unit.
+    // No other quantity has the missing unit.
     if weight <= 2 && products <= 1 && dimension.is_some() {
         return true;
     }
@@ -214,12 +216,13 @@ fn is_believed(
     }
 }
 
-/// Number of places no deeper than `depth`.
+/// Number of positions no deeper than `depth`.
 fn before(places: &[(usize, usize)], depth: usize) -> usize {
     places.partition_point(|(own, _)| *own <= depth)
 }
 
-/// Depths and numbers of all places of a tree at which an expression may be missing, the whole before its parts.
+/// Depth and number of every position of a tree at which an expression may be missing. The whole tree comes before its
+/// parts.
 fn places(tree: &FormulaTree) -> Vec<(usize, usize)> {
     let (mut places, mut number) = (Vec::new(), 0);
     at_every_place(tree, &mut |place, part| {
@@ -247,15 +250,16 @@ fn signed(operator: Operator, what: &FormulaTree) -> String {
         (Operator::Times, NodeShape::Pair(Operator::Over, parts)) if parts[0].shape == one.shape => what.clone(),
         _ => with(operator, one, what.clone()),
     };
-    // Written after another part, with the parentheses needed there.
+    // A text as written after another part, with the necessary parentheses.
     let text = whole.to_string();
     let after = text.trim_start_matches('1').trim_start();
     let (sign, rest) = after.split_at(1);
     format!("{sign} {}", rest.trim_start())
 }
 
-/// Ways to write a number times an entry, each with its complexity: by a product of known quantities; for a constant
-/// factor also by such a product plus or minus one.
+/// Ways to write a number times an entry, each with its complexity.
+/// The number is written as a product of known quantities. A constant factor may also be such a product plus or minus
+/// one.
 fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(FormulaTree, usize)> {
     let one = || FormulaTree::number(1.0);
     let mut factors = match (coefficient.abs() - 1.0).abs() <= ACCURACY {
@@ -269,7 +273,7 @@ fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Ope
     factors.into_iter().map(|(factor, weight)| (product(&factor, &entry.tree), weight + 2 * entry.weight)).collect()
 }
 
-/// A factor times an entry, without factors of one.
+/// The product of a factor and an entry. A factor of one is not written.
 fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
     let is_one = |tree: &FormulaTree| tree.shape == NodeShape::Number(1.0);
     match (&factor.shape, &entry.shape) {
@@ -286,9 +290,9 @@ fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
     }
 }
 
-/// Missing amount at a place at each of the few instants.
-/// The iteration starts afresh at each instant, or from the amount at the neighbouring instant on either side, because
-/// squares have two solutions.
+/// Missing amount at one position of the formula, for each of the few instants.
+/// Squares have two solutions, so the iteration uses three kinds of starting value: a neutral one, or the amount at the
+/// previous or at the next instant.
 fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let depending = trial.sheet.depending(&[place]);
     let neutral = if operator == Operator::Plus { 0.0 } else { 1.0 };
@@ -308,7 +312,7 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let forwards = followed(&mut (0..count));
     let mut backwards = followed(&mut (0..count).rev());
     backwards.reverse();
-    // A result that does not depend on the start is unique.
+    // If the result does not depend on the starting value, it is unique.
     let is_same = |other: &Needed| {
         afresh.iter().zip(other).all(|pair| match pair {
             (Some([one, known]), Some([other, well])) => (one - other).abs() <= known + well,
@@ -319,13 +323,13 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     [vec![afresh], others].concat()
 }
 
-/// Coefficient of an entry, if the missing amount is proportional to it.
+/// Factor by which the missing amount is proportional to an entry. `None` if the amount is not proportional to it.
 fn coefficient(entry: &Entry, needed: &Needed) -> Option<f64> {
     let known = || entry.values.iter().zip(needed).filter_map(|(value, own)| Some((*value, (*own)?)));
     // The instant with the smallest relative error.
     let sharpness = |(value, [_, known]): &(f64, [f64; 2])| (value / known).abs();
     let (sharpest, [amount, sharp]) = known().max_by(|one, other| sharpness(one).total_cmp(&sharpness(other)))?;
-    // A constant needs no more instants than there are.
+    // A constant can be recognised from fewer instants, if the trial has fewer.
     let fewest = if entry.is_one() { FEWEST.min(needed.len()) } else { FEWEST };
     if known().count() < fewest {
         return None;

@@ -1,8 +1,8 @@
-//! Slips: finds the one slip in writing whose correction makes a formula right.
+//! Finds the single slip in writing whose correction makes a formula right.
 //!
-//! Every slip is tried at every place of the formula and of the steps that it uses.
+//! Every slip is tried at every position of the formula and of the steps that the formula uses.
 //! A correction that makes the formula right at every instant explains the error.
-//! Nothing is guessed from the shape of the error.
+//! The shape of the error is not used to guess a slip.
 
 mod edits;
 mod everywhere;
@@ -70,7 +70,7 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
     tried
 }
 
-/// Copies a part down to some levels, with placeholders instead of deeper parts.
+/// Copies a part down to `levels` levels. Placeholders replace the deeper parts.
 fn hollow(part: &FormulaTree, place: usize, sheet: &DerivationSheet, levels: usize) -> FormulaTree {
     if part.parts().is_empty() {
         return part.clone();
@@ -115,8 +115,8 @@ fn filled(tree: &FormulaTree, formula: &FormulaTree, places: &[usize]) -> Formul
     own
 }
 
-/// Returns a formula with one slip of a kind. The corrections of a part also serve as slips for it.
-/// `number` selects one of all places and ways to make the slip, modulo their count.
+/// Returns a formula with one slip of a kind. The slips are the same replacements that serve as corrections.
+/// `number`, modulo the number of possible slips, selects the position and the replacement.
 /// `None` if the slip cannot be made.
 #[must_use]
 pub fn planted(formulas: &Formulas, formula: usize, kind: SlipKind, number: usize) -> Option<FormulaTree> {

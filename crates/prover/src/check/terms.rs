@@ -1,5 +1,5 @@
-//! Terms that a wrong formula lacks as a whole, found by least squares over quantities of the mechanism: sines and
-//! cosines of the links' angles, squares of their speeds, and their accelerations.
+//! Finds terms that a wrong formula lacks, by least squares over quantities of the mechanism.
+//! The quantities are sines and cosines of the links' angles, squares of their speeds, and their accelerations.
 
 mod squares;
 
@@ -20,7 +20,7 @@ pub use squares::Wrong;
 pub struct Term {
     /// Its coefficient, in the unit of the claim.
     pub coefficient: f64,
-    /// The coefficient as a product of parameters, if there is one with a fitting unit.
+    /// The coefficient as a product of parameters, if a product with a suitable unit has this value.
     pub factor: Option<String>,
     /// The quantity that the coefficient multiplies; empty for a constant.
     pub of: String,
@@ -30,9 +30,9 @@ pub struct Term {
 const ACCURACY: f64 = 1e-8;
 /// Complexity of a coefficient that is not a product of parameters.
 const UNKNOWN_NUMBER: usize = 20;
-/// Largest ratio of a term to the difference that it is a part of.
+/// Upper limit of a term / the difference that it explains in part.
 const LARGER: f64 = 3.0;
-/// Error of a channel's values, relative to the largest value of the channel.
+/// Assumed error of a channel's values / the largest value of the channel.
 const KNOWN: f64 = 1e-10;
 
 /// One or two terms that explain the whole difference.
@@ -61,8 +61,8 @@ pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimen
     let mut whole: Option<(usize, Vec<Term>)> = None;
     explanations(&wrong, &bases, |parts| {
         let is_named = |(term, basis): &(Term, &TermBasis)| term.factor.is_some() || basis.unit == "rad";
-        // A term much larger than the difference is not part of it: two such terms cancel each other, or one cancels
-        // the formula.
+        // A term much larger than the difference is not an explanation: two such terms cancel each other, or a term
+        // cancels the formula.
         if parts.iter().any(|part| part.coefficient.abs() * part.basis.largest() > LARGER * largest) {
             return;
         }
@@ -89,7 +89,7 @@ pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimen
     whole.map(|(_, terms)| terms)
 }
 
-/// The channel for which the formula is right, if it is not the claimed one.
+/// The channel that the formula gives, if it is not the claimed channel.
 pub(super) fn is_other(trial: &Trial, claim: &Claim, course: &KnownTrajectory) -> Option<String> {
     let [(_, claimed)] = claim.channels.as_slice() else { return None };
     let rows = course.rows(trial.formula);
@@ -99,7 +99,7 @@ pub(super) fn is_other(trial: &Trial, claim: &Claim, course: &KnownTrajectory) -
     let turn = claim.turn();
     let is_right = |(channel, values): &(&Channel, &[f64])| {
         let largest = rows.iter().fold(0.0, |largest: f64, &row| largest.larger(values[row].abs()));
-        // A channel with another unit is compared in that unit.
+        // A channel with a unit of another kind is compared in its own SI unit.
         let is_alike = channel.kind.unit == claimed.channel.kind.unit;
         let (unit, turn) = if is_alike { (claimed.to_si(1.0), turn) } else { (1.0, None) };
         let fits = |(&row, pair): (&usize, &Pair)| {
@@ -112,7 +112,7 @@ pub(super) fn is_other(trial: &Trial, claim: &Claim, course: &KnownTrajectory) -
     course.columns().find(is_right).map(|(channel, _)| channel.to_string())
 }
 
-/// Fewest instants from which a channel is recognised.
+/// Smallest number of instants from which a channel is recognised.
 const FEWEST: usize = 8;
 
 impl Term {
@@ -122,8 +122,8 @@ impl Term {
     }
 }
 
-/// Explains differences without a formula by a single term, or by two if they leave nothing.
-/// Returns the terms and the remaining share of the largest difference.
+/// Explains differences without a formula by one term, or by two terms if nothing then remains.
+/// Returns the terms and the fraction of the largest difference that remains.
 #[must_use]
 pub fn missing_in_numbers(course: &KnownTrajectory, wrong: &Wrong) -> Option<(Vec<Term>, f64)> {
     let terms = |parts: Vec<WeightedTerm>| parts.iter().map(Term::plain).collect::<Vec<_>>();

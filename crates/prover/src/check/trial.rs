@@ -11,41 +11,42 @@ use scenario::{Claim, Formula, Formulas, INPUTS, Parameter};
 
 /// Number of instants at which every change is tried first, besides the instant with the largest error.
 const FIRST: usize = 9;
-/// Number of earlier steps, and of parameters, that a formula does not use and may have forgotten.
+/// Number of preceding steps that are kept although the formula does not use them, and likewise of parameters.
+/// The author may have omitted them by mistake.
 const BESIDE: usize = 20;
 /// Cost of making a change as a tree and judging it, without its evaluations, in operations.
 const TREE: u64 = 2000;
-/// Cost of adding a formula, or a part of one, to a graph, in operations.
+/// Cost of adding a formula or a part of a formula to a graph, in operations.
 const ADDED: usize = 16;
 /// Cost of changing one part, without its evaluations, in operations.
 const EDIT: u64 = 40;
-/// Largest share of the difference that a change may leave at any instant and still be examined more closely.
+/// If a change leaves more than this fraction of the difference at any instant, it is not examined more closely.
 pub(super) const MOST_LEFT: f64 = 0.1;
 
-/// A formula that a course contradicts, ready for changes to be tried.
+/// A formula that contradicts the mechanism's values, prepared for trying changes.
 pub(super) struct Trial<'a> {
-    /// The formula, and everything that it may use.
+    /// The formula and all formulas that it may use.
     pub(super) formulas: Formulas,
-    /// Its index in that list.
+    /// Index of the formula in `formulas`.
     pub(super) index: usize,
     pub(super) formula: &'a Formula,
     claim: &'a Claim,
-    /// Inputs of the formulas, and values of formula and mechanism, at every instant.
+    /// Input values of the formulas at every instant. `pairs` holds the values of formula and mechanism.
     inputs: Vec<[Rounded; 4]>,
     pub(super) pairs: Vec<Pair>,
     /// Some of the instants. The first and the last alone do not suffice, because many values are zero there.
     pub(super) few: Vec<usize>,
-    /// The derivation at the few instants.
+    /// The derivation, evaluated at the instants of `few`.
     pub(super) sheet: DerivationSheet,
-    /// Correct value of the formula at each of the few instants.
+    /// Correct value of the formula at each instant of `few`.
     pub(super) targets: Vec<FormulaTarget>,
-    /// Indices of the few instants, those with the largest error first.
+    /// Indices into `few`, the instants with the largest error first.
     pub(super) order: Vec<usize>,
-    /// The largest difference at the few instants, or the largest value of the mechanism if that is less.
+    /// The largest difference at the instants of `few`. It is at most the largest value of the mechanism there.
     before: f64,
     /// Whether a factor or an offset makes the formula right.
     pub(super) is_number: bool,
-    /// Largest number of operations that the search may use.
+    /// Limit of operations for the search.
     limit: u64,
 }
 
@@ -64,7 +65,8 @@ impl<'a> Trial<'a> {
         let formula = &formulas.list[index];
         let rows = course.rows(formula);
         let mut pairs = judge::pairs(formulas, (formula, claim), course, &rows)?;
-        // Nothing can be tried where the claim has no number, such as a value reduced to a crank at rest.
+        // Nothing can be tried at instants at which the claimed quantity is undefined, such as a value reduced to a
+        // crank at rest.
         let has_number = |pair: &Pair| pair.mechanism.value.is_finite() && pair.mechanism.error.is_finite();
         let kept = rows.iter().zip(&pairs).filter(|(_, pair)| has_number(pair));
         let inputs: Vec<[Rounded; 4]> = kept.map(|(&row, _)| course.inputs(row)).collect();
@@ -120,7 +122,7 @@ impl<'a> Trial<'a> {
         Ok(own)
     }
 
-    /// Whether the search has used all the work that it may.
+    /// Whether the search has reached its work limit.
     pub(super) fn is_spent(&self) -> bool {
         self.sheet.operations() >= self.limit
     }
@@ -135,7 +137,7 @@ impl<'a> Trial<'a> {
         is_one(self.pairs.iter().map(|pair| pair.formula))
     }
 
-    /// Formula minus mechanism; for angles without whole turns.
+    /// Formula minus mechanism; for angles, without whole revolutions.
     pub(super) fn difference(&self, formula: f64, place: usize) -> f64 {
         let difference = formula - self.pairs[place].mechanism.value;
         self.claim.turn().map_or(difference, |turn| difference - turn * (difference / turn).round())
@@ -152,9 +154,9 @@ impl<'a> Trial<'a> {
         self.inputs[place]
     }
 
-    /// Whether a change at some places of the sheet makes the formula right at the few instants, or leaves little of
-    /// the difference there.
-    /// `depending` lists the places that depend on the changed ones.
+    /// Whether a change of the sheet is worth examining at all instants.
+    /// At each instant of `few` it must make the formula right or leave only little of the difference.
+    /// `depending` lists the positions that depend on the changed positions.
     pub(super) fn is_promising(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize]) -> bool {
         let claimed = self.formula.error.unwrap_or(0.0);
         self.sheet.count(EDIT);
@@ -167,15 +169,16 @@ impl<'a> Trial<'a> {
         })
     }
 
-    /// Whether the formula is right at every instant with these trees in place of those of the file. `slack` is added
-    /// to its bound.
+    /// Whether the formula is right at every instant if the trees `changed` replace those of the file.
+    /// `slack` is added to the bound.
     pub(super) fn fits(&mut self, changed: &[(usize, FormulaTree)], slack: f64) -> bool {
         self.left(changed, slack) == Some(0.0)
     }
 
-    /// Share of the difference that such a change leaves.
-    /// It is zero if the formula is right at every instant. Otherwise it is the largest difference left at some of
-    /// them, over the largest difference before.
+    /// Fraction of the difference that such a change leaves.
+    /// It is zero if the formula is right at every instant.
+    /// Otherwise it is the largest remaining difference at the instants of `few`, divided by the largest difference
+    /// before.
     /// `None` if the changed formula has no value.
     pub(super) fn left(&mut self, changed: &[(usize, FormulaTree)], slack: f64) -> Option<f64> {
         let Trial { formulas, index, formula, claim, inputs, pairs, few, .. } = self;
@@ -191,7 +194,7 @@ impl<'a> Trial<'a> {
             JudgedFormula::of((formula, claim), claim.turn(), pairs.into_iter())
         };
         let first = judged(&mut few.iter().copied());
-        // Where digits cancel, the few instants alone decide nothing.
+        // If digits cancel, the few instants alone do not suffice to decide.
         let is_right = first.since.is_none() && judged(&mut (0..inputs.len())).outcome() == FormulaOutcome::Right;
         let rows = if first.since.is_none() { inputs.len() } else { few.len() };
         let work = (program.len() * (rows + ADDED) + after * ADDED) as u64 + TREE;

@@ -1,4 +1,4 @@
-//! Where a formula has no value.
+//! Finds the instants at which a formula has no value, and the operation that causes it.
 
 use crate::sentences;
 use std::fmt;
@@ -13,15 +13,16 @@ use scenario::Formulas;
 /// An operation outside its domain, at the first instant at which a formula has no value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Undefined {
-    /// Name of the formula that contains the operation: the requested one, or one that it uses.
+    /// Name of the formula that contains the operation: the requested formula, or a formula that it uses.
     pub formula: String,
-    /// The operation with its arguments, its position in the formula's text (bytes), and what would be in its domain.
+    /// The operation with its arguments, its position in the formula's text (bytes), and the domain that it requires.
     pub fault: FormulaFault,
     /// The operation as it is written.
     pub written: String,
     /// The crank angle (rad).
     pub crank: f64,
-    /// Whether the formula has a value somewhere and is right wherever it has one: nothing else is then wrong.
+    /// Whether the formula is right wherever it has a value, and has a value somewhere.
+    /// The undefined operation is then the only fault.
     pub is_all: bool,
 }
 

@@ -1,4 +1,5 @@
-//! Two tables side by side: rows of the same instants, or the first table interpolated at the instants of the second.
+//! Brings two tables to the same instants: selects common rows, or interpolates the first table at the instants of the
+//! second.
 
 use crate::sentences;
 use std::f64::consts::TAU;
@@ -14,7 +15,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use scenario::Claim;
 
-/// Share of the distance of two rows within which an instant counts as one of them.
+/// An instant counts as equal to that of a row if it differs by at most this fraction of the distance of rows.
 const SAME: f64 = 1e-6;
 
 /// Compares two parties at the instants of the second.
@@ -76,8 +77,8 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
     Ok(pair)
 }
 
-/// Uncertainty of a column of the first party at the rows of the second, from the limited digits of both parties'
-/// instants.
+/// Uncertainty of a column of the first party at the rows of the second.
+/// It is due to the limited digits of both parties' instants.
 fn drift(from: &RowKey, to: &RowKey, places: &[Place]) -> impl Fn(&[Rounded], Option<f64>) -> Vec<f64> + use<> {
     let widest = from.values.iter().map(|at| at.error).fold(0.0, f64::larger);
     let of = |(place, own): (&Place, &Rounded)| match place {
@@ -90,13 +91,13 @@ fn drift(from: &RowKey, to: &RowKey, places: &[Place]) -> impl Fn(&[Rounded], Op
     move |values, turn| columns::drift(values, &at, &slack, &order, turn)
 }
 
-/// Where an instant of the second party lies among the rows of the first.
+/// Location of an instant of the second party among the rows of the first.
 enum Place {
     /// At a row.
     At(usize),
     /// Between two rows, to be interpolated.
     Between(f64),
-    /// Between two rows without interpolation, or beyond all rows.
+    /// Between two rows if interpolation is not allowed, or outside all rows.
     Nowhere,
 }
 
@@ -125,7 +126,7 @@ fn places(from: &RowKey, to: &RowKey, how: &ComparisonRule) -> Vec<Place> {
     to.values.iter().map(of).collect()
 }
 
-/// The numbers of a claim at some places among the rows at `from`.
+/// The numbers of a claim at some locations among the rows `from`.
 fn at_places(values: &[Rounded], from: &RowKey, places: &[Place], turn: Option<f64>) -> Vec<Rounded> {
     let order = from.ascending();
     let at: Vec<f64> = order.iter().map(|&row| from.values[row].value).collect();

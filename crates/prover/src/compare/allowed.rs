@@ -1,4 +1,4 @@
-//! What is compared, and which differences are allowed besides the known errors.
+//! Selects what is compared, and the differences that are allowed besides the known errors.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,7 +14,7 @@ use columns::Allowance;
 /// How two parties are compared.
 #[derive(Clone, Debug, Default)]
 pub struct ComparisonRule {
-    /// Allowed differences. If there are several for one channel, the last counts.
+    /// Allowed differences. If a channel has several, the last one counts.
     pub allowed: Vec<Allowed>,
     /// Quantity by which rows are matched; `None` for times if both parties have times.
     pub by: Option<By>,
@@ -22,7 +22,7 @@ pub struct ComparisonRule {
     pub interpolates: bool,
     /// The side of a recording to compare; `None` for all.
     pub side: Option<String>,
-    /// Words for the channels to compare; empty for all.
+    /// Words that select the channels to compare; empty for all channels.
     pub only: Vec<String>,
     /// Memory allowed (bytes); `None` for the limit of a proof.
     pub memory: Option<f64>,
@@ -44,8 +44,8 @@ impl ComparisonRule {
         Words::of(own.filter_map(|(index, allowed)| Some((index, allowed.of.as_deref()?))))
     }
 
-    /// Allowed difference of the crank angle (rad) with this scale: from allowances for all channels and for the word
-    /// `crank`. Absolute sizes are in degrees.
+    /// Allowed difference of the crank angle (rad) with this scale.
+    /// It follows from allowances for all channels and for the word `crank`. Absolute sizes are in degrees.
     #[must_use]
     pub fn allows_crank(&self, scale: f64) -> Option<Allowance> {
         let own = self.allowed.iter().filter(|own| own.of.as_deref().is_none_or(|word| word == CRANK));
@@ -101,9 +101,10 @@ impl Words {
         Words(own)
     }
 
-    /// Indices of the words that match a claim: its text, its channel in any unit, the channel's subject, its stage, or
-    /// both.
-    /// A word matches an expression of channels if it matches all of them.
+    /// Indices of the words that match a claim.
+    /// A word matches the text of a claim, the name of its channel in any unit, the channel's subject, its stage, or
+    /// subject and stage.
+    /// A word matches an expression of channels if it matches all these channels.
     fn meaning(&self, claim: &Claim) -> impl Iterator<Item = usize> + use<'_> {
         let mut channels = claim.channels.iter().map(|(_, own)| called(own));
         let first = channels.next().unwrap_or_default();
@@ -113,7 +114,7 @@ impl Words {
     }
 }
 
-/// A word. If it is a channel, its name in SI units.
+/// The word itself. If it names a channel, the channel's name in SI units.
 fn in_si(word: &str) -> String {
     PrintedChannel::named(word).map_or_else(|| word.into(), |own| own.channel.to_string())
 }
@@ -125,16 +126,16 @@ fn called(own: &PrintedChannel) -> BTreeSet<String> {
     [format!("{subject}.{stage}"), subject, stage.into(), name].into()
 }
 
-/// Allowed differences of channels, found by their names.
+/// Allowed differences, found by the names of channels.
 pub struct Allowances<'a> {
     allowed: &'a [Allowed],
-    /// The last allowance for all channels, by kind.
+    /// For each kind of allowance, the index of the last one for all channels.
     all: [Option<usize>; 3],
     words: Words,
 }
 
 impl Allowances<'_> {
-    /// Allowed difference of a channel with this scale, in its unit; `None` if there is no allowance for it.
+    /// Allowed difference of a channel with this scale, in the channel's unit; `None` if it has no allowance.
     #[must_use]
     pub fn of(&self, claim: &Claim, scale: f64) -> Option<Allowance> {
         let own: BTreeSet<usize> = self.words.meaning(claim).chain(self.all.into_iter().flatten()).collect();
@@ -167,7 +168,7 @@ mod tests {
         ComparisonRule { allowed: allowed.iter().map(of).collect(), ..ComparisonRule::default() }
     }
 
-    /// The channel has a scale of 4. Of several allowances for one channel, the last of each kind counts.
+    /// The channel has a scale of 4. If a channel has several allowances, the last one of each kind counts.
     #[test]
     fn the_larger_of_absolute_and_relative_allowances_counts() {
         let channel = Channel::named("point.B.x_m").unwrap();
@@ -187,15 +188,16 @@ mod tests {
         ] {
             assert_eq!(how(&said).allowances().of(&claim, 4.0), allowed, "{said:?}");
         }
-        // The crank accepts an allowance in degrees or as a share of its range, but not one for another channel.
+        // The crank accepts an allowance in degrees or as a fraction of its range. It ignores an allowance for another
+        // channel.
         let crank = |said: &[(Option<&str>, Size)]| how(said).allows_crank(4.0).map(|own| own.fixed);
         assert_eq!(crank(&[(Some("crank"), absolute(180.0))]), Some(std::f64::consts::PI));
         assert_eq!(crank(&[(None, relative(0.5))]), Some(2.0));
         assert_eq!(crank(&[(Some("point.B"), absolute(1.0))]), None);
     }
 
-    /// A word matches an expression of channels by its text, or if it matches all its channels. A word without a match
-    /// is named.
+    /// A word matches an expression of channels if it is the expression's text or matches all its channels.
+    /// A word without a match is reported by name.
     #[test]
     fn a_word_selects_claims_whose_channels_all_match() {
         let channels = ["point.B.x_m", "point.B.y_m"].map(|name| Channel::named(name).unwrap());

@@ -1,4 +1,4 @@
-//! A scenario beside another party: solved at its instants.
+//! A scenario compared with another party: it is solved at the instants of that party.
 
 use crate::sentences;
 use std::collections::BTreeSet;
@@ -18,7 +18,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Channel;
 use scenario::{Claim, Scenario, within};
 
-/// Values of all channels of a scenario at its own instants.
+/// Values of all channels of a scenario, at the scenario's own instants.
 pub(super) fn held(scenario: &Scenario) -> Result<Held> {
     let channel = |channel: &Channel| Claim::of_channels(&channel.to_string(), std::slice::from_ref(channel)).ok();
     let claims: Vec<Claim> = scenario.case.channels().iter().filter_map(channel).collect();
@@ -79,7 +79,7 @@ pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &Compa
     Ok(pair)
 }
 
-/// The requested claims of a party for channels of the scenario, and the names of its other channels.
+/// The requested claims that a party makes for channels of the scenario, and the names of the party's other channels.
 fn claims(scenario: &Scenario, held: &Held, how: &ComparisonRule) -> Result<(Vec<Claim>, Vec<String>)> {
     let (mut claims, mut alone) = (Vec::new(), Vec::new());
     let asked = how.asked();
@@ -102,13 +102,13 @@ fn claims(scenario: &Scenario, held: &Held, how: &ComparisonRule) -> Result<(Vec
     Ok((claims, alone))
 }
 
-/// The grid of some instants, each once, and the grid index of every row.
+/// Builds a grid in which each instant of the rows occurs once. Also returns the grid index of every row.
 fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
     let mut rows = vec![0; at.values.len()];
     let mut all: Vec<f64> = Vec::with_capacity(rows.len());
     for row in at.ascending() {
         let Rounded { value, error } = at.values[row];
-        // A rounded instant may lie a little beyond the motion.
+        // Rounding may put an instant slightly outside the motion.
         let within = if at.is_crank { value } else { within(scenario.case.crank(), value) };
         let value = if (within - value).abs() <= error { within } else { value };
         if all.last() != Some(&value) {
@@ -128,7 +128,7 @@ fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
     Ok((grid, rows))
 }
 
-/// Adds the errors of the values found now to recorded values of an analytic side.
+/// Adds errors to recorded values of an analytic side. They are the errors of the values found now.
 fn as_well_known(mut held: Held, own: &Held) -> Held {
     for column in &mut held.columns {
         let Some(found) = own.values_of(&column.claim) else { continue };

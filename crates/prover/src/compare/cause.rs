@@ -22,41 +22,41 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::Scenario;
 
-/// A cause, and the difference that remains after it.
+/// A cause, and the difference that it leaves.
 #[derive(Clone, Debug)]
 pub struct Explained {
-    /// Texts of the channels concerned: the explained ones, or all examined ones if there is no cause.
+    /// Names of the channels: the explained ones, or all examined channels if no cause was found.
     pub of: Vec<String>,
     /// What was found.
     pub diagnosis: Diagnosis,
     /// Missing terms, if they are the cause.
     pub terms: Vec<Term>,
-    /// Largest remaining share of the largest difference; zero if the cause explains the channels within their bounds.
+    /// Remaining fraction of the largest difference; zero if the cause explains the channels within their bounds.
     pub left: f64,
-    /// Time (s) of a single further wrong row that no cause explains.
+    /// Time (s) of one additional wrong row that the cause does not explain.
     pub but: Option<f64>,
 }
 
-/// Shares of the largest difference that a cause may leave unexplained.
-/// At first nothing beyond the bounds may remain, then little, such as the additional error of a simulation.
+/// Fractions of the largest difference that a cause may leave, tried in this order.
+/// At first nothing beyond the bounds may remain. Later a little may remain, such as the error of a simulation.
 const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
 
-/// Largest number of slightly wrong channels for which terms are tried.
+/// Limit of channels with small differences for which missing terms are sought.
 const TRIED: usize = 12;
 
 /// Number of instants at which terms are tried first.
 const FEW: usize = 24;
 
-/// Largest number of instants at which causes are sought, besides the most telling ones.
+/// Limit of instants at which causes are sought, besides the instants with the largest differences.
 const MOST: usize = 2000;
 
-/// Share of a channel's scale above which a difference is a mistake, not the error of a method.
+/// If a difference exceeds this fraction of a channel's scale, it is a mistake and not the error of a method.
 pub const GROSS: f64 = 0.02;
 
 /// Finds causes for the channels that disagree between a scenario (the party `which`) and the other party.
-/// Causes that explain channels within their bounds come first: for all channels together, then for the rest. A single
-/// further wrong row does not hide a cause.
-/// Grossly wrong channels are then examined together and one by one, for causes that leave little.
+/// The first causes sought explain channels within their bounds: all channels together, then the rest.
+/// A cause is found even if one additional row is wrong.
+/// Then channels with gross errors are examined for causes that leave a small remainder, together and one by one.
 /// A small difference without a common cause is the error of a method.
 pub(super) fn explained(
     scenario: &Scenario,
@@ -82,7 +82,7 @@ pub(super) fn explained(
     }
     let (mut open, mut little): (Vec<&Compared>, Vec<&Compared>) = open.into_iter().partition(|own| own.is_gross());
     while !open.is_empty() {
-        // First all channels together. If that explains none, one by one.
+        // All channels are examined together first. If no cause explains them, they are examined one by one.
         let together = || LEFT[1..].iter().find_map(|&left| stage.examined(&open, left));
         let alone = || open.iter().find_map(|one| LEFT.iter().find_map(|&left| stage.examined(&[*one], left)));
         let next = together().or_else(|| if open.len() > 1 { alone() } else { None });
@@ -105,7 +105,7 @@ pub(super) fn explained(
 }
 
 impl Compared {
-    /// Whether it is a channel with numbers on both sides.
+    /// Whether it is a single channel with numbers from both parties.
     fn is_plain(&self) -> bool {
         matches!(self.claim.tree.shape, NodeShape::Name(_)) && self.largest.is_some()
     }
@@ -117,23 +117,23 @@ impl Compared {
     }
 }
 
-/// Whether a cause may be named although a difference remains.
-/// A fitted number could then mean anything.
+/// Whether a cause may be named although a difference remains. Three kinds of causes may not:
+/// With a remainder, a fitted number has no clear meaning.
 /// Numerical derivatives resemble values that are late by half a row.
-/// At constant speed a rotated drive equals late rows.
+/// At constant speed, a rotated drive resembles late rows.
 fn may_leave(cause: &DisagreementCause) -> bool {
     match cause {
         DisagreementCause::Case(Change { part, how: PartChange::Instead { .. } }) => {
             matches!(part, CasePart::StartAngle(_))
         }
-        // A diverging simulation ends in rows that make all others look small.
+        // A diverging simulation ends in rows with errors so large that all other errors look small.
         DisagreementCause::Values { slip: DataSlip::Differences { .. } | DataSlip::Outlier(_), .. } => false,
         DisagreementCause::Case(_) | DisagreementCause::Values { .. } => true,
     }
 }
 
-/// Adds whole turns to angles, because many programs print angles without them.
-/// A right angle is then near the reference. A wrong angle that is wrapped continues without jumps.
+/// Adds whole revolutions to angles, because many programs print angles without them.
+/// An angle that is right then lies near the reference. A wrapped angle that is wrong continues without jumps.
 fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
     let is_wrapped = |own: &[f64]| half_range(own) <= PI * (1.0 + 1e-9);
     if !is_right && !is_wrapped(values) {
@@ -144,7 +144,7 @@ fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
     for (value, right) in values.iter_mut().zip(right) {
         let gap = *value - right;
         let near = if is_right { 0.0 } else { before.unwrap_or(gap) };
-        // The first row sets the turn from which a wrong angle counts.
+        // The first row sets the revolution from which a wrong angle is counted.
         if is_right || before.is_some() {
             turns = -((gap - near) / TAU).round();
         }
@@ -153,11 +153,10 @@ fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
     }
 }
 
-/// Fewest instants for leaving one of them out.
+/// Smallest number of instants from which one of them may be left out.
 const FEWEST: usize = 8;
 
-/// Number of rows from which a single wrong row is not searched for: the search would cost several times as much as the
-/// rest.
+/// From this number of rows, a single wrong row is not sought. The search would take several times as long as the rest.
 const MOST_ROWS: usize = 20_000;
 
 /// Data for the examination: the rows at which all channels have numbers.
@@ -218,7 +217,7 @@ impl Stage {
         Ok(Some(Stage { case, right, found, bounds }))
     }
 
-    /// A cause that explains some of the channels, up to the remaining share `left`.
+    /// A cause that explains some of the channels except for a remaining fraction of at most `left`.
     fn examined(&self, of: &[&Compared], left: f64) -> Option<Explained> {
         let mut diagnosis = self.diagnosis(of, left)?;
         let causes = diagnosis.cause.take().into_iter().chain(std::mem::take(&mut diagnosis.also));
@@ -230,7 +229,8 @@ impl Stage {
         (!explained.is_empty()).then_some(Explained { of: explained, diagnosis, terms: Vec::new(), left, but: None })
     }
 
-    /// A cause that explains all of the channels except a single row: the first, the last, or the row that stands out.
+    /// A cause that explains all of the channels except in a single row.
+    /// This row is the first, the last, or the one with a difference far from those of its neighbours.
     fn examined_but_one(&self, of: &[&Compared], left: f64) -> Option<Explained> {
         let count = self.right.times().len();
         if !(FEWEST..MOST_ROWS).contains(&count) || of.is_empty() {
@@ -258,7 +258,7 @@ impl Stage {
         (1..self.right.times().len() - 1).max_by(|&a, &b| bend(a).total_cmp(&bend(b)))
     }
 
-    /// The same data without a row.
+    /// The same data with one row removed.
     fn without(&self, row: usize) -> Option<Stage> {
         let keep: Vec<bool> = (0..self.right.times().len()).map(|own| own != row).collect();
         let [right, found] = [&self.right, &self.found].map(|own| own.at_rows(&keep));
@@ -272,7 +272,7 @@ impl Stage {
         Some(Stage { case, right, found, bounds })
     }
 
-    /// What can be said without a simple cause: the start and the kind of the error.
+    /// Start and kind of the error, if no simple cause is known.
     fn unexplained(&self, of: &[&Compared]) -> Option<Explained> {
         let mut diagnosis = self.diagnosis(of, 0.0)?;
         diagnosis.cause = None;
@@ -302,7 +302,7 @@ impl Stage {
             few: &few,
         };
         let (terms, left) = missing_in_numbers(&KnownTrajectory::new(&self.case, &self.right, &|_, _| 0.0), &wrong)?;
-        // Some term resembles any smooth difference. Terms in the time or the crank angle alone are not terms of a
+        // Some term resembles any smooth difference. A term in time or in the crank angle alone is not a term of a
         // mechanism.
         let drifts = terms.iter().any(|term| term.of == "t" || term.of == "phi");
         (left == 0.0 && !drifts).then_some(())?;
@@ -315,7 +315,7 @@ impl Stage {
         Some(&self.bounds[place].0)
     }
 
-    /// The diagnosis of some channels. Their bounds are widened by the share `left`.
+    /// The diagnosis of some channels. The fraction `left` of the difference is added to their bounds.
     fn diagnosis(&self, of: &[&Compared], left: f64) -> Option<Diagnosis> {
         let judged: Vec<SuspectChannel> = self
             .found
@@ -355,7 +355,7 @@ impl Stage {
 mod tests {
     use super::*;
 
-    /// Angles within half a turn of zero, as many programs print them.
+    /// Angles within half a revolution of zero, as many programs print them.
     fn wrapped(values: &[f64]) -> Vec<f64> {
         values.iter().map(|value| value - TAU * (value / TAU).round()).collect()
     }
@@ -369,7 +369,7 @@ mod tests {
             unwrap(&mut values, &right, is_right);
             assert!(values.iter().zip(meant).all(|(a, b)| (a - b).abs() < 1e-12), "{is_right}: {values:?}");
         }
-        // Unwrapped angles stay, unless they are right except for whole turns.
+        // Unwrapped angles do not change, unless they are right except for whole revolutions.
         for (is_right, turns) in [(false, 2.0), (true, 0.0)] {
             let mut values: Vec<f64> = right.iter().map(|angle| angle + 2.0 * TAU).collect();
             unwrap(&mut values, &right, is_right);

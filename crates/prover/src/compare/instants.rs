@@ -1,4 +1,4 @@
-//! Uncertainty from rounded instants, where the other party is a scenario that can be solved.
+//! Uncertainty due to rounded instants, if the other party is a scenario that can be solved.
 
 use crate::check::KnownTrajectory;
 use crate::run::shifted::{Along, grow, is_exact, shifted};
@@ -12,7 +12,7 @@ use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
 use scenario::Claim;
 
-/// Uncertainty of numbers due to the rounding of their instants, row by row; empty if there is none.
+/// Uncertainty of numbers due to the rounding of their instants, row by row; empty if the instants are exact.
 #[derive(Default)]
 pub(super) struct Drift {
     /// By claim, in the claim's unit.
@@ -22,7 +22,7 @@ pub(super) struct Drift {
 }
 
 /// The largest change of every claim within the rounding of the instants: see [`shifted`].
-/// If the scenario cannot be solved there, the course from row to row is used.
+/// If the scenario cannot be solved within this rounding, the change is estimated from neighbouring rows.
 pub(super) fn drift(solved: &Solved, columns: &[PartyColumn], at: &RowKey, rows: &[usize]) -> Drift {
     let trajectory = solved.trajectory();
     let mut slack = vec![0.0; trajectory.times().len()];

@@ -4,21 +4,21 @@ use columns::MISSING;
 use formula::Rounded;
 use linkage::math::KeepNan;
 
-/// Number of rows that a cubic needs, and one more to estimate its error.
+/// Number of rows needed to interpolate: four for a cubic, and one more to estimate its error.
 const FEWEST: usize = 5;
-/// Safety factor on the fourth divided difference between rows, relative to that of any window of five rows close by.
+/// Upper limit of the fourth divided difference between rows / the largest one of nearby windows of five rows.
 const SAFETY: f64 = 2.0;
 
 /// A column in ascending order of its instants.
 pub(super) struct Course {
     at: Vec<f64>,
     values: Vec<Rounded>,
-    /// Size of the fourth divided difference of every five rows.
+    /// Absolute fourth divided difference of every five successive rows.
     fourth: Vec<f64>,
 }
 
 impl Course {
-    /// A column by its instants and values, in ascending order of the instants.
+    /// Creates a column from its instants and values, sorted by instants.
     /// Rows without a number are left out. Angles with this `turn` may jump by it.
     pub(super) fn new(at: &[f64], values: &[Rounded], turn: Option<f64>) -> Self {
         let rows: Vec<(f64, Rounded)> =
@@ -38,9 +38,9 @@ impl Course {
         Course { at, values, fourth }
     }
 
-    /// The value at an instant, from the cubic through the four rows around it.
+    /// The value at an instant, interpolated by the cubic through the four rows around it.
     /// Its error is the error of the rows plus the first neglected term.
-    /// NaN beyond the rows, or if there are too few.
+    /// NaN outside the rows, or if the rows are too few.
     pub(super) fn value(&self, wanted: f64) -> Rounded {
         let next = self.at.partition_point(|&at| at < wanted);
         if next == 0 || next == self.at.len() || self.at.len() < FEWEST {

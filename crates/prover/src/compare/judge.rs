@@ -23,9 +23,9 @@ pub use columns::RowPair;
 pub struct Compared {
     /// The channel in its unit.
     pub claim: Claim,
-    /// Scale, in the claim's unit: half the range over the whole run of the scenario, at least a thousandth of the
-    /// natural size of the quantity.
-    /// It does not depend on what else is compared.
+    /// Scale, in the claim's unit: half the range over the whole run of the scenario.
+    /// It is at least a thousandth of the natural size of the quantity.
+    /// It does not depend on which other channels are compared.
     pub scale: f64,
     /// Result of comparing the numbers of both, in the claim's unit.
     pub found: JudgedColumns,
@@ -44,7 +44,7 @@ impl Deref for Compared {
 }
 
 impl Compared {
-    /// Whether it disagrees because an expected number is missing.
+    /// Whether the channel disagrees because an expected number is missing.
     #[must_use]
     pub fn has_no_number(&self) -> bool {
         has_no_number(&self.found)
@@ -79,13 +79,13 @@ pub(super) struct Both<'a> {
     pub at: &'a RowKey,
     /// Times and crank angles of the rows, as far as they are known.
     pub instants: [Vec<f64>; 2],
-    /// Uncertainty due to the digits of the instants, by claim and row; an empty column if there is none.
+    /// Uncertainty due to the digits of the instants, by claim and row; an empty column if the instants are exact.
     pub drift: Vec<Vec<f64>>,
     pub how: &'a ComparisonRule,
 }
 
 impl Both<'_> {
-    /// All claims that both parties have.
+    /// Judges all claims that both parties have.
     pub(super) fn judged(&self, claims: &[Claim]) -> Vec<Compared> {
         let [one, other] = self.parties;
         let allowances = self.how.allowances();
@@ -96,7 +96,7 @@ impl Both<'_> {
         claims.iter().enumerate().filter_map(of).collect()
     }
 
-    /// The party that sets the scale.
+    /// The party whose values determine the scale.
     pub(super) fn measure(&self) -> ScaleColumn {
         ScaleColumn::among(self.parties.map(|party| party.is_analytic))
     }
@@ -105,9 +105,10 @@ impl Both<'_> {
         self.instants.each_ref().map(Vec::as_slice)
     }
 
-    /// The scale of a channel, from a complete trajectory if there is one. It does not depend on what else is compared.
-    /// For tables and expressions of channels, the scale comes from the numbers alone: half their range, and at least a
-    /// tenth of the largest value (for a coordinate a thousandth).
+    /// The scale of a channel. It does not depend on which other channels are compared.
+    /// It comes from a complete trajectory if a party has one.
+    /// For tables and expressions of channels the scale comes from the numbers alone. It is half their range, and at
+    /// least a tenth of the largest value (for a coordinate a thousandth).
     fn scale(&self, claim: &Claim, values: &[Rounded]) -> f64 {
         let measure = self.measure().party;
         let complete = [measure, 1 - measure].into_iter().find_map(|party| self.parties[party].scale_of(claim));
@@ -116,7 +117,7 @@ impl Both<'_> {
             let is_coordinate = matches!(claim.tree.shape, NodeShape::Name(_))
                 && matches!(claim.channels[0].1.channel.kind.unit, Unit::Radian | Unit::Metre);
             let share = match (numbers.len(), is_coordinate) {
-                // One instant has no range.
+                // A single instant has no range.
                 (1, _) => 1.0,
                 (_, true) => 1e-3,
                 (_, false) => 0.1,
@@ -156,7 +157,7 @@ impl Both<'_> {
                 sentences::SAY_WHAT_DIFFERENCE_IS_ALLOWED,
             ),
             Some(since) => Verdict::Disagree { place: place(&since) },
-            // Numbers that agree this closely are proof, whatever the uncertainty from their digits.
+            // Numbers that agree this closely prove agreement, however large the uncertainty due to their digits.
             None if is_derived && own.widest > TELLING * scale && largest > TELLING * scale => open(
                 sentences::the_numbers_are_known_to_of_their(&format_args!("{:.1e}", own.widest / scale)),
                 sentences::GIVE_MORE_DIGITS_OR_CLOSER,
@@ -166,7 +167,7 @@ impl Both<'_> {
     }
 }
 
-/// The instant, and the numbers there.
+/// The instant, and the numbers at this instant.
 pub(super) fn place(at: &RowPair) -> String {
     let RowPair { time, crank, values: [one, other], .. } = at;
     let when = match (time.is_nan(), crank.is_nan()) {

@@ -27,20 +27,20 @@ pub struct SidePair {
     pub names: [String; 2],
     /// Channel by channel, in the order of the second party.
     pub channels: Vec<Compared>,
-    /// Checks of the analytic sides on each other if a scenario was solved, and of the crank angle if both parties have
-    /// it.
+    /// Checks of the analytic sides against each other if a scenario was solved, and of the crank angle if both parties
+    /// have it.
     pub checks: Vec<Check>,
-    /// Number of instants of the party that sets them.
+    /// Number of instants at which the comparison takes place.
     pub instants: usize,
     /// Number of these instants that the other party does not have.
     pub unshared: usize,
     /// Channels that only one of the two has.
     pub alone: [Vec<String>; 2],
-    /// The first row whose instant goes backwards, with its instant and the one before: see
+    /// The first row at which time or crank angle goes backwards: its number, its instant and the previous one. See
     /// [`At::turns_back`](crate::tables::RowKey::turns_back).
     pub turns_back: Option<(usize, [f64; 2])>,
-    /// Two rows at the same instant that contradict each other, from the party that sets the instants. No cause is then
-    /// sought.
+    /// Two rows of one instant that contradict each other, in the party that sets the instants.
+    /// If such rows exist, no cause is sought.
     pub contradiction: Option<Contradiction>,
     /// Whether the instants are crank angles.
     pub by_crank: bool,
@@ -61,7 +61,7 @@ impl SidePair {
         }
     }
 
-    /// Number of values compared, and their number if none were missing.
+    /// Number of values compared, and the number that would have been compared if no value were missing.
     #[must_use]
     pub fn values(&self) -> [usize; 2] {
         let judged = self.channels.iter().map(|own| own.judged).sum();
@@ -90,8 +90,8 @@ impl SidePair {
     }
 }
 
-/// Two rows of a table at one instant that contradict each other.
-/// The table holds two runs one after the other, or its time stands still.
+/// Two rows of a table for the same instant that contradict each other.
+/// The cause may be two runs in one table, or a time that does not advance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contradiction {
     /// Their numbers, from 0.
@@ -104,8 +104,8 @@ pub struct Contradiction {
     pub values: [f64; 2],
 }
 
-/// The first two rows of a party at one instant with a larger difference than their digits and those of the instant
-/// allow.
+/// The first two rows of a party for the same instant whose difference exceeds the rounding of their digits and of the
+/// instant.
 fn contradiction(both: &Both, party: Which, claims: &[Claim]) -> Option<Contradiction> {
     let at = both.at;
     let order = at.ascending();
@@ -132,8 +132,8 @@ fn contradiction(both: &Both, party: Which, claims: &[Claim]) -> Option<Contradi
 const CRANK: &str = "crank angle";
 
 /// Compares the crank angles (rad, as the scenario states them) of both parties at the same rows.
-/// The rows are matched by times; the crank angles come in addition.
-/// `None` if nobody requests the check, or no row has both angles.
+/// The rows have been matched by times, so the crank angles are an additional check.
+/// `None` if the check is not requested, or if the parties have no row with both angles.
 /// `drift` is the uncertainty due to the digits of the times.
 pub(super) fn crank_check(both: &Both, cranks: [&[Rounded]; 2], drift: &[f64]) -> Option<Check> {
     let measure = both.measure();

@@ -1,4 +1,4 @@
-//! Scales for the differences in channels.
+//! Scales by which the differences in channels are judged.
 
 use std::collections::BTreeMap;
 
@@ -20,8 +20,8 @@ const MOST: usize = 20_000;
 pub(super) struct Scales(BTreeMap<String, (f64, f64)>);
 
 impl Scales {
-    /// Scales of a scenario over its run. If it has no run or cannot be solved there: over `grid`, the instants of the
-    /// other party.
+    /// Scales of a scenario over its run.
+    /// If the scenario has no run or cannot be solved over it, scales over `grid`, the instants of the other party.
     pub(super) fn of(scenario: &Scenario, grid: &Grid) -> Self {
         let all = scenario.case.all_channels();
         let solved = |grid: &Grid| -> Option<Scales> {

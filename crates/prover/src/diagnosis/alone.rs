@@ -10,8 +10,8 @@ pub struct DiagnosedParty<'a> {
     pub name: &'a str,
     /// Its results.
     pub trajectory: &'a Trajectory,
-    /// Bound on its error in every channel in which it is judged, in the channel's unit. Other channels of the party do
-    /// not count.
+    /// Bound on the party's error in every channel in which it is judged, in the channel's unit.
+    /// Other channels of the party do not count.
     pub bounds: Vec<(Channel, f64)>,
 }
 
@@ -34,14 +34,15 @@ impl DiagnosedParty<'_> {
 /// Which parties contradict each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PartyStanding {
-    /// No two of them contradict each other.
+    /// No party contradicts another.
     Together,
-    /// One contradicts all others, and these do not contradict each other.
+    /// One party contradicts all others, and the others do not contradict each other.
     Alone(String),
-    /// Two camps: no contradictions within a camp, and every party contradicts every party of the other camp.
+    /// The parties form two camps. They agree within each camp, and each party contradicts every party of the other
+    /// camp.
     Camps([Vec<String>; 2]),
-    /// Some contradict each other, but they do not form two camps. Of two such parties only one can be right, and
-    /// nothing shows which.
+    /// Some parties contradict each other but do not form two camps. These are the contradicting pairs.
+    /// Only one party of a pair can be right, and nothing shows which.
     Open(Vec<[String; 2]>),
 }
 
@@ -60,7 +61,7 @@ pub fn standing(parties: &[DiagnosedParty]) -> PartyStanding {
         }
     }
     let Some(first) = apart.iter().position(|row| row.contains(&true)) else { return PartyStanding::Together };
-    // The camp of `first`: the parties that it does not contradict.
+    // The camp of `first`: the parties that agree with it.
     let (own, others): (Vec<usize>, Vec<usize>) = (0..count).partition(|&other| !apart[first][other]);
     let split =
         (0..count).all(|one| (0..count).all(|other| apart[one][other] == (own.contains(&one) != own.contains(&other))));

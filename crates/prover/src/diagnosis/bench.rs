@@ -23,9 +23,9 @@ pub(super) struct Column {
     right: Vec<f64>,
 }
 
-/// Some instants of the grid with the suspect's values there.
+/// Some instants of the grid, with the suspect's values at these instants.
 pub(super) struct Bench<'a> {
-    /// The case on these instants.
+    /// The case on the grid of these instants.
     pub(super) case: Case,
     pub(super) columns: Vec<Column>,
     solver: &'a dyn Solver,
@@ -39,12 +39,12 @@ pub(super) struct Bench<'a> {
 pub(super) struct Misfit(pub(super) Vec<f64>);
 
 impl Misfit {
-    /// The largest share of a bound.
+    /// The largest ratio of a difference to its bound.
     pub(super) fn worst(&self) -> f64 {
         largest_size(&self.0)
     }
 
-    /// Whether everything is within its bound.
+    /// Whether all differences are within their bounds.
     pub(super) fn fits(&self) -> bool {
         self.worst() <= 1.0
     }
@@ -57,14 +57,14 @@ impl Misfit {
         Misfit(self.0.iter().map(|value| factor * value).collect())
     }
 
-    /// This plus `factor` times the other.
+    /// The sum of this misfit and `factor` times the other.
     pub(super) fn plus(&self, factor: f64, other: &Misfit) -> Misfit {
         Misfit(self.0.iter().zip(&other.0).map(|(a, b)| a + factor * b).collect())
     }
 
-    /// Range of amounts of `effect` that, added to this, keep everything within its bound; `None` if there is no such
-    /// amount.
-    /// Least squares cannot find it: errors of a suspect are not random.
+    /// Range of factors on `effect` for which the sum of this misfit and the scaled effect stays within all bounds.
+    /// `None` if no such factor exists.
+    /// Least squares cannot find it, because errors of a suspect are not random.
     pub(super) fn kept_by(&self, effect: &Misfit) -> Option<[f64; 2]> {
         let mut range = [f64::NEG_INFINITY, f64::INFINITY];
         for (own, change) in self.0.iter().zip(&effect.0) {
@@ -108,7 +108,7 @@ impl<'a> Bench<'a> {
         self.columns.iter().any(|column| column.disagrees && column.channel.kind.stage < Stage::Reactions)
     }
 
-    /// Whether there are any positions or rates.
+    /// Whether the compared channels include positions or rates.
     pub(super) fn shows_motion(&self) -> bool {
         self.columns.iter().any(|column| column.channel.kind.stage < Stage::Reactions)
     }
@@ -118,12 +118,14 @@ impl<'a> Bench<'a> {
         self.misfit(|column| Some(column.right.clone())).expect("the reference has its own columns")
     }
 
-    /// The differences from a changed case. `None` if the case cannot be solved, or the number of cases is used up.
+    /// The suspect's differences from a changed case.
+    /// `None` if the case cannot be solved, or if no more cases may be solved.
     pub(super) fn tried(&self, case: &Case) -> Option<Misfit> {
         self.tried_in(case, None)
     }
 
-    /// The same, but with the values of the changed case in the channels of one stage only, or in all of them.
+    /// The same, but the values of the changed case replace those of the reference in the channels of one stage only,
+    /// or in all channels.
     pub(super) fn tried_in(&self, case: &Case, stage: Option<Stage>) -> Option<Misfit> {
         self.left.set(self.left.get().checked_sub(1)?);
         let found = self.solver.solve(case).ok()?;
@@ -142,14 +144,14 @@ impl<'a> Bench<'a> {
         Some(Misfit(all))
     }
 
-    /// For every column, the largest share of its bound in a misfit.
+    /// For every column, the largest ratio of a difference in a misfit to its bound.
     pub(super) fn by_column(&self, misfit: &Misfit) -> Vec<f64> {
         misfit.0.chunks(self.case.grid.len()).map(largest_size).collect()
     }
 
-    /// Disagreeing channels that a hypothesis with this remaining `misfit` explains. Empty if the hypothesis spoils an
-    /// agreeing channel.
-    /// A channel that was hardly beyond its bound is no evidence, unless the hypothesis explains all others too.
+    /// Disagreeing channels that a hypothesis with this remaining `misfit` explains.
+    /// Empty if an agreeing channel disagrees under the hypothesis.
+    /// A channel slightly beyond its bound is no evidence, unless the hypothesis explains all others too.
     pub(super) fn explained(&self, start: &Misfit, misfit: &Misfit) -> Vec<Channel> {
         let all = misfit.fits();
         let [before, after] = [start, misfit].map(|misfit| self.by_column(misfit));
@@ -162,24 +164,24 @@ impl<'a> Bench<'a> {
         explained.map(|(column, _)| column.channel.clone()).collect()
     }
 
-    /// Sum of the changes that a hypothesis makes to agreeing channels, in shares of their bounds.
-    /// Of hypotheses that explain equally much, the one with the smallest sum is the simplest.
+    /// Sum of the changes that a hypothesis makes to agreeing channels, each divided by its bound.
+    /// If several hypotheses explain equally much, the one with the smallest sum is the simplest.
     pub(super) fn claim(&self, start: &Misfit, misfit: &Misfit) -> f64 {
         let changes = self.by_column(&misfit.plus(-1.0, start));
         self.columns.iter().zip(changes).filter(|(column, _)| !column.disagrees).map(|(_, change)| change).sum()
     }
 }
 
-/// Multiple of its bound from which a channel counts as explained, if the cause does not explain all channels.
+/// If a cause does not explain all channels, only differences above this multiple of their bound count as explained.
 const EVIDENT: f64 = 3.0;
 
 /// Number of instants of a bench, besides the worst instant of each channel.
 const INSTANTS: usize = 32;
-/// Multiple of the bound up to which a free motion is followed at first. Later, its dependence on the cause may not be
-/// simple.
+/// At first a free motion is followed until a difference exceeds this multiple of its bound.
+/// Later the difference may not depend on the cause in a simple way.
 const EARLY: f64 = 100.0;
 
-/// Rows of the whole grid, thinned, with the worst instants of the disagreeing channels.
+/// A selection of rows of the whole grid. It includes the worst instants of the disagreeing channels.
 pub(super) fn thinned(question: &DiagnosisInput) -> Vec<usize> {
     let ascending = ascending(question.reference.times());
     let mut rows = spread(&ascending);
@@ -222,7 +224,7 @@ fn spread(rows: &[usize]) -> Vec<usize> {
     }
 }
 
-/// Each row once. The first row of the grid comes first, because whole turns are counted from it.
+/// Each row once. The first row of the grid comes first, because whole revolutions are counted from it.
 fn in_order(mut rows: Vec<usize>) -> Vec<usize> {
     rows.push(0);
     rows.sort_unstable();

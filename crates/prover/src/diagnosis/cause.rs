@@ -5,18 +5,18 @@ use linkage::trajectory::{Channel, Stage};
 /// What explains a disagreement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DisagreementCause {
-    /// The values of some channels are a wrong function of the right values.
+    /// The values of some channels result from the right values by a wrong rule.
     Values {
-        /// What was done to them.
+        /// The wrong rule.
         slip: DataSlip,
         /// The disagreeing channels that the slip explains.
         channels: Vec<Channel>,
     },
-    /// The suspect solved another case.
+    /// The suspect solved a different case.
     Case(Change),
 }
 
-/// Slips without a number, and the list of all of them: every slip in it is tried.
+/// Slips without a number, and the list of all of them. Every slip of the list is tried.
 macro_rules! plain {
     ($($(#[$doc:meta])+ $name:ident,)+) => {
         /// Slips in right values that need no number, the simplest first.
@@ -35,9 +35,9 @@ macro_rules! plain {
 plain! {
     /// The opposite sign.
     Sign,
-    /// Whole turns added during the motion.
+    /// Whole revolutions added during the motion.
     Turns,
-    /// Half turns added during the motion: an arc tangent of a quotient.
+    /// Half revolutions added during the motion, as by an arc tangent of a quotient.
     HalfTurns,
     /// Twice the values.
     Twice,
@@ -47,14 +47,14 @@ plain! {
     Zero,
     /// Absolute values. Of an angle: the absolute value after wrapping, as an arc cosine gives it.
     Size,
-    /// The angle with the right sine, within a quarter turn.
+    /// An angle within a quarter revolution of zero with the right sine, as an arc sine returns it.
     ArcSine,
     /// Rates per radian of the crank instead of per second: velocities divided by the crank's speed, accelerations by
     /// its square.
     PerRadian,
 }
 
-/// What was done to right values.
+/// The wrong rule by which right values were changed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DataSlip {
     /// What needs no number.
@@ -68,7 +68,7 @@ pub enum DataSlip {
     },
     /// The same amount added at every instant, in the channel's unit.
     Offset(f64),
-    /// The opposite sign, and the same amount added at every instant: an angle counted the other way round, from
+    /// The opposite sign, and the same amount added at every instant: an angle measured in the opposite direction, from
     /// another axis.
     Mirrored(f64),
     /// The values of another channel.
@@ -77,13 +77,13 @@ pub enum DataSlip {
     Opposite(Channel),
     /// The magnitude of the vector with these components, instead of one of them.
     Magnitude([Channel; 2]),
-    /// Differences of another channel's values over some rows, instead of its first or second rate.
+    /// Differences of another channel's values between rows, in place of the channel's first or second derivative.
     Differences {
         /// The channel that is differentiated.
         of: Channel,
         /// Order of the rate: 1 or 2.
         order: usize,
-        /// Rows over which the differences are taken.
+        /// Rows between which the differences are taken.
         over: Over,
     },
     /// The acceleration without the Coriolis term of a block on a moving guide, by joint.
@@ -92,16 +92,16 @@ pub enum DataSlip {
     About(Arm),
     /// A single row is wrong, at this time (s).
     Outlier(f64),
-    /// Values of other instants: the time of a row times a factor.
+    /// Values of other instants: the time of each row is multiplied by a factor.
     Clock {
-        /// Factor on a row's time that gives the time of the right values.
+        /// Factor on the time of a row. The product is the time at which the values are right.
         factor: f64,
-        /// The meaning of the factor, if it is a unit.
+        /// Meaning of the factor, if it is a unit conversion.
         told: Option<&'static str>,
     },
     /// Two channels with exchanged values.
     Exchanged([Channel; 2]),
-    /// The first minus the second of two other channels, and the same amount added at every instant.
+    /// The difference of two other channels, first minus second, and the same amount added at every instant.
     Between {
         /// The two.
         of: [Channel; 2],
@@ -112,24 +112,24 @@ pub enum DataSlip {
     Factor(f64),
     /// Values of another instant.
     Late {
-        /// Delay of a value (s); negative for values that come early.
+        /// Delay of the values (s); negative for values that are early.
         by: f64,
-        /// The delay in steps or rows of the suspect, if it is a simple fraction or multiple of one, and the word for
-        /// them.
+        /// The delay in steps or rows of the suspect and the word for them, if the delay is a simple fraction or
+        /// multiple of one.
         steps: Option<(f64, &'static str)>,
         /// The stage whose channels are late; `None` if all are.
         stage: Option<Stage>,
     },
 }
 
-/// Rows over which differences are taken.
+/// Rows between which differences are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Over {
-    /// This many rows on either side.
+    /// From this many rows before to this many rows after.
     Either(usize),
-    /// The row and the one before.
+    /// The row and the previous row.
     Before,
-    /// The row and the next one.
+    /// The row and the next row.
     Behind,
 }
 
@@ -138,7 +138,8 @@ pub enum Over {
 pub enum Arm {
     /// A constant vector (m), in world axes.
     Constant([f64; 2]),
-    /// From the first of two points to the second; without a first, from the origin. By name, as in channels.
+    /// From the first of two points to the second, or from the origin if the first is `None`. Points are named as in
+    /// channels.
     Between(Option<String>, String),
 }
 
@@ -165,7 +166,7 @@ pub struct Change {
 pub enum CasePart {
     /// Gravity.
     Gravity,
-    /// Masses and moments of inertia of all links in their resistance to acceleration; weights stay.
+    /// Masses and moments of inertia of all links in their resistance to acceleration. The weights are not affected.
     InertiaForces,
     /// Moments of inertia of all links.
     Inertias,
@@ -177,9 +178,9 @@ pub enum CasePart {
     Mass(String),
     /// Mass and moment of inertia of a link together.
     Body(String),
-    /// Weight of a link; its resistance to acceleration stays.
+    /// Weight of a link. Its resistance to acceleration is not affected.
     Weight(String),
-    /// Mass and moment of inertia of a link in their resistance to acceleration; its weight stays.
+    /// Mass and moment of inertia of a link in their resistance to acceleration. Its weight is not affected.
     Inert(String),
     /// Mass centre of a link.
     MassCentre(String),
@@ -212,29 +213,30 @@ pub enum CasePart {
 pub enum PartChange {
     /// It is missing.
     Missing,
-    /// It has the opposite sign.
+    /// The part has the opposite sign.
     Reversed,
     /// It counts twice.
     Twice,
     /// Half of it counts.
     Half,
-    /// It is multiplied by a number with a meaning. The text states the meaning.
+    /// The part is multiplied by a number with a meaning. The text states the meaning.
     Times(f64, &'static str),
-    /// It is at a joint.
+    /// The part is at a joint.
     AtJoint(String),
-    /// It is at another point of the same link.
+    /// The part is at another point of the same link.
     AtPoint(String),
-    /// It is measured from the second of two joints towards the first, instead of from the first towards the second.
+    /// The part is measured from the second of two joints towards the first, instead of from the first towards the
+    /// second.
     FromJoint([String; 2]),
-    /// It is on the other side of the line through two joints.
+    /// The part is on the other side of the line through two joints.
     Across([String; 2]),
-    /// It is in the middle between two joints.
+    /// The part is in the middle between two joints.
     Middle([String; 2]),
-    /// It is rotated by an angle (rad).
+    /// The part is rotated by an angle (rad).
     Turned(f64),
-    /// It is taken about a joint instead of the mass centre.
+    /// The part is taken about a joint instead of the mass centre.
     AboutJoint(String),
-    /// Its components, or axes, are exchanged.
+    /// The components of the part, or its axes, are exchanged.
     Swapped,
     /// Another assembly mode (by name) or configuration (by number).
     Other(String),

@@ -12,18 +12,19 @@ use super::question::{DiagnosisInput, Found, Rank};
 use super::tries::{Candidate, Tries};
 use super::whole::whole_changes;
 
-/// Largest number of changed cases solved on thinned grids for numbers and other instants. As many again for changes
-/// without a number.
-/// A prescribed motion costs little; it may have this many times as many.
+/// Limit of changed cases solved on thinned grids to find numbers and other instants.
+/// The same limit holds separately for changes without a number.
+/// A prescribed motion costs little; its limit is this many times as high.
 const MOST: usize = 120;
 const CHEAP: usize = 3;
-/// Largest number of links of a mechanism whose cases cost as little as those of the smallest.
+/// Up to this number of links, solving a case costs as little as for the smallest mechanisms.
 const LINKS: usize = 16;
 /// Largest number of causes that are confirmed on the whole grid.
 const CONFIRMED: usize = 6;
-/// Number of parts of a bound in which a claim is counted. Smaller differences are rounding.
+/// Claims are rounded to a bound divided by this number before they are compared. Smaller differences are rounding.
 const CLAIMED: f64 = 1e3;
-/// Number of cases solved on the whole grid to confirm causes: a value may have to be corrected.
+/// Limit of cases solved on the whole grid to confirm causes. More than one per cause, because a value may need
+/// correction.
 const WHOLE: usize = 4 * CONFIRMED;
 
 /// Every change that explains disagreeing channels, and the number of cases that were solved.
@@ -38,13 +39,13 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     let first = Bench::new(question, &[0], Rc::new(Cell::new(2 * most)));
     let (Some(thin), Some(soon), Some(first)) = (thin, soon, first) else { return (Vec::new(), 0) };
     let tries = Tries { first, starts: [soon.start(), thin.start()], soon, thin, is_free };
-    // No change explains differences of rounding size.
+    // Differences of rounding size have no cause to find.
     if tries.starts[1].fits() || !tries.starts[1].worst().is_finite() {
         return (Vec::new(), 0);
     }
     let without_number = whole_changes(&tries);
     let spent = most - left.replace(most);
-    // Of equivalent changes, the change of a single number is the simpler one.
+    // If several changes are equivalent, the change of a single number is the simplest.
     let mut candidates = numbers(&tries);
     candidates.extend(without_number);
     let late = late(question, &tries.thin, &tries.starts[1]);
@@ -81,7 +82,7 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     (all, solved)
 }
 
-/// A rotated drive in place of late values: at constant speed both are the same.
+/// A rotated drive as an alternative to late values: at constant speed both have the same effect.
 fn turned(tries: &Tries, known: &[Candidate], late: &[Candidate]) -> Option<Candidate> {
     let case = &tries.thin.case;
     let by = late.iter().find_map(|one| match one.found.cause {

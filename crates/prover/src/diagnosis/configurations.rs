@@ -7,13 +7,13 @@ use linkage::mechanism::pose::SidePoint;
 use linkage::mechanism::{AssemblyMode, JointSide, LinkId, LinkPose};
 
 /// Reassembles the mechanism after a change of its lengths or of its drives' start angles.
-/// Dyads keep their modes; higher groups stay as near as possible to their previous pose.
+/// Dyads keep their modes. Higher groups stay as close as possible to their previous pose.
 pub fn reassembled(parts: &mut CaseParts) -> Option<()> {
     let wanted = wanted(parts);
     assembled(parts, &wanted)
 }
 
-/// What keeps every group in its configuration.
+/// The conditions that keep every group in its configuration.
 fn wanted(parts: &CaseParts) -> Vec<StartGroup> {
     let groups = parts.structure.groups.iter().zip(&parts.modes);
     let of = |(group, mode): (&linkage::mechanism::Group, &AssemblyMode)| match mode {
@@ -41,11 +41,11 @@ fn assembled(parts: &mut CaseParts, wanted: &[StartGroup]) -> Option<()> {
     Some(())
 }
 
-/// The case with one group in another of its configurations, for all of them that are known.
+/// Cases in which one group has another of its known configurations, for all groups and configurations.
 pub fn others(case: &Case) -> Vec<(Change, Case)> {
     let mut found = Vec::new();
     for (index, group) in case.structure.groups.entries() {
-        // Not all configurations of groups of more than four links are known.
+        // Not all configurations are known for groups of more than four links.
         let all = configurations(&case.mechanism, group, &case.start).unwrap_or_default();
         for (number, one) in all.iter().enumerate() {
             let same = |(&link, place): (&LinkId, &LinkPose)| {

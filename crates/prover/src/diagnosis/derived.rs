@@ -1,5 +1,5 @@
-//! Values that a wrong rule makes from right ones: differences for rates, accelerations without the Coriolis term,
-//! moments about another point.
+//! Values that result from right values by a wrong rule: differences for rates, accelerations without the Coriolis
+//! term, moments about another point.
 
 use super::cause::{Arm, DataSlip, Over};
 use super::question::{DiagnosisInput, Found, Rank};
@@ -9,7 +9,7 @@ use linkage::trajectory::{Channel, OfFrame, OfSlider, Reading, Trajectory, Unit}
 
 /// Relative rounding error of a number. Differences magnify it.
 const ROUNDED: f64 = 1e-12;
-/// Largest number of rows on either side over which differences are taken.
+/// Largest number of rows before and after a row between which differences are taken.
 const WIDEST: usize = 3;
 
 /// Every rule with the channels that it explains.
@@ -42,7 +42,8 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     causes
 }
 
-/// The channel whose differences over rows these values are, and the order of the rate.
+/// Finds the channel from which these values were obtained as differences between rows, and the order of the
+/// derivative.
 /// Rows at the ends are left out: they have no neighbours, and every program treats them differently.
 fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Channel, usize)> {
     let step = even(one.times)?;
@@ -68,8 +69,8 @@ fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Ch
         for (channel, values) in question.reference.iter() {
             let rate = channel.rate();
             let rate = if order == 1 { rate } else { rate.and_then(|rate| rate.rate()) };
-            // The table's own values if they are right within their bounds, or the right values.
-            // Rates that match wrong positions are not a separate slip.
+            // Uses the right values, and also the table's own values if these are right within their bounds.
+            // If rates match wrong positions, they are not a separate slip.
             let is_right = question.judged.iter().any(|judged| judged.channel == *channel && !judged.disagrees);
             let own = question.suspicious.column(channel).filter(|_| is_right);
             if rate.as_ref() == Some(one.channel) && own.into_iter().chain([values]).any(|own| of_column(own, order)) {
@@ -80,7 +81,7 @@ fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Ch
     None
 }
 
-/// The distance of rows (s), if it is constant.
+/// The time between rows (s), if it is constant.
 pub(crate) fn even(times: &[f64]) -> Option<f64> {
     let (first, last) = (times.first()?, times.last()?);
     let step = (last - first) / (times.len() - 1) as f64;
@@ -88,7 +89,8 @@ pub(crate) fn even(times: &[f64]) -> Option<f64> {
     (step > 0.0 && is_even).then_some(step)
 }
 
-/// Whether an acceleration lacks twice the guide's angular velocity times the block's speed on it.
+/// Whether the term is missing in an acceleration: twice the guide's angular velocity times the block's speed on the
+/// guide.
 fn lacks_coriolis(question: &DiagnosisInput, one: &Wrong, joint: &str) -> Option<bool> {
     let mechanism = &question.case.mechanism;
     let joint = mechanism.joints().iter().find(|own| own.name == joint)?;
@@ -104,7 +106,7 @@ fn lacks_coriolis(question: &DiagnosisInput, one: &Wrong, joint: &str) -> Option
         match (one.channel.kind.unit, slide) {
             (Unit::MetrePerSecondSquared, _) if suffix.starts_with("ax") => -size * (angle[row] + local).sin(),
             (Unit::MetrePerSecondSquared, _) if suffix.starts_with("ay") => size * (angle[row] + local).cos(),
-            // The guide's own angular acceleration, from the distance of the block.
+            // Angular acceleration of the guide itself, from the distance of the block.
             (Unit::RadianPerSecondSquared, Some(slide)) => -size / slide[row],
             _ => 0.0,
         }
@@ -123,7 +125,7 @@ fn arm(question: &DiagnosisInput, one: &Wrong) -> Option<Arm> {
     let subject = one.channel.subject();
     let column = |suffix: &str| question.reference.named(&format!("{subject}.{suffix}"));
     let (x, y) = (column("fx_N")?, column("fy_N")?);
-    // Moment about another point: the moment about the first point, minus arm times force.
+    // The moment about another point is the moment about the first point minus arm times force.
     let gaps: Vec<f64> = one.right.iter().zip(one.found).map(|(right, found)| right - found).collect();
     let is_it = |arm: &dyn Fn(usize) -> [f64; 2]| {
         let moment = |row: usize| arm(row)[0] * y[row] - arm(row)[1] * x[row];

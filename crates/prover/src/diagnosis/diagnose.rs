@@ -1,4 +1,4 @@
-//! The diagnosis as a whole, and the instants at which channels leave their bounds.
+//! The complete diagnosis, and the instants at which channels exceed their bounds.
 
 use super::alone::{DiagnosedParty, PartyStanding, standing};
 use super::cause::{Change, DisagreementCause, PartChange};
@@ -49,11 +49,11 @@ impl Diagnosis {
     }
 }
 
-/// Examines a disagreement. `None` if no channel is beyond its bound.
+/// Examines a disagreement. `None` if no channel exceeds its bound.
 ///
-/// The causes are tried in the order of their simplicity.
-/// A cause is named if it explains every disagreeing channel within its bound and spoils no agreeing one. Further such
-/// causes are mentioned.
+/// Causes are tried from the simplest to the most complicated.
+/// A cause is named if it explains every disagreeing channel within its bound and no agreeing channel then disagrees.
+/// Further such causes are mentioned.
 #[must_use]
 pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option<Diagnosis> {
     let since = since(question.reference, question.suspicious, question.judged);
@@ -77,7 +77,7 @@ pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option
     let first = named.next();
     let explained = first.as_ref().map_or(&[][..], |one| &one.explained[..]);
     let left_over: Vec<Channel> = wrong.iter().filter(|channel| !explained.contains(channel)).cloned().collect();
-    // A fitted number says no more than a slip that needs none.
+    // A fitted number is no better explanation than a slip without a number.
     // Several partial explanations would only confuse, unless they concern the same part.
     let says_more = |one: &Found| one.rank != Rank::Fitted || first.as_ref().is_some_and(|own| own.rank != Rank::Slip);
     let also = named.filter(|one| one.explained == explained && says_more(one)).map(|one| one.cause);
@@ -96,7 +96,7 @@ pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option
     })
 }
 
-/// Whether the cause is another, fitted number in the case.
+/// Whether the cause is a fitted number that replaces a number in the case.
 fn has_number(cause: &DisagreementCause) -> bool {
     matches!(cause, DisagreementCause::Case(Change { how: PartChange::Instead { .. }, .. }))
 }
@@ -104,16 +104,16 @@ fn has_number(cause: &DisagreementCause) -> bool {
 /// Number of causes mentioned besides the named one.
 const MENTIONED: usize = 3;
 
-/// Where a channel first leaves its bound.
+/// The first instant at which a channel exceeds its bound.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Since {
     /// The channel.
     pub channel: Channel,
     /// Time of the first instant beyond the bound (s).
     pub time: f64,
-    /// Crank angle of the reference there (rad).
+    /// Crank angle of the reference at that instant (rad).
     pub crank: f64,
-    /// Suspect minus reference there, in the channel's unit.
+    /// Suspect minus reference at that instant, in the channel's unit.
     pub difference: f64,
     /// The bound, in the channel's unit.
     pub bound: f64,
@@ -121,9 +121,9 @@ pub struct Since {
     pub beyond: usize,
 }
 
-/// The first instant beyond the bound for every channel that has one, the earliest first.
-/// Of channels that leave their bounds together, positions come before rates and forces, then the channel farther
-/// beyond its bound.
+/// For every channel that exceeds its bound, the first such instant; the earliest channel first.
+/// If several channels exceed their bounds at the same instant, positions come before rates and forces.
+/// Then the channel with the larger ratio of difference to bound comes first.
 #[must_use]
 pub fn since(reference: &Trajectory, suspect: &Trajectory, judged: &[SuspectChannel]) -> Vec<Since> {
     let rows = ascending(reference.times());

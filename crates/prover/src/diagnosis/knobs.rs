@@ -14,7 +14,7 @@ use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism};
 /// Gives the parts another value; `None` if there is no such case.
 type Turn = Box<dyn Fn(&mut CaseParts, f64) -> Option<()>>;
 
-/// Channels in which a part has an effect if the motion is prescribed.
+/// Channels that a part influences if the motion is prescribed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shows {
     /// In reactions and moments only.
@@ -31,12 +31,12 @@ pub(super) struct Knob {
     /// Its value in the case, and the unit of its values.
     pub(super) given: f64,
     pub(super) unit: &'static str,
-    /// Values with a meaning, the simplest first.
+    /// Values with a meaning (such as twice the value), the simplest first.
     pub(super) plain: Vec<(f64, PartChange)>,
     /// Change of the value that is large enough to show its effect.
     pub(super) nudge: f64,
     pub(super) shows: Shows,
-    /// Whether a first approximation says nothing about distant values.
+    /// Whether a first approximation is useless for distant values.
     pub(super) is_far: bool,
     turn: Turn,
 }
@@ -118,7 +118,7 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     knobs.extend((0..case.loads.len()).filter_map(|index| free(case, index)));
     knobs.extend(motor(case));
     let moving = || case.mechanism.links().entries().skip(1);
-    // With a single such link, its own knob has the same effect.
+    // If only one link has mass, the link's own knob has the same effect.
     if moving().filter(|(_, link)| link.mass > 0.0).count() > 1 {
         knobs.push(share(CasePart::Masses, |link, factor| link.mass *= factor));
     }
@@ -157,7 +157,7 @@ pub fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joi
     let (mut links, mut joints) = (parts.mechanism.links().to_vec(), parts.mechanism.joints().to_vec());
     change(&mut links, &mut joints);
     for link in &mut links {
-        // A rotating link cannot have inertia without mass. Such a small mass has no effect.
+        // A rotating link cannot have inertia without mass. The added mass is so small that it has no effect.
         if link.mass == 0.0 && link.inertia > 0.0 {
             link.mass = 1e-12;
         }
@@ -243,7 +243,7 @@ fn place(case: &Case, joint: JointId, link: LinkId, axis: FrameAxis) -> Knob {
     Knob::place(part, old[axis as usize], case.mechanism.size(), "m", turn)
 }
 
-/// Moves a position on a link, with every joint and point there.
+/// Moves a position on a link, together with every joint and point at this position.
 fn moved(parts: &mut CaseParts, link: LinkId, old: Vec2, new: Vec2) -> Option<()> {
     changed(parts, |links, joints| {
         let points = links[link].points.iter_mut().map(|point| &mut point.local);
@@ -254,8 +254,8 @@ fn moved(parts: &mut CaseParts, link: LinkId, old: Vec2, new: Vec2) -> Option<()
     reassembled(parts)
 }
 
-/// Distances of two joints on a link that are not along an axis of its frame. Along an axis, the coordinate already is
-/// the distance.
+/// Distances between two joints on a link whose line is not parallel to an axis of its frame.
+/// On a parallel line the coordinate is already the distance.
 fn lengths(case: &Case) -> Vec<Knob> {
     let places = places(case);
     let at = |&(joint, link): &(JointId, LinkId)| case.mechanism.joints()[joint].on(link);
@@ -277,7 +277,7 @@ fn lengths(case: &Case) -> Vec<Knob> {
     knobs
 }
 
-/// Knobs of a drive: its speed (for a free drive the speed at the start), and its start angle.
+/// Knobs of a drive: its start angle, and its speed (for a free drive, the speed at the start).
 fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
     let joint = case.mechanism.joints()[drive.joint].name.clone();
     let start = move |parts: &mut CaseParts, value| {
@@ -308,7 +308,7 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
         // A prescribed motion needs a speed.
         speed.plain.remove(0);
     }
-    // The whole motion depends on them.
+    // The whole motion depends on speed and angle.
     vec![Knob { is_far: true, ..speed }, Knob { is_far: true, ..angle }]
 }
 

@@ -1,4 +1,4 @@
-//! Values of other instants: late, early, or from a clock that runs too fast.
+//! Values of other instants: late values, early values, or values from a fast clock.
 
 use crate::sentences;
 use std::ops::RangeInclusive;
@@ -14,7 +14,7 @@ use linkage::trajectory::Stage;
 
 /// Largest number of steps of the search for a number.
 const STEPS: usize = 6;
-/// Share of the differences below which a number counts as nearly found.
+/// If the misfit is below this fraction of the initial misfit, the number is nearly found.
 const NEAR: f64 = 1e-2;
 /// Simple multiples of a step by which values may be late.
 const PARTS: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
@@ -26,7 +26,7 @@ const CLOCKS: [(f64, &str); 4] = [
     (60.0, sentences::MINUTES_TAKEN_FOR_SECONDS),
 ];
 
-/// Values of another instant, in all channels or in those of one stage, or of a clock that runs too fast.
+/// Finds values of another instant (in all channels or in those of one stage), or values from a fast clock.
 pub(super) fn late(question: &DiagnosisInput, bench: &Bench, start: &Misfit) -> Vec<Candidate> {
     let mut stages: Vec<Option<Stage>> = vec![None];
     let stage = |column: &Column| Some(column.channel.kind.stage);
@@ -40,7 +40,7 @@ pub(super) fn late(question: &DiagnosisInput, bench: &Bench, start: &Misfit) -> 
     let search = Search { question, bench, start };
     let mut found: Vec<Candidate> = stages.into_iter().filter_map(|stage| search.late_in(stage)).collect();
     if found.iter().all(|one| one.stage().is_some()) {
-        // Jumps of forces can mislead the search. All channels may be as late as those of one stage.
+        // Jumps of forces can mislead the search. So the delay found for one stage is also tried for all channels.
         let all = found.iter().find_map(|one| search.late_by(&one.found.cause));
         found.extend(all);
     }
@@ -96,7 +96,8 @@ impl Search<'_, '_> {
         self.late_candidate(&misfit, by, steps, None)
     }
 
-    /// A number with few digits near the found one, if it explains as much. The search itself ends at rounding.
+    /// A number with few digits near the found number, if it explains as much. The search itself stops only at
+    /// rounding.
     fn short(
         &self,
         value: f64,
@@ -114,7 +115,7 @@ impl Search<'_, '_> {
         })
     }
 
-    /// A clock that runs too fast, or in another unit.
+    /// A clock that is fast, or that counts in another unit.
     fn clock(&self) -> Option<Candidate> {
         let bench = self.bench;
         let of = |factor: f64| bench.tried(&on_clock(&bench.case, factor)?);
@@ -129,7 +130,7 @@ impl Search<'_, '_> {
         }
         let mut named = None;
         let found = self.secant(1.0, 1e-6, &of, &mut |factor, misfit| {
-            // Short numbers are tried for a fast clock and, as the inverse, for a slow one.
+            // Numbers with few digits are tried for a fast clock, and their inverses for a slow one.
             let slow = |value: f64| of(1.0 / value);
             named = self.short(factor, misfit, 2..=6, &of, &Misfit::fits).or_else(|| {
                 let (inverse, misfit) = self.short(1.0 / factor, misfit, 2..=6, &slow, &Misfit::fits)?;
@@ -141,7 +142,7 @@ impl Search<'_, '_> {
         self.clock_candidate(&misfit, factor, None)
     }
 
-    /// The number at which `is_found` holds, by the secant method from `origin`, which changes nothing.
+    /// The number at which `is_found` holds. The secant method begins at `origin`, where nothing changes.
     fn secant(
         &self,
         origin: f64,

@@ -1,4 +1,4 @@
-//! Kind of an error without a simple cause: growing with time, smooth and small, or noise.
+//! Kind of an error without a simple cause: an error that grows with time, a small smooth error, or noise.
 
 use super::question::DiagnosisInput;
 use super::slips::Wrong;
@@ -9,22 +9,22 @@ use linkage::math::{KeepNan, largest_size};
 /// Typical errors of numerical methods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ErrorNature {
-    /// It grows with time, with about this power if the power can be determined.
+    /// The error grows with time, about with this power if the power can be determined.
     Growing(Option<u32>),
-    /// It changes smoothly with time, and is at most this share of a channel's scale.
+    /// The error changes smoothly with time, and is at most this fraction of a channel's scale.
     Smooth(f64),
-    /// It is irregular in time, and is at most this share of a channel's scale.
+    /// The error is irregular in time, and is at most this fraction of a channel's scale.
     Noise(f64),
 }
 
 /// Number of parts of the run whose errors are compared.
 const PARTS: usize = 6;
-/// Smallest ratio of the last part's error to the first part's error for growth.
+/// An error grows if it is at least this many times as large in the last part as in the first.
 const GROWS: f64 = 4.0;
-/// Share of a scale above which an error does not come from a method.
+/// If an error exceeds this fraction of a scale, it does not come from a method.
 const SMALL: f64 = 0.02;
-/// Mean second difference over that of irregular numbers: below the first value an error is smooth, above the second it
-/// is noise.
+/// Limits of the mean second difference / that of irregular numbers.
+/// An error below the first limit is smooth; an error above the second is noise.
 const ORDER: [f64; 2] = [0.15, 0.5];
 
 /// The kind of the differences, if it is the same for all disagreeing channels.
@@ -71,14 +71,14 @@ fn growth(times: &[f64], gaps: &[f64]) -> Option<Option<u32>> {
     if !grows {
         return None;
     }
-    // From the second half of the run: late parts have better-known middles.
+    // Only the second half of the run is used: the mean time of a late part is known better relative to the start.
     let middle = |part: usize| times[part * size + size / 2] - times[0];
     let power = (parts[PARTS - 1] / parts[PARTS / 2]).ln() / (middle(PARTS - 1) / middle(PARTS / 2)).ln();
     let whole = power.round();
     Some(((power - whole).abs() <= 0.2 && (1.0..=4.0).contains(&whole)).then_some(whole as u32))
 }
 
-/// Size of the second differences, relative to that of irregular numbers.
+/// Mean second difference / that of irregular numbers.
 fn disorder(gaps: &[f64]) -> f64 {
     let second: Vec<f64> = gaps.windows(3).map(|three| three[2] - 2.0 * three[1] + three[0]).collect();
     rms(&second) / (6f64.sqrt() * rms(gaps))

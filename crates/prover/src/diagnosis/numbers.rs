@@ -1,4 +1,4 @@
-//! Causes by another value of a number in the case.
+//! Causes in which a number in the case has another value.
 
 use std::rc::Rc;
 
@@ -22,18 +22,18 @@ struct Guess {
     value: f64,
     /// Remaining sum of squares with the guess, in a first approximation.
     rest: f64,
-    /// Index among all knobs, the simplest first.
+    /// Index among all knobs, which begin with the simplest.
     place: usize,
 }
 
-/// The knobs that have an effect, with first guesses; those that explain most first.
+/// The knobs that have an effect, with first guesses. Knobs that explain most come first.
 fn guesses(tries: &Tries) -> Vec<Guess> {
     let (bench, start) = (&tries.soon, &tries.starts[0]);
     let (moved, shows) = (bench.is_moved(), bench.shows_motion());
     let mut found = Vec::new();
     for (place, knob) in knobs::all(&bench.case).into_iter().enumerate() {
-        // In a prescribed motion, a knob for forces cannot explain a wrong motion, and a knob for the motion cannot
-        // leave it right.
+        // In a prescribed motion, a knob for forces cannot explain a wrong motion.
+        // A knob for the motion cannot explain forces if the motion is right.
         let is_idle = match knob.shows {
             Shows::Forces => moved,
             Shows::Motion => !moved && shows,
@@ -56,15 +56,15 @@ fn guesses(tries: &Tries) -> Vec<Guess> {
     found
 }
 
-/// Whether the guess for a coordinate is not too far away. A mechanism with such dimensions hardly moves, and to find
-/// that out takes long.
+/// Whether the guess for a coordinate is close enough to the given value.
+/// With distant values the mechanism hardly moves, and it takes long to find that out.
 fn is_likely(guess: &Guess) -> bool {
     guess.knob.shows == Shows::Forces
         || guess.knob.is_far
         || (guess.value - guess.knob.given).abs() <= natural(&guess.knob)
 }
 
-/// Candidates with another value of a part of the case.
+/// Candidates in which a part of the case has another value.
 pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
     let mut candidates = Vec::new();
     let mut open = Vec::new();
@@ -75,7 +75,7 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
         }
         candidates.extend(named.into_iter().map(|one| one.0));
     }
-    // The first approximation may be far off. One solved case says more.
+    // The first approximation may be inaccurate. One solved case improves the guess.
     for guess in &mut open {
         let tried = guess.knob.at(&tries.soon.case, guess.value).and_then(|case| tries.soon.tried(&case));
         guess.rest = tried.map_or(f64::INFINITY, |misfit| misfit.dot(&misfit));
@@ -97,7 +97,7 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
         let on = |value: f64| tries.thin.tried(&knob.at(&tries.thin.case, value)?);
         let mut misfit = on(value);
         if tries.is_free && !misfit.as_ref().is_some_and(Misfit::fits) {
-            // The value is known from a short time only. The whole time gives it more accurately.
+            // The value comes from a short time only. The whole run gives a more accurate value.
             let Some(better) = search(knob, value, &tries.thin, None) else { continue };
             ([value, middle], misfit) = (better, on(better[0]));
         }
@@ -109,9 +109,9 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
     candidates
 }
 
-/// Tries the values with a meaning that are near `value`, and tells whether each explains everything.
-/// `found` says that the value is more than a first approximation.
-/// If that approximation may be far off, missing and reversed parts are always tried.
+/// Tries the values with a meaning near `value`. Also returns whether each value explains everything.
+/// `found` means that the value is more accurate than a first approximation.
+/// If the approximation may be inaccurate, missing and reversed parts are always tried.
 fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candidate, bool)> {
     let near = |plain: f64| match found {
         true => (plain - value).abs() <= 1e-2 * plain.abs().larger(1e-2 * natural(knob)),
@@ -127,7 +127,7 @@ fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candid
     tried.collect()
 }
 
-/// Whether a change is so common that it is tried at any cost.
+/// Whether a change is so common that it is always tried, whatever it costs.
 fn is_plain(how: &PartChange) -> bool {
     match how {
         PartChange::Missing | PartChange::Reversed => true,
@@ -157,10 +157,10 @@ fn of_knob(
     tries.candidate(misfit, rank, change, Box::new(move |case| knob.at(case, value)))
 }
 
-/// The value of a knob that leaves nothing beyond its bound, with as few digits as possible, and the middle of all such
-/// values.
-/// It is found by the secant method from a first guess.
-/// `start` is the misfit of the given value, if that value may serve as first point.
+/// A value of a knob that keeps all differences within their bounds, with as few digits as possible.
+/// Also returns the middle of all such values.
+/// The secant method begins at a first guess.
+/// `start` is the misfit of the given value, if this value may serve as the first point.
 fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Option<[f64; 2]> {
     let on = |value: f64| bench.tried(&knob.at(&bench.case, value)?);
     let (mut old, mut before) = match start {
@@ -184,7 +184,7 @@ fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Opt
             return None;
         }
         if misfit.dot(&misfit) > before.dot(&before) {
-            // A step that is too long is halved once, then the search ends.
+            // A step that is too long is halved once. After that the search ends.
             if halved {
                 return None;
             }
@@ -209,26 +209,26 @@ fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
     fewest.into_iter().chain([middle]).collect()
 }
 
-/// Whether a found number may have been meant.
-/// It must differ by more than a trifle, or have few digits, or be known to a small part of its change: the differences
-/// are then `excess` times their bounds.
-/// Any smooth error resembles a tiny change of some number.
+/// Whether a found number may have been meant, because any smooth error resembles a tiny change of some number.
+/// The number must differ noticeably, or have few digits, or be known to a small fraction of its change.
+/// For the latter, `excess` must be large: it is the ratio of the differences to their bounds.
 pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
     let PartChange::Instead { found, given, unit } = change.how else { return true };
     let told = if unit == "rad" { found.to_degrees() } else { found };
-    // The conversion to degrees rounds.
+    // The conversion to degrees causes a rounding error.
     let has_few_digits = (knobs::significant(told, FEW_DIGITS) - told).abs() <= 1e-9 * told.abs();
     (found - given).abs() >= TRIFLE * found.abs().larger(given.abs()) || has_few_digits || excess >= TELLING
 }
 
-/// Largest number of digits of a number that counts as short.
+/// A number has few digits if it has at most this many.
 const FEW_DIGITS: usize = 4;
-/// Relative change below which nobody changes a number on purpose.
+/// A relative change below this limit is not considered intentional.
 const TRIFLE: f64 = 1e-3;
-/// Ratio of difference to bound from which a tiny change with many digits counts: it is then known to a hundredth.
+/// A tiny change with many digits counts if the difference is at least this many times its bound.
+/// The change is then known to a hundredth.
 const TELLING: f64 = 100.0;
 
-/// A value near the one found on the thinned grid that explains everything on the whole grid too.
+/// A value near the one found on the thinned grid, if it also explains everything on the whole grid.
 pub(super) fn confirmed(
     knob: &Knob,
     [value, middle]: [f64; 2],

@@ -1,4 +1,4 @@
-//! Values of other channels: exchanged columns, a neighbour's values, the difference of two angles.
+//! Values of other channels: exchanged columns, the values of a neighbouring link, the difference of two angles.
 
 use super::cause::DataSlip;
 use super::question::{DiagnosisInput, Found, Rank};
@@ -7,13 +7,14 @@ use crate::bounds::differences;
 use linkage::math::statistics::half_range;
 use linkage::trajectory::{Channel, Unit};
 
-/// Multiple of its bound by which a channel must vary for its course to identify it.
+/// A channel can be identified by its values only if their half range exceeds this multiple of the bound.
 const TELLING: f64 = 5.0;
 
 /// Number of rows that are compared first.
 const FEW: usize = 16;
 
-/// Every channel with the values of others: of one other channel, of two exchanged channels, or the difference of two.
+/// Every disagreeing channel that has the values of one other channel, of an exchanged channel, or of the difference of
+/// two channels.
 pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     let mut put =
@@ -41,7 +42,7 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
             continue;
         }
         let pairs = question.reference.iter().filter(|(channel, _)| channel.kind.suffix == one.channel.kind.suffix);
-        // A constant channel is not another reference for the values.
+        // A constant channel cannot identify another reference of the values.
         let all: Vec<(&Channel, &[f64])> = pairs.filter(|(_, values)| one.varies(values)).collect();
         if let Some(slip) = between(one, &all) {
             let is_plain = matches!(slip, DataSlip::Between { offset: 0.0, .. });
@@ -51,15 +52,15 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     causes
 }
 
-/// Whether the values of one channel may be mistaken for those of the other: both have the same unit, or one is the
-/// rate of the other.
+/// Whether the values of one channel may be mistaken for those of the other.
+/// This is possible if both have the same unit, or if one is the rate of the other.
 fn alike(one: &Channel, other: &Channel) -> bool {
     let is_rate = |of: &Channel, rate: &Channel| of.rate().is_some_and(|own| own == *rate);
     let is_neighbour = is_rate(one, other) || is_rate(other, one);
     one != other && (one.kind.unit == other.kind.unit && one.kind.stage == other.kind.stage || is_neighbour)
 }
 
-/// The two components of a vector, if its magnitude stands in place of one of them.
+/// The two components of a vector, if its magnitude replaces one of them.
 fn magnitude(question: &DiagnosisInput, one: &Wrong) -> Option<[Channel; 2]> {
     let suffix = one.channel.kind.suffix;
     let other = if suffix.contains('y') { suffix.replacen('y', "x", 1) } else { suffix.replacen('x', "y", 1) };
@@ -98,7 +99,7 @@ fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<DataSlip> {
 }
 
 impl Wrong<'_> {
-    /// Whether its values are `others`, and these vary enough to identify a channel.
+    /// Whether the channel has the values `others`, and these vary enough to identify a channel.
     pub(super) fn has_values_of(&self, others: &[f64]) -> bool {
         self.varies(others)
             && differences(others, self.found, self.channel.kind.periodic).iter().all(|gap| gap.abs() <= self.bound)

@@ -12,35 +12,35 @@ pub struct SuspectChannel {
     pub channel: Channel,
     /// Bound on the suspect's error, in the channel's unit.
     pub bound: f64,
-    /// Whether it is beyond the bound.
+    /// Whether the channel exceeds its bound.
     pub disagrees: bool,
 }
 
-/// What is to be diagnosed.
+/// The disagreement to be diagnosed.
 pub struct DiagnosisInput<'a> {
     /// Name of the suspect.
     pub suspect: &'a str,
     /// Trajectory that counts as right.
     pub reference: &'a Trajectory,
-    /// Trajectory that contradicts it, on the same grid.
+    /// Trajectory that contradicts the reference, on the same grid.
     pub suspicious: &'a Trajectory,
-    /// All channels with reliable bounds, including the agreeing ones: a cause must not spoil them.
+    /// All channels with reliable bounds. Agreeing channels are included, because a cause must not make them disagree.
     pub judged: &'a [SuspectChannel],
     /// The reference's case, on the grid of both trajectories.
     pub case: &'a Case,
-    /// Solver that tries changed cases; accurate to far below the bounds.
+    /// Solver for changed cases. Its errors are far below the bounds.
     pub solver: &'a dyn Solver,
-    /// Time step of the suspect or distance of its rows (s), if there is one, and the word for it.
+    /// Time step of the suspect or time between its rows (s), and the word for it; `None` if there is no such time.
     pub step: Option<(f64, &'static str)>,
 }
 
-/// A cause, and what it explains.
+/// A cause with the channels that it explains.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
     pub(super) cause: DisagreementCause,
-    /// How simple it is; 0 is the simplest.
+    /// Simplicity of the cause.
     pub(super) rank: Rank,
-    /// The disagreeing channels that it explains to within their bounds.
+    /// The disagreeing channels that the cause explains to within their bounds.
     pub(super) explained: Vec<Channel>,
 }
 
@@ -51,7 +51,7 @@ impl Found {
     }
 }
 
-/// How simple a cause is, the simplest first.
+/// Simplicity of a cause, the simplest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Rank {
     /// A slip without a free number: sign, unit, twice, half.

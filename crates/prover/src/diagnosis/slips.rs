@@ -1,4 +1,4 @@
-//! Causes that are seen in the values alone: sign, unit, factor, offset, whole turns.
+//! Causes that can be found from the values alone: sign, unit, factor, offset, whole revolutions.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -11,10 +11,10 @@ use linkage::math::angle::wrapped;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Stage, Unit};
 
-/// The part of a bound below which the reference itself is not known, as a share of the size of its numbers.
+/// Lower limit of a bound / the size of the reference's numbers. The reference is not known more accurately.
 pub(super) const KNOWN: f64 = 1e-10;
 
-/// A factor on the values of a channel, and the unit that is meant by it.
+/// A factor on the values of a channel, and the unit confusion that it stands for.
 type Mistaken = (f64, &'static str);
 
 const DEGREES: Mistaken = (180.0 / PI, sentences::DEGREES_INSTEAD_OF_RADIANS);
@@ -42,7 +42,7 @@ const LENGTHS: [Mistaken; 6] = [MILLIMETRES, FROM_MILLIMETRES, CENTIMETRES, FROM
 /// Forces in other units.
 const FORCES: [Mistaken; 4] = [THOUSANDFOLD, THOUSANDTH, KILOPONDS, FROM_KILOPONDS];
 
-/// Units that are taken for the unit of a channel, the likeliest first.
+/// Units that may be confused with the unit of a channel, the likeliest first.
 fn mistaken(unit: Unit) -> Vec<Mistaken> {
     let (first, rest): (&[Mistaken], &[Mistaken]) = match unit {
         Unit::Radian | Unit::RadianPerSecondSquared => (&[DEGREES, TWICE_CONVERTED, TURNS], &[]),
@@ -80,12 +80,13 @@ pub(super) struct Wrong<'a> {
     pub(super) found: &'a [f64],
     pub(super) bound: f64,
     pub(super) times: &'a [f64],
-    /// Constant speed of the crank (rad/s), if it has one.
+    /// Speed of the crank (rad/s) if it is constant.
     speed: Option<f64>,
 }
 
-/// Every slip with the channels that it explains. A slip with a number that was fitted counts only where it explains
-/// all of them: for one channel a number can always be found.
+/// Returns every slip with the channels that it explains.
+/// A slip with a fitted number counts only if it explains all disagreeing channels, because a number can always be
+/// fitted to one channel.
 pub(super) fn found(wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     for slip in plain(wrong) {
@@ -133,7 +134,7 @@ fn plain(wrong: &[Wrong]) -> Vec<DataSlip> {
     slips
 }
 
-/// The time of the one row that is off, where all channels are right elsewhere.
+/// The time of the only wrong row, if all channels are right at every other row.
 fn lonely(wrong: &[Wrong]) -> Option<f64> {
     let times = wrong.first()?.times;
     let is_off = |row: usize| wrong.iter().any(|own| !(own.gap(row).abs() <= own.bound));
@@ -142,17 +143,17 @@ fn lonely(wrong: &[Wrong]) -> Option<f64> {
     off.next().is_none().then_some(times[row])
 }
 
-/// Fewest instants of which one may be off by itself.
+/// Smallest number of instants of which one may be the only wrong one.
 const MANY: usize = 8;
 
-/// A slip with a number, which has its digits in degrees if it is an angle.
+/// A slip with a number. If the number is an angle, its digits are counted in degrees.
 struct Fitted {
     slip: fn(f64) -> DataSlip,
     number: f64,
     is_angle: bool,
 }
 
-/// Slips whose number comes from the channel that is farthest beyond its bound.
+/// Slips with a number fitted to the channel with the largest ratio of difference to bound.
 fn fitted(wrong: &[Wrong]) -> Vec<Fitted> {
     let far = |one: &Wrong| largest_size(&differences(one.right, one.found, one.channel.kind.periodic)) / one.bound;
     let Some(worst) = wrong.iter().max_by(|a, b| far(a).total_cmp(&far(b))) else { return Vec::new() };
@@ -162,7 +163,7 @@ fn fitted(wrong: &[Wrong]) -> Vec<Fitted> {
     let same_unit = wrong.iter().all(|one| one.channel.kind.unit == worst.channel.kind.unit);
     let is_angle = same_unit && worst.channel.kind.unit == Unit::Radian;
     let mut slips = Vec::new();
-    // Over one or two instants anything is an offset and a factor.
+    // With one or two instants, any values can be explained by an offset and a factor.
     if gaps.len() >= FEWEST {
         if same_unit {
             let mean = |gaps: &[f64]| gaps.iter().sum::<f64>() / gaps.len() as f64;
@@ -178,16 +179,16 @@ fn fitted(wrong: &[Wrong]) -> Vec<Fitted> {
     slips
 }
 
-/// A fitted number with as few digits as still do.
+/// Rounds a fitted number to as few digits as `is_it` still accepts.
 pub(super) fn settled(by: f64, angle: bool, is_it: &dyn Fn(f64) -> bool) -> f64 {
     (2..=9).map(|digits| significant_in(angle, by, digits)).find(|by| is_it(*by)).unwrap_or(by)
 }
 
-/// Fewest instants from which a number is fitted.
+/// Smallest number of instants from which a number is fitted.
 const FEWEST: usize = 4;
 
 impl Wrong<'_> {
-    /// Whether the slip, done to the right values, gives those found.
+    /// Whether the slip changes the right values into the found values.
     fn is_explained_by(&self, slip: &DataSlip) -> bool {
         let unit = self.channel.kind.unit;
         match *slip {
@@ -228,7 +229,7 @@ impl Wrong<'_> {
                 (_, Stage::Reactions | Stage::BalancingMoment) => false,
             },
             Plain::Turns => is_angle && parts_of(TAU).iter().all(|(_, over)| *over <= self.bound),
-            // The same half turn everywhere is an offset.
+            // If the same half revolution is added at all instants, the slip is an offset.
             Plain::HalfTurns => {
                 let parts = parts_of(PI);
                 let is_odd = |(halves, _): &(f64, f64)| halves.rem_euclid(2.0) == 1.0;
@@ -238,7 +239,7 @@ impl Wrong<'_> {
         }
     }
 
-    /// How far its value is off at a row.
+    /// Difference of the channel from its right value at a row.
     fn gap(&self, row: usize) -> f64 {
         differences(&self.right[row..=row], &self.found[row..=row], self.channel.kind.periodic)[0]
     }

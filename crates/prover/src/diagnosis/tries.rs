@@ -1,4 +1,4 @@
-//! Where changes of the case are tried, and what comes of one.
+//! The instants at which changes of the case are tried, and the results.
 
 use std::rc::Rc;
 
@@ -14,16 +14,16 @@ pub(super) type Make = Box<dyn Fn(&Case) -> Option<Case>>;
 /// A change that explains something at the instants of a bench.
 pub(super) struct Candidate {
     pub(super) found: Found,
-    /// How it is solved on any grid.
+    /// Makes the changed case on any grid.
     pub(super) make: Make,
-    /// How much it changes in agreeing channels, in shares of their bounds.
+    /// Sum of the changes in agreeing channels, each divided by its bound.
     pub(super) claim: f64,
-    /// For a value that was found: its part, the value, and the middle of the values that would do.
+    /// If a value was found: its knob, the value, and the middle of all possible values.
     pub(super) number: Option<(Rc<Knob>, [f64; 2])>,
 }
 
 impl Candidate {
-    /// A change that leaves `misfit` of what is left by the reference, `start`; `None` if it explains nothing.
+    /// A change that reduces the misfit of the reference, `start`, to `misfit`; `None` if it explains no channel.
     pub(super) fn of(
         bench: &Bench,
         [start, misfit]: [&Misfit; 2],
@@ -37,7 +37,7 @@ impl Candidate {
         is_any.then_some(Candidate { found, make, claim, number: None })
     }
 
-    /// The stage whose channels alone it is about; `None` for all.
+    /// The stage to which the change is limited; `None` for all stages.
     pub(super) fn stage(&self) -> Option<Stage> {
         let DisagreementCause::Values { slip: DataSlip::Late { stage, .. }, .. } = &self.found.cause else {
             return None;
@@ -46,20 +46,22 @@ impl Candidate {
     }
 }
 
-/// The instants on which changes are tried. A free motion is followed for a short time first: later it may depend on
-/// its cause in no simple way, and its solution costs more.
+/// The benches at which changes are tried.
+/// A free motion is first followed for a short time. Later it may not depend on its cause in a simple way, and its
+/// solution costs more.
 pub(super) struct Tries<'a> {
-    /// The first instant, which costs nothing: another configuration shows there, and may lead nowhere.
+    /// The first instant, whose solution costs almost nothing. Another configuration already shows at this instant.
     pub(super) first: Bench<'a>,
     pub(super) soon: Bench<'a>,
     pub(super) thin: Bench<'a>,
-    /// What the reference leaves on both.
+    /// Misfit of the unchanged reference on `soon` and on `thin`.
     pub(super) starts: [Misfit; 2],
     pub(super) is_free: bool,
 }
 
 impl Tries<'_> {
-    /// What a change leaves. A free motion that it does not explain for a short time is not followed further.
+    /// Misfit that a change leaves.
+    /// If a change does not explain the first part of a free motion, the motion is not followed further.
     pub(super) fn of(&self, make: &dyn Fn(&Case) -> Option<Case>) -> Option<Misfit> {
         for bench in [&self.first, &self.soon].into_iter().filter(|_| self.is_free) {
             if !bench.tried(&make(&bench.case)?)?.fits() {

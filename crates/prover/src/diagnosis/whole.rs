@@ -59,8 +59,8 @@ fn change(part: CasePart, how: PartChange, make: impl Fn(&Case) -> Option<Case> 
     (Change { part, how }, Box::new(make))
 }
 
-/// The mass centre of every link at each of its joints, in the middle of two, measured from the other one, or on the
-/// other side of their line.
+/// Moves the mass centre of every link: to each of its joints, to the middle between two joints, to the same distance
+/// from the other joint, or to the other side of the line through two joints.
 fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
     let mut found: Vec<(Change, Make)> = Vec::new();
     for (index, link) in case.mechanism.links().entries().skip(1).filter(|(_, link)| link.mass > 0.0) {
@@ -97,12 +97,12 @@ fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
     found
 }
 
-/// Every link without mass and inertia, without its weight, and without its resistance to acceleration.
+/// Changes every link in three ways: without mass and inertia, without weight, and without resistance to acceleration.
 fn masses(case: &Case) -> Vec<(Change, Make)> {
     let mut found = Vec::new();
     let heavy = |(_, link): &(LinkId, &Link)| link.mass > 0.0;
     let all: Vec<(LinkId, &Link)> = case.mechanism.links().entries().skip(1).filter(heavy).collect();
-    // Of a single link all is the same as this one.
+    // If there is only one link with mass, the change of all links is the same as the change of this link.
     for &(index, link) in all.iter().filter(|_| all.len() > 1) {
         let mut put = |part: fn(String) -> CasePart, make: Make| {
             found.push((Change { part: part(link.name.clone()), how: PartChange::Missing }, make));
@@ -110,7 +110,7 @@ fn masses(case: &Case) -> Vec<(Change, Make)> {
         if link.inertia > 0.0 && case.mechanism.can_turn(index) {
             put(CasePart::Body, Box::new(move |case| without_masses(case, &[index])));
         }
-        // Without weight, inertia forces are all that a mass does.
+        // Without gravity, a mass only causes inertia forces.
         if case.gravity.norm() > 0.0 {
             let lifted = move |case: &Case| case.with(|parts| parts.loads.push(weight(case, index, -1.0))).ok();
             put(CasePart::Weight, Box::new(lifted));
@@ -120,7 +120,7 @@ fn masses(case: &Case) -> Vec<(Change, Make)> {
     found
 }
 
-/// Every load that acts at a point, at the other points of its link.
+/// Moves every load that acts at a point to each other point of its link.
 fn loads(case: &Case) -> Vec<(Change, Make)> {
     let mut found: Vec<(Change, Make)> = Vec::new();
     for (number, load) in case.loads.iter().enumerate() {
@@ -140,14 +140,14 @@ fn loads(case: &Case) -> Vec<(Change, Make)> {
     found
 }
 
-/// A link's weight times a factor, as a load.
+/// A load equal to a link's weight times a factor.
 fn weight(case: &Case, link: LinkId, factor: f64) -> Load {
     let body = &case.mechanism.links()[link];
     let [x, y] = [case.gravity.x, case.gravity.y].map(|own| Course::Constant(factor * body.mass * own));
     Load::Force { at: JointSide { link, local: body.mass_centre }, force: [x, y], follows: false }
 }
 
-/// The case with weights, but without some links' resistance to acceleration.
+/// The case in which some links have weight but no resistance to acceleration.
 fn without_inertia_forces(case: &Case, of: &[LinkId]) -> Option<Case> {
     let heavy = case.with(|parts| parts.loads.extend(of.iter().map(|&link| weight(case, link, 1.0)))).ok()?;
     without_masses(&heavy, of)

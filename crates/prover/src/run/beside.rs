@@ -1,4 +1,5 @@
-//! The analytic sides by themselves: each against numbers from outside, or against the other side where there are none.
+//! The analytic sides without engines: each side is compared with external numbers, or with the other side if there are
+//! none.
 
 use super::checks;
 use super::each_side::{EachSide, Reference};
@@ -14,16 +15,16 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use linkage::work::{Work, counted};
 
-/// A channel of a side beside its truth.
+/// Comparison of one channel of a side with its true values.
 #[derive(Clone, Debug)]
 pub struct Deviation {
     /// The channel.
     pub channel: Channel,
-    /// Largest error, as a share of the channel's scale.
+    /// Largest error divided by the channel's scale.
     pub error: f64,
-    /// What the sides know of their numbers at the instant of that error, as a share of the scale.
+    /// Bound at the instant of that error: the known errors of the sides, divided by the channel's scale.
     pub bound: f64,
-    /// Largest error over bound at any instant.
+    /// Largest ratio of error to bound at any instant.
     pub used: f64,
 }
 
@@ -32,15 +33,15 @@ pub struct Deviation {
 pub struct AnalyticSide {
     /// Name of the solver.
     pub name: &'static str,
-    /// Every channel compared with its truth; empty if the side failed, or if there is nothing to compare with.
+    /// Every compared channel; empty if the side failed, or if there are no values to compare with.
     pub deviations: Vec<Deviation>,
-    /// Largest opening of a joint, over the larger of the mechanism's size and its distance from the origin.
+    /// Largest opening of a joint / the mechanism's size or, if larger, its distance from the origin.
     pub closure: Option<f64>,
-    /// Balancing moment from equilibrium less that from powers, over the moments in the balance.
+    /// Difference of the balancing moments from equilibrium and from powers / the moments in the balance.
     pub balance: Option<f64>,
     /// What it has done.
     pub work: Work,
-    /// Why there are no numbers.
+    /// Reason why the side has no numbers.
     pub failure: Option<Error>,
 }
 
@@ -49,18 +50,18 @@ pub struct AnalyticSide {
 pub struct BothSides {
     /// Side 1 and side 2.
     pub sides: [AnalyticSide; 2],
-    /// The checks that a proof makes of the sides; none if one failed.
+    /// The checks of the sides that a proof makes; empty if a side failed.
     pub checks: Vec<Check>,
-    /// The verdict of these checks. A side that fails leaves it open.
+    /// The verdict of these checks. It is inconclusive if a side failed.
     pub verdict: Verdict,
-    /// Number of channels of a side that are beyond what is known of them against numbers from outside, while every
+    /// Number of channels of the sides that deviate from external numbers by more than their bounds although every
     /// check agrees.
     pub silent: usize,
     /// The trajectory of the first side that has one.
     pub trajectory: Option<Trajectory>,
 }
 
-/// Solves a case with both sides, compares them with `truth` if it is given, and judges as in a proof.
+/// Solves a case with both sides and judges them as in a proof. Compares them with `truth` if it is given.
 ///
 /// # Errors
 /// If `truth` has another grid. A side that fails is part of the result.
@@ -82,7 +83,7 @@ pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<BothSides> {
     let solver = TRUE_SIDES[reference].solver;
     let trajectory = |side: Reference| solved(side).map(|own| &own.trajectory);
     let own = trajectory(reference).expect("it has one");
-    // A side without a trajectory is known as the other one is.
+    // A side without a trajectory gets the known errors of the other side.
     let beside = EachSide::of(|side| {
         trajectory(side).map_or((TRUE_SIDES[reference].tight, own), |own| (TRUE_SIDES[side].tight, own))
     });
@@ -127,7 +128,7 @@ pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<BothSides> {
     Ok(BothSides { sides, checks, verdict, silent, trajectory: Some(own.clone()) })
 }
 
-/// Every channel of a trajectory beside its truth.
+/// Compares every channel of a trajectory with the true values.
 fn deviations(truth: &Trajectory, own: &Trajectory, known: &Known) -> Result<Vec<Deviation>> {
     let errors = difference(truth, own)?;
     let scales = scales(truth);
@@ -154,7 +155,7 @@ mod tests {
     use linkage::case::Grid;
     use scenario::of_repository;
 
-    /// At one instant between others, in every channel.
+    /// At a single instant in the middle of the run, in every channel.
     #[test]
     fn external_numbers_wrong_at_one_instant_are_found() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

@@ -1,4 +1,4 @@
-//! Checks besides the comparison of the two sides: closure, side against side, powers.
+//! Checks besides the comparison of channels with an engine: closure, side against side, balance of powers.
 
 use super::each_side::{EachSide, Reference};
 use super::known::{Known, of_condition};
@@ -14,13 +14,15 @@ use linkage::math::statistics::{ascending, share};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, ChannelKind, Stage, Trajectory, Unit};
 
-/// Wanted of an analytic side: closure of the joints, relative to the mechanism's size or its distance from the origin.
+/// Limit for an analytic side: opening of its joints / the mechanism's size or, if larger, its distance from the
+/// origin.
 /// The shipped mechanisms have 5e-16 at most.
 const CLOSURE: f64 = 1e-13;
-/// Wanted of an analytic side: balancing moment computed in two ways, relative to the moments in its balance.
+/// Limit for an analytic side: difference of the balancing moments computed by two methods / the moments in the
+/// balance.
 const TWO_WAYS: f64 = 1e-11;
 
-/// The same for a side that passes change points: there forces are known less well.
+/// `TWO_WAYS`, or a larger limit for a side that passes change points, because forces are known less accurately there.
 fn two_ways(side: &Observed) -> f64 {
     TWO_WAYS.larger(of_condition(Stage::Reactions, side.passing))
 }
@@ -56,11 +58,11 @@ pub(super) fn of_sides(case: &Case, sides: EachSide<&Observed>, known: &Known) -
     checks
 }
 
-/// One channel at the instant at which its difference uses the largest share of what is allowed.
+/// One channel at its worst instant: the instant with the largest ratio of difference to allowed difference.
 struct Worst<'a> {
     channel: &'a Channel,
     row: usize,
-    /// The difference over the size of the channel's numbers, and what is allowed.
+    /// The difference and the allowed difference, both divided by the size of the channel's numbers.
     relative: f64,
     allowed: f64,
 }
@@ -88,25 +90,26 @@ fn worst_instants<'a>([reference, other]: [&'a Trajectory; 2], known: &Known) ->
     reference.channels().iter().enumerate().map(of).collect()
 }
 
-/// Where two trajectories leave what is allowed in one channel.
+/// A channel in which two trajectories differ by more than is allowed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beyond {
     /// The channel.
     pub channel: Channel,
-    /// First instant beyond what is allowed (s), and its crank angle (rad).
+    /// First instant at which the difference is too large (s), and its crank angle (rad).
     pub since: (f64, f64),
-    /// Largest difference over what is allowed.
+    /// Largest ratio of difference to allowed difference.
     pub margin: f64,
 }
 
-/// Every channel in which the two sides differ by more than what is allowed: since when, and by how much.
+/// Every channel in which the two sides differ by more than is allowed, with the first such instant and the largest
+/// ratio.
 pub(super) fn beyond(sides: EachSide<&Observed>, known: &Known) -> Vec<Beyond> {
     let [reference, other] = sides.pair().map(|own| &own.trajectory);
     let rows = ascending(reference.times());
     let errors = difference(reference, other).expect("both sides stand on one grid");
     let of = |(index, worst): (usize, Worst)| {
         let values = errors.column_near(worst.channel, index)?;
-        // Written so that NaN counts as beyond.
+        // This form of the comparison counts NaN as beyond.
         let is_beyond = |row: &&usize| {
             let relative = share(values[**row].abs(), known.magnitude(index));
             !(relative <= known.apart(worst.channel.kind.stage, index, **row))
@@ -118,7 +121,7 @@ pub(super) fn beyond(sides: EachSide<&Observed>, known: &Known) -> Vec<Beyond> {
     worst_instants([reference, other], known).into_iter().enumerate().filter_map(of).collect()
 }
 
-/// Whether the two sides differ by more than what is allowed.
+/// Whether the two sides differ by more than is allowed in any channel.
 pub(super) fn sides_differ(sides: [&Trajectory; 2], known: &Known) -> bool {
     worst_instants(sides, known).iter().any(|worst| !(worst.used() <= 1.0))
 }
@@ -147,8 +150,9 @@ pub(super) fn of_engine(problem: Problem, engine: &dyn Engine, runs: &Runs) -> V
     checks
 }
 
-/// Opening of the engine's loops. In a closed loop it is zero, so the opening is itself an error. It must vanish with
-/// the step at the rate that the runs show.
+/// Checks the opening of the engine's loops.
+/// A closed loop has no opening, so any opening is an error. It must vanish with the step at the rate that the runs
+/// show.
 fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let size = problem.case.mechanism.size();
     let kind = Channel::named("point.A.x_m").expect("the table has positions of points").kind;
@@ -163,11 +167,11 @@ fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     .check(problem, engine, runs)
 }
 
-/// The engine's driving moment against the balance of powers of its own motion. Both belong to one motion, so their
-/// difference must vanish with the step.
+/// Checks the engine's driving moment against the balance of powers of the same motion.
+/// Both belong to one motion, so their difference must vanish with the step.
 fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let kind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
-    // Where no moment is more than rounding, the mechanism could have one all the same.
+    // If all moments are only rounding, the scale is the moment that the mechanism's data make possible.
     let scale = problem.built().unless(runs.single().moment, Unit::NewtonMetre);
     let gaps = |run: &Observed| run.moment_gap().collect::<Vec<f64>>();
     let by_differences = engine.settings().route == Route::Differences;
@@ -176,7 +180,7 @@ fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
         of: &|run: &Observed| gaps(run).into_iter().map(|gap| share(gap, scale)).collect(),
         value: share(largest_size(&gaps(runs.single())), scale),
         kind,
-        // Each of the two may have this error.
+        // Both moments may have this error.
         noise: if scale == 0.0 { 0.0 } else { 2.0 / scale },
         note: match by_differences {
             true => sentences::BOTH_FROM_THE_SAME_ACCELERATIONS,
@@ -186,24 +190,25 @@ fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     .check(problem, engine, runs)
 }
 
-/// A relative number of an engine's runs that would be zero for a perfect engine.
+/// A relative number that would be zero for a perfect engine, evaluated from an engine's runs.
 struct Vanishing<'a> {
     family: String,
     /// The number at every instant of a run.
     of: &'a dyn Fn(&Observed) -> Vec<f64>,
-    /// Its largest size in the run that is judged.
+    /// Largest absolute value of the number in the judged run.
     value: f64,
-    /// The channel that gives its order and its rounding.
+    /// The kind of channel whose order and rounding error the number has.
     kind: &'static ChannelKind,
-    /// Rounding of the number over that of the channel.
+    /// Rounding error of the number / that of the channel.
     noise: f64,
     /// Note on what the check shows.
     note: &'static str,
 }
 
 impl Vanishing<'_> {
-    /// The number must not exceed the size that the runs predict for it. A part that does not vanish with the step is
-    /// found as soon as it exceeds the safety factor's share of the part that does.
+    /// The number must not exceed the size that the runs predict for it.
+    /// A part that does not vanish with the step is found once it exceeds the vanishing part times the margin of the
+    /// safety factor.
     fn check(self, problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
         let (case, resolution) = (problem.case, engine.settings().resolution);
         let noise = |engine: &dyn Engine| self.noise * engine.noise(case, self.kind);
@@ -220,7 +225,7 @@ impl Vanishing<'_> {
     }
 }
 
-/// How the rounding of an engine is known.
+/// Origin of an engine's rounding error: measured or chosen.
 pub(super) fn noise_origin(engine: &dyn Engine) -> BoundOrigin {
     if engine.is_noise_measured() { BoundOrigin::Measured } else { BoundOrigin::Wanted }
 }

@@ -1,4 +1,4 @@
-//! Which groups the number of a channel depends on: an error of another group does not reach it.
+//! The groups that a channel depends on. An error in another group does not affect the channel.
 //! See docs/numerics/bounds.md.
 
 use std::collections::BTreeMap;
@@ -9,26 +9,27 @@ use linkage::trajectory::{Channel, Stage};
 
 /// Sets of groups that channels depend on.
 pub(super) struct Dependence {
-    /// The different sets: indices of groups in ascending order.
+    /// The distinct sets. Each is a list of group indices in ascending order.
     pub(super) sets: Vec<Vec<GroupId>>,
-    /// The set of every channel, as an index.
+    /// For every channel, the index of its set.
     pub(super) of: Vec<usize>,
-    /// Groups of every set from which all its others follow, because they are before them.
+    /// For every set, the last groups. They determine the set, because they depend on all its other groups.
     tops: Vec<Vec<GroupId>>,
 }
 
 impl Dependence {
-    /// Under a prescribed motion, a link depends on its own group and those before it. Forces, and a motion that they
-    /// decide, depend on all groups.
+    /// Determines the groups that each channel depends on.
+    /// In a prescribed motion, a link depends on its own group and on the groups before it.
+    /// Forces depend on all groups, and so does a motion under forces.
     pub(super) fn of(case: &Case, channels: &[Channel]) -> Self {
         let all: Vec<GroupId> = case.structure.groups.ids().collect();
         let upstream = case.structure.upstream(&case.mechanism);
         let mut found = Dependence { sets: Vec::new(), of: Vec::with_capacity(channels.len()), tops: Vec::new() };
         let seats = case.seats();
-        // A set follows from the groups of its channel's links: each is found once.
+        // Last groups for which a set was already found. Each set is found only once.
         let mut known: BTreeMap<Vec<GroupId>, usize> = BTreeMap::new();
         for channel in channels {
-            // A link's own group is the last of those that it depends on.
+            // Of the groups that a link depends on, its own group is the last.
             let tops = match case.is_free() || channel.kind.stage >= Stage::Reactions {
                 true => all.clone(),
                 false => {
@@ -50,14 +51,14 @@ impl Dependence {
         found
     }
 
-    /// Whether all that set `from` depends on is also what set `to` depends on.
+    /// Whether set `to` contains all groups of set `from`.
     pub(super) fn feeds(&self, from: usize, to: usize) -> bool {
         let (from, to) = (&self.tops[from], &self.sets[to]);
         from.iter().all(|group| to.binary_search(group).is_ok())
     }
 }
 
-/// The groups `tops` and all before them, in ascending order.
+/// The groups `tops` and all groups that they depend on, in ascending order.
 fn joined(structure: &Structure, upstream: &PerLink<Vec<GroupId>>, tops: &[GroupId]) -> Vec<GroupId> {
     let of = |&top: &GroupId| upstream[structure.groups[top].links[0]].iter().copied();
     let mut set: Vec<GroupId> = tops.iter().flat_map(of).collect();
@@ -66,7 +67,7 @@ fn joined(structure: &Structure, upstream: &PerLink<Vec<GroupId>>, tops: &[Group
     set
 }
 
-/// The links whose motion a channel of motion tells: each belongs to a part of its mechanism.
+/// The links whose motion a motion channel describes.
 fn links_of(mechanism: &Mechanism, seat: Option<Seat>) -> Vec<LinkId> {
     match seat {
         Some(Seat::Link(link)) => vec![link],
@@ -75,7 +76,7 @@ fn links_of(mechanism: &Mechanism, seat: Option<Seat>) -> Vec<LinkId> {
             let joint = &mechanism.joints()[joint];
             vec![joint.first.link, joint.second.link]
         }
-        // None of them tells a motion.
+        // Channels of these kinds do not describe a motion.
         Some(Seat::Frame | Seat::Drive(_)) | None => Vec::new(),
     }
 }
@@ -106,7 +107,7 @@ mod tests {
             assert_eq!(own.last(), Some(&index), "{}", name(group.links[0]));
         }
         assert_eq!(set("drive.torque_N_m"), (0..groups).map(GroupId).collect::<Vec<_>>());
-        // What follows from the last groups of a set is what all of its groups say.
+        // The last groups of a set must give the same answer as all groups of the set.
         let (sets, count) = (&found.sets, found.sets.len());
         assert!(count > 2);
         for (from, to) in (0..count).flat_map(|from| (0..count).map(move |to| (from, to))) {

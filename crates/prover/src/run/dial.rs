@@ -1,4 +1,4 @@
-//! One factor on every bound, to see how close a proof is to its bounds.
+//! Multiplies all bounds of a proof by one factor, to show how close the proof is to its bounds.
 
 use super::{EngineProof, Proof, parties};
 use crate::bounds::{Check, Verdict, overall};
@@ -6,10 +6,11 @@ use crate::numbers::error;
 use crate::sentences;
 
 impl Proof {
-    /// The same proof, judged with every bound multiplied by `dial`. A value below 1 is stricter; at 0 only an exact
-    /// zero agrees.
+    /// The same proof, judged again with every bound multiplied by `dial`.
+    /// A value below 1 is stricter. At 0 only an exact zero agrees.
     ///
-    /// Residuals stay as they are. Inconclusive verdicts stay too: their bounds decide nothing, with any factor.
+    /// Residuals do not change.
+    /// Inconclusive verdicts do not change either, because their bounds decide nothing whatever the factor.
     #[must_use]
     pub fn with_bounds_scaled(mut self, dial: f64) -> Self {
         self.engines.iter_mut().for_each(|engine| scale_engine(engine, dial));
@@ -19,7 +20,7 @@ impl Proof {
         }
         let analytic = overall(self.checks.iter().map(|check| &check.verdict));
         self.verdict = overall([&analytic].into_iter().chain(self.engines.iter().map(|engine| &engine.verdict)));
-        // A diagnosis belongs to the bounds that it was made with.
+        // A diagnosis is valid only for the bounds with which it was made.
         self.diagnosis = self.diagnosis.filter(|_| dial == 1.0);
         self.diagnosis_is_cut &= dial == 1.0;
         self
@@ -41,8 +42,9 @@ fn scale(check: &mut Check, dial: f64) {
     judge(&mut check.verdict, check.value, &mut check.bound, dial);
 }
 
-/// Judges again a verdict that came from a bound. A number that disagrees although it is within its bound disagrees for
-/// another reason: a finding calls it wrong.
+/// Judges again a verdict that is based on a bound.
+/// A number may disagree although it is within its bound, because a finding calls it wrong. Its verdict does not
+/// change.
 fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
     let beyond = !(value <= *bound);
     *bound *= dial;

@@ -1,8 +1,9 @@
-//! Instants at which channels jump, so that an engine's value depends on the smallest error of its motion.
+//! Instants at which channels jump. An engine's value there depends on the smallest error of its motion.
 //!
-//! A load may jump where its link reverses. A load that vanishes there does not jump, and no instant is left out.
-//! At a change point an engine takes one of many solutions. Its rates there say nothing about its branch; later
-//! instants show the branch.
+//! A load may jump when its link reverses. A load that vanishes at the reversal does not jump, so no instant is left
+//! out.
+//! At a change point an engine follows one of many solutions. Its rates at that instant do not show its branch; later
+//! instants do.
 //! See docs/numerics/bounds.md.
 
 use linkage::case::Case;
@@ -14,16 +15,18 @@ use linkage::trajectory::Stage;
 use super::observe::{Observed, Senses};
 use super::runs::Runs;
 
-/// Number of steps around a jump in which an engine's values are doubtful.
+/// Within this number of steps on either side of a jump, an engine's values are doubtful. The steps are those of the
+/// coarsest judged run.
 const STEPS: f64 = 8.0;
-/// The same for impulses of a free motion, which are read from six steps, one step late.
+/// The same for impulses of a free motion. They are read from six steps, one step late.
 const IMPULSES: f64 = 5.0;
-/// Share of a step within which a load jumps at different instants in the runs of a prescribed motion with combined
-/// impulses.
+/// The same for a prescribed motion with combined impulses: within this fraction of a step, a load jumps at different
+/// instants in the different runs.
 /// The velocities of these runs differ by about a twelfth of the square of the step.
 const APART: f64 = 0.25;
 
-/// Share of a drive's top speed that counts as standstill. It exceeds the rounding error of a law's formula.
+/// A drive counts as standing still below this fraction of its top speed. The limit exceeds the rounding error of a
+/// law's formula.
 const STANDSTILL: f64 = 1e-9;
 /// Number of instants that may be left out whatever the step: the two ends of a motion.
 const ENDS: usize = 2;
@@ -37,13 +40,13 @@ struct Doubtful {
     rates: bool,
     accelerations: bool,
     forces: bool,
-    /// Whether a finer step would help.
+    /// Whether a finer step would make the instant usable.
     by_step: bool,
 }
 
 impl Doubt {
-    /// Finds the doubtful instants from the reversals of loads and the singular poses of the reference; `settings` are
-    /// those of the judged run.
+    /// Finds the doubtful instants from the reversals of loads and from the singular poses of the reference.
+    /// `settings` are those of the judged run.
     pub(super) fn of(case: &Case, reference: &Observed, runs: &Runs, settings: Settings) -> Self {
         let Observed { senses, singular, .. } = reference;
         let Settings { resolution, route, extrapolated, .. } = settings;
@@ -53,7 +56,7 @@ impl Doubt {
         for (row, (&t, own)) in times.iter().zip(&mut all).enumerate() {
             let (turns, is_singular) = (drive_turns(case, t, reach), singular.get(row) == Some(&true));
             if turns || is_singular {
-                // At the instant itself no step helps.
+                // At the instant of the reversal itself, no step is fine enough.
                 let by_step = turns && !drive_turns(case, t, 0.0);
                 *own = Doubtful { rates: true, accelerations: true, forces: true, by_step };
             }
@@ -80,7 +83,7 @@ impl Doubt {
         Doubt(all)
     }
 
-    /// Whether a channel of a stage is judged, by row.
+    /// For every row, whether the channels of a stage are judged.
     pub(super) fn keeps(&self, stage: Stage) -> Vec<bool> {
         let is_out = |own: &Doubtful| match stage {
             Stage::Positions => false,
@@ -91,14 +94,14 @@ impl Doubt {
         self.0.iter().map(|own| !is_out(own)).collect()
     }
 
-    /// Share of instants that are left out but would be kept with a finer step.
+    /// Fraction of the instants that are left out now but would be kept with a finer step.
     pub(super) fn too_coarse(&self) -> f64 {
         let out = self.0.iter().filter(|own| own.by_step).count().saturating_sub(ENDS);
         out as f64 / self.0.len().max(1) as f64
     }
 }
 
-/// Whether two velocities have different directions. Standstill in both counts as one direction.
+/// Whether two velocities have different directions. If both are zero, they have the same direction.
 fn against(a: Vec2, b: Vec2) -> bool {
     a.dot(&b) <= 0.0 && (a != Vec2::zeros() || b != Vec2::zeros())
 }
@@ -116,8 +119,8 @@ fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
     })
 }
 
-/// Times at which a load jumps because the velocity that it depends on reverses, by linear interpolation between the
-/// instants.
+/// Times at which a load jumps, because the velocity that determines its direction reverses.
+/// The times are interpolated linearly between the instants.
 fn reversals(times: &[f64], senses: &Senses) -> Vec<f64> {
     let mut rows: Vec<usize> = (0..times.len()).collect();
     rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
@@ -168,9 +171,9 @@ mod tests {
         Scenario::parse(text, std::path::Path::new("x.toml")).unwrap_or_else(|error| panic!("{error}")).case
     }
 
-    /// Number of instants left out of velocities and of positions, and number of them that a smaller step would bring
-    /// back.
-    /// Steps of 1.1 ms reach 17.6 ms.
+    /// Number of instants at which velocities and positions are left out.
+    /// Also the number of instants that a smaller step would make usable.
+    /// At steps of 1.1 ms, 17.6 ms on either side are doubtful.
     fn left_out(file: &str) -> ([usize; 2], f64) {
         let case = parsed(&text(file));
         let (doubt, _) = doubt(&case, Route::Differences);
@@ -179,21 +182,23 @@ mod tests {
         ([out(Stage::Velocities), out(Stage::Positions)], doubt.too_coarse() * count)
     }
 
-    /// From rest to rest: the instants of rest are left out. No smaller step brings them back.
+    /// A motion from rest to rest. The instants of rest are left out, and would be left out at any smaller step.
     #[test]
     fn rates_at_the_ends_of_a_law_of_motion_are_left_out() {
         assert_eq!(left_out("scenarios/cycloidal_start.toml"), ([2, 0], 0.0));
     }
 
-    /// A ramp of 0.25 s, every 20 ms: the initial rest and the instants on either side of its jump are left out.
+    /// A ramp of 0.25 s with an instant every 20 ms. The initial rest is left out, and so are the instants on either
+    /// side of the ramp's jump.
     #[test]
     fn rates_beside_a_jump_of_the_acceleration_are_left_out() {
         assert_eq!(left_out("tests/outside/scenarios/ramped_arm.toml"), ([3, 0], 0.0));
     }
 
     /// A pendulum with friction, released from rest, reverses twice in three seconds.
-    /// Impulses are read from six steps, one step late, so the doubt reaches five of the longest steps (11 ms).
-    /// For second differences the doubt reaches 17.6 ms.
+    /// Impulses are read from six steps, one step late. So five of the longest steps (11 ms) are doubtful on either
+    /// side.
+    /// For second differences it is 17.6 ms.
     #[test]
     fn only_forces_beside_a_reversal_of_free_motion_are_left_out() {
         let text = text("scenarios/pendulum.toml").replace("step_s = 0.01", "step_s = 0.001");

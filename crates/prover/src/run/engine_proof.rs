@@ -15,15 +15,15 @@ use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
 pub struct EngineInfo {
     /// Name, as on the command line.
     pub name: &'static str,
-    /// Software and version behind it.
+    /// Name and version of the software that the engine uses.
     pub version: String,
     /// Settings of the engine.
     pub settings: Settings,
-    /// Whether its resolution is an accuracy, not a step.
+    /// Whether the engine's resolution is an accuracy instead of a step.
     pub controls_error: bool,
     /// Settings that influence the result, by name, as text.
     pub told: Vec<(&'static str, String)>,
-    /// How it provides each kind of channel: stage and provision.
+    /// For each stage, how the engine provides its channels.
     pub provides: Vec<(&'static str, Provision)>,
 }
 
@@ -55,14 +55,14 @@ pub struct ChannelProof {
     pub parts: Parts,
     /// Convergence of the engine in this channel.
     pub convergence: Convergence,
-    /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` if
-    /// the limit cannot be estimated.
+    /// Largest difference between the extrapolated limit of the engine's runs and the reference, in the channel's unit.
+    /// `None` if the limit cannot be estimated.
     pub limit: Option<f64>,
-    /// For a free motion: largest change over the run, as a share of the scale, per relative change of gravity and
-    /// motor torque.
+    /// For a free motion: largest change of the channel over the run, divided by its scale, per relative change of
+    /// gravity and motor torque.
     pub sensitivity: Option<f64>,
-    /// Number of instants that are not judged. There a drive or a loaded link reverses and the channel jumps, or a free
-    /// motion begins.
+    /// Number of instants that are not judged.
+    /// At these instants a drive or a loaded link reverses and the channel jumps, or a free motion begins.
     pub left_out: usize,
     /// Basis of the bound.
     pub basis: BoundBasis,
@@ -73,9 +73,9 @@ pub struct ChannelProof {
 /// How the settings of an engine were found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SettingsSearch {
-    /// Number of runs that were made, each at another step or with other sweeps.
+    /// Number of runs made. Each has another step or another number of sweeps.
     pub runs: usize,
-    /// Work done, in steps without sweeps; twenty sweeps count as one step more.
+    /// Work done, in steps without sweeps. Twenty sweeps count as one additional step.
     pub effort: f64,
     /// Allowed work, in the same unit.
     pub budget: f64,
@@ -92,14 +92,14 @@ pub enum SearchEnd {
     Rounding,
     /// The allowed work is done.
     Budget,
-    /// At the pace of its rounds the allowed work would not be enough.
+    /// At the rate of progress of the search, the allowed work would not be enough.
     Pace,
-    /// The free settings have no better value.
+    /// No free setting has a better value.
     Nothing,
 }
 
 impl SearchEnd {
-    /// Replaces the advice of an inconclusive verdict by what the search has tried.
+    /// Adds to an inconclusive verdict why the search ended, and replaces the advice accordingly.
     pub(super) fn tell(self, verdict: &mut Verdict, budget: f64) {
         let Verdict::Inconclusive { reason, advice } = verdict else { return };
         if advice.is_empty() {
@@ -123,40 +123,40 @@ impl SearchEnd {
 pub struct EngineProof {
     /// The engine.
     pub info: EngineInfo,
-    /// How its settings were found; `None` if all were given, or if the engine failed.
+    /// How the engine's settings were found; `None` if all were given, or if the engine failed.
     pub search: Option<SettingsSearch>,
     /// Channels, in the order of columns; none if the engine failed.
     pub channels: Vec<ChannelProof>,
-    /// Checks on the engine alone; none on its own forces.
+    /// Checks on the engine alone; empty for the engine's own forces.
     pub checks: Vec<Check>,
-    /// Forces as the engine itself exerts them, if the judged forces follow from its motion.
+    /// Judgement of the forces that the engine itself exerts. `None` unless the judged forces follow from its motion.
     pub own_forces: Option<Box<EngineProof>>,
     /// Verdict on channels, checks and own forces together.
     pub verdict: Verdict,
-    /// Its trajectory: all instants, or those before a failure. For own forces it has forces only.
+    /// Trajectory of the engine: all instants, or those before a failure. For own forces it contains forces only.
     pub trajectory: Option<Trajectory>,
     /// Engine minus reference; `None` if the engine failed, and for own forces.
     pub errors: Option<Trajectory>,
-    /// Whether all channels are judged at an instant, by row of the grid; empty if the engine failed.
+    /// For every row of the grid, whether all channels are judged; empty if the engine failed.
     pub kept: Vec<bool>,
-    /// Reason why there is no comparison.
+    /// Reason why the engine was not compared.
     pub failure: Option<Error>,
 }
 
 /// Which of the two judgements of an engine's forces disagrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ForceFault {
-    /// The forces that follow from its motion. The motion agrees, so the fault is in the equations that derive forces
-    /// from it.
+    /// The forces that follow from its motion. The motion agrees, so the fault is in the equations for the forces.
     Reading,
-    /// The forces that the engine itself exerts. Its motion is right, and so are the forces that follow from it.
+    /// The forces that the engine itself exerts. Its motion is right, and the forces that follow from the motion are
+    /// right too.
     Exerted,
     /// Both.
     Both,
 }
 
 impl EngineProof {
-    /// An engine with a verdict only, without results.
+    /// An engine without results, only with a verdict.
     pub(super) fn bare(info: EngineInfo, verdict: Verdict) -> Self {
         EngineProof {
             info,
@@ -172,9 +172,9 @@ impl EngineProof {
         }
     }
 
-    /// What own forces add to the engine's verdict.
-    /// Inconclusive own forces are reported but do not change the verdict: the motion and its forces are judged without
-    /// them.
+    /// Verdict on the own forces as it enters the engine's verdict.
+    /// Inconclusive own forces are reported but do not change the verdict, because the motion and its forces are judged
+    /// without them.
     /// Impulses are of a lower order and need the true masses, with many sweeps.
     #[must_use]
     pub fn added(&self) -> Option<&Verdict> {
@@ -183,8 +183,9 @@ impl EngineProof {
     }
 
     /// Which of the two judgements of the forces disagrees.
-    /// `None` if neither disagrees or there is only one.
-    /// Also `None` if the other one is inconclusive or the motion itself disagrees, because nothing then follows.
+    /// `None` if both agree or if only one exists.
+    /// Also `None` if the other judgement is inconclusive or the motion itself disagrees, because the cause is then
+    /// unknown.
     #[must_use]
     pub fn force_fault(&self) -> Option<ForceFault> {
         let own = &self.own_forces.as_ref()?.channels;

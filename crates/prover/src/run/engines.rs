@@ -1,4 +1,4 @@
-//! One engine against the reference, at the given settings or at those that the search finds.
+//! One engine compared with the reference, at the given settings or at the settings found by the search.
 
 use crate::sentences;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use linkage::error::{Advice, ErrorKind, Result};
 use linkage::math::KeepNan;
 use scenario::EngineSettings;
 
-/// Runs an engine on `case`, at the given settings or at those that the search finds, and judges it.
+/// Runs an engine on `case` and judges it, at the given settings or at the settings found by the search.
 pub(super) fn prove(
     judge: &Judge,
     case: &Case,
@@ -30,7 +30,7 @@ pub(super) fn prove(
 ) -> Result<EngineProof> {
     let (engine, asked) = (chosen.engine.as_ref(), judge.asked);
     let mut bank = Bank::new(case, engine, Watch::Engine);
-    // The engine refuses an impossible step.
+    // The engine itself rejects an impossible step.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
     let given = chosen.given.clone().of_motion();
     let searches = given.leaves_a_choice() && !engine.controls_error() && is_step;
@@ -46,7 +46,7 @@ pub(super) fn prove(
     let Judged { mut proof, run, .. } = match found {
         Ok(found) => found,
         Err(Stopped { error, kept, spent }) => {
-            // Without work for finer steps it is unknown whether the engine fails or only its coarse steps.
+            // If no work is left for finer steps, only the coarse steps may have failed, not the engine.
             let (verdict, failure) = match spent {
                 None => (Verdict::open(error.message()), Some(error)),
                 Some(work) => {
@@ -79,7 +79,7 @@ pub(super) fn prove(
         let (end, budget) = (search.end, search.budget);
         proof.verdicts_mut().for_each(|verdict| end.tell(verdict, budget));
     }
-    // Releases its runs before others are made.
+    // Releases the stored runs before new runs are made.
     drop(bank);
     let trajectory = Arc::unwrap_or_clone(run).trajectory;
     let part = sentences::own_forces(&engine.name());
@@ -121,7 +121,8 @@ fn at_given(
         Ok(judge.judge(engine, runs)?)
     };
     let judged = with(&others[..others.len().min(1)])?;
-    // Sweeps that have hardly begun to converge differ little. A third run distinguishes them from converged ones.
+    // If the sweeps have hardly begun to converge, two runs differ little. A third run distinguishes this case from
+    // convergence.
     let mut judged = match judged.proof.against().is_empty() || others.len() < 2 {
         true => judged,
         false => match with(&others) {
@@ -140,7 +141,7 @@ fn at_given(
     Ok(judged)
 }
 
-/// Advice for an inconclusive run at a given step: the result of a run with free settings.
+/// Advice for an inconclusive run at a given step. It comes from a run with free settings.
 fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
     let case = bank.case;
     let engine = chosen.engine.at(coarse_step(case));

@@ -1,4 +1,4 @@
-//! Participants of a proof, and its two halves: the analytic sides, and the engines against one of them.
+//! Participants of a proof, and the two parts of a proof: the analytic sides, and the engines compared with one side.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,7 +25,7 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{Formulas, MechanismFigure};
 
-/// Share of the progress for the analytic sides.
+/// Fraction of the progress that the analytic sides account for.
 const SIDES: f64 = 0.1;
 
 /// Largest number of operations to search for the causes of all wrong formulas of a file.
@@ -72,12 +72,12 @@ pub struct ObservedSides {
     pub checks: Vec<Check>,
     /// Figures that formulas claim.
     figures: EachSide<Vec<(MechanismFigure, Rounded)>>,
-    /// Judgement of the formulas, if any claims something.
+    /// Judgement of the formulas; `None` if no formula claims anything.
     pub(super) judgement: Option<Judgement>,
 }
 
 impl ObservedSides {
-    /// Both sides on a problem. Its case may be the scene of the case `whole`.
+    /// Solves a problem with both sides. The problem's case may be only a part (the scene) of the case `whole`.
     ///
     /// # Errors
     /// Those of the sides.
@@ -137,7 +137,7 @@ impl ObservedSides {
             None => ledger.skipped("formulas", sentences::NONE_CLAIMS_A_WANTED_CHANNEL),
             Some(_) => {
                 let judged = ledger.done("formulas", sentences::BY_VALUE_AND_BY_DERIVATIVE, || {
-                    // As with published figures: means over a turn belong to the nominal motion.
+                    // As for published figures: means over a revolution belong to the nominal motion.
                     let solvers = EachSide::of(|side| entrants[side].solver);
                     own.figures = figures::claimed(own_formulas, &whole.nominal(), solvers)?;
                     own.judged(case, own_formulas)
@@ -149,7 +149,7 @@ impl ObservedSides {
         Ok(own)
     }
 
-    /// Judges formulas against both sides: every claim whose channels the sides have.
+    /// Judges formulas against both sides. Judges every claim whose channels the sides have.
     ///
     /// # Errors
     /// Those of [`check::judge`].
@@ -192,7 +192,7 @@ impl ObservedSides {
         EachSide::tried(|side| self.on_course(case, side, |course| check::judge(formulas, course)))
     }
 
-    /// Calls `then` with the trajectory of one side on a case, and with its errors.
+    /// Calls `then` with the trajectory of one side of a case, and with the errors of this trajectory.
     pub fn on_course<T>(
         &self,
         case: &Case,
@@ -207,7 +207,7 @@ impl ObservedSides {
         then(&KnownTrajectory::new(case, trajectory, &error).with_figures(&self.figures[side]))
     }
 
-    /// Judgement of the formulas, if any claims something.
+    /// Judgement of the formulas; `None` if no formula claims anything.
     pub fn judgement(&self) -> Option<&Judgement> {
         self.judgement.as_ref()
     }
@@ -222,12 +222,12 @@ impl ObservedSides {
         &self.own().trajectory
     }
 
-    /// Integration error of the reference by channel, in its unit; zero in a prescribed motion.
+    /// Integration error of the reference in every channel, in the channel's unit; zero in a prescribed motion.
     pub fn integration(&self) -> Vec<f64> {
         (0..self.trajectory().channels().len()).map(|channel| self.known.integration(self.reference, channel)).collect()
     }
 
-    /// Bound on the error of the reference over the run by channel, in its unit.
+    /// Bound on the error of the reference over the run in every channel, in the channel's unit.
     pub(super) fn bounds(&self) -> Vec<f64> {
         let channels = self.trajectory().channels().iter().enumerate();
         channels.map(|(index, channel)| self.known.error(channel.kind.stage, index)).collect()

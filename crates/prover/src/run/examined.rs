@@ -1,4 +1,4 @@
-//! The diagnosis of a proof that disagrees: its parties, and which of them is examined.
+//! The diagnosis of a disagreeing proof: its parties, and the party to be examined.
 
 use super::each_side::{EachSide, Reference};
 use super::engine_proof::EngineProof;
@@ -9,8 +9,8 @@ use crate::diagnosis::{DiagnosedParty, Diagnosis, DiagnosisInput, PartyStanding,
 use linkage::case::{Case, Grid};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Examines the party that stands alone.
-/// Without such a party, examines the first engine that disagrees, or the side that is not the reference.
+/// Examines the party that contradicts all others.
+/// Without such a party, examines the first engine that disagrees, or else the side that is not the reference.
 /// `None` if no channel disagrees.
 pub(super) fn of(
     case: &Case,
@@ -75,7 +75,7 @@ fn disagrees(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Disagree { .. })
 }
 
-/// The channels of an engine with reliable bounds. A channel that is beyond its bound for a known reason is left out.
+/// The channels of an engine with reliable bounds. Channels that exceed their bounds for a known reason are left out.
 fn judged(engine: &EngineProof) -> Vec<SuspectChannel> {
     let channels = engine.channels.iter().filter(|own| own.convergence.is_trusted());
     let judged = channels.map(|own| (own.residual.max, own.bound, &own.residual.channel, disagrees(&own.verdict)));
@@ -89,7 +89,7 @@ fn side_bounds(sides: &EachSide<Observed>, known: &Known) -> Vec<SuspectChannel>
     let of = |(index, channel): (usize, &Channel)| {
         let gap = largest_difference(one.column(channel)?, other.column(channel)?, channel.kind.periodic);
         let bound = known.between(channel.kind.stage, index);
-        // Written so that NaN disagrees.
+        // This form of the comparison makes NaN disagree.
         Some(SuspectChannel { channel: channel.clone(), bound, disagrees: !(gap <= bound) })
     };
     one.channels().iter().enumerate().filter_map(of).collect()
@@ -105,7 +105,7 @@ mod tests {
     use linkage::solver::Solver;
     use scenario::of_repository;
 
-    /// The same observations with the opposite balancing moment in the trajectory.
+    /// The same observations, but with the sign of the balancing moment changed in the trajectory.
     fn spoiled(mut side: Observed) -> Observed {
         let right = &side.trajectory;
         let moment = Channel::named("drive.torque_N_m").unwrap();
@@ -119,7 +119,7 @@ mod tests {
         side
     }
 
-    /// The engine decides between the two sides, and the cause is named for the one that is wrong.
+    /// The engine decides which of the two sides is wrong, and the cause is named for this side.
     #[test]
     fn a_side_contradicted_by_side_and_engine_is_the_odd_one_out() {
         let scenario = of_repository("scenarios/crank_rocker.toml");

@@ -11,7 +11,7 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 use scenario::{Formulas, MechanismFigure};
 
-/// Relative error of a side's figures. It is chosen: rounding allows it in sums over thousands of poses.
+/// Relative error assumed for a side's figures. It is chosen: rounding in sums over thousands of poses stays below it.
 const KNOWN: f64 = 1e-11;
 
 /// The figures that formulas claim, from both sides, in SI units. Their error covers the difference of the sides and
@@ -43,7 +43,7 @@ pub(super) fn claimed(
     Ok(found)
 }
 
-/// Figures computed by one analytic side. The means over a turn are computed once, at the first request.
+/// Figures computed by one analytic side. The means over a revolution are computed only once, at the first request.
 pub(super) struct Measured<'a> {
     case: &'a Case,
     solver: &'a dyn Solver,
@@ -51,7 +51,7 @@ pub(super) struct Measured<'a> {
 }
 
 impl<'a> Measured<'a> {
-    /// A case in its nominal motion and a side; nothing is measured yet.
+    /// Prepares the figures of a case in its nominal motion, without computing them yet.
     pub(super) fn of(case: &'a Case, solver: &'a dyn Solver) -> Self {
         Measured { case, solver, means: None }
     }
@@ -59,7 +59,8 @@ impl<'a> Measured<'a> {
     /// A figure in SI units.
     ///
     /// # Errors
-    /// Those of the means over a turn. If no speed of the motor balances the resistance.
+    /// Those of the means over a revolution.
+    /// Also if the motor cannot balance the resistance at any speed.
     pub(super) fn value(&mut self, figure: MechanismFigure) -> Result<f64> {
         Ok(match figure {
             MechanismFigure::ReducedInertiaMean => self.means()?.inertia,
@@ -82,7 +83,7 @@ impl<'a> Measured<'a> {
     /// Steady speeds of the crank and of the motor (rad/s).
     fn steady(&mut self) -> Result<[f64; 2]> {
         let case = self.case;
-        // A scenario with this figure has a motor. A case that is changed afterwards may not.
+        // A scenario with this figure has a motor. A changed case may have none.
         let no_motor = || Error::new(ErrorKind::Input, sentences::THE_STEADY_SPEED_NEEDS_A_MOTOR);
         let motor = case.crank().motor().ok_or_else(|| no_motor().help(sentences::ADD_MOTOR_OR_LEAVE_THE_FIGURE))?;
         // The motor acts in the direction in which the crank is driven.

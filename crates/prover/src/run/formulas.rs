@@ -14,13 +14,13 @@ use crate::tolerance::{BoundBasis, Tolerance};
 pub struct Judgement {
     /// Judgements of the sides on every claim: by value, then by derivative.
     pub sides: EachSide<Vec<Vec<JudgedFormula>>>,
-    /// The wrong formulas by name, each with its cause if it is a simple one.
+    /// The wrong formulas by name, each with its cause if a simple cause was found.
     pub causes: Vec<(String, Option<FormulaCause>)>,
-    /// Wrong formulas without a value somewhere: by name, each with the undefined operation.
+    /// Wrong formulas that are undefined at some instants: by name, each with the undefined operation.
     pub undefined: BTreeMap<String, Undefined>,
-    /// Names of the wrong formulas whose search for a cause used up its work.
+    /// Names of the wrong formulas for which the search for a cause reached its work limit.
     pub unsought: BTreeSet<String>,
-    /// Operations that all searches took.
+    /// Number of operations of all searches.
     pub work: u64,
 }
 
@@ -30,14 +30,14 @@ impl Judgement {
         Judgement { sides, causes: Vec::new(), undefined: BTreeMap::new(), unsought: BTreeSet::new(), work: 0 }
     }
 
-    /// The operation that leaves a formula without a value, if there is one.
+    /// The operation that makes a formula undefined, if there is one.
     #[must_use]
     pub fn undefined(&self, name: &str) -> Option<&Undefined> {
         self.undefined.get(name)
     }
 }
 
-/// A check for every claim, and for every derivative that could be judged, of both sides.
+/// One check for every claim, and for every derivative that could be judged, for each side.
 pub fn checks(judgement: &Judgement) -> Vec<Check> {
     let causes: BTreeMap<&str, String> = judgement
         .causes
@@ -63,7 +63,7 @@ pub fn checks(judgement: &Judgement) -> Vec<Check> {
     judgement.sides.iter().flat_map(of_side).collect()
 }
 
-/// The check of a judged formula; `why` is the reason of its error, if known.
+/// The check of a judged formula. `why` is the cause of its error, if known.
 fn check(side: Reference, judged: &JudgedFormula, why: &str) -> Check {
     let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
     let tolerance = Tolerance { bound, basis: BoundBasis::Formula { claimed: judged.claimed } };
@@ -108,8 +108,7 @@ mod tests {
     use crate::run::solved::judge;
     use scenario::{Claim, of_repository};
 
-    /// Below 0.5 rad the formula has no value. Its derivatives have values there, but these are wrong for another
-    /// reason.
+    /// The formula is undefined below 0.5 rad. Its derivatives have values there, which are wrong for another reason.
     #[test]
     fn only_the_value_is_reported_as_undefined() {
         let mut scenario = of_repository("scenarios/crank_rocker.toml");

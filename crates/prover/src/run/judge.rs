@@ -1,4 +1,4 @@
-//! Judgement of one engine at some settings by its runs: their estimated error, and the verdict channel by channel.
+//! Judges one engine at some settings from its runs: estimates its error and gives a verdict on every channel.
 
 use crate::sentences;
 use std::collections::BTreeSet;
@@ -22,18 +22,19 @@ use linkage::trajectory::{Channel, ChannelKind, ChannelSubject, Stage, Trajector
 
 /// Number of steps at the beginning of a free motion whose second differences come from later steps.
 const BEGINNING: f64 = 5.0;
-/// If rounding exceeds this share of the widest conclusive bound, the beginning is left out.
+/// If rounding exceeds this fraction of the widest conclusive bound, the beginning of a free motion is left out.
 const MOST_ROUNDING: f64 = 0.1;
 
 /// Number of values of one run that are copied at a time for a comparison.
 const COPIED: usize = 1_000_000;
-/// Number of channels compared at a time. Each channel is searched for among them.
+/// Number of channels compared at a time. Each channel is looked up in such a batch.
 const AT_A_TIME: usize = 256;
 
-/// Share of the widest conclusive bound from which a difference between sweeps counts.
+/// If a difference between runs with other sweeps is below this fraction of the widest conclusive bound, it is ignored.
 const COUNTS: f64 = 0.01;
 
-/// Ratio of a link's gain of speed in a step to the range of its speed, from which the step says nothing about it.
+/// If a link's gain of speed in a step exceeds this multiple of the range of its speed, the step cannot resolve the
+/// motion.
 const OUTRUN: f64 = 10.0;
 
 /// What is judged.
@@ -54,7 +55,7 @@ impl Asks {
     }
 }
 
-/// What an engine's runs are judged against.
+/// Data by which an engine's runs are judged.
 pub(super) struct Judge<'a> {
     pub(super) problem: Problem<'a>,
     pub(super) reference: &'a Observed,
@@ -68,19 +69,19 @@ pub(super) struct Judge<'a> {
     pub(super) asks: Asks,
 }
 
-/// An engine at some settings, judged.
+/// Judgement of an engine at some settings.
 pub(super) struct Judged {
     pub(super) proof: EngineProof,
     /// The judged run.
     pub(super) run: Arc<Observed>,
-    /// Share of instants left out because the step is too coarse for them.
+    /// Fraction of the instants that are left out because the step is too coarse.
     pub(super) too_coarse: f64,
 }
 
 /// An engine's runs at the instants at which the channels of one stage are judged.
 struct Stand<'a> {
     engine: &'a dyn Engine,
-    /// The same engine in its finest run.
+    /// The same engine with the settings of its finest run.
     finest: &'a dyn Engine,
     /// The case on these instants.
     case: &'a Case,
@@ -147,8 +148,8 @@ impl<'a> Judge<'a> {
         Ok(Judged { proof, run, too_coarse })
     }
 
-    /// Whether a link of a free motion would gain many times more speed in a step than it ever has, as from a motor
-    /// that is much too strong for its load.
+    /// Whether a link of a free motion would gain many times more speed in one step than it ever has.
+    /// This happens with a motor that is much too strong for its load.
     /// Runs at several such steps agree, because they all miss the motion.
     fn outruns(&self, step: f64) -> bool {
         let reference = &self.reference.trajectory;
@@ -165,9 +166,10 @@ impl<'a> Judge<'a> {
         })
     }
 
-    /// Largest growth of the differences between runs with more and more sweeps, over all positions whose differences
-    /// count.
-    /// If own forces are judged, it is the largest over these forces: they come from other worlds than the motion.
+    /// Largest growth of the differences between runs with increasing numbers of sweeps.
+    /// It is the maximum over all positions with differences that are not negligible.
+    /// If own forces are judged, it is the maximum over these forces, because they come from other simulations than the
+    /// motion.
     fn growth(&self, runs: &Runs) -> f64 {
         let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
         let of = |(channel, scale): (&Channel, &f64)| {
@@ -192,7 +194,7 @@ impl<'a> Judge<'a> {
         let finest = engine.at(engine.settings().resolution / 2.0);
         let channels = self.reference.trajectory.channels();
         let mut all = Vec::with_capacity(channels.len());
-        // Channels of one stage are judged at the same instants.
+        // All channels of a stage are judged at the same instants.
         for stage in Stage::ALL {
             let is_own = |channel: &Channel| channel.kind.stage == stage && self.asks.has(channel.kind);
             let indices: Vec<usize> = (0..channels.len()).filter(|&index| is_own(&channels[index])).collect();
@@ -202,7 +204,7 @@ impl<'a> Judge<'a> {
             let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(self.problem.case);
             let keep = self.kept(doubt, stage, case);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
-            // Copies over many instants are made and dropped for a few channels at a time.
+            // Copies with many instants are made for a few channels at a time and then dropped.
             for indices in indices.chunks((COPIED / keep.len().max(1)).clamp(1, AT_A_TIME)) {
                 let name = |channel: &'a Channel| (channel.of.as_str(), std::ptr::from_ref(channel.kind));
                 let asked: BTreeSet<_> = indices.iter().map(|&index| name(&channels[index])).collect();
@@ -227,8 +229,8 @@ impl<'a> Judge<'a> {
         Ok(all.into_iter().map(|(_, proof)| proof).collect())
     }
 
-    /// Whether the channels of a stage are judged, by row: nothing jumps there, and the row is not before the first
-    /// instant of `case`.
+    /// For every row, whether the channels of a stage are judged.
+    /// They are judged if nothing jumps there and the row is not before the first instant of `case`.
     fn kept(&self, doubt: &Doubt, stage: Stage, case: &Case) -> Vec<bool> {
         let first = case.grid.times.iter().copied().fold(f64::INFINITY, f64::smaller);
         doubt
@@ -239,9 +241,8 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
-    /// The case without the first instants of a free motion, at which second differences are carried back over several
-    /// steps.
-    /// `None` if their rounding leaves accelerations and forces conclusive.
+    /// The case without the first instants of a free motion, for which second differences are taken from later steps.
+    /// `None` if accelerations and forces are conclusive despite the rounding error of these differences.
     fn after_the_beginning(&self, engine: &dyn Engine) -> Result<Option<Case>> {
         let case = self.problem.case;
         let last = case.grid.times.iter().copied().fold(0.0, f64::larger);
@@ -256,7 +257,7 @@ impl<'a> Judge<'a> {
             stage >= Stage::Accelerations && self.asks.has(channel.kind) && noise > MOST_ROUNDING * wanted * scale
         });
         let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
-        // Impulses of the first steps are read from later ones, whatever their rounding error.
+        // Impulses of the first steps are always read from later steps, whatever their rounding error.
         let impulses = self.asks == Asks::OwnForces;
         (is_open || impulses).then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
     }

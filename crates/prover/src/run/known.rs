@@ -1,5 +1,5 @@
 //! Uncertainty of the analytic sides, which is a part of every bound.
-//! Rounding errors follow from the condition of the pose, integration errors from a third, tighter run.
+//! Rounding errors follow from the condition number of the pose. Integration errors follow from a third, tighter run.
 //! See docs/numerics/bounds.md.
 
 use super::dependence::Dependence;
@@ -16,9 +16,9 @@ use linkage::mechanism::GroupId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
-/// Chosen: relative error of an analytic side in well-conditioned poses.
-/// Each derivative, and each linear solve for forces, multiplies the rounding error of its input by the condition
-/// number of the pose, here at most some tens.
+/// Relative error assumed for an analytic side in well-conditioned poses. It is chosen.
+/// Each derivative multiplies the rounding error of its input by the condition number of the pose, and so does each
+/// linear solve for forces. Here the condition number is at most some tens.
 pub(super) fn usual(stage: Stage) -> f64 {
     match stage {
         Stage::Positions => 1e-12,
@@ -39,8 +39,8 @@ fn power(stage: Stage) -> i32 {
 /// Rounding error of a position in a pose of condition number 1, in units in the last place.
 const ULPS: f64 = 16.0;
 
-/// Ratio of the integration error to the difference from the tighter run, which has an error too.
-/// Steps over knots of a load's table once gave 3.2 times the difference; steps end at knots now.
+/// Assumed ratio of the integration error to the difference from the tighter run, which has an error too.
+/// When steps still crossed knots of a load's table, a ratio of 3.2 was measured. Now steps end at knots.
 const SAFETY: f64 = 4.0;
 
 /// Relative rounding error of a stage in a pose of this condition number.
@@ -48,11 +48,12 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
     ULPS * f64::EPSILON * condition.powi(power(stage))
 }
 
-/// Ratio of the distance of mass centres from the joints of their links to the distance of these joints; 1 at least.
-/// Side 2 calculates with the positions of mass centres: a joint is as uncertain as the last digit of its distance from
-/// there.
-/// For angles, this uncertainty is divided by the distance of the joints.
-/// The links are those of `groups` and the driving ones.
+/// Factor on rounding errors due to distant mass centres.
+/// It is the ratio of two distances, at least 1: from a link's mass centre to its joints, and between these joints.
+/// Side 2 calculates with the positions of mass centres.
+/// So a joint is as uncertain as the last digit of its distance from the mass centre.
+/// For angles, this uncertainty is divided by the distance between the joints.
+/// The links are those of `groups` and the driving links.
 fn lever(case: &Case, groups: &[GroupId]) -> f64 {
     let own = groups.iter().flat_map(|&group| case.structure.groups[group].links.iter().copied());
     let (mut size, mut farthest) = (0.0f64, 0.0f64);
@@ -65,18 +66,17 @@ fn lever(case: &Case, groups: &[GroupId]) -> f64 {
 
 /// Rounding error of the positions from which a group is assembled, in units in the last place of their distance from
 /// the origin.
-/// On either side four positions contribute: two outer joints, the inner one and an origin.
-/// Each coordinate has a rounding error of 0.3 units, root mean square. The sixteen independent coordinates of both
+/// On each side four positions contribute: two outer joints, the inner joint and an origin.
+/// Each coordinate has a root mean square rounding error of 0.3 units. The sixteen independent coordinates of both
 /// sides give 1.2 units.
-/// The constant is over three times that.
+/// The constant is more than three times this value.
 const PLACES: f64 = 4.0;
 
 /// Rounding error of the positions of groups (m, in units of [`ULPS`]), and the shortest distance between the pins of a
 /// link (m).
-/// A group far from the origin is known to the last digit of that distance. For its angles, this is divided by the
-/// distance of a link's pins.
-/// Every group adds its rounding error to that of the groups before it. The errors are independent and grow with the
-/// root of the number of groups.
+/// A group far from the origin is known only to the last digit of its distance from the origin.
+/// For its angles, this error is divided by the distance between a link's pins.
+/// The errors of successive groups are independent. Their sum grows with the square root of the number of groups.
 fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
     let (mut far, mut arm) = (0.0f64, f64::INFINITY);
     for group in groups.iter().map(|&group| &case.structure.groups[group]) {
@@ -86,20 +86,20 @@ fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
         for &link in &group.links {
             let pins: Vec<_> = joints().filter(|joint| joint.is_pin()).filter_map(|joint| joint.on(link)).collect();
             let apart = pins.iter().flat_map(|a| pins.iter().map(move |b| (a - b).norm())).fold(0.0, f64::larger);
-            // The angle of a link with one pin comes from elsewhere.
+            // A link with one pin gets its angle from other links.
             arm = if apart > 0.0 { arm.smaller(apart) } else { arm };
         }
     }
     [PLACES / ULPS * (groups.len() as f64).sqrt() * far, arm]
 }
 
-/// Errors allowed to the analytic sides, channel by channel.
-/// Each error is relative to the numbers that the channel is made of: a dead centre of one group does not enlarge the
-/// errors of other groups.
+/// Allowed errors of the analytic sides, channel by channel.
+/// Each error is relative to the numbers from which the channel is computed.
+/// So a dead centre of one group does not enlarge the errors of other groups.
 pub(super) struct Known {
     /// Size of the numbers in every channel, in its unit.
     magnitudes: Vec<f64>,
-    /// The side with these channels.
+    /// The side that serves as the reference.
     reference: Reference,
     /// Sensitivity of a motion under forces to these forces, channel by channel. It also amplifies their rounding
     /// errors.
@@ -113,11 +113,13 @@ pub(super) struct Known {
     /// largest so far.
     /// Empty until it is needed.
     conditions: Vec<Vec<f64>>,
-    /// Factor on the rounding error of every channel: see [`lever`] and [`placed`].
+    /// Factor on the rounding error of every channel, from the distances of mass centres and of the origin: see
+    /// [`lever`] and
+    /// [`placed`].
     levers: Vec<f64>,
-    /// Size of the crank angle at every instant of a prescribed motion (rad). Both sides get it as a rounded double.
+    /// Absolute crank angle at every instant of a prescribed motion (rad). Both sides receive it rounded to a double.
     turned: Vec<f64>,
-    /// Whether a channel is an angle. Angles already include their turns.
+    /// Whether a channel is an angle. The numbers of angles already include their revolutions.
     is_angle: Vec<bool>,
 }
 
@@ -178,7 +180,8 @@ impl Known {
         Ok(Known { reference, sensitivity, magnitudes, integration, dependence, conditions, levers, turned, is_angle })
     }
 
-    /// Measures the condition of every pose, for a trajectory with larger errors than those of well-conditioned poses.
+    /// Measures the condition number of every pose.
+    /// This is needed if the errors of a trajectory exceed those of well-conditioned poses.
     ///
     /// # Errors
     /// Those of the solver.
@@ -276,8 +279,8 @@ mod tests {
         assert!(!falls("crank_rocker_runup.toml"));
     }
 
-    /// In a motion under forces both integrations have errors. The allowed difference of the sides includes both, and
-    /// their common rounding error once.
+    /// In a motion under forces, both integrations have errors.
+    /// The allowed difference of the sides includes both integration errors, but their common rounding error only once.
     #[test]
     fn the_allowed_difference_includes_the_errors_of_both_sides() {
         let case = of_repository("scenarios/crank_rocker_runup.toml").case;
@@ -296,15 +299,16 @@ mod tests {
         assert!(seen > 10, "{seen} channels have an error of their integration");
     }
 
-    /// Each derivative, and each solution for forces, divides once more by the determinant of the pose.
+    /// Each derivative divides the result by the determinant of the pose once more, and so does the solution for
+    /// forces.
     #[test]
     fn rounding_grows_with_a_power_of_the_condition() {
         let grown = Stage::ALL.map(|stage| of_condition(stage, 2e3) / of_condition(stage, 1e3));
         assert_eq!(grown, [2.0, 4.0, 8.0, 8.0, 8.0]);
     }
 
-    /// Side 2 calculates from mass centres: positions on a link are as uncertain as the last digit of their distance
-    /// from there.
+    /// Side 2 calculates from mass centres. So positions on a link are as uncertain as the last digit of their distance
+    /// from the mass centre.
     #[test]
     fn a_distant_mass_centre_amplifies_rounding() {
         let Scenario { text, path, .. } = of_repository("scenarios/crank_rocker.toml");
@@ -312,12 +316,13 @@ mod tests {
         let far = text[..text.find("[[oracle]]").unwrap()]
             .replace("x_mm = 250, y_mm = 0 } # S3", "x_mm = 2500, y_mm = 0 } # S3");
         assert_eq!(of(&text), 1.0);
-        // 2.5 m divided by the 0.347 m of the coupler.
+        // The mass centre is 2.5 m away, and the coupler is 0.347 m long.
         assert!((7.0..7.5).contains(&of(&far)), "{}", of(&far));
     }
 
-    /// At a change point the condition number of the pose is unbounded, but that of the passage through it is not. An
-    /// error of a millionth is found there.
+    /// At a change point the condition number of the pose is unbounded, but that of the passage through the pose is
+    /// finite.
+    /// An error of a millionth is found at the change point.
     #[test]
     fn numbers_at_a_change_point_are_known_to_a_millionth() {
         let case = of_repository("tests/outside/scenarios/parallel_cranks_passing.toml").case;
@@ -335,7 +340,7 @@ mod tests {
         assert!(known.conditions[2].iter().any(|condition| *condition > 1.0), "{:?}", known.conditions);
     }
 
-    /// Four-bars in a row, each driving the next, starting at `from` (m), at some crank angles (rad).
+    /// Four-bar linkages in a row, each driving the next, from the position `from` (m), at some crank angles (rad).
     fn row(count: usize, from: f64, cranks: &[f64]) -> Case {
         use std::fmt::Write as _;
         let mut text = String::from("format = 1\nname = \"row\"\ntitle = \"row\"\n[ground.points]\n");
@@ -371,9 +376,10 @@ mod tests {
         case.on(Grid::of_inputs(case.crank(), cranks.to_vec())).unwrap()
     }
 
-    /// Symptom: for four-bars in a row, and for a single one far away, the sides disagree at 90 deg, where the
-    /// condition number is 1.
-    /// Positions are known to the last digit of their distance, and each four-bar adds its rounding error.
+    /// Symptom: the sides disagreed at 90 deg, where the condition number is 1. This happened for four-bars in a row
+    /// and for a single four-bar far from the origin.
+    /// Positions are known to the last digit of their distance from the origin, and each four-bar adds its rounding
+    /// error.
     #[test]
     fn rounding_grows_with_distance_and_number_of_four_bars() {
         let motion = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
@@ -390,9 +396,9 @@ mod tests {
                 let relative = share((values[0] - values[1]).abs(), known.magnitude(index));
                 assert!(relative <= apart, "{count} from {from} m, {channel}: {relative:e} {apart:e}");
                 beyond += usize::from(relative > usual(stage));
-                // A fault of fixed size is found: a ten-millionth, while the last digit of a position is 1.5e-11 m.
+                // A fault of a ten-millionth is found at any distance. The last digit of a position is 1.5e-11 m.
                 assert!(apart < 1e-7, "{count} from {from} m, {channel}: {apart:e}");
-                // The bound on a coordinate is that last digit, no more: the distance is not counted twice.
+                // The bound on a coordinate is its last digit only: the distance from the origin is not counted twice.
                 let coordinate = channel.kind.unit == Unit::Metre;
                 assert!(!coordinate || apart < 1.1e-12, "{count} from {from} m, {channel}: {apart:e}");
             }

@@ -1,4 +1,4 @@
-//! What a proof has done, part by part, and what it has skipped.
+//! Record of the parts of a proof that were done or skipped.
 
 use linkage::work::{Work, counted};
 

@@ -1,7 +1,7 @@
-//! Memory that a run needs, estimated before it begins.
+//! Memory that a run needs, estimated before the run begins.
 //!
-//! A run holds whole trajectories: 8 bytes for every value.
-//! The runs of an engine are not known beforehand, so the estimate covers what most searches need.
+//! A run stores whole trajectories: 8 bytes for every value.
+//! The number of an engine's runs is not known in advance, so the estimate covers most searches.
 //! Measured peaks lie between half and twice the estimate.
 //! See docs/numerics/settings.md.
 
@@ -20,7 +20,7 @@ const ELSE: f64 = 2e7;
 const TRAJECTORIES: f64 = 8.0;
 /// Number of kept runs of an engine at the peak: steps that are halved a few times, and other sweeps for some of them.
 const RUNS: f64 = 12.0;
-/// Number of values of an instant besides its channels: time, crank angle, order, openings, powers.
+/// Number of values stored per instant besides the channels: time, crank angle, order, openings, powers.
 const BESIDE: usize = 6;
 
 /// Estimated memory (bytes) of a proof of a case by engines, one after the other.
@@ -32,13 +32,13 @@ pub fn of_proof(case: &Case, engines: usize) -> f64 {
     ELSE + case.grid.len() as f64 * row
 }
 
-/// Memory of a number of a table (bytes): as it was read, with its digits, and with the number that it is compared
-/// with.
+/// Memory per number of a table (bytes): the number as read, the number with its digits, and the number compared with.
 const OF_NUMBER: f64 = 88.0;
-/// Memory of a row of a table besides its numbers (bytes).
+/// Memory per row of a table, without the row's numbers (bytes).
 const OF_ROW: f64 = 50.0;
 
-/// Estimated memory (bytes) of comparing a table with some `rows` and `claims` with both sides, solved in `channels`.
+/// Estimated memory (bytes) of comparing a table with both sides. The table has some `rows` and `claims`; the sides are
+/// solved in `channels`.
 #[must_use]
 pub fn of_comparison(rows: usize, claims: usize, channels: usize) -> f64 {
     let solved = (2 * (channels + BESIDE) * size_of::<f64>()) as f64;
@@ -50,15 +50,14 @@ pub fn of_comparison(rows: usize, claims: usize, channels: usize) -> f64 {
 pub fn of_oracles(oracles: &[Oracle]) -> f64 {
     let series: Vec<usize> = oracles.iter().flat_map(|own| &own.series).map(|own| own.instants().count()).collect();
     let (rows, numbers) = (series.iter().copied().max().unwrap_or(0), series.iter().sum::<usize>());
-    // For rounded instants, the ends of the rounding interval are solved one after the other, and earlier solutions are
-    // kept.
+    // For rounded instants, both ends of the rounding interval are solved in turn, and the solutions are kept.
     let is_rounded = oracles.iter().flat_map(|own| &own.series).any(|own| own.all().any(|point| point.at_error > 0.0));
     let trajectories = if is_rounded { 5 } else { 2 };
     let solved = (trajectories * (2 * series.len() + BESIDE) * size_of::<f64>()) as f64;
     rows as f64 * (solved + OF_ROW) + numbers as f64 * OF_NUMBER
 }
 
-/// Checks that the memory for an input (bytes) is allowed, before it is taken. `what` names the input.
+/// Checks that an input may use its memory (bytes), before the memory is allocated. `what` names the input.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] with advice.
@@ -77,14 +76,14 @@ fn allowed(needed: f64, most: Option<f64>, what: impl FnOnce() -> String, fewer:
     Err(Error::new(ErrorKind::Unsupported, message).help(fewer).or_help(Advice::MoreMemory { to: needed }))
 }
 
-/// Estimated memory (bytes) of one solution of a case by a solver that combines `runs` runs.
+/// Estimated memory (bytes) of one solution of a case. The solver combines `runs` runs.
 #[must_use]
 pub fn of_solution(case: &Case, runs: usize) -> f64 {
     let row = trajectory(case) + runs.saturating_sub(1) as f64 * Rows::bytes_of_row(case) as f64;
     ELSE + case.grid.len() as f64 * row
 }
 
-/// Memory of one instant of a trajectory (bytes).
+/// Memory of a trajectory per instant (bytes).
 fn trajectory(case: &Case) -> f64 {
     ((case.channels().len() + BESIDE) * size_of::<f64>()) as f64
 }

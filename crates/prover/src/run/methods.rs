@@ -1,4 +1,4 @@
-//! Published methods for class III groups of order 3 against the reference, pose by pose.
+//! Compares the reference with published methods for class III groups of order 3, pose by pose.
 
 use super::checks::rounding;
 use crate::bounds::{Check, Verdict};
@@ -14,7 +14,7 @@ use linkage::math::{KeepNan, cross};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-/// Largest difference that rounding allows, relative to the largest value of the quantity.
+/// Largest difference attributed to rounding / the largest value of the quantity.
 /// It equals the bound on forces between the two analytic sides, which solve as many linear equations.
 const BOUND: f64 = 1e-10;
 
@@ -37,13 +37,13 @@ struct Worst {
 impl Worst {
     fn put(&mut self, quantity: Quantity, difference: f64, crank: f64) {
         let worst = &mut self.differences[quantity as usize];
-        // Written so that NaN is recorded and kept.
+        // This form of the comparison records NaN and keeps it.
         if !(difference <= worst.0) && !worst.0.is_nan() {
             *worst = (difference, crank);
         }
     }
 
-    /// The method's answer. Its first error is kept.
+    /// The method's result, or `None` if the method failed. The first error is stored.
     fn answer<T>(&mut self, answer: Result<T>) -> Option<T> {
         match answer {
             Ok(answer) => Some(answer),
@@ -73,7 +73,7 @@ struct Watch {
     triad: Triad,
     scales: [f64; 4],
     cramer: Worst,
-    /// `None` if the group's layout does not allow it.
+    /// `None` if the group's geometry does not allow the method of class change.
     change: Option<(ClassChange, Worst)>,
     assur_point: Worst,
     linear: Worst,
@@ -130,7 +130,7 @@ impl Watch {
             }
             rates(worst, found.rates(drive.rate, drive.acceleration));
         }
-        // At the instant of starting, loads already act against a motion that the state does not show yet.
+        // At the first instant, loads already oppose a motion that the state does not show yet.
         let setting_off = case.is_free() && drive.rate == 0.0;
         if deepest >= Stage::Reactions && !setting_off {
             let known = self.triad.known(case, state);
@@ -165,18 +165,18 @@ impl Watch {
     }
 }
 
-/// Whether published methods apply to the case.
+/// Whether the case has groups to which published methods apply.
 pub(super) fn apply(case: &Case) -> bool {
     case.wanted.deepest() >= Stage::Velocities && !Triad::all(case).is_empty()
 }
 
-/// Checks of the reference by the published methods, for every class III group of order 3 with revolute joints; empty
-/// if there is no such group.
+/// Checks the reference by the published methods, for every class III group of order 3 with revolute joints.
+/// Empty if the case has no such group.
 pub fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> {
     let watches: Result<Vec<Watch>> = Triad::all(case).into_iter().map(|triad| Watch::of(case, triad)).collect();
     let mut watches = watches?;
     let mut visit = |row: usize, state: &State| {
-        // The equations of these methods are singular at a change point, and none of them passes it.
+        // The equations of all these methods are singular at a change point.
         if state.passing.is_none() {
             watches.iter_mut().for_each(|watch| watch.see(case, row, state));
         }
@@ -204,8 +204,8 @@ fn crank_of(case: &Case, row: usize, state: &State) -> InputState {
 mod tests {
     use super::*;
 
-    /// A method that fails has judged only the instants before. Its first error is the reason, whatever these instants
-    /// say.
+    /// If a method fails, only the instants before the failure are judged.
+    /// Its first error is reported as the reason, whatever the result at these instants.
     #[test]
     fn a_failed_method_is_inconclusive() {
         for before in [0.0, 1e-3] {
@@ -222,7 +222,7 @@ mod tests {
         }
     }
 
-    /// A NaN at any instant is recorded and kept: no number of the method then counts as right.
+    /// A NaN at any instant is recorded and kept. The method's number then does not count as right.
     #[test]
     fn a_method_with_nan_at_one_instant_disagrees() {
         for values in [[f64::NAN, 0.0, 1e-13], [0.0, f64::NAN, 1e-13], [1e-13, 0.0, f64::NAN], [-f64::NAN, 0.0, 0.0]] {
@@ -237,7 +237,7 @@ mod tests {
         let mut worst = Worst::default();
         worst.put(Quantity::Force, 1e-13, 0.0);
         assert_eq!(worst.check("a method", "", [1.0; 4]).verdict.word(), "agree");
-        // Fixed size: an error of 1e-9 of the largest value is wrong, in any quantity.
+        // An error of 1e-9 of the largest value must be found in any quantity.
         for quantity in [Quantity::Angle, Quantity::Omega, Quantity::Alpha, Quantity::Force] {
             let mut worst = Worst::default();
             worst.put(quantity, 1e-9, 0.0);

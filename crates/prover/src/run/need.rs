@@ -1,4 +1,4 @@
-//! Distance of an engine's channels from being conclusive, the dominant part of its bounds, and whether the remaining
+//! How far an engine's channels are from being conclusive, which part dominates its bounds, and whether the remaining
 //! work suffices.
 //! See docs/numerics/settings.md.
 
@@ -9,12 +9,12 @@ use super::judge::Judged;
 use crate::bounds::Verdict;
 use crate::tolerance::BoundPart;
 
-/// Largest share of instants that may be left out because they are too close to a reversal for the step.
+/// Limit of the fraction of instants that may be left out because they are too close to a reversal for the step.
 pub(super) const MOST_LEFT_OUT: f64 = 0.03;
-/// Need of a step that leaves out more, relative to the requested bound.
+/// Ratio to the requested bound that is assigned to a step that leaves out too many instants.
 const LEFT_OUT: f64 = 2.0;
 
-/// What is farthest from being conclusive.
+/// The item that is farthest from being conclusive.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(super) enum Of {
     /// The bound of a channel or check.
@@ -23,24 +23,25 @@ pub(super) enum Of {
     Instants,
 }
 
-/// How far a trial is from being conclusive.
+/// Distance of a trial from being conclusive.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(super) struct Need {
     /// Whether the runs show no order of convergence, so that the bound means little.
     pub(super) is_vague: bool,
     /// Largest ratio of a bound to the requested bound.
     pub(super) share: f64,
-    /// What this ratio belongs to.
+    /// The item with this ratio.
     pub(super) of: Of,
 }
 
 impl Need {
-    /// Whether a meaningful bound is at most `most` times the requested one.
+    /// Whether the bound is reliable and at most `most` times the requested bound.
     pub(super) fn is_within(self, most: f64) -> bool {
         !self.is_vague && self.share <= most
     }
 
-    /// Whether this is at most `part` of another need, or shows an order of convergence and the other does not.
+    /// Whether this need is at most `part` times the other. A need with an order of convergence is always less than one
+    /// without.
     pub(super) fn is_less(self, part: f64, other: Need) -> bool {
         match (self.is_vague, other.is_vague) {
             (false, true) => true,
@@ -49,13 +50,13 @@ impl Need {
         }
     }
 
-    /// Whether it only needs a step that leaves out fewer instants.
+    /// Whether the only need is a step that leaves out fewer instants.
     pub(super) fn is_of_instants(self) -> bool {
         !self.is_vague && self.of == Of::Instants
     }
 }
 
-/// Largest share of the sweeps in a bound at which the step is also to blame.
+/// If the sweeps cause at most this fraction of a bound, the step is also to blame.
 const SHARED: f64 = 0.8;
 
 /// Cause of the largest bound.
@@ -63,13 +64,13 @@ const SHARED: f64 = 0.8;
 pub(super) struct Blame {
     /// Its largest part.
     pub(super) part: BoundPart,
-    /// Whether the largest part comes from the sweeps but the step contributes a good part too: half the step reduces
-    /// both.
+    /// Whether the step contributes much although the sweeps cause the largest part. Half the step then reduces both
+    /// parts.
     pub(super) is_shared: bool,
 }
 
 /// The largest ratio of a bound of a channel or check to the requested bound (`wanted` times its scale), and its cause.
-/// Those whose runs show no order of convergence come first.
+/// Channels and checks whose runs show no order of convergence come first.
 pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     let channels =
         judged.proof.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
@@ -84,12 +85,12 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = share(parts.sum(), wanted * scale);
         let is_open = matches!(verdict, Verdict::Inconclusive { .. });
-        // A verdict that is inconclusive for another reason than its bound needs nothing: no setting changes it.
+        // If the bound is not the reason why a verdict is inconclusive, no setting can change the verdict.
         let is_vague = is_open && !convergence.is_trusted();
         let share = if is_open && !is_vague && share <= 1.0 { 0.0 } else { share.larger(0.0) };
         let own = Need { is_vague, share: if share.is_nan() { f64::INFINITY } else { share }, of: Of::Bound };
         if own > worst.0 {
-            // Without an observed order, the sweeps are to blame as soon as their part counts.
+            // If no order is observed, the sweeps are to blame as soon as their part is not negligible.
             let sweeps = is_vague && 10.0 * parts.iteration > parts.discretisation;
             let part = if sweeps { BoundPart::Iteration } else { parts.largest() };
             worst = (
@@ -101,10 +102,11 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     worst
 }
 
-/// Number of rounds before a pace is determined. The first rounds show whether the settings are meaningful.
+/// Number of rounds needed to determine a rate of progress. The first rounds show whether the settings are meaningful.
 const ROUNDS: usize = 4;
-/// Factor on the observed exponent: extrapolation may become faster as the runs become smooth.
-/// In successful searches the last rounds gain at most twice as fast as the first ones (all shipped scenarios).
+/// Factor on the observed exponent, because extrapolation may become more effective as the runs become smooth.
+/// In successful searches, progress in the last rounds is at most twice as fast as in the first rounds (all shipped
+/// scenarios).
 const OPTIMISM: f64 = 2.0;
 
 /// The rounds of a search: work so far, and the smallest need so far.
@@ -123,7 +125,7 @@ impl Pace {
         if self.rounds.len() < ROUNDS || need.is_within(1.0) {
             return false;
         }
-        // Rounds without any bound show no pace.
+        // Rounds without any bound show no rate of progress.
         let last = &self.rounds[self.rounds.len() - ROUNDS..];
         let Some([before, most]) = last.iter().find(|[_, least]| least.is_finite()) else { return false };
         if *before >= effort {
@@ -136,17 +138,17 @@ impl Pace {
 
 /// Number of rounds without an order of convergence after which more sweeps are tried instead of a smaller step.
 const MOST_VAGUE: usize = 2;
-/// Largest ratio of the bounds after and before halving the step at which the number of sweeps counts as sufficient.
+/// If halving the step reduces the bound to at most this fraction, the number of sweeps counts as sufficient.
 const BRINGS: f64 = 0.7;
-/// Largest ratio of the bounds after and before more sweeps at which these are worth their work.
+/// If more sweeps reduce the bound to at most this fraction, they are worth their work.
 const HELPS: f64 = 0.5;
-/// Number of rounds with finer steps and wider bounds after which rounding is to blame, even if the engine's assumed
-/// noise is less.
+/// If finer steps widen the bound in this number of rounds, rounding is to blame, even if the engine's assumed rounding
+/// error is smaller.
 const MOST_WIDER: usize = 2;
-/// Number of rounds before more sweeps are tried again, if they have helped little.
+/// If more sweeps have helped little, this number of rounds passes before they are tried again.
 const PATIENCE: usize = 3;
 
-/// What a search has seen of steps without progress.
+/// Record of steps without progress in a search.
 #[derive(Default)]
 pub(super) struct Stall {
     /// Need of the round before, with the same number of sweeps.
@@ -161,20 +163,21 @@ pub(super) struct Stall {
     wait: usize,
 }
 
-/// What a search does next.
+/// The next action of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Next {
-    /// It changes the settings that this part depends on.
+    /// The search changes the settings that this part depends on.
     Blames(BoundPart),
-    /// It goes back to this number of sweeps, and takes a smaller step.
+    /// The search returns to this number of sweeps and reduces the step.
     Returns(usize),
 }
 
 impl Stall {
-    /// Decides what to do after a round with `sweeps`, from its need and the part of the bound that is to blame.
-    /// Too few sweeps may hide the order of the step, and their error does not always show.
-    /// If a smaller step helps little, more sweeps are tried, provided that they are `free`. They are given up if they
-    /// help little too.
+    /// Decides what to do after a round with `sweeps`, from the round's need and the part of the bound that is to
+    /// blame.
+    /// Too few sweeps may hide the order of the step, and their error is not always visible.
+    /// If a smaller step helps little, more sweeps are tried, provided that the number of sweeps is `free`.
+    /// If they help little too, the search returns to the previous number.
     pub(super) fn look_closer(&mut self, need: Need, blame: BoundPart, sweeps: usize, free: bool) -> Next {
         self.vague = if need.is_vague { self.vague + 1 } else { 0 };
         let before = self.before.replace(need);
@@ -229,7 +232,7 @@ mod tests {
     #[test]
     fn a_search_with_progress_is_not_given_up() {
         assert!(!given_up(&[(1.8e3, 67.3), (3.7e3, 20.3), (7.4e3, 5.7), (1.6e4, 1.9)], 1e6));
-        // A search that has just begun to show a bound, or has a conclusive bound, is not given up either.
+        // A search continues if it has just begun to show a bound, or if its bound is conclusive.
         let infinite = f64::INFINITY;
         assert!(!given_up(&[(1e3, infinite), (2e3, infinite), (4e3, infinite), (8e3, 3e4)], 1e6));
         assert!(!given_up(&[(1e3, 0.9), (2e3, 0.9), (4e3, 0.9), (8e3, 0.9)], 1e6));

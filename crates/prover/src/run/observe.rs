@@ -1,4 +1,4 @@
-//! One solver over one case, with the quantities that are observed during the run.
+//! Solves one case with one solver, and records quantities during the run.
 
 use analytic::range::is_singular;
 use analytic::witness::{momentum, power};
@@ -26,30 +26,32 @@ pub(super) enum Watch {
 #[derive(Clone, Debug)]
 pub(super) struct Observed {
     pub(super) trajectory: Trajectory,
-    /// Largest distance between the two sides of a joint (m) at every instant.
+    /// Largest opening of a joint (m) at every instant: the distance between the joint's positions on its two links.
     pub(super) opening: Vec<f64>,
-    /// Velocities whose direction loads depend on, at every instant, load by load.
+    /// For every instant and load, the velocity that determines the direction of the load.
     /// It is the angular velocity of a link (rad/s, as x) or the velocity of a point (m/s).
     pub(super) senses: Senses,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is requested.
-    /// For a crank whose speed changes, it is multiplied by the crank's speed over its top speed.
+    /// If the crank's speed changes, the moment is multiplied by the ratio of the crank's speed to its top speed.
     /// In a motion under forces, the largest speed of a driving link replaces the top speed if it is larger.
     pub(super) power: Vec<f64>,
-    /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant; multiplied in the same way.
+    /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant. They are multiplied by the
+    /// same ratio.
     pub(super) torque: Vec<f64>,
     /// The larger of two ratios over the run.
-    /// The first is the largest difference between the shaking force from reactions and from momentum, over the largest
-    /// force in a joint.
-    /// The second is the same for the shaking moment, over the largest moment of such a force about the origin.
+    /// The first compares the shaking forces from reactions and from momentum: their largest difference divided by the
+    /// largest force in a joint.
+    /// The second compares the shaking moments: their largest difference divided by the largest moment of a joint force
+    /// about the origin.
     pub(super) unbalance: Option<f64>,
     /// Largest moment on the driving link (N m): the balancing moment, or the moment of a joint's force at the link's
     /// length.
     pub(super) moment: f64,
-    /// Largest condition number by which a side passes a change point; 1 if it passes none.
+    /// Largest condition number of a passage of a side through a change point; 1 if there is no such passage.
     pub(super) passing: f64,
-    /// Whether a side passes a change point with a singular pose, by row; empty if it passes none.
+    /// For every row, whether a side passes a change point in a singular pose; empty if there is no such row.
     pub(super) singular: Vec<bool>,
 }
 
@@ -58,7 +60,7 @@ pub(super) struct Observed {
 pub(super) struct Senses {
     each: usize,
     values: Vec<Vec2>,
-    /// Whether the load would jump if this velocity reversed there.
+    /// Whether the load would jump if this velocity reversed at this instant.
     jumps: Vec<bool>,
 }
 
@@ -72,20 +74,20 @@ impl Senses {
         &self.values[row * self.each..][..self.each]
     }
 
-    /// Whether the loads jump if their velocities reverse there, load by load.
+    /// For each load, whether it would jump if its velocity reversed at this row.
     pub(super) fn jumps(&self, row: usize) -> &[bool] {
         &self.jumps[row * self.each..][..self.each]
     }
 }
 
 impl Observed {
-    /// Largest distance between the two sides of a joint at any instant (m).
+    /// Largest opening of a joint at any instant (m).
     pub(super) fn closure(&self) -> f64 {
         largest_size(&self.opening)
     }
 
-    /// Largest difference between the balancing moment of the trajectory and that of the powers, over the moments in
-    /// the balance.
+    /// Largest difference between the balancing moment of the trajectory and that of the powers, divided by the moments
+    /// in the balance.
     /// If the balancing moment vanishes, these moments balance each other and only their rounding error remains.
     pub(super) fn two_ways(&self) -> f64 {
         share(largest_size(&self.moment_gap().collect::<Vec<f64>>()), self.moment)
@@ -102,7 +104,7 @@ impl Observed {
 pub(super) struct Stopped {
     pub(super) error: Error,
     pub(super) kept: Option<Box<Trajectory>>,
-    /// Allowed work, if other settings remained to be tried but the work was spent.
+    /// Work that was allowed, if it was spent before all settings were tried.
     pub(super) spent: Option<f64>,
 }
 
@@ -118,7 +120,7 @@ impl From<Stopped> for Error {
     }
 }
 
-/// Solves `case` with `solver` and observes what is watched.
+/// Solves `case` with `solver` and records the requested quantities.
 pub(super) fn observe(
     case: &Case,
     solver: &dyn Solver,
@@ -147,8 +149,8 @@ pub(super) fn observe(
             (*opening, reach) = (own, reach.larger(far));
         }
         if with_power {
-            // A crank at rest has no power. If the crank's speed changes, powers are compared; they are divided by the
-            // top speed below.
+            // A crank at rest has no power. So if the crank's speed changes, powers are compared. They are divided by
+            // the top speed below.
             (power[row], torque[row]) = match steady {
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
                 false => (-power::of_known_forces(case, state), power_of_drives(case, state)),
@@ -173,8 +175,7 @@ pub(super) fn observe(
         return Err(Stopped { error, kept, spent: None });
     }
     if !steady {
-        // A free motion may be much faster than its nominal speed in the case. The speed of an engine may be only
-        // rounding.
+        // A free motion may be much faster than the nominal speed of its case. An engine's speed may be only rounding.
         let nominal = case.crank().top_speed();
         let top = if case.is_free() { fastest.larger(nominal.abs()) } else { nominal };
         power.iter_mut().chain(&mut torque).for_each(|power| *power = share(*power, top));
@@ -224,8 +225,8 @@ fn reduced_torque(case: &Case, state: &State) -> f64 {
 }
 
 /// Force (N) and moment about the origin (N m) that a state leaves undetermined.
-/// A load on a link or point at rest already acts against the motion that begins, but the state does not show this
-/// motion yet.
+/// A load on a link or point at rest already opposes the motion that begins, but the state does not show this motion
+/// yet.
 fn open(case: &Case, state: &State, crank: f64) -> [f64; 2] {
     let mut open = [0.0; 2];
     for load in case.loads.iter().filter(|load| sensed(case, state, load) == Some(Vec2::zeros())) {
@@ -237,7 +238,7 @@ fn open(case: &Case, state: &State, crank: f64) -> [f64; 2] {
     open
 }
 
-/// Equilibrium of the whole mechanism, observed over a run.
+/// Equilibrium of the whole mechanism, recorded during a run.
 #[derive(Default)]
 struct Unbalance {
     force: f64,
@@ -256,7 +257,7 @@ impl Unbalance {
             let place = state.motions[joint.second.link].point(joint.second.local);
             let own = state.forces[index].norm();
             self.largest_force = self.largest_force.larger(own);
-            // For a joint at the origin, the lever of its force is the mechanism's size.
+            // For a joint at the origin, the mechanism's size serves as the lever arm of its force.
             let lever = place.norm().larger(case.mechanism.size());
             self.largest_moment = self.largest_moment.larger(own * lever).larger(state.moments[index].abs());
         }

@@ -9,7 +9,7 @@ use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::{EngineSetting, EngineSettings, Scenario};
 
-/// A method for each setting that sets it.
+/// Defines one method for each setting, which sets the setting.
 macro_rules! setters {
     ($($(#[$doc:meta])* $name:ident: $kind:ty,)*) => {$(
         $(#[$doc])*
@@ -24,9 +24,9 @@ macro_rules! setters {
 /// Options of a proof.
 ///
 /// An option that is not given is taken from the scenario.
-/// If the scenario does not state it, the proof finds step, sweeps and extrapolation. Substeps, route and accuracy then
-/// have the engine's default.
-/// With a given step nothing is extrapolated unless requested.
+/// If the scenario does not state step, sweeps or extrapolation, the proof finds them.
+/// Substeps, route and accuracy then have the engine's default.
+/// If a step is given, runs are extrapolated only on request.
 /// Numbers are checked when the proof begins.
 ///
 /// ```
@@ -45,19 +45,19 @@ macro_rules! setters {
 pub struct Options {
     /// Analytic side whose trajectory is the reference; the other side checks it.
     pub reference: Reference,
-    /// Engines and their settings. Settings that are free here come from the scenario, or are found.
+    /// Engines and their settings. Settings that are free here are taken from the scenario or found by the proof.
     pub settings: EngineSettings,
     /// Work allowed to find settings that are not given, in steps without sweeps. The default is enough for most cases.
     pub budget: Option<f64>,
-    /// Memory allowed (bytes); by default 4e9. A run that is estimated to need more does not begin.
+    /// Memory allowed (bytes); by default 4e9. A run does not begin if its estimated memory exceeds this limit.
     pub memory: Option<f64>,
 }
 
 /// An engine, its given settings, and the work allowed to find the others.
 pub struct Chosen {
     pub(crate) engine: Box<dyn Engine>,
-    /// Given settings. A given route is the only one judged; if the route is free, the engine's own forces are judged
-    /// too.
+    /// Given settings. If the route is given, only this route is judged. If the route is free, the engine's own forces
+    /// are judged too.
     pub(crate) given: EngineSettings,
     pub(crate) budget: f64,
 }
@@ -91,7 +91,7 @@ impl Options {
         (!settings.engines.is_free()).then(|| Options { settings, ..Options::default() })
     }
 
-    /// Adds every engine that this build has; they run side by side.
+    /// Adds every engine of this build. The engines are all judged in one proof.
     #[must_use]
     pub fn every_engine(mut self) -> Self {
         let built = EngineName::ALL.into_iter().filter(|engine| engines::is_built(*engine));
@@ -117,7 +117,7 @@ impl Options {
         substeps: usize,
         /// Sets the route by which reactions and balancing moment are computed.
         route: Route,
-        /// Sets how many times the engine's state is extrapolated to step zero.
+        /// Sets the number of extrapolations of the engine's state to step zero.
         extrapolated: usize,
     }
 
@@ -135,7 +135,7 @@ impl Options {
         self
     }
 
-    /// Number of engines that run side by side.
+    /// Number of engines that are judged in one proof.
     #[must_use]
     pub fn engine_count(&self) -> usize {
         self.settings.engines.value().map_or(1, |engines| engines.len().max(1))
@@ -151,8 +151,8 @@ impl Options {
         Ok(chosen.into_iter().map(|chosen| chosen.engine).collect())
     }
 
-    /// The engines of a proof of a case. Settings are free if neither the options nor those of its scenario, `own`,
-    /// give them.
+    /// The engines for the proof of a case.
+    /// A setting is free if it is given neither by the options nor by the scenario's settings `own`.
     ///
     /// # Errors
     /// Those of [`Options::set_engines`].
@@ -160,7 +160,7 @@ impl Options {
         self.chosen_at(own, engines::coarse_step(case))
     }
 
-    /// The engines at a step (s), unless one is given.
+    /// The engines at the time step `step` (s), unless another step is given.
     fn chosen_at(&self, own: &EngineSettings, step: f64) -> Result<Vec<Chosen>> {
         let given = self.settings.or(own);
         let engines = given.engines.value().map_or(&[][..], Vec::as_slice);
@@ -175,8 +175,8 @@ impl Options {
     }
 }
 
-/// An engine with the given settings. With `several` engines side by side, an engine that does not know the given route
-/// keeps its own.
+/// An engine with the given settings.
+/// If `several` engines are judged, an engine that does not have the given route keeps its own route.
 fn set(engine: Box<dyn Engine>, given: &EngineSettings, several: bool) -> Result<Box<dyn Engine>> {
     let defaults = engine.settings();
     let resolution = match engine.controls_error() {
@@ -188,7 +188,7 @@ fn set(engine: Box<dyn Engine>, given: &EngineSettings, several: bool) -> Result
             let error = Error::new(ErrorKind::Input, sentences::found_but_an_engine_needs(&what));
             Err(own.blamed(error.help(sentences::GIVE_A_WHOLE_NUMBER_GREATER)))
         }
-        // An engine that does not iterate does not use sweeps.
+        // An engine without iteration ignores sweeps.
         Some(_) if default == 0 => Ok(0),
         Some(number) => Ok(number),
         None => Ok(default),

@@ -1,4 +1,4 @@
-//! Numbers of other sources against both analytic sides.
+//! Compares numbers of other sources with both analytic sides.
 //! See docs/numerics/bounds.md.
 
 use super::each_side::{EachSide, Reference};
@@ -18,9 +18,10 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, When};
 
-/// One check for every series and figure of an oracle and for each analytic side.
-/// Series are for channels of the problem's case, figures for the `whole` mechanism.
-/// `integration` is the integration error of a side in a channel, in its unit, for numbers of a motion under forces.
+/// One check for every series and figure of an oracle, for each analytic side.
+/// Series refer to channels of the problem's case; figures refer to the `whole` mechanism.
+/// `integration` is the integration error of a side in a channel, in the channel's unit. It applies to numbers of a
+/// motion under forces.
 pub(super) fn checks(
     problem: Problem,
     whole: &Case,
@@ -28,19 +29,19 @@ pub(super) fn checks(
     integration: &dyn Fn(Reference, &Channel) -> f64,
 ) -> Result<Vec<Check>> {
     let mut checks = of_series(problem, sides, integration)?;
-    // Where forces decide the true motion, means over a turn belong to the nominal motion.
+    // If forces determine the true motion, means over a revolution belong to the nominal motion.
     checks.extend(of_figures(problem.oracles, &whole.nominal(), sides)?);
     Ok(checks)
 }
 
 /// Rounding error of an analytic side's number, in units in the last place of the largest number of its quantity.
-/// A printed number may have more digits than that.
+/// A printed number may have more digits than the side knows.
 const ULPS: f64 = 16.0;
 
 /// Largest number of instants at which all channels of a stage are solved.
 const MOST: usize = 20_000;
 
-/// A side's trajectory. For every channel, the largest number of its quantity, and its scale.
+/// A side's trajectory, and for every channel the largest number of its quantity and the channel's scale.
 type Side = (Trajectory, Vec<(Channel, [f64; 2])>);
 
 /// Results of both sides.
@@ -51,9 +52,9 @@ struct Solved {
 
 /// Results of both sides at the instants of an oracle's numbers.
 struct Answers<'a> {
-    /// In the nominal motion, in the order of crank angles; `None` if no number is given at a crank angle.
+    /// The nominal motion, sorted by crank angle; `None` if no number is given at a crank angle.
     nominal: Option<Solved>,
-    /// In the motion itself, in the order of times; `None` if no number is given at a time.
+    /// The true motion, sorted by time; `None` if no number is given at a time.
     timed: Option<Solved>,
     /// Integration error of a side in a channel of the motion itself.
     integration: &'a dyn Fn(Reference, &Channel) -> f64,
@@ -76,7 +77,8 @@ impl<'a> Answers<'a> {
             }
             instants.sort_unstable_by(f64::total_cmp);
             instants.dedup();
-            // If there are many instants, the requested channels are solved at all of them, their scales only at some.
+            // If the instants are many, the requested channels are solved at all of them, but their scales only at
+            // some.
             let step = instants.len().div_ceil(MOST);
             let few = instants.iter().copied().step_by(step).collect();
             let whole = case.on(along.grid(case.crank(), few))?.wanting(Wanted::of(&stages));
@@ -92,7 +94,7 @@ impl<'a> Answers<'a> {
             let rounded = RoundedInstants::of(case, points, along, &channels, solvers[Reference::Assur])?;
             Ok(Some(Solved { sides: EachSide::tried(|side| of(solvers[side]))?, rounded }))
         };
-        // Where forces decide the true motion, numbers at crank angles belong to the nominal motion.
+        // If forces determine the true motion, numbers at crank angles belong to the nominal motion.
         let nominal = solved(&case.nominal(), Along::Crank)?;
         Ok(Answers { nominal, timed: solved(case, Along::Time)?, integration })
     }
@@ -113,13 +115,13 @@ impl<'a> Answers<'a> {
             let known = ULPS * f64::EPSILON * size + integration;
             Ok(Some(Told { side, trajectory, values, known, scale, rounded, channels: channels_of(series).collect() }))
         };
-        // Sum over channels: a magnitude has the errors of both components.
+        // The errors of all channels are added: a magnitude has the errors of both components.
         let integration: f64 = channels_of(series).map(|channel| (self.integration)(side, &channel)).sum();
         Ok([told(&self.nominal, 0.0)?, told(&self.timed, integration)?])
     }
 }
 
-/// A series as both sides have solved it. `known` is the error of `side` in addition to the difference of the sides.
+/// Results of both sides for a series. `known` is the error of `side`, in addition to the difference between the sides.
 struct Told<'a> {
     side: Reference,
     trajectory: &'a Trajectory,
@@ -128,13 +130,13 @@ struct Told<'a> {
     /// Scale of the channel at the instants of the numbers.
     scale: f64,
     rounded: &'a RoundedInstants,
-    /// The channel, and the other component of a magnitude.
+    /// The channel; for a magnitude, also the other component.
     channels: Vec<Channel>,
 }
 
 /// A side's result for one printed number.
 struct Found {
-    /// Its distance from the printed number.
+    /// Difference between the result and the printed number.
     deviation: f64,
     bound: f64,
     /// The part of the bound due to the rounding of the instant.
@@ -143,13 +145,13 @@ struct Found {
 }
 
 impl Found {
-    /// Share of the bound that is used; NaN uses all of it.
+    /// Fraction of the bound that the deviation uses. NaN uses all of it.
     fn used(&self) -> f64 {
         let used = share(self.deviation, self.bound);
         if used.is_nan() { f64::INFINITY } else { used }
     }
 
-    /// Whether the deviation is significant but within the bound, only because its instant is rounded.
+    /// Whether the deviation is significant, and is within the bound only because the instant is rounded.
     fn is_open(&self) -> bool {
         self.used() <= 1.0 && self.deviation.smaller(self.instant) > TELLING * self.scale
     }
@@ -164,11 +166,11 @@ impl Told<'_> {
         };
         let row = instants.binary_search_by(|other| other.total_cmp(&at)).expect("solved at this instant");
         let [value, other] = [self.side, self.side.other()].map(|side| self.values[side][row]);
-        // No number is known better than the two sides agree on it.
+        // The difference between the two sides limits how accurately any number is known.
         let known = self.known + 2.0 * (value - other).abs();
         let difference = value - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
-        // A magnitude changes by no more than its vector.
+        // A magnitude changes at most as much as its vector.
         let drift = self.channels.iter().map(|own| self.rounded.of_point(own, at, point.at_error));
         let instant = drift.fold(0.0, f64::hypot);
         // The error of a side adds to the rounding of the printed number.
@@ -194,7 +196,8 @@ fn of_series(
     Ok(checks)
 }
 
-/// The checks of one series: one for all correct values together, and one for each value known to be wrong.
+/// The checks of one series.
+/// One check covers all values that are correct. Each value that is known to be wrong has its own check.
 /// If all values are known to be wrong, a single check covers them.
 fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Reference) -> Result<Vec<Check>> {
     let [nominal, timed] = answers.of_series(oracle, series, side)?;
@@ -213,7 +216,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
         let printed = against(&wrong, &cell.point, origin(oracle));
         against(&wrong, &cell.right, BoundOrigin::Recomputed).expected(&cell.finding, &printed)
     };
-    // Each cell has its own bound: the worst cell is the one that uses the largest share of it. NaN is the worst.
+    // Each number has its own bound. The worst number uses the largest fraction of its bound; NaN is the worst.
     let (mut worst, mut open): (Option<(f64, &OraclePoint)>, Option<&OraclePoint>) = (None, None);
     for point in &series.points {
         let found = found(point);
@@ -250,8 +253,9 @@ fn shortly(at: When) -> String {
     }
 }
 
-/// The worst check of printed numbers that are all known to be wrong.
-/// It is the first that is not as expected. Otherwise it is the one that uses the largest share of its bound.
+/// The worst check of a series whose printed numbers are all known to be wrong.
+/// It is the first check with an unexpected result. Otherwise it is the check that uses the largest fraction of its
+/// bound.
 fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     let rank = |check: &Check| (!matches!(check.verdict, Verdict::Expected { .. }), check.used());
     checks.reduce(|worst, check| {
@@ -260,7 +264,7 @@ fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     })
 }
 
-/// Bound of a number, its basis, and the part of it that is due to the rounding of the instant.
+/// Bound of a number and its basis. `instant` is the part of the bound due to the rounding of the instant.
 fn tolerance(oracle: &Oracle, origin: BoundOrigin, bound: f64, instant: f64, digits: i32) -> Tolerance {
     Tolerance { bound, basis: BoundBasis::Digits { origin, digits, source: oracle.source.clone(), instant } }
 }
@@ -274,7 +278,7 @@ fn origin(oracle: &Oracle) -> BoundOrigin {
     }
 }
 
-/// The channels of a series: one, or both components of the vector whose magnitude it is.
+/// The channels of a series: one channel, or both components of a vector if the series is its magnitude.
 fn channels_of(series: &OracleSeries) -> impl Iterator<Item = Channel> {
     [Some(series.channel.clone()), series.y()].into_iter().flatten()
 }

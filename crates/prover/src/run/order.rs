@@ -1,8 +1,8 @@
-//! An engine that converges with a lower order than that of its method.
+//! Finds an engine that converges with a lower order than its method has.
 //!
 //! The cause is a reading that is half a step late, or a wrong weight.
-//! A bound from the engine's runs covers such an error at every step, so the size of the error never reveals it.
-//! Five runs give the order three times; it counts if all three are near the same whole number.
+//! A bound from the engine's runs covers such an error at every step, so the size of the error never reveals the fault.
+//! Five runs give three estimates of the order. The order counts if all three are near the same whole number.
 //! See docs/numerics/bounds.md.
 
 use crate::sentences;
@@ -19,19 +19,20 @@ use crate::bounds::{Convergence, Verdict};
 use crate::numbers::error;
 use crate::tolerance::Parts;
 
-/// Share of the formal order below which an order is examined again.
+/// If an observed order is below this fraction of the formal order, it is examined further.
 const LOW: f64 = 0.75;
-/// Largest distance of steady orders from a whole number.
+/// Orders are steady if they differ from the same whole number by at most this amount.
 const STEADY: f64 = 0.1;
-/// Factor by which an error must exceed rounding and iteration errors, so that its order is that of the step.
+/// If an error exceeds rounding and iteration errors by this factor, its order is that of the step.
 const CLEAR: f64 = 5.0;
-/// Share of the widest conclusive bound below which a low order does not matter.
+/// If a bound is below this fraction of the widest conclusive bound, a low order does not matter.
 const NEGLIGIBLE: f64 = 0.01;
 
-/// Finds channels that converge steadily at too low an order. They disagree. Returns whether there are any.
+/// Finds channels that converge steadily with too low an order, and makes their verdicts disagree.
+/// Returns whether there are such channels.
 ///
 /// # Errors
-/// Those of a run, except numeric ones.
+/// Those of a run, except numeric errors.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> Result<bool, Stopped> {
     let wanted = judge.problem.engine_rel;
     // Across a knot of a law of motion the third derivative jumps, so second differences have order 1 there.
@@ -63,8 +64,8 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> R
         let Some(own) = rung(times, false)? else { return Ok(false) };
         rungs.push(own);
     }
-    // The iteration error needs one more run, half as long as the longest. It is made only for steady orders, and these
-    // are few.
+    // The iteration error needs one more run, which takes half as long as the longest run.
+    // This run is made only for steady orders, which are rare.
     let may_be = |index: usize| {
         is_low(&proof.channels[index]) && is_steady([0, 1, 2].map(|k| rungs[k].channels[index].convergence))
     };
@@ -103,7 +104,8 @@ fn is_steady(rungs: [Convergence; 3]) -> bool {
     is_same && whole >= 1.0 && whole <= LOW * formal
 }
 
-/// The order of three estimates, the finest last, if it is steady and not caused by other parts of the finest error.
+/// The order of three estimates, the finest last. `None` if it is not steady, or if other parts of the finest error may
+/// have caused it.
 fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
     let other = finest.iteration.larger(finest.rounding).larger(finest.reference);
     let is_clear = rungs[2].error > CLEAR * other;
@@ -114,8 +116,8 @@ fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Halved steps halve an error of 8. This order is 1, while the method has order 2.
-    /// If sweeps, rounding or the reference contribute a fourth of the finest error, the order may be theirs.
+    /// Halved steps halve an error of 8, so the order is 1, while the method has order 2.
+    /// If sweeps, rounding or the reference contribute a fourth of the finest error, they may have caused this order.
     #[test]
     fn an_order_counts_only_if_other_errors_are_much_smaller() {
         let rungs = |orders: [f64; 3], formal: f64| {
@@ -137,7 +139,7 @@ mod tests {
                 assert_eq!(steady(first, other), found, "{other:?}");
             }
         }
-        // Orders that change, an order of zero, and the formal order of the method.
+        // Cases in which nothing is found: changing orders, an order of zero, and the formal order of the method.
         for (orders, formal) in [([1.3, 1.1, 1.0], 2.0), ([0.0; 3], 2.0), ([2.0; 3], 2.0), ([1.0; 3], 1.0)] {
             assert_eq!(steady(rungs(orders, formal), none), None, "{orders:?} {formal}");
         }

@@ -1,5 +1,6 @@
-//! Forces that an engine itself exerts. They are judged in addition to those that follow from its motion by
-//! Newton-Euler equations, in a second search over the engine's routes.
+//! Judges the forces that an engine itself exerts.
+//! They are judged in addition to the forces that follow from its motion by Newton-Euler equations.
+//! A second search tries the engine's routes.
 //! See docs/numerics/forces.md.
 
 use crate::sentences;
@@ -20,19 +21,20 @@ use linkage::error::{Advice, Error, ErrorKind};
 use linkage::trajectory::Stage;
 use scenario::EngineSetting;
 
-/// Largest number of sweeps to begin with, even if the motion has needed more.
+/// Limit of the number of sweeps at the start of the search, even if the motion has needed more.
 const ENOUGH: usize = 32;
-/// Additional work for own forces, as a share of the work allowed for an engine's settings.
+/// Additional work allowed for own forces / the work allowed for an engine's settings.
 const SHARE: f64 = 0.05;
 
-/// Whether there is anything to judge. Own forces are not judged if no force is requested, if the route is given, or if
-/// the engine's usual route is its own.
+/// Whether own forces are judged.
+/// They are not judged if no force is requested, if the route is given, or if the engine's default route already gives
+/// its own forces.
 pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
     chosen.given.route.is_free() && judge.asking(judge.asked).of_own_forces().has_channels()
 }
 
-/// Judges the forces that the engine exerts beside its `motion`, if they are [asked](are_asked) for.
-/// `None` if it has no route for them. The first conclusive route counts.
+/// Judges the forces that the engine exerts, in addition to its `motion`, if [asked](are_asked) to.
+/// `None` if the engine has no route for these forces. The first conclusive route counts.
 pub(super) fn judged(
     judge: &Judge,
     case: &Case,
@@ -41,7 +43,7 @@ pub(super) fn judged(
     progress: &mut dyn FnMut(f64),
 ) -> Option<EngineProof> {
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
-    // Impulses are of a lower order than the motion, and need as many sweeps with the true masses.
+    // Impulses are of a lower order than the motion. They need as many sweeps as the motion, with the true masses.
     if effort > SHARE * chosen.budget {
         let told = sentences::the_motion_has_taken_the_work(&error(effort), &error(SHARE * chosen.budget));
         let failure = Error::new(ErrorKind::Unsupported, told);
@@ -56,7 +58,7 @@ pub(super) fn judged(
     for &route in chosen.engine.own_routes(case) {
         let own = by_route(judge, case, chosen, route, sweeps, progress);
         let is_open = matches!(own.verdict, Verdict::Inconclusive { .. });
-        // Of several inconclusive results, one with numbers says more.
+        // If several results are inconclusive, one with numbers is preferred.
         let better = found.as_ref().is_none_or(|found| !is_open || found.failure.is_some());
         if better {
             found = Some(own);
@@ -68,10 +70,11 @@ pub(super) fn judged(
     found
 }
 
-/// A result without comparison. If only work was missing, `work` is the amount that was not enough, and the advice
-/// names a sufficient one.
+/// A result without comparison.
+/// If the only reason is too little work, `work` is the amount that was needed so far. The advice then names a
+/// sufficient amount.
 fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> EngineProof {
-    // A round number that is surely enough for the next round.
+    // A power of ten that is certainly enough for the next attempt.
     let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });
     let reason = failure.message().to_string();
     let verdict = Verdict::Inconclusive { reason, advice: advice.into_iter().collect() };
@@ -118,7 +121,8 @@ fn by_route(
     }
 }
 
-/// The largest of `step`, 2 `step`, 4 `step`, ... that is at most `most`; `step` itself if it exceeds `most`.
+/// The largest of `step`, 2 `step`, 4 `step`, ... that does not exceed `most`. If `step` itself exceeds `most`, it is
+/// `step`.
 fn coarser(step: f64, most: f64) -> f64 {
     let times = (most / step).log2().floor();
     if times > 0.0 { step * 2f64.powf(times) } else { step }

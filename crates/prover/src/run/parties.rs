@@ -1,4 +1,4 @@
-//! Reference and engines as equals: which one disagrees with all others.
+//! Compares reference and engines as equals, to find the one that disagrees with all others.
 
 use super::engine_proof::EngineProof;
 use crate::bounds::largest_difference;
@@ -11,7 +11,8 @@ pub struct Dispute {
     pub channel: String,
     /// Pairs that differ by more than the bounds of both.
     pub pairs: Vec<[&'static str; 2]>,
-    /// The side without which all others agree. `None` if there is not exactly one, or if there are only two sides.
+    /// The side without which all others agree. `None` if no side or more than one has this property, or if there are
+    /// only two sides.
     pub odd: Option<&'static str>,
 }
 
@@ -23,7 +24,7 @@ struct Party<'a> {
 }
 
 /// Every channel in which two sides differ by more than the sum of their bounds.
-/// The reference's own error is only rounding. An engine without a trusted bound is left out.
+/// The reference has only rounding errors. Engines without a trusted bound are left out.
 #[must_use]
 pub fn disputes(name: &'static str, reference: &Trajectory, engines: &[EngineProof]) -> Vec<Dispute> {
     reference.iter().filter_map(|(channel, values)| dispute(name, channel, values, engines)).collect()
@@ -43,12 +44,12 @@ fn dispute(name: &'static str, channel: &Channel, values: &[f64], engines: &[Eng
     Some(Dispute { channel: channel.to_string(), pairs, odd })
 }
 
-/// Pairs that differ by more than the sum of their bounds, and the single side that differs from all others; `None` if
-/// there are no such pairs.
+/// Pairs that differ by more than the sum of their bounds, and the single side that differs from all others.
+/// `None` if no pair differs.
 fn apart(parties: &[Party], periodic: bool) -> Option<(Vec<[&'static str; 2]>, Option<&'static str>)> {
     let differ = |a: &Party, b: &Party| {
         let largest = largest_difference(a.values, b.values, periodic);
-        // Written so that NaN counts as a difference.
+        // This form of the comparison counts NaN as a difference.
         !(largest <= a.bound + b.bound)
     };
     let mut pairs = Vec::new();

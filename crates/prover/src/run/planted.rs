@@ -1,4 +1,5 @@
-//! Faults planted in solvers. Every check must find a small fault beyond its bound and pass one below it.
+//! Faults planted in solvers. Every check must find a small fault that exceeds its bound, and must accept a fault below
+//! the bound.
 
 use crate::sentences;
 use std::path::Path;
@@ -53,7 +54,7 @@ fn parsed(name: &str, text: &str) -> Scenario {
 struct Everywhere {
     fault: Fault,
     size: f64,
-    /// Whether its size is proportional to the engine's step.
+    /// Whether the size of the fault is proportional to the engine's step.
     grows: bool,
 }
 
@@ -141,9 +142,9 @@ fn side_checks_find_three_times_their_bound_and_pass_a_fifth() {
 }
 
 /// Symptom: 1e-9 deg from a dead centre the crank pin's acceleration was wrong by 176 %, but the check between the
-/// sides was silent.
-/// It measured by the largest accelerations of the mechanism and by the condition of the worst group.
-/// A channel is now judged by the numbers that it is made of.
+/// sides did not find it.
+/// Its scale was the largest acceleration of the mechanism, and its condition number was that of the worst group.
+/// Now the check uses the numbers from which the channel itself is computed.
 #[test]
 fn regress_a_driving_link_has_its_own_bound_near_a_dead_point() {
     let folded = [
@@ -170,7 +171,7 @@ fn regress_a_driving_link_has_its_own_bound_near_a_dead_point() {
         let differ = checks::sides_differ([&truth.trajectory, &slow.trajectory], &known);
         assert_eq!(differ, is_found, "{size:e}");
     }
-    // Without a fault the sides differ there only by rounding.
+    // Without a fault, the sides differ at this pose only by rounding.
     assert!(!checks::sides_differ([&truth.trajectory, &other.trajectory], &known));
 }
 
@@ -194,7 +195,7 @@ fn nan_at_one_instant_disagrees() {
         let found = checks::of_sides(&case, EachSide::new(&side, &other), &known);
         assert_eq!(named(&found, name).verdict.word(), "disagree", "{name}");
     }
-    // A NaN that appears in no channel still reaches the closure.
+    // A NaN that is not visible in any channel still reaches the closure check.
     let second: Fault = |state, _| state.motions[LinkId(3)].origin.y = f64::NAN;
     let positions = case.wanting(Wanted::of(&[]));
     assert!(seen(&positions, &assur(second, 0.0)).closure().is_nan());
@@ -252,7 +253,7 @@ fn every_class_three_method_is_in_the_proof_and_finds_faults() {
     }
 }
 
-/// Settings that an engine may choose.
+/// Settings that an engine may select itself.
 #[derive(Clone, Copy, Debug)]
 enum Search {
     None,
@@ -287,7 +288,7 @@ fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
     assert_eq!(true_one.verdict.word(), "agree");
     let [closure, powers] =
         [sentences::CLOSURE_OF_ALL_JOINTS_2, "driving moment"].map(|name| named(&true_one.checks, name).clone());
-    // The bound from the engine's own runs is a quarter larger than the opening.
+    // The bound from the engine's own runs is larger than the opening by a quarter.
     assert!(closure.bound <= 1.3 * closure.value && closure.bound < 2e-5, "{closure:?}");
     // The opening of a joint has the rounding error of the positions of its two sides.
     let place = true_one.channels.iter().find(|own| own.residual.channel.to_string() == "point.A.x_m").unwrap();
@@ -311,9 +312,9 @@ fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
     }
 }
 
-/// Velocities that are half a step late converge to the right values with order 1, and so do accelerations that are a
+/// Velocities that are half a step late converge to the right values with order 1. So do accelerations that are a
 /// quarter of a step late.
-/// No bound from the engine's own runs would ever be too small for such an error.
+/// The bound from the engine's own runs always covers such an error.
 #[test]
 fn regress_late_readings_converge_with_order_one_and_disagree() {
     let velocities: Fault = |state, late| {
@@ -381,7 +382,7 @@ fn side_differences_are_reported_as_multiples_of_the_bound() {
     );
 }
 
-/// A resistance opposes either direction of motion, and weights are lifted as far as they fall.
+/// A resistance opposes either direction of motion. Weights rise as far as they fall.
 #[test]
 fn a_reversed_drive_has_the_reversed_steady_speed() {
     let speeds = |rpm: &str| {
@@ -449,10 +450,10 @@ fn an_oracle_detects_one_unit_of_its_last_digit() {
     }
 }
 
-/// The integration error is added to the bound of numbers at a time, and to no other bound.
+/// The integration error is added to the bound of numbers at a time. Other bounds do not change.
 #[test]
 fn integration_error_widens_the_bound_of_numbers_at_a_time() {
-    // Numbers at a crank angle, and at a time.
+    // The oracle has numbers at a crank angle and at a time.
     let both = parsed("five_bar_on_a_spring", &text("five_bar_on_a_spring"));
     let bounds = |left: f64| {
         let found = by_oracles(&both, &|_, _| left);
@@ -466,11 +467,11 @@ fn integration_error_widens_the_bound_of_numbers_at_a_time() {
     }
 }
 
-/// A channel that is zero throughout is measured by a tenth of its quantity. The engine's error there still comes from
-/// its runs.
-/// In the acceleration of a crank at constant speed, a fault of a millionth of the quantity is found.
-/// In that of a rocker that turns with the crank through change points it is a hundredth, which is the limit of what
-/// proves something there.
+/// The scale of a channel that is zero throughout is a tenth of the size of its quantity. The engine's error in this
+/// channel still comes from its runs.
+/// For the acceleration of a crank at constant speed, a fault of a millionth of the quantity is found.
+/// For a rocker that rotates with the crank through change points, only a fault of a hundredth is found. A smaller
+/// difference proves nothing there.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     let cranks = include_str!("../../../../tests/suite/exact_zeros/parallel_cranks.toml");
@@ -492,7 +493,7 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     }
 }
 
-/// If no force of the mechanism has a size, the scale is what its mass and speed could exert.
+/// If all forces of the mechanism are only rounding, the scale is the force that its mass and speed could exert.
 /// A fault of a millionth of a newton is found in a balanced rotor.
 #[test]
 fn a_fault_of_fixed_size_is_found_without_any_scale() {

@@ -1,4 +1,4 @@
-//! Faults that only one of the two judgements of an engine's forces can see.
+//! Faults that are visible to only one of the two judgements of an engine's forces.
 
 use super::judge::Judge;
 use super::known::Known;
@@ -22,7 +22,7 @@ use scenario::of_repository;
 /// Effect of a fault on every state.
 type Fault = fn(&mut State);
 
-/// A fault in the states of an engine, by some routes only.
+/// A fault in an engine's states that occurs only with some routes.
 #[derive(Clone, Copy)]
 struct ByRoute {
     fault: Fault,
@@ -62,7 +62,7 @@ fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
 const EXERTED: &[Route] = &[Route::Native, Route::Probe];
 const FOLLOWED: &[Route] = &[Route::Differences];
 
-/// Channels of own forces that disagree.
+/// Disagreeing channels of the engine's own forces.
 fn against(proof: &EngineProof) -> Vec<String> {
     let own = proof.own_forces.as_ref().expect("there are own forces");
     let wrong = own.channels.iter().filter(|own| own.verdict.word() == "disagree");

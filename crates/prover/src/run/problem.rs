@@ -1,4 +1,4 @@
-//! What is proven: a case, and the statements of a scenario about its solution.
+//! The subject of a proof: a case, and the statements of a scenario about its solution.
 //! See docs/numerics/bounds.md.
 
 use crate::bounds::Built;
@@ -13,7 +13,7 @@ pub struct Problem<'a> {
     /// Published numbers.
     pub(crate) oracles: &'a [Oracle],
     pub(crate) formulas: &'a Formulas,
-    /// Largest bound on an engine's error, as a share of a channel's scale, at which agreement still proves something.
+    /// Widest conclusive bound on an engine's error / a channel's scale. With a wider bound, agreement proves nothing.
     pub(crate) engine_rel: f64,
 }
 
@@ -24,10 +24,10 @@ impl<'a> Problem<'a> {
         Problem { case, oracles, formulas, engine_rel: *engine_rel }
     }
 
-    /// Size, speed and force that the case is built for, whatever moves in it. They are the scales for what vanishes in
-    /// the whole mechanism.
-    /// The force is the weight of all links or, if larger, the force that accelerates them at that speed and size. It
-    /// is zero without masses.
+    /// Size, speed and force that follow from the data of the case, whatever moves in it.
+    /// They are the scales for quantities that vanish in the whole mechanism.
+    /// The force is the weight of all links. If larger, it is the force that accelerates them at that speed and size.
+    /// It is zero without masses.
     pub(super) fn built(&self) -> Built {
         let case = self.case;
         let (length, speed) = (case.mechanism.size(), case.drives.top_speed());

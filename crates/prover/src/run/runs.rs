@@ -1,4 +1,5 @@
-//! An engine's runs, from which its error is estimated, and the largest step within the reachable crank angles.
+//! The runs from which an engine's error is estimated, and the largest step that stays within the reachable crank
+//! angles.
 //! See docs/numerics/settings.md.
 
 use crate::sentences;
@@ -35,9 +36,10 @@ impl Runs {
     }
 }
 
-/// Numbers of sweeps of the runs that a run with `sweeps` is compared with: a `share`-th of them, and a `share`-th of
-/// these.
-/// If `sweeps` is one, the other run has two. Empty if the iteration leaves no error.
+/// Numbers of sweeps for the runs with which a run with `sweeps` is compared: `sweeps` / `share`, and this number
+/// divided by `share` again.
+/// If `sweeps` is one, the other run has two sweeps.
+/// Empty if the iteration leaves no error.
 pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, share: usize) -> Vec<usize> {
     match (sweeps, engine.sweeps(case)) {
         (_, None) | (1, Some([_, 1])) => Vec::new(),
@@ -49,14 +51,14 @@ pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, shar
     }
 }
 
-/// Ratio of the sweeps of a run to those of the run that it is compared with, if the sweeps are given.
+/// Ratio of a run's sweeps to those of the run with fewer sweeps, if the sweeps are given.
 pub(super) const FEWER: usize = 2;
 
-/// Largest number of values of one trajectory for which all trajectories of a search are kept.
+/// If a trajectory has more values than this, not all trajectories of a search are kept.
 pub(super) const FEW: usize = 1_000_000;
 
-/// All runs of one engine on one case. Each is made and observed once; runs with many instants are made as often as
-/// needed.
+/// All runs of one engine on one case.
+/// Each run is made and observed once. Runs with many instants are made again when needed.
 pub(super) struct Bank<'a> {
     pub(super) case: &'a Case,
     kept: CachedEngine,
@@ -64,7 +66,7 @@ pub(super) struct Bank<'a> {
     watch: Watch,
     /// Number of plain runs made so far.
     pub(super) count: usize,
-    /// Their work, in steps without sweeps.
+    /// Work of these runs, in steps without sweeps.
     pub(super) effort: f64,
 }
 
@@ -73,12 +75,12 @@ impl<'a> Bank<'a> {
         Bank { case, kept: CachedEngine::new(engine), seen: Vec::new(), watch, count: 0, effort: 0.0 }
     }
 
-    /// The engine at `settings`. Its runs are those of the bank.
+    /// The engine at `settings`. It takes its runs from the bank.
     pub(super) fn engine(&self, settings: Settings) -> Box<dyn Engine> {
         self.kept.with(settings)
     }
 
-    /// Makes the runs that are missing for all `settings`, side by side.
+    /// Makes the runs that are still missing for all `settings`, in parallel.
     pub(super) fn prepare(&mut self, settings: &[Settings], progress: &mut dyn FnMut(f64)) {
         let missing = self.kept.missing(self.case, settings);
         self.count += missing.len();
@@ -91,7 +93,8 @@ impl<'a> Bank<'a> {
         self.work(&self.kept.missing(self.case, settings))
     }
 
-    /// Work of plain runs over the case's grid. It is counted, so that the same input gives the same work.
+    /// Work of plain runs on the case's grid. It is counted instead of timed, so that the same input gives the same
+    /// work.
     fn work(&self, runs: &[Settings]) -> f64 {
         let [first, last] = ends(self.case);
         size_of_step(self.case) * runs.iter().map(|run| (last - first) * run.work()).sum::<f64>()
@@ -103,7 +106,7 @@ impl<'a> Bank<'a> {
         self.seen.retain(|(settings, _)| sweeps.contains(&settings.sweeps));
     }
 
-    /// Drops the runs that `settings` do not need, if they are large.
+    /// If the runs are large, drops those that `settings` do not need.
     pub(super) fn keep_needed(&mut self, settings: &[Settings]) {
         if self.is_large() {
             let needed: Vec<Settings> = settings.iter().copied().flat_map(plain_runs).collect();
@@ -117,7 +120,7 @@ impl<'a> Bank<'a> {
         self.case.grid.len() * self.case.channels().len() > FEW
     }
 
-    /// Drops the observations that `settings` do not need, if they are large. They can be made again from the kept
+    /// If the observations are large, drops those that `settings` do not need. They can be computed again from the kept
     /// runs.
     fn keep_few(&mut self, settings: &[Settings]) {
         if self.is_large() {
@@ -125,7 +128,7 @@ impl<'a> Bank<'a> {
         }
     }
 
-    /// The run at `settings`, observed.
+    /// Returns the run at `settings` with its observations.
     fn observed(&mut self, settings: Settings) -> Result<Arc<Observed>, Stopped> {
         if let Some((_, seen)) = self.seen.iter().find(|(own, _)| *own == settings) {
             return Ok(Arc::clone(seen));
@@ -146,7 +149,7 @@ impl<'a> Bank<'a> {
         let rungs = rungs(settings, others);
         self.keep_few(&rungs);
         self.prepare(&rungs, progress);
-        // The single step comes first: if it fails, its message is the useful one.
+        // The run at the single step comes first, because its error message is the most useful one.
         let single = self.observed(settings)?;
         let controls_error = self.kept.controls_error();
         let unit = if controls_error { "" } else { " s" };
@@ -176,40 +179,40 @@ pub(super) fn rungs(settings: Settings, others: &[usize]) -> Vec<Settings> {
     [settings, at(0.5), at(2.0)].into_iter().chain(other).collect()
 }
 
-/// The same failure, with a message that says which auxiliary run failed: the user did not ask for that run.
+/// The same failure, with a message that names the auxiliary run that failed. The user did not request this run.
 fn in_ladder(stopped: Stopped, what: &str, asked: Settings, controls_error: bool) -> Stopped {
     let told = |message: &str| sentences::the_run_from_which_the_error(&what, &message);
-    // Values to try start from the settings that the user asked for.
+    // Values to try are based on the settings that the user requested.
     let advised = |advice: Advice| advice.from_settings(asked.resolution, controls_error, asked.sweeps);
     Stopped { error: stopped.error.map_message(told).map_advice(advised), kept: None, spent: None }
 }
 
-/// The first and the last time (s) that a run over a case reaches. A run begins at zero.
+/// The first and the last time (s) of a run. A run begins at zero.
 fn ends(case: &Case) -> [f64; 2] {
     case.grid.times.iter().fold([0.0; 2], |[first, last], &t| [first.smaller(t), last.larger(t)])
 }
 
 /// The largest step (s) for which a run of this engine stays within the reachable crank angles.
-/// A run of a prescribed motion begins some steps before the first instant and ends some after the last one.
-/// Near a limit of rotation only a small step leaves room for them.
-/// The result is infinite for a full turn, and if forces decide the motion.
+/// A run of a prescribed motion begins some steps before the first instant and ends some steps after the last one.
+/// Near a limit of rotation, these additional steps stay within the limit only if they are small.
+/// The result is infinite if the crank makes full revolutions or if forces determine the motion.
 pub(super) fn room(case: &Case, engine: &dyn Engine) -> f64 {
     let steps = engine.overrun();
     let Some([from, to]) = limits(case).filter(|_| steps > 0.0) else { return f64::INFINITY };
     let drive = case.crank();
     let at = |t: f64| {
         let own = drive.at(t);
-        // Distance to the nearer limit, because time may run in either direction.
+        // Distance to the nearer limit, because the run extends beyond the instants in both directions of time.
         let distance = (own.value - from).abs().smaller((to - own.value).abs());
         distance / own.rate.abs() / steps
     };
-    // A drive at rest has no speed to judge by.
+    // At an instant at which the drive is at rest, the step is not limited.
     ends(case).map(at).into_iter().filter(|step| step.is_finite()).fold(f64::INFINITY, f64::smaller)
 }
 
-/// Crank angles (rad) between which a prescribed motion of one drive stays.
-/// `None` if nothing limits it, or if the limits are not known after some work. The engine then reports where it cannot
-/// go on.
+/// Limits of the crank angle (rad) in a prescribed motion of one drive.
+/// `None` if the angle is not limited, or if the limits are still unknown after some work. The engine then reports the
+/// position that it cannot pass.
 fn limits(case: &Case) -> Option<[f64; 2]> {
     if case.is_free() || case.drives.len() > 1 {
         return None;

@@ -8,11 +8,12 @@ use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 
-/// Relative change of gravity and of the motor's torque: small compared with the motion, large compared with rounding.
+/// Relative change of gravity and of the motor's torque. It is small enough for a linear response, but large compared
+/// with rounding.
 const CHANGE: f64 = 1e-6;
 
-/// For every channel of `reference`, in its order: the largest change of its values over the run, per relative change
-/// of gravity and motor torque, in the channel's unit.
+/// Sensitivity of every channel of `reference`, in its order and in the channel's unit.
+/// It is the largest change of the channel's values over the run, per relative change of gravity and motor torque.
 /// Empty for a motion that does not depend on forces.
 ///
 /// # Errors
@@ -39,9 +40,9 @@ mod tests {
     use linkage::math::KeepNan;
     use scenario::of_repository;
 
-    /// A pendulum released from rest passes the same positions in stronger gravity, in a time that is shorter by the
-    /// root of it: theta(t; (1 + e) g) = theta(t sqrt(1 + e); g).
-    /// Each derivative has one more factor of the root.
+    /// In stronger gravity, a pendulum released from rest passes the same positions in a shorter time.
+    /// The time is shorter by the square root of the factor: theta(t; (1 + e) g) = theta(t sqrt(1 + e); g).
+    /// Each derivative adds one more factor sqrt(1 + e).
     #[test]
     fn sensitivity_of_a_pendulum_to_gravity_is_that_to_time_scale() {
         let case = of_repository("scenarios/pendulum.toml").case;

@@ -1,5 +1,6 @@
-//! Search of an engine's settings: coarse runs first, refined by the dominant part of the bound, until every channel is
-//! conclusive. Only the engine's runs and counted work decide. See docs/numerics/settings.md.
+//! Search of an engine's settings. Coarse runs come first.
+//! The settings that cause the dominant part of the bound are refined until every channel is conclusive.
+//! The search depends only on the engine's runs and on counted work. See docs/numerics/settings.md.
 
 use crate::numbers::error;
 use crate::sentences;
@@ -19,32 +20,33 @@ use scenario::EngineSettings;
 
 /// Work allowed by default, in steps without sweeps.
 pub const BUDGET: f64 = 2e7;
-/// Share of the allowed work within which a conclusive result is refined further, to the target accuracy.
+/// Up to this fraction of the allowed work, a conclusive result is refined further, to the target accuracy.
 const THRIFT: f64 = 0.0015;
-/// Target, as a share of the widest conclusive bound. With extrapolation, a proof a hundred times sharper costs little.
+/// Target of a bound / the widest conclusive bound. With extrapolation, a bound a hundred times narrower costs little.
 const AIM: f64 = 0.01;
-/// Largest number of extrapolations tried: with more, the weights add more rounding than the errors they cancel.
+/// Limit of extrapolations. With more, the weights add more rounding error than the truncation error that they cancel.
 const MOST_TIMES: usize = 4;
-/// Coarsest step tried against rounding, as a multiple of the first one.
+/// Upper limit of the coarsest step / the first step. Coarser steps are tried if rounding dominates.
 const COARSEST: f64 = 16.0;
-/// Work of the first runs that is always allowed, some hundredths of a second: without them there is no result.
+/// Work that the first runs may always do. It takes some hundredths of a second. Without the first runs there is no
+/// result.
 pub(super) const FIRST: f64 = 1e4;
-/// Number of failed runs after which more sweeps are tried instead of a smaller step.
+/// After this number of failed runs, more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
-/// Share of the room beside a dead centre that the steps of a run may take.
+/// Fraction of the angle to a dead centre that the additional steps of a run may use.
 const ROOM: f64 = 0.98;
 /// Largest number of rounds of a short search.
 const QUICK: i32 = 3;
 /// Cause to blame if runs with fewer sweeps fail.
 const SWEEPS: Blame = Blame { part: BoundPart::Iteration, is_shared: false };
-/// Factors between numbers of sweeps: far from the end of a search, and near to it.
+/// Factors by which the sweeps are multiplied: at first, and near the end of a search.
 const MORE_SWEEPS: [usize; 2] = [4, 2];
-/// Largest ratio of a bound to the requested bound that counts as near.
+/// A bound counts as near if it is at most this multiple of the requested bound.
 const NEAR: f64 = 8.0;
 
-/// An error if the first runs of an engine, those of `rungs`, need more work than `most`. The error names the requested
-/// `budget`.
-/// A step so small that no budget would be enough is a mistake, and the engine itself refuses it.
+/// Returns an error if the first runs of an engine, at the settings `rungs`, need more work than `most`.
+/// The error names the requested `budget`.
+/// If the step is so small that no budget would suffice, it is a mistake. The engine itself rejects this step.
 pub(super) fn too_much(
     bank: &Bank,
     settings: Settings,
@@ -53,7 +55,7 @@ pub(super) fn too_much(
 ) -> Result<(), Stopped> {
     let first = bank.missing(rungs);
     let is_mistake = 2.0 * half_range(&bank.case.grid.times) / settings.resolution > BUDGET;
-    // Written so that NaN counts as too much.
+    // This form of the comparison counts NaN as too much.
     if first <= most || is_mistake {
         return Ok(());
     }
@@ -74,7 +76,7 @@ pub(super) struct Settling<'a, 'b> {
     judge: &'a Judge<'a>,
     bank: &'a mut Bank<'b>,
     given: &'a EngineSettings,
-    /// Current settings; the step is the finest one of all runs.
+    /// Current settings. The step is that of the finest run.
     now: Settings,
     most_sweeps: usize,
     /// Step of the coarsest run.
@@ -82,15 +84,15 @@ pub(super) struct Settling<'a, 'b> {
     budget: f64,
     /// Target: largest ratio of a bound to the requested bound.
     aim: f64,
-    /// Whether conclusive channels are the only target.
+    /// Whether the search ends as soon as all channels are conclusive.
     conclusive: bool,
-    /// Finest step of a run, if steps are free only above it.
+    /// Lower limit of the steps, if only coarser steps may be chosen.
     finest: f64,
-    /// Ratio of the number of sweeps to the previous one.
+    /// Factor by which the sweeps were last multiplied.
     factor: usize,
     /// Whether the last round was near the requested bound.
     near: bool,
-    /// Largest step (s) with room beside the dead centres; `None` until it is needed.
+    /// Largest step (s) for which runs stay clear of the dead centres; `None` until it is needed.
     room: Option<f64>,
 }
 
@@ -130,7 +132,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     }
 
     /// The same search, but it ends as soon as every channel is conclusive.
-    /// It begins with coarser steps, takes none below `finest` (s), and has at least `sweeps`.
+    /// It begins with coarser steps and at least `sweeps` sweeps. No step is below `finest` (s).
     pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
         (self.aim, self.conclusive, self.finest, self.factor) = (1.0, true, finest, MORE_SWEEPS[1]);
         if self.given.sweeps.is_free() {
@@ -142,12 +144,12 @@ impl<'a, 'b> Settling<'a, 'b> {
         self
     }
 
-    /// Whether there is no finer step to try.
+    /// Whether the step cannot be refined further.
     fn is_finest(&self) -> bool {
         !self.given.step.is_free() || 0.5 * self.now.resolution < 0.99 * self.finest
     }
 
-    /// Runs the engine until it is decided, or until nothing is left to try.
+    /// Refines the settings until the verdict is decided, or until nothing is left to try.
     ///
     /// # Errors
     /// The failure of the last run, if no run can be judged.
@@ -157,7 +159,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut failure = None;
         let (mut round, mut failed) = (0, 0);
         let (mut stall, mut pace) = (Stall::default(), Pace::default());
-        // Names that disagree in the last round, and names that disagree in two consecutive rounds.
+        // Names of channels and checks that disagree: in the last round, and in two consecutive rounds.
         let (mut against, mut borne_out): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
         too_much(self.bank, self.now, &self.rungs(), [self.budget.larger(FIRST), self.budget])?;
         let end = loop {
@@ -170,7 +172,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     BoundPart::Discretisation
                 }
                 Ok(mut trial) => {
-                    // Neither step nor sweeps help if the order is wrong.
+                    // If the order is wrong, neither the step nor the sweeps help.
                     if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged.proof)? {
                         borne_out = trial.judged.proof.against();
                         best = Some(trial);
@@ -181,8 +183,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                     against = now;
                     let disagrees = !against.is_empty();
                     let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
-                    // If the sweeps cause only a part of the bound, they are multiplied by the smaller factor: half the
-                    // step does the rest.
+                    // If the sweeps cause only a part of the bound, they are multiplied by the smaller factor. Half the
+                    // step reduces the rest.
                     let is_careful = round > QUICK && !trial.need.is_vague && trial.blame.is_shared;
                     self.near = trial.need.is_within(NEAR) || is_careful;
                     let is_slow = self.conclusive && pace.is_too_slow(self.bank.effort, trial.need, self.budget);
@@ -202,7 +204,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                     if trial.need.is_of_instants() && self.given.step.is_free() {
                         self.leave_out_less(&trial.judged);
                     }
-                    // A later round replaces the best one if it disagrees, or if it no longer disagrees.
+                    // A later round replaces the best round if it disagrees, or if the best round disagrees and it does
+                    // not.
                     let better = best.as_ref().is_none_or(|best| {
                         let refuted = decided && !best.judged.proof.against().is_empty();
                         disagrees || refuted || trial.need < best.need
@@ -221,7 +224,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
                 Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
                     failure = Some(stopped);
-                    // A failed run may lack sweeps or a smaller step; most lack a smaller step.
+                    // A failed run may need more sweeps or a smaller step. Most need a smaller step.
                     failed = if self.makes_room() { 0 } else { failed + 1 };
                     if failed > 0 && failed % FAILURES == 0 { BoundPart::Iteration } else { BoundPart::Discretisation }
                 }
@@ -235,14 +238,14 @@ impl<'a, 'b> Settling<'a, 'b> {
         let search = SettingsSearch { runs: self.bank.count, effort: self.bank.effort, budget: self.budget, end };
         match (best, failure) {
             (Some(mut best), _) => {
-                // At a given step there is no finer run, so its own estimate counts.
+                // If the step is given, no finer run exists, so the error estimate of the run itself counts.
                 let is_over = matches!(end, SearchEnd::Budget | SearchEnd::Pace);
                 let is_cut = self.given.sweeps.is_free() && is_over;
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
                     best.judged.proof.doubt(sentences::NO_FINER_RUN_BEARS_IT_OUT, &Advice::SmallerStep { to: None });
                 }
-                // Impulses are of first order, and sweeps leave larger errors in them than in the motion.
-                // If the search is cut off before all channels are conclusive, none is disproven.
+                // Impulses are of first order, and sweeps leave larger errors in impulses than in the motion.
+                // If the search ends before all channels are conclusive, disagreements are not reported.
                 if self.conclusive && is_over {
                     best.judged
                         .proof
@@ -258,8 +261,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// Continues with steps that leave out few enough instants; the number is proportional to the step. Coarser steps
-    /// decide nothing.
+    /// Continues with steps that leave out few enough instants. The number left out is proportional to the step.
+    /// Coarser steps decide nothing.
     fn leave_out_less(&mut self, judged: &Judged) {
         let most = judged.proof.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
         // The next round halves the step again.
@@ -271,15 +274,15 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// If the steps of this round have no room beside the dead centres, continues with steps that have it.
-    /// Runs without room go through the dead centres, and fail or show no order.
-    /// Returns whether the room was missing.
+    /// If the steps of this round lead a run beyond a dead centre, continues with smaller steps.
+    /// Runs that go through a dead centre fail or show no order of convergence.
+    /// Returns whether the steps were too large.
     fn makes_room(&mut self) -> bool {
         let (case, engine) = (self.judge.problem.case, self.bank.engine(self.now));
         let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
         let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
         if is_cramped {
-            // The next round halves the step again. The largest step with room keeps rounding small.
+            // The next round halves the step again. The largest permitted step keeps rounding small.
             if self.finest == 0.0 {
                 self.now.resolution = self.now.resolution.smaller(ROOM * 0.5 * most);
             }
@@ -291,7 +294,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         is_cramped
     }
 
-    /// Changes the settings that the part `blame` depends on. Returns the reason if it cannot.
+    /// Changes the settings that the part `blame` depends on. If this is not possible, returns the reason.
     fn refine(&mut self, blame: BoundPart) -> Option<SearchEnd> {
         let mut next = self.now;
         let factor = MORE_SWEEPS[usize::from(self.conclusive || self.near)];
@@ -299,7 +302,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             BoundPart::Iteration if self.given.sweeps.is_free() && self.now.sweeps < self.most_sweeps => {
                 next.sweeps *= factor
             }
-            // At a given step only more sweeps can be chosen. Too few of them spoil the order of the step.
+            // If the step is given, only the sweeps can be increased. Too few sweeps hide the order of the step.
             BoundPart::Discretisation
                 if self.is_finest() && self.given.sweeps.is_free() && self.now.sweeps < self.judge.asked.sweeps =>
             {
@@ -312,7 +315,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                 self.coarsest = COARSEST * self.judge.asked.resolution;
                 return None;
             }
-            // At a given step no coarser step can be chosen.
+            // If the step is given, no coarser step can be chosen.
             BoundPart::Rounding | BoundPart::Reference if self.given.step.is_free() => {
                 return Some(SearchEnd::Rounding);
             }
@@ -332,7 +335,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         None
     }
 
-    /// Settings of all combinations in which the finest run takes part, the one extrapolated most often first.
+    /// Settings of all combinations of runs that include the finest run. The combination with the most extrapolations
+    /// comes first.
     fn candidates(&self) -> Vec<Settings> {
         let asked = self.judge.asked;
         let times =
@@ -342,7 +346,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             extrapolated: times,
             ..self.now
         };
-        // A judgement needs steps of up to four times the finest one.
+        // A judgement needs steps up to four times the finest step.
         let coarsest = self.coarsest.larger(4.0 * self.now.resolution);
         let is_open =
             |settings: &Settings| !self.given.step.is_free() || 2.0 * settings.resolution <= coarsest * 1.000_001;
@@ -391,22 +395,22 @@ impl<'a, 'b> Settling<'a, 'b> {
             return Ok(best);
         }
         let found = match self.trial(settings, &others[..1], &mut |part| progress(0.7 + 0.2 * part)) {
-            // If a run with fewer sweeps fails, the sweeps of the other run are hardly enough.
+            // If a run with fewer sweeps fails, the judged run has hardly enough sweeps.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
                 return Ok(Trial { need: Need { is_vague: true, ..best.need }, blame: SWEEPS, ..best });
             }
             found => found?,
         };
-        // A third run shows how fast the sweeps converge, before they are multiplied.
-        // It also shows whether they converge, before anything is disproven: sweeps that have hardly begun to converge
-        // differ little.
+        // Before the sweeps are multiplied, a third run shows how fast they converge.
+        // Before a channel is reported as disagreeing, the third run shows whether the sweeps converge at all: if they
+        // have hardly begun to converge, two runs differ little.
         let is_asked =
             found.blame.part == BoundPart::Iteration && !found.need.is_within(self.aim) && self.given.sweeps.is_free();
         if others.len() < 2 || (!is_asked && found.judged.proof.against().is_empty()) {
             return Ok(found);
         }
         match self.trial(settings, &others, &mut |part| progress(0.9 + 0.1 * part)) {
-            // If a run with fewer sweeps fails, the sweeps of the other run are hardly enough.
+            // If a run with fewer sweeps fails, the judged run has hardly enough sweeps.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric && !found.judged.proof.against().is_empty() => {
                 Ok(Trial { need: Need { is_vague: true, ..found.need }, blame: SWEEPS, ..found })
             }

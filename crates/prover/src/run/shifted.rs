@@ -11,17 +11,18 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{OraclePoint, When, within};
 
-/// Error, in units in the last place of a double, within which an instant counts as exact. The known errors of the
-/// sides cover it.
+/// An instant counts as exact if its error is at most this many units in the last place of a double.
+/// The known errors of the sides cover such an error.
 const EXACT: f64 = 4.0;
-/// Shifts of an instant at which the case is solved, as shares of its rounding error.
-/// The two ends suffice if the course between them is a parabola, wherever its vertex is.
+/// The case is solved at shifted instants. These shifts are fractions of the instant's rounding error.
+/// The two ends suffice if the values between them form a parabola, wherever its vertex is.
 const ENDS: [f64; 2] = [-1.0, 1.0];
 /// If the crank rotates by more than this in between (rad), the case is also solved at `BETWEEN`.
 const FAR: f64 = 0.01;
 const BETWEEN: [f64; 2] = [-0.5, 0.5];
 
-/// Share of a scale above which the uncertainty due to digits, interpolation and instants proves nothing.
+/// If the uncertainty due to digits, interpolation and instants exceeds this fraction of a scale, agreement proves
+/// nothing.
 pub const TELLING: f64 = 1e-2;
 
 /// Quantity in which instants are given.
@@ -34,7 +35,7 @@ pub enum Along {
 }
 
 impl Along {
-    /// An instant in this quantity; `None` if it is given in the other one.
+    /// An instant in this quantity; `None` if the instant is given in the other quantity.
     pub(super) fn of(self, when: When) -> Option<f64> {
         match self {
             Along::Crank => when.crank(),
@@ -50,15 +51,16 @@ impl Along {
     }
 }
 
-/// Whether an instant with this error is as exact as a double.
+/// Whether an instant with this error counts as exact.
 #[must_use]
 pub fn is_exact(at: f64, error: f64) -> bool {
     error <= EXACT * f64::EPSILON * at.abs()
 }
 
-/// Solves a case at instants that are shifted by shares of `slack`, row by row, from those of the trajectory `own`.
+/// Solves a case at shifted instants. The shifts are fractions of `slack`, row by row, from the instants of the
+/// trajectory `own`.
 /// Every solution is passed to `then`, with its case.
-/// So changes are also found where a rate vanishes at an instant, and for rates and forces.
+/// So changes are found for rates and forces too, and at instants at which a rate vanishes.
 ///
 /// # Errors
 /// Those of the solver, if a shifted instant is beyond the reach of the mechanism, and those of `then`.
@@ -149,7 +151,7 @@ impl RoundedInstants {
         Ok(RoundedInstants { at, drift: own.channels().iter().cloned().zip(drift).collect() })
     }
 
-    /// Change of a channel within the rounding of a point's instant; `at` is this instant in the motion of the case.
+    /// Change of a channel within the rounding of a point's instant. `at` is this instant in the motion of the case.
     pub(super) fn of_point(&self, channel: &Channel, at: f64, error: f64) -> f64 {
         let place = self.at.binary_search_by(|own| own.0.total_cmp(&at).then(own.1.total_cmp(&error)));
         let column = self.drift.iter().find(|(own, _)| own == channel);
@@ -161,7 +163,7 @@ impl RoundedInstants {
     }
 }
 
-/// The same changes from the course from row to row.
+/// The same changes, estimated from neighbouring rows.
 fn from_row_to_row(own: &Trajectory, instants: &[f64], slack: &[f64]) -> Vec<Vec<f64>> {
     let order: Vec<usize> = (0..instants.len()).collect();
     let of = |(channel, values): (&Channel, &[f64])| {

@@ -26,8 +26,8 @@ pub fn known_at_least(trajectory: &Trajectory) -> Vec<f64> {
     sizes.map(|(size, channel)| usual(channel.kind.stage) * size).collect()
 }
 
-/// The same for a trajectory of all channels of a case. The error of a channel follows from the numbers of the groups
-/// that it depends on.
+/// The same for a trajectory of all channels of a case.
+/// The error of a channel follows from the numbers of the groups on which the channel depends.
 #[must_use]
 pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
     let depends = Dependence::of(case, trajectory.channels());
@@ -35,8 +35,8 @@ pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
     sizes.into_iter().zip(trajectory.channels()).map(|(size, channel)| usual(channel.kind.stage) * size).collect()
 }
 
-/// The channels that are solved for a claim: those needed to judge it, and the other channels of its subject.
-/// The latter set the error of a component that is zero except for rounding.
+/// The channels that are solved for a claim: those needed to judge the claim, and the other channels of its subject.
+/// The other channels determine the error of a component that is zero except for rounding.
 #[must_use]
 pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
     let is_beside = |channel: &Channel| {
@@ -50,7 +50,7 @@ pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
     asked
 }
 
-/// The part of a case that some channels need, and both sides on it, with the judged formulas.
+/// The part of a case on which some channels depend, solved by both sides, and the judged formulas.
 fn of_asked(
     scenario: &Scenario,
     whole: &Case,
@@ -66,15 +66,15 @@ fn of_asked(
 
 /// Results of both sides, with their errors.
 pub struct Solved {
-    /// The solved case: the part of the mechanism that the claims need, at the instants.
+    /// The solved case: the part of the mechanism on which the claims depend, at the requested instants.
     pub case: Case,
     sides: ObservedSides,
-    /// Smallest error of every channel, whatever else is solved.
+    /// Lower limit of the error of every channel. It does not depend on which other channels are solved.
     least: Vec<f64>,
 }
 
 impl Solved {
-    /// Solves what some claims of a scenario need at the instants of a grid.
+    /// Solves the channels that some claims of a scenario need, at the instants of a grid.
     ///
     /// # Errors
     /// Those of the sides, with the crank angle.
@@ -126,7 +126,7 @@ pub struct Claimed {
     pub verdict: Verdict,
 }
 
-/// Judges the formulas of a scenario. Only their claims are solved, and what the derivatives need.
+/// Judges the formulas of a scenario. Solves only the claimed channels and those needed for derivatives.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if no formula claims anything, and those of the sides, with the crank angle.
@@ -142,7 +142,7 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
     let (_, mut sides) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
     let is_open = |own: &Judgement| {
         let mut causes = own.causes.iter();
-        // A long search is not repeated with more channels.
+        // If the search was long, it is not repeated with more channels.
         own.work <= MOST_WORK
             && causes.any(|(name, cause)| {
                 !cause.as_ref().is_some_and(FormulaCause::is_whole) && !own.unsought.contains(name)

@@ -1,4 +1,4 @@
-//! Contents of a table about a mechanism: claims of channels, at instants.
+//! Contents of a table about a mechanism: values of channels or expressions at instants.
 
 use crate::sentences;
 use std::borrow::Cow;
@@ -15,7 +15,7 @@ use scenario::words::{choice, nearest};
 use scenario::{Claim, PrintedChannel};
 use std::ops::Range;
 
-/// Instants of the rows of a party. One of the two is always given.
+/// Instants of the rows of a party: times, crank angles, or both.
 #[derive(Clone, Debug, Default)]
 pub struct Instants {
     /// Times (s).
@@ -49,9 +49,9 @@ impl RowKey {
         ascending(&self.values.iter().map(|at| at.value).collect::<Vec<f64>>())
     }
 
-    /// The first row, from 0, whose step from the row before is opposite to the first step of the table. Returns it
-    /// with both instants.
-    /// A time that jumps back has begun anew.
+    /// The first row (counted from 0) at which the instants go backwards, compared with the first step of the table.
+    /// Returns the row with its instant and the previous one.
+    /// If a time jumps back, a new run has begun.
     #[must_use]
     pub fn turns_back(&self) -> Option<(usize, [f64; 2])> {
         let step = |row: usize| self.values[row].value - self.values[row - 1].value;
@@ -66,12 +66,12 @@ impl RowKey {
 pub struct PartyColumn {
     /// The channel in its unit.
     pub claim: Claim,
-    /// Its numbers by rows, in the unit of the claim. [`MISSING`] if nothing was measured; another NaN if no number
-    /// resulted.
+    /// Values by row, in the unit of the claim. [`MISSING`] means that nothing was measured. Another NaN means that the
+    /// calculation gave no number.
     pub values: Vec<Rounded>,
     /// Scale of the channel in the unit of the claim, from a complete trajectory; `None` if only this column is known.
     pub scale: Option<f64>,
-    /// The line of the mapping for it; `None` if the table's own header names the channel.
+    /// The line of the mapping for this column; `None` if the table's own header names the channel.
     pub mapped: Option<Mapped>,
 }
 
@@ -82,16 +82,16 @@ pub struct Held {
     pub at: Instants,
     /// What it holds there.
     pub columns: Vec<PartyColumn>,
-    /// Whether it comes from an analytic side, so that its errors are known.
+    /// Whether the data comes from an analytic side, so that its errors are known.
     pub is_analytic: bool,
     /// Columns of a table that belong to no channel.
     pub unused: Vec<String>,
     places: Places,
 }
 
-/// Indices of columns by text and by channel; the first one counts.
-/// Expressions have no entry by channel, and a magnitude is another channel.
-/// The maps are needed because a party has as many columns as a mapping has lines, and each is looked up.
+/// Indices of columns by text and by channel. If several columns match, the first one counts.
+/// Expressions have no entry by channel. A magnitude is a separate channel.
+/// The maps are needed for speed: a party has as many columns as a mapping has lines, and each column is looked up.
 #[derive(Clone, Debug, Default)]
 struct Places {
     texts: BTreeMap<String, usize>,
@@ -111,7 +111,7 @@ impl Places {
     }
 }
 
-/// Names for the time in seconds that need no mapping besides those of [`INSTANTS`].
+/// Names of the time in seconds that need no mapping, besides the names in [`INSTANTS`].
 const TIMES: [&str; 2] = ["t_s", "t"];
 
 impl Held {
@@ -196,7 +196,8 @@ impl Held {
         Held::of_columns(Instants { times, cranks }, columns)
     }
 
-    /// The instants of its rows: crank angles or times as requested, otherwise times if there are any.
+    /// The instants of the party's rows, as crank angles or times.
+    /// If the quantity is not requested, times are preferred.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if the requested instants are missing.
@@ -218,20 +219,20 @@ impl Held {
         self.at.times.as_ref().or(self.at.cranks.as_ref()).map_or(0, Vec::len)
     }
 
-    /// Whether there is no row.
+    /// Whether the party has no rows.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Whether it has numbers for a claim.
+    /// Whether the party has numbers for a claim.
     #[must_use]
     pub fn holds(&self, claim: &Claim) -> bool {
         self.column_of(claim).is_some()
     }
 
-    /// Its numbers for a claim, in the claim's unit: from a column with the same text, or with the same channel in
-    /// another unit.
+    /// The party's numbers for a claim, in the claim's unit.
+    /// They come from a column with the same text, or with the same channel in another unit.
     #[must_use]
     pub fn values_of(&self, claim: &Claim) -> Option<Cow<'_, [Rounded]>> {
         match self.column_of(claim)? {
@@ -247,7 +248,7 @@ impl Held {
         Some(column.scale? * factor)
     }
 
-    /// The column of a claim, and the ratio of its unit to that of the claim.
+    /// The column of a claim, and the ratio of the column's unit to that of the claim.
     fn column_of(&self, claim: &Claim) -> Option<(&PartyColumn, f64)> {
         if let Some(&index) = self.places.texts.get(&claim.text) {
             return Some((&self.columns[index], 1.0));
@@ -281,7 +282,7 @@ fn instants_of(raw: &Raw) -> Vec<Mapped> {
     all
 }
 
-/// The one of [`INSTANTS`] that the name of a column states in words: `Time`, `t [s]`, `time (ms)`, `Crank [deg]`.
+/// The entry of [`INSTANTS`] that a descriptive column name means: `Time`, `t [s]`, `time (ms)`, `Crank [deg]`.
 fn in_words(name: &str) -> Option<&'static str> {
     let bracketed = ["[]", "()"].iter().find_map(|pair| {
         let (open, close) = pair.split_at(1);
@@ -328,7 +329,7 @@ fn some(names: &[String]) -> String {
     }
 }
 
-/// Largest number of columns that a message names; the others are counted.
+/// A message names at most this number of columns. The others are only counted.
 const NAMED: usize = 8;
 
 /// Evaluates expressions over the columns of a table.
@@ -338,7 +339,7 @@ struct Reader<'a> {
     /// The first column of each name.
     places: BTreeMap<&'a str, usize>,
     used: BTreeSet<&'a str>,
-    /// A row of numbers, for the columns in an expression.
+    /// The numbers of one row, for the columns used in an expression.
     inputs: Vec<Rounded>,
 }
 
@@ -375,7 +376,7 @@ impl<'a> Reader<'a> {
             for &index in &used {
                 inputs[index] = self.raw.columns[index][row];
             }
-            // A missing measurement gives no number. Measured values must give a number; otherwise the mapping is
+            // If a measurement is missing, the result is missing too. If measured values give no number, the mapping is
             // wrong.
             if used.iter().any(|&index| is_missing(&inputs[index])) {
                 return Ok(MISSING);
@@ -394,7 +395,7 @@ impl<'a> Reader<'a> {
         (0..self.raw.len()).map(&mut row).collect()
     }
 
-    /// The fault of an unknown name, with the existing columns.
+    /// The error for an unknown name. It lists the existing columns.
     fn unknown(&self, name: &str, at: Range<usize>) -> FormulaFault {
         let message = sentences::the_table_has_no_column(&name);
         let help = match nearest(name, self.raw.names.iter().map(String::as_str)) {
@@ -409,8 +410,8 @@ impl<'a> Reader<'a> {
 mod tests {
     use super::*;
 
-    /// Of two columns with the same text the first counts. A channel is found in another unit too; a magnitude is
-    /// another channel.
+    /// If two columns have the same text, the first one counts.
+    /// A channel is also found in another unit. A magnitude is a separate channel.
     #[test]
     fn a_claim_is_found_by_its_text_or_by_its_channel() {
         let names = ["point.B.x_mm", "2*point.B.x_m", "point.B.x_mm", "point.B.x_m", "joint.A.f_N", "joint.B.fx_N"];

@@ -21,7 +21,7 @@ use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::quiet::guarded;
 
-/// Largest number of values that are read.
+/// Limit of the number of values read.
 const MOST: u64 = 1 << 26;
 /// Number of values that are read at a time.
 const BATCH: usize = 1 << 12;
@@ -39,7 +39,7 @@ pub(super) fn read(path: &Path, size: u64, may: May) -> Result<TextTable> {
     }
 }
 
-/// Reads the columns of numbers; others, such as names, are skipped.
+/// Reads the columns of numbers. Other columns, such as names, are skipped.
 fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextTable>, ParquetError> {
     let file = File::open(path)?;
     // The usual conversion would label an error of the file system as external.
@@ -149,7 +149,7 @@ fn values_of(
     }
 }
 
-/// The same for one kind of value. The level of a row without a value is not `full`.
+/// The same for one type of value. If the level of a row is not `full`, the row has no value.
 fn taken<T: DataType>(
     mut part: ColumnReaderImpl<T>,
     full: i16,

@@ -1,4 +1,4 @@
-//! Permission to read a table, the error if it cannot be read, and text with separated columns.
+//! Permission to read a table, the error if the table cannot be read, and text with separated columns.
 
 use crate::sentences;
 use std::io::{self, Read};
@@ -11,7 +11,8 @@ use linkage::error::{Error, ErrorKind, Place, Result};
 /// First and last bytes of a Parquet file.
 pub(super) const MAGIC: [u8; 4] = *b"PAR1";
 
-/// Whether this many bytes may be taken for a table with this many rows; 0 before the rows are counted.
+/// Whether this many bytes may be allocated for a table with this many rows. The number of rows is 0 until they are
+/// counted.
 pub type May<'a> = &'a dyn Fn(f64, usize) -> Result<()>;
 
 pub(super) fn unread(path: &Path, error: &io::Error) -> Error {
@@ -19,12 +20,13 @@ pub(super) fn unread(path: &Path, error: &io::Error) -> Error {
         .help(sentences::GIVE_A_SCENARIO_TOML_A_RECORDING)
 }
 
-/// Reads the rest of a text of `size` bytes; `None` if it is not a regular file, such as a pipe.
+/// Reads the rest of a text of `size` bytes. `None` means that the source is not a regular file but, for example, a
+/// pipe.
 pub(super) fn text(path: &Path, from: impl Read, size: Option<u64>, may: May) -> Result<TextTable> {
-    // No more is read, however large the file is.
+    // At most `LARGEST` bytes are read, however large the file is.
     may(size.unwrap_or(LARGEST).min(LARGEST) as f64, 0)?;
     let text = files::text_from(from).map_err(|error| unread(path, &error))?;
-    // At least this many rows: one line may be a header.
+    // Lower limit of the number of rows, because one line may be a header.
     let rows = text.bytes().filter(|&byte| byte == b'\n').count().saturating_sub(1);
     may(text.len() as f64 + columns::bytes(&text), rows)?;
     columns::read(&text).map_err(|TableFault { at, message, help }| {

@@ -6,10 +6,10 @@ use crate::check::trial::Trial;
 use formula::{FormulaTree, Function, NodeShape, Operator, Program};
 use linkage::math::KeepNan;
 
-/// Largest number of angles whose functions are included.
+/// Largest number of angles whose sines and cosines are included.
 const ANGLES: usize = 10;
-/// Largest number of steps tried, those right before the formula. The number of products of two steps grows with its
-/// square.
+/// Largest number of steps tried. They are the last steps before the formula.
+/// The number of products of two steps grows with the square of this number.
 const STEPS: usize = 60;
 
 /// An expression that varies with the crank angle.
@@ -18,14 +18,14 @@ pub(super) struct Entry {
     pub(super) tree: FormulaTree,
     /// Its complexity.
     pub(super) weight: usize,
-    /// Its values at the trial's few instants.
+    /// Values of the expression at the few instants of the trial.
     pub(super) values: Vec<f64>,
-    /// One more than the index of the last formula used in it.
+    /// One more than the index of the last formula that the expression uses.
     pub(super) after: usize,
 }
 
 impl Entry {
-    /// Whether it is the constant 1.
+    /// Whether the expression is the constant 1.
     pub(super) fn is_one(&self) -> bool {
         matches!(self.tree.shape, NodeShape::Number(_))
     }
@@ -58,7 +58,7 @@ fn read(text: &str) -> Vec<(FormulaTree, usize)> {
 }
 
 impl Dictionary {
-    /// Collects, from everything before the formula of a trial, what may be missing in the formula.
+    /// Collects the expressions that may be missing in the formula of a trial, from everything before this formula.
     pub(super) fn of(trial: &Trial) -> Self {
         let before = trial.index.saturating_sub(STEPS)..trial.index;
         let steps: Vec<FormulaTree> =
@@ -99,8 +99,8 @@ impl Dictionary {
     }
 }
 
-/// Angles of the derivation, with the weight of a function of them: the crank angle, arguments of sines and cosines,
-/// and differences of two of these.
+/// Angles of the derivation, each with the complexity of its sine or cosine.
+/// They are the crank angle, the arguments of sines and cosines, and differences of two such angles.
 fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
     let mut names: Vec<FormulaTree> = vec![FormulaTree::name("phi")];
     let known = &trial.formulas.list[..trial.index];
@@ -116,7 +116,7 @@ fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
             arguments[0].names().iter().for_each(|(name, _)| put(name));
         });
     }
-    // Steps that are angles although no function of them is used.
+    // Steps that are angles, although the derivation uses no function of them.
     known.iter().rev().filter(|own| is_angle(&own.tree)).for_each(|own| put(&own.name));
     let multiple =
         |factor: f64| FormulaTree::pair(Operator::Times, FormulaTree::number(factor), FormulaTree::name("phi"));

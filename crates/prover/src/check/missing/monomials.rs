@@ -1,10 +1,10 @@
-//! Products of powers of known quantities, as they may be written in a formula.
+//! Products of powers of known quantities, in the form in which a formula may contain them.
 
 use crate::check::dimension::{Dimensions, Known};
 use formula::{FormulaTree, Function, NodeShape, Operator, Product, Products, information};
 use scenario::Formulas;
 
-/// Largest number of quantities in the products.
+/// Largest number of quantities that are combined to products.
 const MOST: usize = 14;
 /// Largest number of different products kept for one value.
 const SIMPLEST: usize = 100;
@@ -39,20 +39,20 @@ impl Monomials {
         Monomials { products: Products::of(&valued), quantities }
     }
 
-    /// Number of products, which is the work of building them.
+    /// Number of products. It also measures the work of building them.
     pub(in crate::check) fn len(&self) -> usize {
         self.products.len()
     }
 
-    /// Returns the products with this value, to this relative accuracy, with their complexity, the simplest first and
-    /// limited in number.
+    /// Returns the products with this value, to this relative accuracy, each with its complexity.
+    /// The simplest come first, and their number is limited.
     pub(in crate::check) fn with_value(&self, value: f64, accuracy: f64) -> Vec<(FormulaTree, usize)> {
         let near = self.products.near(value.abs(), accuracy).into_iter().take(SIMPLEST);
         near.map(|own| (self.tree(own, own.is_negative != (value < 0.0)), own.weight)).collect()
     }
 
-    /// Returns how many products of this dimension are no more complicated, and the expected number of them that match
-    /// by chance with as few digits.
+    /// Returns the number of products of this dimension that are no more complicated than `weight`.
+    /// Also returns how many of them are expected to match `value` by chance to this accuracy.
     pub(in crate::check) fn by_chance(
         &self,
         value: f64,
@@ -107,7 +107,7 @@ fn calls(formulas: &Formulas, formula: usize) -> Vec<(FormulaTree, f64)> {
             }
         });
     }
-    // Angles of the file, including those whose cosine no formula takes.
+    // Angles of the file, including those of which no formula uses the cosine.
     for own in formulas.parameters.iter().filter(|own| own.is_angle()) {
         put(&FormulaTree::call(Function::Cos, vec![FormulaTree::name(own.quantity())]));
         put(&FormulaTree::call(Function::Sin, vec![FormulaTree::name(own.quantity())]));

@@ -1,4 +1,4 @@
-//! Slips at one place of a formula: the possible corrections of a part.
+//! Slips at one position of a formula: the possible corrections of a part.
 
 use super::rules::with_slips;
 use super::slip::SlipKind;
@@ -31,12 +31,12 @@ pub(super) fn of(part: &FormulaTree, kind: SlipKind, names: &[&str], parameters:
     edits
 }
 
-/// Whether a number typically comes from a conversion of units.
+/// Whether a number typically comes from a unit conversion.
 fn is_unit(value: f64) -> bool {
     GRAVITY.contains(&value) || [1e3, 1e6, 1e-3, 1e-6, 30.0, 60.0, 90.0, 180.0, 270.0, 360.0, 3600.0].contains(&value)
 }
 
-/// The quantity whose plain number a name denotes.
+/// The quantity of which a name denotes the plain number, without its unit.
 fn quantity<'a>(part: &FormulaTree, parameters: &'a [Parameter]) -> Option<&'a str> {
     let NodeShape::Name(own) = &part.shape else { return None };
     parameters.iter().find(|parameter| parameter.key == *own).and_then(Parameter::short)
@@ -50,7 +50,7 @@ fn others(part: &FormulaTree, names: &[&str], parameters: &[Parameter]) -> Vec<F
     names.iter().filter(is_other).map(|other| FormulaTree::name(*other)).collect()
 }
 
-/// A sum, difference, product or quotient of two quantities, exchanged wherever they occur in it.
+/// A sum, difference, product or quotient in which two quantities are exchanged at all their occurrences.
 fn exchanged(part: &FormulaTree, names: &[&str]) -> Vec<FormulaTree> {
     let NodeShape::Pair(Plus | Minus | Over | Times, _) = part.shape else { return Vec::new() };
     let mut own: Vec<&str> = part.names().into_iter().map(|(name, _)| name).filter(|own| names.contains(own)).collect();
@@ -78,8 +78,8 @@ fn rename(tree: &mut FormulaTree, [one, other]: [&str; 2]) {
     }
 }
 
-/// The same symbols in the same order, grouped differently, where no rule can express it: a*b + c + d for a*(b + c +
-/// d), a/b + c for a/(b + c), sin(a) + b for sin(a + b), sin(a^2) for sin(a)^2.
+/// The same symbols in the same order with another grouping that the rules cannot express:
+/// a*b + c + d for a*(b + c + d), a/b + c for a/(b + c), sin(a) + b for sin(a + b), sin(a^2) for sin(a)^2.
 fn regrouped(part: &FormulaTree) -> Option<FormulaTree> {
     let first = first_of(part);
     match (&part.shape, &first.shape) {
@@ -103,7 +103,7 @@ fn first_of(tree: &FormulaTree) -> &FormulaTree {
     first_of(&parts[0])
 }
 
-/// A sum with another first term.
+/// A sum in which another term replaces the first.
 fn with_first(tree: &FormulaTree, first: &FormulaTree) -> FormulaTree {
     let NodeShape::Pair(operator @ (Plus | Minus), parts) = &tree.shape else { return first.clone() };
     FormulaTree::pair(*operator, with_first(&parts[0], first), parts[1].clone())

@@ -8,8 +8,8 @@ use crate::check::trial::Trial;
 use formula::{DerivationSheet, FormulaTree, Function, NodeShape, Operator};
 use scenario::Formulas;
 
-/// Tries to correct every quantity and every function at all its occurrences: in the first of the formulas `used`, then
-/// in all of them.
+/// Tries to correct every quantity and every function at all its occurrences.
+/// The occurrences are first those in the first of the formulas `used`, then those in all of them.
 /// A part that occurs only once is not a slip of this kind.
 pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimensions: &Dimensions, tried: &mut Tried) {
     use Function::{Cos, Sin, Tan};
@@ -62,7 +62,7 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimension
     }
 }
 
-/// The search in some formulas.
+/// A search in several formulas.
 struct Search<'a, 'b> {
     trial: &'a mut Trial<'b>,
     /// Indices of the formulas.
@@ -72,7 +72,7 @@ struct Search<'a, 'b> {
 }
 
 impl Search<'_, '_> {
-    /// The parts for which `is_meant` holds, with their places.
+    /// The parts for which `is_meant` holds, with their positions.
     fn places<'t>(
         &mut self,
         formulas: &'t Formulas,
@@ -95,7 +95,7 @@ impl Search<'_, '_> {
         self.trial.sheet.depending(&places.iter().map(|(place, _)| *place).collect::<Vec<usize>>())
     }
 
-    /// Tries a correction made by `changes` of the sheet and by `change` of trees.
+    /// Tries a correction, given as `changes` of the sheet and as `change` of trees.
     fn mended(
         &mut self,
         kind: SlipKind,
@@ -117,7 +117,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// What a name may have been meant to be at all its occurrences.
+/// Possible corrections of a name at all its occurrences.
 fn of_name(name: &str, names: &[&str], formulas: &Formulas) -> Vec<(SlipKind, FormulaTree)> {
     let own = FormulaTree::name(name);
     let of = |operator: Operator, right: FormulaTree| FormulaTree::pair(operator, own.clone(), right);

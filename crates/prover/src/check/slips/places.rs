@@ -1,4 +1,4 @@
-//! Places in formulas, and the names and steps that formulas use.
+//! Positions in formulas, and the names and steps that formulas use.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,7 +30,7 @@ pub(in crate::check) fn used_by(formulas: &Formulas, formula: usize) -> Vec<usiz
     found
 }
 
-/// Visits every part of a tree with its place, the whole first.
+/// Visits every part of a tree with its position. The whole tree comes first.
 pub(in crate::check) fn at_every_place<'a>(tree: &'a FormulaTree, visit: &mut dyn FnMut(&[usize], &'a FormulaTree)) {
     fn go<'a>(tree: &'a FormulaTree, place: &mut Vec<usize>, visit: &mut dyn FnMut(&[usize], &'a FormulaTree)) {
         visit(place, tree);
@@ -55,7 +55,7 @@ pub(in crate::check) fn numbered(tree: &FormulaTree, number: usize) -> &FormulaT
     found
 }
 
-/// A tree with the part of this number replaced by another.
+/// A tree in which `other` replaces the part with this number.
 pub(in crate::check) fn replaced(tree: &FormulaTree, number: usize, other: &FormulaTree) -> FormulaTree {
     let (mut at, mut next) = (Vec::new(), 0);
     at_every_place(tree, &mut |place, _| {

@@ -10,10 +10,10 @@ use scenario::formula::OMEGA;
 
 /// Written form and possible corrections, the likeliest first.
 /// Letters of the written form:
-/// `a`, `b` and `c` are any parts; `n` is a number; `q` is neither a number nor pi; `u` is a `q` that is not a call.
-/// `t` has the form of an angle or a time (its multiples may change by whole turns from instant to instant); `r` is
-/// none of these.
-/// `g` is gravity where it has no name; `w` is the crank's angular velocity.
+/// `a`, `b` and `c` are any parts. `n` is a number. `q` is neither a number nor pi. `u` is a `q` that is not a call.
+/// `t` has the form of an angle or a time; its multiples may change by whole revolutions from instant to instant.
+/// `r` is neither a number, nor pi, nor a `t`.
+/// `g` is a gravitational acceleration written as a number. `w` is the crank's angular velocity.
 const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Sign, "a + b => a - b"),
     (SlipKind::Sign, "a - b => a + b; b - a"),
@@ -87,7 +87,7 @@ static READ: LazyLock<Vec<Rule>> = LazyLock::new(|| {
     RULES.into_iter().map(read).collect()
 });
 
-/// Adds the possible corrections of a part by the rules of a kind.
+/// Adds the possible corrections of a part according to the rules of one kind of slip.
 pub(super) fn with_slips(part: &FormulaTree, kind: SlipKind, has_gravity: bool, edits: &mut Vec<FormulaTree>) {
     for rule in READ.iter().filter(|rule| rule.kind == kind) {
         let mut found = Vec::new();

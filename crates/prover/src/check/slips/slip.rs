@@ -1,4 +1,4 @@
-//! A slip in writing, its kinds, and the corrected formula.
+//! A slip in writing, the kinds of slips, and the corrected formula.
 
 use crate::check::dimension::Dimensions;
 use crate::check::trial::Trial;
@@ -7,7 +7,7 @@ use formula::FormulaTree;
 /// A slip in writing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormulaSlip {
-    /// The formula that contains it.
+    /// The formula that contains the slip.
     pub formula: String,
     /// Kind of slip.
     pub kind: SlipKind,
@@ -15,7 +15,7 @@ pub struct FormulaSlip {
     pub written: String,
     /// The corrected part.
     pub right: String,
-    /// Whether it occurs everywhere in the formula and in the steps that it uses.
+    /// Whether the slip occurs everywhere in the formula and in the steps that the formula uses.
     pub everywhere: bool,
 }
 
@@ -23,7 +23,7 @@ linkage::words! {
     /// Kinds of slips, the simplest first.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     pub enum SlipKind: words {
-        /// A missing factor `* -1`.
+        /// A missing factor of -1.
         Sign = "a sign",
         /// Another branch of a square root or of an inverse function.
         Branch = "another branch",
@@ -31,11 +31,11 @@ linkage::words! {
         Unit = "a unit",
         /// Sine for cosine, and the like.
         Function = "another function",
-        /// A square, a root, or their absence.
+        /// A square or a root in excess, or missing.
         Power = "a power",
         /// A derivative by the crank angle for one by time.
         PerRadian = "per radian of the crank in place of per second",
-        /// A derivative by time for one by the crank angle, or a power for a moment.
+        /// A derivative by time in place of one by the crank angle, or a power in place of a moment.
         PerSecond = "per second in place of per radian of the crank",
         /// Another of the names.
         Name = "another quantity",
@@ -47,26 +47,27 @@ linkage::words! {
         Reference = "another reference angle",
         /// A factor or divisor that is a small number.
         Factor = "a factor",
-        /// A product for a quotient, or for a power.
+        /// A product in place of a quotient or of a power.
         Operator = "a product for a quotient",
         /// Parentheses that are missing, or in another place.
         Parentheses = "parentheses",
-        /// A number, or the value of a parameter.
+        /// A wrong number, or a wrong value of a parameter.
         Value = "a value",
     }
 }
 
-/// Smallest for the simplest slip. The parts: whether units contradict it, whether it is made in many places, whether
-/// it is in a step, and its kind.
+/// Order of slips, smallest for the simplest.
+/// The parts: whether the units contradict the slip, whether it occurs at many positions, whether it is in a step, and
+/// its kind.
 type Rank = (bool, bool, bool, SlipKind);
 
 /// A slip mended.
 pub(in crate::check) struct Mended {
     pub(in crate::check) slip: FormulaSlip,
     pub(in crate::check) rank: Rank,
-    /// Share of the largest difference that the correction leaves; zero if it makes the formula right.
+    /// Fraction of the largest difference that remains after the correction; zero if the formula is then right.
     pub(in crate::check) left: f64,
-    /// Number of slips tried up to this one: the equally simple ones.
+    /// Number of equally simple slips: all slips tried up to this one.
     pub(in crate::check) among: usize,
 }
 
@@ -75,18 +76,18 @@ pub(in crate::check) struct Mended {
 pub(in crate::check) struct Tried {
     /// Corrections that make the formula right, the simplest first.
     pub(in crate::check) right: Vec<Mended>,
-    /// The other correction that leaves the least, if it leaves little.
+    /// Among the other corrections, the one with the smallest remainder, if this remainder is small.
     pub(in crate::check) nearest: Option<Mended>,
     /// How many were tried.
     pub(in crate::check) count: usize,
 }
 
 impl Tried {
-    /// Judges a corrected slip. Keeps it if the formula is then right, or nearer than before.
+    /// Judges a corrected slip. It is kept if the formula is then right, or closer than after earlier corrections.
     pub(super) fn put(&mut self, trial: &mut Trial, changed: &[(usize, FormulaTree)], slip: FormulaSlip, rank: Rank) {
         let Some(left) = trial.left(changed, 0.0) else { return };
         let mended = Mended { slip, rank, left, among: self.count };
-        // A simpler correction that leaves hardly more counts as nearer.
+        // A simpler correction counts as closer even if its remainder is slightly larger.
         if left == 0.0 {
             self.right.push(mended);
         } else if self.nearest.as_ref().is_none_or(|nearest| left < 0.8 * nearest.left) {
@@ -94,7 +95,7 @@ impl Tried {
         }
     }
 
-    /// The same for a part of the first changed formula, `replaced` by another, if the units allow it.
+    /// The same if another part has `replaced` a part of the first changed formula, provided that the units allow this.
     pub(super) fn put_standing(
         &mut self,
         trial: &mut Trial,

@@ -1,9 +1,9 @@
-//! Wrong numbers of a formula and of the parameters.
+//! Finds wrong numbers in a formula and wrong parameters.
 //!
 //! The right number is calculated instant by instant.
-//! It must be the same at all instants, and one that people write.
-//! Any number of the formula could be the wrong one if the formula is wrong by a factor or is a constant. Only a number
-//! with confused digits is then named.
+//! It must be the same at all instants, and must have few digits, like numbers that people write.
+//! If the formula is wrong by a factor or is constant, any of its numbers could be wrong.
+//! Then only a number with confused digits is reported.
 
 use std::collections::BTreeSet;
 
@@ -14,11 +14,12 @@ use crate::check::trial::Trial;
 use formula::{FormulaTree, NodeShape, Operator, information};
 use linkage::math::KeepNan;
 
-/// Largest number of digits in a number that people write.
+/// A number with more digits than this is not considered as written by a person.
 const DIGITS: usize = 6;
-/// Relative accuracy from which the digits of a number count.
+/// Relative accuracy to which a number must be known before its digits are compared.
 const KNOWN: f64 = 1e-8;
-/// Information (bits) of a factor that is too simple to say anything about digits.
+/// A factor with less information than this (bits) is simple: its effect on the digits is no evidence of confused
+/// digits.
 const SIMPLE: f64 = 2.0;
 
 /// Tries every number of the formulas `used`, and every parameter in them.
@@ -28,7 +29,7 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
         used.iter().flat_map(|&index| formulas.list[index].tree.names()).map(|(name, _)| name).collect();
     for own in &formulas.parameters {
         let names: Vec<(String, f64)> = own.names().map(|(name, number)| (name.to_string(), number.value)).collect();
-        // If both names are used, the two numbers would have to change together.
+        // If the formula uses both names, the two numbers would have to change together.
         let names: Vec<&(String, f64)> = names.iter().filter(|(name, _)| known.contains(name.as_str())).collect();
         let &[(name, number)] = names.as_slice() else { continue };
         let Some(place) = trial.sheet.named(name) else { continue };
@@ -71,13 +72,13 @@ fn put(
 ) {
     let [written, right] = texts;
     let slip = FormulaSlip { formula: formula.into(), kind: SlipKind::Value, written, right, everywhere: false };
-    // A number changes no unit. A correction without confused digits ranks after missing terms.
+    // A number does not change the units. A correction without confused digits ranks after missing terms.
     let rank = (false, !is_confused, changed[0].0 != trial.index, SlipKind::Value);
     tried.put(trial, changed, slip, rank);
 }
 
-/// The right number in place of a wrong one, if one number of the same sign is right at all instants. Also returns
-/// whether its digits were confused.
+/// The right number in place of a wrong one, if a single number of the same sign is right at all instants.
+/// Also returns whether its digits were confused.
 fn meant(trial: &mut Trial, place: usize, wrong: f64) -> Option<(f64, bool)> {
     if trial.is_spent() || wrong == 0.0 {
         return None;
@@ -105,7 +106,7 @@ fn meant(trial: &mut Trial, place: usize, wrong: f64) -> Option<(f64, bool)> {
     (right * wrong > 0.0 && (!is_open || is_confused)).then_some((right, is_confused))
 }
 
-/// A number with few digits within the error, if there is one.
+/// The number with the fewest digits within the error, if it has few enough.
 fn short(value: f64, error: f64) -> Option<f64> {
     (0..DIGITS).find_map(|digits| {
         let own: f64 = format!("{value:.digits$e}").parse().ok()?;
@@ -113,9 +114,9 @@ fn short(value: f64, error: f64) -> Option<f64> {
     })
 }
 
-/// Whether the digits of the right number were confused: two exchanged, one lost, added or doubled. Another value of
-/// gravity counts too.
-/// A decimal point in another place or a simple factor does not count.
+/// Whether the digits of the right number were confused: two exchanged, one lost, added or doubled.
+/// Another usual value of gravity counts as confused too.
+/// A shifted decimal point or a simple factor does not count.
 fn is_confused(wrong: f64, right: f64) -> bool {
     if edits::GRAVITY.contains(&wrong) && edits::GRAVITY.contains(&right) {
         return true;

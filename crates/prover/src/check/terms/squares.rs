@@ -1,5 +1,5 @@
-//! Terms that are missing in numbers, by least squares over quantities of the mechanism: sines and cosines of the
-//! links' angles, squares of their speeds, and their accelerations.
+//! Finds terms that numbers lack, by least squares over quantities of the mechanism.
+//! The quantities are sines and cosines of the links' angles, squares of their speeds, and their accelerations.
 
 use crate::check::KnownTrajectory;
 use linkage::math::{ColumnVector, KeepNan, Matrix};
@@ -8,13 +8,13 @@ use linkage::math::{ColumnVector, KeepNan, Matrix};
 pub struct Wrong<'a> {
     /// The course rows that the numbers belong to.
     pub rows: &'a [usize],
-    /// What must be added to the numbers.
+    /// Amounts to add to the numbers to make them right.
     pub differences: Vec<f64>,
     /// Bounds on the differences.
     pub bounds: Vec<f64>,
     /// The right numbers.
     pub right: Vec<f64>,
-    /// Indices of some instants, at which everything is tried first.
+    /// Indices of the instants at which every explanation is tried first.
     pub few: &'a [usize],
 }
 
@@ -28,7 +28,7 @@ pub struct TermBasis {
 }
 
 impl TermBasis {
-    /// Its largest value over the instants.
+    /// Largest value of the quantity over the instants.
     pub fn largest(&self) -> f64 {
         self.values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()))
     }
@@ -46,19 +46,20 @@ pub struct WeightedTerm<'a> {
 pub struct Explanation<'a> {
     /// One quantity or two.
     pub parts: Vec<WeightedTerm<'a>>,
-    /// Remaining share of the largest difference; zero if nothing remains.
+    /// Fraction of the largest difference that remains; zero if nothing remains.
     pub left: f64,
 }
 
-/// Fewest instants from which terms are sought.
+/// Smallest number of instants from which terms are sought.
 const FEWEST: usize = 8;
-/// Error of a quantity's values, relative to its largest value.
+/// Assumed error of a quantity's values / its largest value.
 const KNOWN: f64 = 1e-10;
-/// An explanation that leaves less than this share of the difference at `few` is tried at all instants.
+/// If an explanation leaves less than this fraction of the difference at `few`, it is tried at all instants.
 const PROMISING: f64 = 1e-6;
 
-/// Calls `whole` with every explanation by one or two quantities that leaves nothing, up to the first single one.
-/// Returns the explanation that leaves least, if there is one.
+/// Calls `whole` with every explanation by one or two quantities that leaves nothing.
+/// Ends at the first explanation by a single quantity.
+/// Returns the explanation with the smallest remainder, if any explanation was found.
 pub fn explanations<'a>(
     wrong: &Wrong,
     bases: &'a [TermBasis],
@@ -79,7 +80,7 @@ pub fn explanations<'a>(
         let Some((coefficients, left)) = fitted(bases, &chosen, differences, few) else { continue };
         if left < PROMISING && explains(wrong, bases, &chosen, &coefficients) {
             whole(parts(&chosen, &coefficients));
-            // Two terms are not better than one.
+            // An explanation by two terms is not better than one by a single term.
             if chosen.len() == 1 {
                 break;
             }
@@ -98,16 +99,16 @@ pub fn explanations<'a>(
     Some(Explanation { parts: parts(&chosen, &coefficients), left })
 }
 
-/// What the chosen quantities explain at an instant.
+/// The sum of the chosen quantities times their coefficients, at an instant.
 fn explained(bases: &[TermBasis], chosen: &[usize], coefficients: &[f64], place: usize) -> f64 {
     chosen.iter().zip(coefficients).map(|(&one, own)| own * bases[one].values[place]).sum()
 }
 
-/// Coefficients of the chosen quantities at some instants, and the share of the difference that they leave.
+/// Coefficients of the chosen quantities, fitted at some instants, and the fraction of the difference that remains.
 fn fitted(bases: &[TermBasis], chosen: &[usize], differences: &[f64], places: &[usize]) -> Option<(Vec<f64>, f64)> {
     let matrix = Matrix::from_fn(places.len(), chosen.len(), |row, column| bases[chosen[column]].values[places[row]]);
     let right = ColumnVector::from_iterator(places.len(), places.iter().map(|&place| differences[place]));
-    // Normalised columns: speeds squared and cosines differ by powers of ten.
+    // The columns are normalised, because squares of speeds and cosines differ by powers of ten.
     let sizes: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
     if sizes.iter().any(|size| !(*size > 0.0)) {
         return None;
@@ -119,7 +120,7 @@ fn fitted(bases: &[TermBasis], chosen: &[usize], differences: &[f64], places: &[
     left.is_finite().then_some((coefficients, left))
 }
 
-/// Whether nothing remains at any instant.
+/// Whether the remaining difference is within the bounds at all instants.
 fn explains(wrong: &Wrong, bases: &[TermBasis], chosen: &[usize], coefficients: &[f64]) -> bool {
     let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()));
     let known: f64 =
@@ -166,7 +167,7 @@ pub fn bases(course: &KnownTrajectory, wrong: &Wrong) -> Vec<TermBasis> {
         own.text.is_empty() || own.values.iter().any(|value| (value - own.values[0]).abs() > 1e-6 * largest)
     };
     all.retain(changes);
-    // The claim itself, or a multiple of it, explains nothing.
+    // The claim itself and its multiples explain nothing.
     let claimed = ColumnVector::from_column_slice(&wrong.right);
     let is_claim = |own: &TermBasis| {
         let values = ColumnVector::from_column_slice(&own.values);

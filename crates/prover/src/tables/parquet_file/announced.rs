@@ -1,5 +1,5 @@
-//! Checks the sizes that a Parquet file announces, before its reader takes memory for them. The reader takes as much as
-//! the file announces.
+//! Checks the sizes that a Parquet file states, before the file's reader allocates memory for them.
+//! The reader allocates as much as the file states.
 
 use crate::sentences;
 use std::fs::File;
@@ -12,16 +12,15 @@ use parquet::file::metadata::ColumnChunkMetaData;
 use super::thrift::{Found, Walk, wrong};
 use crate::tables::source::MAGIC;
 
-/// Bytes after the description of a file: its length, and the signature of the format.
+/// Bytes after the description of a file: the length of the description, and the signature of the format.
 const TAIL: u64 = 8;
-/// Deepest nesting of columns and groups of columns: the reader is recursive.
+/// Limit of the nesting depth of columns and groups of columns, because the reader is recursive.
 const DEEPEST: usize = 32;
-/// Largest number of bytes of a page for each of its values: eight, plus levels and the unfinished blocks of delta
-/// encoding.
+/// Limit of bytes of a page per value: eight bytes, plus levels and the unfinished blocks of delta encoding.
 const WIDEST: u64 = 16;
-/// Bytes of a page in addition to its values: a block of delta encoding is always whole.
+/// Bytes allowed for a page in addition to its values, because a block of delta encoding is always complete.
 const BESIDE: u64 = 1 << 12;
-/// Largest dictionary (bytes). Writers stop using a dictionary from 1 MiB on.
+/// Limit of a dictionary's size (bytes). Programs that write Parquet stop using a dictionary at 1 MiB.
 const DICTIONARY: u64 = 1 << 26;
 
 /// Field numbers in the description of a file, of a column in it, and in the header of a page.
@@ -33,7 +32,7 @@ const OF_DATA: [i64; 2] = [5, 8];
 const OF_DICTIONARY: i64 = 7;
 const VALUES: i64 = 1;
 
-/// Checks the description of a file: it announces no more columns than there are, and none that is nested too deep.
+/// Checks the description of a file. It must not state more columns than exist, or columns that are nested too deeply.
 pub(super) fn check_description(file: &File) -> io::Result<()> {
     let whole = file.metadata()?.len();
     let mut tail = [0; TAIL as usize];
@@ -52,7 +51,7 @@ pub(super) fn check_description(file: &File) -> io::Result<()> {
             return Ok(());
         }
         match (field, found) {
-            // A group cannot have more columns than bytes.
+            // A group has at most as many columns as the description has bytes.
             (CHILDREN, Found::Number(count)) if (0..=length.cast_signed()).contains(&count) => own = count,
             (CHILDREN, Found::Number(_) | Found::Other) => {
                 return Err(wrong(sentences::IT_ANNOUNCES_COLUMNS_THAT_ARE_NOT_THERE));
@@ -135,7 +134,7 @@ pub(super) fn check_pages(file: &File, rows: u64, column: &ColumnChunkMetaData) 
             return Err(wrong(sentences::its_pages_have_more_values(&rows)));
         }
         let most = match page.dictionary {
-            // A dictionary contains every one of its values, with at least four bytes each.
+            // A dictionary stores every value with at least four bytes.
             Some(count) if count > held / 4 => {
                 return Err(wrong(sentences::a_dictionary_of_bytes_has_values(&held, &count)));
             }

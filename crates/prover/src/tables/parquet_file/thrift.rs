@@ -1,11 +1,11 @@
-//! The compact protocol of Thrift, in which a Parquet file describes itself: it is read without taking memory.
+//! The compact protocol of Thrift, in which a Parquet file describes itself. It is read without allocating memory.
 
 use crate::sentences;
 use std::io::{self, Read};
 
-/// Largest number of elements of all lists together: the reader takes memory for as many as a list announces.
+/// Limit of the elements of all lists together, because the file's reader allocates memory for all stated elements.
 const MOST: u64 = 1 << 22;
-/// Deepest nesting of structures and lists.
+/// Limit of the nesting depth of structures and lists.
 const DEEPEST: usize = 32;
 
 /// Content of a field.
@@ -18,8 +18,8 @@ pub(super) enum Found {
     End,
 }
 
-/// Receives the depth of a field (0 in the outermost structure), the enclosing field, the field's number there, and its
-/// content.
+/// Receives four data of a field: its depth (0 in the outermost structure), the enclosing field, its number in the
+/// structure, and its content.
 pub(super) type Tell<'a> = &'a mut dyn FnMut(usize, [i64; 2], Found) -> io::Result<()>;
 
 /// A walk over the data, with the number of bytes read.
@@ -51,7 +51,7 @@ impl<R: Read> Walk<R> {
                 step => field.saturating_add(step),
             };
             match head & 15 {
-                // A truth value is part of the kind itself.
+                // The value of a Boolean is part of the type code.
                 1 | 2 => tell(depth, [outer, field], Found::Other)?,
                 kind => self.value(kind, depth, [outer, field], tell)?,
             }
@@ -124,7 +124,7 @@ impl<R: Read> Walk<R> {
         Err(wrong(sentences::IT_HAS_A_NUMBER_WITHOUT_AN_END))
     }
 
-    /// A whole number. Its last bit is the sign.
+    /// A whole number whose last bit is the sign.
     fn number(&mut self) -> io::Result<i64> {
         let value = self.varint()?;
         Ok((value >> 1).cast_signed() ^ -(value & 1).cast_signed())
