@@ -68,7 +68,7 @@ impl FourBar {
         let m2 = (r[1] - 1.0) * (px * f2y - py * f2x) - self.inertia[1] * e2;
         let m3 = (r[2] - 1.0) * (qx * f3y - qy * f3x) - self.inertia[2] * e3 + load;
         let (tx, ty) = (f2x + f3x, f2y + f3y);
-        // u = A - B = -p, w = C - B = -q; u x R = -m2, w x R = m3 - w x F.
+        // With u = A - B = -p and w = C - B = -q, the two links give u x R = -m2 and w x R = m3 - w x F.
         let rhs = m3 + (qx * ty - qy * tx);
         let (rax, ray) = ((qx * m2 + px * rhs) * det, (qy * m2 + py * rhs) * det);
         let (rcx, rcy) = (-rax - tx, -ray - ty);

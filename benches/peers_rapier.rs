@@ -41,7 +41,7 @@ fn columns(trajectory: &Trajectory) -> Vec<Vec<f64>> {
 }
 
 /// Processor time (s) of this thread; other work on the machine hardly disturbs it.
-/// Without Linux, the elapsed time since `since`.
+/// On systems other than Linux, the function returns the elapsed time since `since`.
 fn used(since: Instant) -> f64 {
     // Linux updates the processor time when the thread yields.
     std::thread::yield_now();

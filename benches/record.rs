@@ -1,5 +1,5 @@
 //! Cost of writing a recording, divided by the cost of the proof that it stores.
-//! Also divided by the cost of the plain MCAP writer for the same prepared messages.
+//! The same cost is also divided by that of the plain MCAP writer for the same prepared messages.
 //! Only ratios from one run are printed: `cargo bench --bench record`.
 
 use std::collections::BTreeMap;

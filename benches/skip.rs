@@ -18,8 +18,9 @@ const REPEATS: usize = 15;
 /// Instants of a turn.
 const INSTANTS: usize = 3600;
 
-/// Mechanisms with their questions: all positions, positions of a point of the first or the last group, a point's whole
-/// motion without forces, and one joint.
+/// Mechanisms with their questions.
+/// The questions are all positions, positions of a point of the first or the last group, a point's whole motion without
+/// forces, and one joint.
 const QUESTIONS: [(&str, &[&str]); 4] = [
     ("crank_rocker", &["positions", "point.B.positions", "joint.B"]),
     ("ov7_base", &["positions", "point.3.positions", "point.9.positions", "point.9", "joint.7"]),

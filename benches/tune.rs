@@ -33,7 +33,7 @@ const EVERY: usize = 8;
 const SPACE: Space = Space { sweeps: &[4, 8, 16, 32, 64, 128, 256], factor: 1.15 };
 /// Number of alternating timings; the shortest counts, because other activity of the machine only adds time.
 const REPEATS: usize = 7;
-/// Number of cheapest settings of the exhaustive search that are timed again.
+/// Number of settings from the exhaustive search that are timed again: the cheapest ones.
 const FINALISTS: usize = 5;
 
 fn scenario(name: &str) -> Scenario {
@@ -145,7 +145,7 @@ fn compare(name: &str) {
     );
 }
 
-/// Cost of steps, sweeps, substeps, instants and worlds, in units of a step of `rapier` without sweeps.
+/// Measures the cost of steps, sweeps, substeps, instants and worlds, in units of a step of `rapier` without sweeps.
 fn measure_prices() {
     let base = scenario("crank_rocker").case;
     let (steps, step) = (1000, 1e-3);
@@ -182,8 +182,8 @@ fn measure_prices() {
     println!("unit: {:.2} us", unit * 1e6);
 }
 
-/// Compares by the cost model on the whole space, for three required accuracies.
-/// Nothing is timed, but it runs for minutes.
+/// Compares the settings that `tune` chooses with the cheapest of the whole space, for three required accuracies.
+/// The costs come from the cost model. Nothing is timed, but it runs for minutes.
 fn whole(names: &[&str]) {
     const SWEEPS: &[usize] = &[1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024];
     const WHOLE: Space = Space { sweeps: SWEEPS, factor: 1.1 };

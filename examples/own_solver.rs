@@ -3,8 +3,8 @@
 //! The solver takes the geometry from the case and computes only angles and angular velocities, which are compared.
 //!
 //! `cargo run --release --example own_solver`.
-//! A crate that takes the crates from the registry names them in its manifest as this workspace does.
-//! The names are `linkage = { package = "linkproof-linkage", version = "0.1" }`, and `prover` in the same way.
+//! To use the crates from the registry, name them in your manifest as in this workspace:
+//! `linkage = { package = "linkproof-linkage", version = "0.1" }`, and `prover` in the same way.
 
 use linkage::error::Result;
 use linkage::math::{Motion, Vec2, unit};

@@ -107,7 +107,8 @@ fn run(binary: &str, file: &Path, limit: Duration, further: &[String]) -> Outcom
     Outcome { word, why, seconds: since.elapsed().as_secs_f64() }
 }
 
-/// Verdict and its cause: the check or channel with the largest ratio to its bound, or the one with the widest bound.
+/// The verdict, and the check or channel that causes it.
+/// This is the one with the largest ratio of residual to bound, or the one with the widest bound.
 fn judged(report: &Value) -> (&'static str, String) {
     let Some(run) = report["runs"].get(0) else {
         let error = &report["errors"][0];

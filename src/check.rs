@@ -40,7 +40,7 @@ impl FormulaQuestion {
         FormulaQuestion { formula: formula.into(), channel: channel.into(), ..FormulaQuestion::default() }
     }
 
-    /// The scenario with only this question, without the claims of its file.
+    /// The scenario with this formula as its only claim. The claims of its file are removed.
     pub(crate) fn of_scenario(&self, mut scenario: Scenario, words: &Words) -> Result<Scenario> {
         scenario.formulas.list.iter_mut().for_each(|formula| formula.claim = None);
         for (name, text) in &self.steps {
@@ -62,7 +62,7 @@ impl FormulaQuestion {
 
 /// Judges every `[[formula]]` of a scenario that claims a channel.
 /// The values and the derivatives of the formula are compared with both analytic sides at all instants of the grid.
-/// The bound is the rounding of the formula.
+/// The bound is the rounding error of the formula.
 /// If a formula is wrong and the cause is simple, the result names the cause.
 ///
 /// ```
@@ -76,7 +76,7 @@ impl FormulaQuestion {
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if no formula claims a channel.
-/// Also the errors of the sides, with the crank angle.
+/// If an analytic side cannot solve the scenario, its error is returned, with the crank angle.
 pub fn check(scenario: &Scenario) -> Result<Claimed> {
     judge(scenario)
 }
@@ -98,7 +98,7 @@ pub fn check(scenario: &Scenario) -> Result<Claimed> {
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for an invalid formula or channel, with its location.
-/// Also the errors of [`check`].
+/// The errors of [`check`] are returned as well.
 pub fn check_formula(scenario: &Scenario, question: &FormulaQuestion) -> Result<Claimed> {
     check(&question.of_scenario(scenario.clone(), &WORDS)?)
 }

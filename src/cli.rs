@@ -59,7 +59,7 @@ struct Cli {
     command: Command,
 }
 
-/// The commands: purpose, arguments, and function.
+/// Declares the commands. Each has a purpose, arguments, and a function.
 macro_rules! commands {
     ($($group:literal { $($(#[$about:meta])* $name:ident($args:ty) = $run:path,)* })*) => {
         #[derive(Debug, Subcommand)]
@@ -106,7 +106,8 @@ commands! {
         Draw(draw::Args) = draw::draw,
         /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
         Plan(plan::Args) = plan::plan,
-        /// Velocity and acceleration from a displacement by the chord method, and back, with their errors
+        /// Velocity and acceleration by the chord method, velocity and displacement by graphical integration, and their
+        /// errors
         Diagram(diagram::Args) = diagram::diagram,
         /// Show a recording in Rerun or Foxglove: the mechanism from above, beside plots of both sides
         View(view::Args) = view::view,
@@ -195,8 +196,8 @@ mod tests {
         Cli::command().debug_assert();
     }
 
-    /// Commands without a separate module besides `src/cli/NAME.rs`: the solvers, the scenario or the documents do
-    /// their work.
+    /// Commands whose only module is `src/cli/NAME.rs`.
+    /// The code of the solvers, of the scenario or of the documents does their work.
     const ONLY_HERE: [&str; 9] = ["completions", "docs", "inspect", "list", "man", "new", "schema", "solve", "view"];
 
     /// A command's name leads directly to its code: to `src/cli/NAME.rs`, and to the module `NAME` of the crate that
@@ -239,7 +240,7 @@ mod tests {
         found
     }
 
-    /// The words of a line from `linkproof` to the end of the command, such as a pipe or `;`.
+    /// The words of a line from `linkproof` to the end of the command, which is marked by a sign such as a pipe or `;`.
     /// For a line with `cargo run`, the words begin at `--`.
     fn command(line: &str) -> Option<Vec<String>> {
         let words = shlex::split(line).unwrap_or_else(|| panic!("no shell understands {line}"));

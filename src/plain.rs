@@ -1,4 +1,4 @@
-//! A proof, its diagnosis and an error as plain text.
+//! Plain text of a proof, its diagnosis and an error.
 //! The text is the message of a failed test, and the common part of all reports.
 
 /// Adds a line to a text: a format with its values, or a sentence.

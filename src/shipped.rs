@@ -1,4 +1,5 @@
-//! Files that help and documents mention, embedded in the program, because `cargo install` installs no others.
+//! Files that help texts and documents mention.
+//! They are embedded in the program, because `cargo install` installs only the program.
 
 use include_dir::{Dir, include_dir};
 
@@ -6,7 +7,7 @@ static SCENARIOS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/scenarios");
 static CATALOGUES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/catalogues");
 const FINDINGS: &[u8] = include_bytes!("../docs/findings.md");
 
-/// Directory of study scenarios, which no document mentions and which are half of all scenarios.
+/// Directory of study scenarios. They are not embedded: no document mentions them, and they are half of all scenarios.
 const STUDY: &str = "variants60";
 
 fn below(directory: &'static Dir<'static>, path: &str, found: &mut Vec<(String, &'static [u8])>) {

@@ -189,9 +189,9 @@ impl Proving {
         self
     }
 
-    /// Sets the largest error of the engine, as a fraction of a channel's scale, at which agreement still counts as a
-    /// proof.
-    /// It replaces `engine_rel` of `[tolerances]`.
+    /// Sets an upper limit for the engine's error bound, as a fraction of a channel's scale.
+    /// Above this limit, agreement no longer counts as a proof.
+    /// The limit replaces `engine_rel` of `[tolerances]`.
     /// The bounds themselves are derived and cannot be chosen.
     pub fn tolerance(mut self, share: f64) -> Self {
         self.tolerance = Some(share);

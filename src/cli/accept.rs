@@ -76,7 +76,7 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
         Some((kept, comparison)) => (Deed::Renewed, Some(renewed(kept, found.clone(), comparison))),
     };
     if let Some(figures) = written {
-        // The existing file was read above as the accepted figures of this scenario.
+        // An existing file may be replaced: it was read above as the accepted figures of this scenario.
         output::make_by(accepted::text(&figures).as_bytes(), &place, &|_| kept.is_some())?;
     }
     let item = Item { proof: &proof, found: &found, comparison: comparison.as_ref(), deed, file: &place };

@@ -3,7 +3,7 @@
 use crate::sentences;
 use linkage::error::{Advice, rounded_up};
 
-/// Advice as text for a user of the command line.
+/// Words advice for a user of the command line.
 pub(super) fn told(advice: &Advice) -> String {
     match advice {
         Advice::SmallerStep { to } => sentences::choose_a_smaller_time_step(&option("--dt", *to)),
@@ -33,7 +33,7 @@ pub(super) fn told(advice: &Advice) -> String {
     }
 }
 
-/// An option with a suggested value, or the option alone.
+/// An option with the suggested value `to`, or the option alone if no value is suggested.
 fn option(name: &str, to: Option<f64>) -> String {
     match to {
         Some(to) => sentences::such_as(&name, &format_args!("{to:e}")),

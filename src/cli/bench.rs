@@ -52,7 +52,7 @@ pub(super) struct Args {
     /// Time limit in seconds for one call of a peer
     #[arg(long, value_name = "S", default_value_t = LIMIT, allow_hyphen_values = true, value_parser = number::positive)]
     peer_limit: f64,
-    /// Work allowed to the engines of a scenario, in steps without sweeps [default: 2e6, with `--quick` 3e5]
+    /// Work allowed to the engines of a scenario, in engine steps without sweeps [default: 2e6, with `--quick` 3e5]
     #[arg(long, value_name = "STEPS", allow_hyphen_values = true, value_parser = number::positive)]
     budget: Option<f64>,
     /// Number of timing rounds; the shortest time counts [default: 3, with `--quick` 1]

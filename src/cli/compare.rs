@@ -33,7 +33,7 @@ pub(super) struct Args {
     /// several times
     #[arg(long, value_name = "EXPR=CHANNEL|FILE", allow_hyphen_values = true)]
     map: Vec<String>,
-    /// Columns of A, if both are tables
+    /// Columns of A, if A and B are both tables
     #[arg(long, value_name = "EXPR=CHANNEL|FILE", allow_hyphen_values = true)]
     map_a: Vec<String>,
     /// Write the settings of --map, --rel, --rel-value and --abs to a mapping file
@@ -52,7 +52,7 @@ pub(super) struct Args {
     /// Compare these channels only: a channel, a subject (point.P) or a stage (positions); may be given several times
     #[arg(long, value_name = "WORD")]
     only: Vec<String>,
-    /// Match rows by time or by crank angle [default: by time, if both have times]
+    /// Match rows by time or by crank angle [default: by time, if A and B both have times]
     #[arg(long, value_name = "WHAT", value_parser = word(["time", "crank"], by))]
     by: Option<By>,
     /// Interpolate the first of two tables between its rows; the interpolation error is added to the bound
@@ -65,7 +65,7 @@ pub(super) struct Args {
     memory: MemoryArgs,
     #[command(flatten)]
     start: StartArgs,
-    /// Show every channel, not only the channels that use most of their bounds
+    /// Show every channel, not only the channels with the largest ratios of difference to bound
     #[arg(long, short)]
     verbose: bool,
     /// Show the verdicts alone

@@ -24,7 +24,7 @@ pub(super) enum Which {
 }
 
 impl Which {
-    /// Every engine of this build, in place of a name.
+    /// The name that means every engine of this build.
     const ALL: &'static str = "all";
 
     fn parser() -> impl TypedValueParser<Value = Which> {
@@ -79,7 +79,7 @@ impl MemoryArgs {
 
 /// The settings of an engine: one argument for each row of [`ROWS`].
 /// If a setting is not given, the scenario's setting applies.
-/// If the scenario has none, the proof finds the setting, or the engine uses its default.
+/// If the scenario lacks it too, the proof finds the setting, or the engine uses its default.
 #[derive(Clone, Debug)]
 pub(super) struct SettingArgs {
     settings: EngineSettings,
@@ -118,7 +118,8 @@ impl FromArgMatches for SettingArgs {
     }
 }
 
-/// The argument of a row; `None` for the row of engines, which each command defines separately.
+/// The command-line argument for a row of settings.
+/// `None` for the row of engines, because each command defines that argument separately.
 fn argument(row: &'static SettingRow) -> Option<Arg> {
     let own = Arg::new(row.argument).long(row.argument).value_name(row.value).help(row.help);
     Some(match (row.slot)(&mut EngineSettings::default()) {
@@ -146,7 +147,7 @@ pub(super) fn word<T: Clone + Send + Sync + 'static>(
 }
 
 impl EngineArgs {
-    /// The options of a proof with these arguments.
+    /// The options of a proof that result from these arguments.
     pub(super) fn options(&self, reference: Reference) -> Options {
         let mut options = Options::default().reference(reference);
         options.settings = self.settings.settings.clone();
@@ -166,7 +167,7 @@ impl SettingArgs {
     /// An engine with these settings; missing settings come from the scenario, or else from the engine's defaults.
     ///
     /// # Errors
-    /// Those of settings that an engine does not support.
+    /// If the engine does not support one of the settings.
     pub(super) fn engine(&self, engine: EngineName, scenario: &Scenario) -> Result<Box<dyn Engine>> {
         let options = Options { settings: self.settings.clone(), ..Options::default() };
         Ok(options.engine(engine).set_engines(scenario)?.remove(0))

@@ -22,7 +22,7 @@ pub(super) struct GridArgs {
 }
 
 impl GridArgs {
-    /// The scenario on the given grid, or on the grid of its file if no grid is given.
+    /// The scenario on the grid of the arguments, or on the grid of its file if the arguments give no grid.
     pub(super) fn on(&self, scenario: Scenario) -> Result<Scenario> {
         let case = self.case(&scenario.case)?;
         Ok(Scenario { case, ..scenario })

@@ -18,7 +18,7 @@ pub(super) struct Room {
     freed: Condvar,
 }
 
-/// The index of the next item, and the memory that each item holds.
+/// The index of the next item, and the memory reserved by each item.
 #[derive(Debug, Default)]
 struct Held {
     next: usize,
@@ -50,7 +50,7 @@ impl Room {
         self.freed.notify_all();
     }
 
-    /// Frees the memory of an item; an item without reserved memory changes nothing.
+    /// Frees the memory that an item has reserved, if any.
     fn give_back(&self, index: usize) {
         let mut held = self.lock();
         held.shares.remove(&index);
@@ -59,7 +59,7 @@ impl Room {
         self.freed.notify_all();
     }
 
-    /// Lets the next items continue if an item ends before it has reserved memory.
+    /// Lets later items continue if item `index` ends before it has reserved memory.
     fn pass(&self, index: usize) {
         let mut held =
             self.freed.wait_while(self.lock(), |held| held.next < index).unwrap_or_else(PoisonError::into_inner);

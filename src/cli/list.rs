@@ -15,7 +15,7 @@ pub(super) struct Args {
     /// Directory of scenario files [default: scenarios, or else this directory]; with --channels a scenario file
     #[arg(value_name = "DIR")]
     place: Option<PathBuf>,
-    /// List channels instead: all, or with a file those of its scenario
+    /// List channels instead: all channels, or the channels of a scenario if a file is given
     #[arg(long)]
     channels: bool,
     /// List the solvers instead

@@ -95,7 +95,8 @@ pub(super) fn draft(file: &Path, asked: &StartRequest) -> Result<Draft> {
     }
 }
 
-/// Adds the option's location to an error that has no location in the file, because a requested mode caused it.
+/// If a requested mode probably caused the error, adds the option `--mode` as its location.
+/// Such an error has no location in the file.
 fn of_mode(asked: &StartRequest, error: Error) -> Error {
     let is_asked = !asked.modes.is_empty() && error.place().is_none() && error.kind() != ErrorKind::Io;
     if is_asked { error.key("--mode") } else { error }
@@ -105,7 +106,7 @@ fn of_mode(asked: &StartRequest, error: Error) -> Error {
 const DASH: &str = "-";
 
 /// Name of standard input in messages.
-/// Files that the scenario names are relative to the working directory.
+/// If a scenario comes from standard input, its file names are relative to the working directory.
 const NAME: &str = "<standard input>";
 
 /// Whether a path means standard input.

@@ -53,7 +53,7 @@ pub(super) fn times(text: &str) -> Parsed<usize> {
 /// Reads a decimal number; `such` names the kind of number that the option expects.
 ///
 /// # Errors
-/// A message that names the expected kind, `such` a number.
+/// A message that names the expected kind of number, `such`.
 pub(super) fn decimal(text: &str, such: impl Display) -> Parsed<f64> {
     let text = text.trim();
     match f64::from_str(text) {

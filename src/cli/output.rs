@@ -1,4 +1,4 @@
-//! Writing to standard output, files and the terminal.
+//! Functions that write to standard output, files and the terminal.
 
 use crate::sentences;
 use std::fs;
@@ -91,18 +91,19 @@ pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<
 }
 
 /// Writes text, with its seal, to a file whose name the program chose.
-/// If the file exists and its seal is unbroken, it is replaced; without an unbroken seal it is an error.
+/// An existing file is replaced if its seal is unbroken. Otherwise the function returns an error.
 pub(super) fn make(text: &str, to: &Path) -> Result<()> {
     make_by(files::sealed(text, to).as_bytes(), to, &files::is_sealed)
 }
 
-/// Writes bytes to a file whose name the program chose.
-/// An existing file is replaced if `is_ours` accepts its bytes; otherwise it is an error.
+/// Writes text, with its seal, to a file whose name the program chose.
+/// An existing file is replaced if its seal is unbroken. Otherwise the function returns an error.
 pub(super) fn make_by(bytes: &[u8], to: &Path, is_ours: &dyn Fn(&[u8]) -> bool) -> Result<()> {
     put(&OutputTarget::Made(to, is_ours), to, Some(bytes.len() as u64), |out| out.write_all(bytes))
 }
 
-/// Checks these paths in advance; an error if [`make`] may not replace an existing file.
+/// Checks in advance that [`make`] may write to these paths.
+/// Returns an error if a file exists that [`make`] may not replace.
 pub(super) fn may_make(places: &[PathBuf]) -> Result<()> {
     for to in places {
         if let Some(why) = OutputTarget::Made(to, &files::is_sealed).in_the_way() {
@@ -227,7 +228,7 @@ pub(super) fn warn(error: &Error) {
     say(&errors::warning(error, advice::told));
 }
 
-/// Shows an error on standard error: the line of the file, the value found there, and the remedy.
+/// Shows an error on standard error: the line of the file, the invalid value, and the remedy.
 pub(super) fn show(error: &Error) {
     say(&errors::text(error, advice::told));
 }

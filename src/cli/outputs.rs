@@ -125,7 +125,7 @@ pub(super) struct Outputs<R: Results> {
     all: Vec<(R, PathBuf)>,
 }
 
-/// Result and path of the value of `-o`.
+/// Reads the value of `-o`: the requested result and its path.
 fn read<R: Results>(text: &str) -> std::result::Result<(R, PathBuf), String> {
     let path = Path::new(text);
     let (first, form, _) = R::ALL[0];

@@ -20,7 +20,7 @@ use {
     recording::{Level, LogEntry, Reel},
 };
 
-/// Size (bytes) above which a recording is called large: viewers then take seconds to open it.
+/// If a recording has more bytes than this, the message calls it large: viewers then take seconds to open it.
 const LARGE: u64 = 20_000_000;
 /// Size of the smaller recording that the message suggests (bytes).
 const HANDY: f64 = 5e6;
@@ -133,13 +133,13 @@ impl RecordArgs {
         Ok(Some(Recorded { path, layout, told: told + "\n" }))
     }
 
-    /// The recorded contents of a proof, for live viewers.
+    /// The contents that a recording of the proof would have, for live viewers.
     #[cfg(feature = "live")]
     pub(super) fn reel(&self, scenario: &Scenario, proof: &Proof) -> Result<Reel> {
         self.as_recorded(scenario, proof, &BTreeMap::new(), recording::reel)
     }
 
-    /// The recorded contents of the reference alone, before the proof is finished.
+    /// The contents of the reference alone, as a recording would have them, before the proof is finished.
     #[cfg(feature = "live")]
     pub(super) fn first_reel(&self, scenario: &Scenario, case: &Case, reference: &Trajectory) -> Result<Reel> {
         let text = sentences::THE_ENGINE_IS_AT_WORK_ITS_SIDE;
@@ -156,7 +156,7 @@ impl RecordArgs {
         })
     }
 
-    /// Calls `visit` with the recorded contents of a proof.
+    /// Prepares the contents that a recording of the proof would have, and calls `visit` with them.
     fn as_recorded<T>(
         &self,
         scenario: &Scenario,

@@ -23,7 +23,7 @@ pub(super) use args::Args;
 
 /// Proves every file. A bad file does not stop the others from being proven.
 pub(super) fn run(args: &Args) -> Result<u8> {
-    // If nothing is recorded, the default directory may be missing.
+    // If nothing is recorded and no viewer is served, options of recordings have no effect and are refused.
     if !args.live.is_on() {
         args.record.refuse_idle()?;
     }
@@ -47,7 +47,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
 }
 
 /// Number of files that are proven in parallel.
-/// With `--write`, a file that is given twice must be read again after it was written, so the number is one.
+/// With `--write`, the number is one, because a file that is given twice must be read again after it was written.
 fn threads(args: &Args) -> usize {
     let mut seen = BTreeSet::new();
     let is_new = |file: &PathBuf| seen.insert(fs::canonicalize(file).unwrap_or_else(|_| file.clone()));

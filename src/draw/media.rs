@@ -14,13 +14,13 @@ use prover::run::Reference;
 pub struct PictureOptions {
     /// Crank angle (rad, as the scenario states it); `None` for the crank angle of the start.
     pub crank: Option<f64>,
-    /// All configurations at the crank angle, each with the modes of its groups.
+    /// Whether to draw all configurations at the crank angle, each with the modes of its groups.
     pub each_mode: bool,
-    /// Gravity, and forces and moments as arrows with their sizes.
+    /// Whether to draw gravity, and forces and moments as arrows with their sizes.
     pub loads: bool,
     /// Lengths of the links.
     pub dimensions: bool,
-    /// Paths of all points without a joint.
+    /// Whether to draw the paths of all points without a joint.
     pub all_traces: bool,
     /// Paths of these points.
     pub traces: Vec<String>,
@@ -82,7 +82,7 @@ impl Medium {
         if self.moves() && !wish.each_mode { wish.frames.unwrap_or(48) } else { 1 }
     }
 
-    /// The picture: figures with their sizes (mm).
+    /// The bytes of a picture file. Each page is a figure with its size (mm); an animation has a page for each frame.
     pub(super) fn bytes(
         self,
         pages: &[(DrawnFigure, [f64; 2])],

@@ -24,8 +24,8 @@ fn seen() -> Wanted {
     Wanted::of(&[Stage::Positions, Stage::Velocities])
 }
 
-/// The states of one revolution from the start on, and the travels in them.
-/// If a revolution is out of reach, the states are those of the grid.
+/// The states of one revolution from the start on, and the travel of every link in these states.
+/// If the crank cannot make a revolution, the states are those of the grid.
 pub(super) fn turned(case: &Case, solver: &dyn Solver) -> (Vec<State>, Travels) {
     let crank = case.crank();
     let turn: Vec<f64> =

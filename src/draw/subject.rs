@@ -22,7 +22,7 @@ const SHOWN: usize = 3;
 
 /// A note beside a picture.
 pub(crate) enum Note {
-    /// A fault, or an assumption that the drawing makes.
+    /// A fault, or an assumption made for the drawing.
     Said(String),
     /// The picture shows one of several configurations.
     OneOfMany,
@@ -45,7 +45,7 @@ pub(crate) struct Drawn {
     traces: Vec<Trace>,
     /// Fault of the file or of the request.
     pub(crate) fault: Option<Error>,
-    /// Whether the file has mistakes; they are then listed below the picture.
+    /// Whether the file has mistakes. If it has mistakes, they are listed below the picture.
     has_mistakes: bool,
     pub(crate) note: Option<Note>,
 }
@@ -95,7 +95,7 @@ impl Drawn {
                 Some(fault) if self.has_mistakes => mistakes(fault),
                 _ => faults.collect(),
             };
-            // Configurations have their own headings.
+            // The fault of the file is shown only if the cell lists no faults and the configurations have no headings.
             if let (true, Some(fault), true) = (cell.faults.is_empty(), &self.fault, self.headings.is_empty()) {
                 cell.faults.push(fault.message().to_string());
             }
@@ -163,7 +163,8 @@ impl Drawn {
         let traces = points.iter().map(|&(link, local)| (link, path(link, local))).collect();
         let mut drawn = Drawn { traces, ..Drawn::new(draft_of(&scenario), crank, shots) };
         let own = std::mem::replace(&mut drawn.travels, travels);
-        // The requested instant lies between two instants of the computed path.
+        // A single picture shows the requested instant, which lies between two instants of the computed path.
+        // The travels are therefore widened by the pose at this instant.
         if frames == 1 {
             drawn.travels.widen(&own);
         }
@@ -208,7 +209,7 @@ impl Drawn {
         all.truncate(MOST);
         let own = lay(&draft.mechanism, &structure, &angles, &draft.starts);
         let headings = all.iter().map(|laid| heading(&draft.mechanism, &structure, laid, &own)).collect();
-        // If the file leaves its mode open, the list of configurations answers it, so this is not a fault.
+        // If the file states no mode, the list of configurations shows the possible modes, so this is not a fault.
         // A configuration that does not close is not a fault either.
         let is_answered = draft.mistakes.is_none() && all.iter().any(Laid::is_whole);
         let cut = is_cut.then(|| sentences::only_the_first_configurations_are_drawn(&MOST));
@@ -235,7 +236,7 @@ fn mistakes(fault: &Error) -> Vec<String> {
     lines
 }
 
-/// The link that turns if no drive could be read.
+/// A note that names the link assumed to be driven, if no drive could be read.
 fn of_guess(draft: &Draft) -> Option<String> {
     let drive = draft.drives.first().filter(|_| draft.is_driven_by_guess)?;
     let link = &draft.mechanism.links()[drive.link].name;

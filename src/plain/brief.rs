@@ -10,7 +10,7 @@ use linkage::trajectory::{Channel, Trajectory, Unit};
 use prover::numbers;
 use prover::run::{EngineInfo, Proof};
 
-/// Channels that are shown with their values.
+/// Number of channels that are shown with their values.
 const WORST: usize = 3;
 
 /// The verdict in one line: scenario, verdict, how much was judged, and the step.
@@ -69,7 +69,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
             paragraph(engines::sentence(fault));
         }
     }
-    // If the proof agrees, open points besides do not weaken the agreement.
+    // If the proof agrees, undecided results do not weaken the agreement, so only one reason is shown.
     let most = if grade(&proof.verdict) == Grade::Agree { 1 } else { WORST };
     reasons::reasons(proof, tell, width, most, &mut text);
     reasons::diagnosed(proof, width, &mut text);

@@ -10,7 +10,8 @@ use prover::bounds::overall;
 use prover::numbers;
 use prover::run::{EngineProof, ForceFault, Proof};
 
-/// One row per engine, one column per stage: the channel that uses most of its bound.
+/// A table with one row per engine and one column per stage.
+/// A cell shows the channel with the largest ratio of error to bound.
 pub fn table(engines: &[EngineProof], width: Option<usize>) -> String {
     let rows = engines.iter().map(|engine| {
         let verdict = engine.failure.as_ref().map_or(engine.verdict.word(), |_| "failed").to_string();
@@ -21,7 +22,8 @@ pub fn table(engines: &[EngineProof], width: Option<usize>) -> String {
     trimmed(fitted(&header, width).add_rows(rows))
 }
 
-/// Error and bound of the worst channel of a stage, both divided by its scale, and a mark if the stage does not agree.
+/// Error and bound of the worst channel of a stage, both divided by the channel's scale, and a mark if the stage does
+/// not agree.
 fn of_stage(engine: &EngineProof, stage: Stage) -> String {
     let own = || engine.channels.iter().filter(|channel| channel.residual.channel.kind.stage == stage);
     let Some(worst) = worst(own()) else { return "-".into() };
@@ -70,7 +72,7 @@ pub fn source(engine: &EngineProof) -> &str {
     }
 }
 
-/// Verdict on the forces that an engine itself exerts, and the channel that uses most of its bound.
+/// Verdict on the forces that an engine itself exerts, and their channel with the largest ratio of error to bound.
 pub fn exerted(own: &EngineProof) -> String {
     let Some(worst) = worst(&own.channels) else { return "none".into() };
     let (residual, unit) = (&worst.residual, worst.residual.channel.kind.unit);
@@ -79,7 +81,7 @@ pub fn exerted(own: &EngineProof) -> String {
     sentences::channels_at_most(&own.channels.len(), &own.verdict.word(), &numbers)
 }
 
-/// One sentence for both judgements of an engine's forces.
+/// A sentence that says which forces are wrong: those computed from the motion, those that the engine exerts, or both.
 pub fn sentence(fault: ForceFault) -> &'static str {
     match fault {
         ForceFault::Reading => sentences::THE_ENGINE_MOTION_AND_THE_FORCES_THAT_IT_EXERTS,

@@ -1,4 +1,4 @@
-//! Errors: the line of the file, the value found there, and the remedy.
+//! Errors as text: the line of the file, the invalid value, and the remedy.
 
 use std::borrow::Cow;
 
@@ -65,14 +65,15 @@ fn one(error: &Error, tell: Tell, (word, level): &(&str, Level<'static>)) -> Str
     let title = visible(&title);
     let help = error.way_out_by(tell).map(|help| visible_lines(&help));
     let Some(place) = error.place() else {
-        // The renderer would draw a margin for non-existent lines.
+        // Without a location, the text is composed here, because the renderer would draw a margin for non-existent
+        // lines.
         let help = help.map(|help| format!("\n  = help: {help}")).unwrap_or_default();
         return format!("{word}: {title}{help}");
     };
     let path = visible(&place.file.display().to_string());
     let source = of_same_length(&place.text);
     // A span may end within a character, for example if a text is cut after a number of bytes.
-    // The renderer would then panic.
+    // Both ends are moved to the nearest outer character boundary, because the renderer would panic within a character.
     let start = (0..=place.span.start.min(source.len())).rfind(|&at| source.is_char_boundary(at)).unwrap_or(0);
     let end = (place.span.end.clamp(start, source.len())..=source.len()).find(|&at| source.is_char_boundary(at));
     let annotation = AnnotationKind::Primary.span(start..end.unwrap_or(source.len()));

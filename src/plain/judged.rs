@@ -32,7 +32,7 @@ pub fn grade(verdict: &Verdict) -> Grade {
     }
 }
 
-/// Numbers of verdicts that agree, are wrong as expected, disagree, and are open.
+/// Numbers of verdicts of four kinds: agree, wrong as expected, disagree, open.
 pub fn counts<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> [usize; 4] {
     let mut counts = [0; 4];
     for verdict in verdicts {
@@ -70,7 +70,7 @@ pub struct JudgedNumber<'a> {
     /// Origin of the bound.
     pub basis: String,
     pub verdict: &'a Verdict,
-    /// Instant (s) at which the channel uses most of its bound.
+    /// Instant (s) at which the channel's ratio of error to bound is largest.
     pub worst: Option<f64>,
 }
 
@@ -144,7 +144,7 @@ pub fn unproven(proof: &Proof) -> Vec<(String, &Verdict)> {
     all
 }
 
-/// All channels of all engines, sorted: the channel that uses most of its bound comes first.
+/// All channels of all engines, sorted by descending ratio of error to bound.
 pub fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
     let engines = proof.engines.iter();
     let mut all: Vec<_> = engines.flat_map(|engine| engine.channels.iter().map(move |own| (engine, own))).collect();
@@ -152,13 +152,12 @@ pub fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
     all
 }
 
-/// The channel that uses most of its bound.
+/// The channel with the largest ratio of error to bound.
 pub fn worst<'a>(channels: impl IntoIterator<Item = &'a ChannelProof>) -> Option<&'a ChannelProof> {
     channels.into_iter().max_by(|a, b| used(a).total_cmp(&used(b)))
 }
 
-/// Fraction of its bound that a channel uses. A channel that is open or disagrees counts more than any agreeing
-/// channel.
+/// Ratio of error to bound of a channel. A channel that is open or disagrees counts more than any agreeing channel.
 fn used(channel: &ChannelProof) -> f64 {
     let share = share(channel.residual.max, channel.bound);
     match grade(&channel.verdict) {

@@ -21,7 +21,8 @@ pub(crate) fn ratio(bench: &Bench, point: &BenchPoint) -> Option<f64> {
     Some(point.seconds()? / bench.unit)
 }
 
-/// An error in words, marked if the reference does not resolve it.
+/// An error as text.
+/// If the reference's error limits it, a note follows; if it is below the reference's error, a note replaces it.
 pub(crate) fn error(errors: Errors, floor: f64) -> String {
     match (errors.is_limited, errors.max > floor) {
         (false, _) => format!("{:.1e}", errors.max),
@@ -153,7 +154,7 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
     Ok(text + &csv(rows)?)
 }
 
-/// Names of everything that was counted, in the order of its first appearance.
+/// Names of all counts of the points (such as evaluations), in the order of their first appearance.
 fn counts(bench: &Bench) -> Vec<String> {
     distinct(
         bench.points.iter().filter_map(BenchPoint::run).flat_map(|run| &run.effort.0).map(|(name, _)| name.clone()),

@@ -18,7 +18,7 @@ use prover::run::Reference;
 use prover::run::solved::Claimed;
 use scenario::{Formula, Scenario};
 
-/// Claims that the short report shows with their values.
+/// Number of claims that the short report shows with their values.
 const WORST: usize = 3;
 /// Column at which the text below a formula begins.
 const INDENT: usize = 9;
@@ -74,8 +74,8 @@ pub fn verdict_line(scenario: &Scenario, claimed: &Claimed) -> String {
     format!("{}: {}: {told}", scenario.name, style::verdict(&claimed.verdict))
 }
 
-/// The short report, in lines of at most `width` columns: the verdict, the formulas that use most of their bounds, and
-/// the faults.
+/// The short report, in lines of at most `width` columns.
+/// It has the verdict, the formulas with the largest errors relative to their bounds, and the faults.
 #[must_use]
 pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
     let lines = lines(scenario, claimed);

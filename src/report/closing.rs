@@ -9,12 +9,12 @@ use prover::numbers::percent;
 use prover::run::Proof;
 
 /// Outcomes of the files so far, in the order of the files.
-/// A row has scenario, verdict, worst item, the fraction of its bound that the item uses, and engine.
+/// A row has scenario, verdict, worst item, this item's ratio of error to bound, and engine.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Closing(Vec<[String; 5]>);
 
 impl Closing {
-    /// Adds a proof: its verdict, and the item that uses most of its bound.
+    /// Adds a proof: its verdict, and the item with the largest ratio of error to bound.
     pub(crate) fn add(&mut self, proof: &Proof) {
         let [worst, share] = worst(proof);
         self.0.push([proof.scenario.clone(), proof.verdict.word().into(), worst, share, resolution(proof)]);
@@ -48,10 +48,10 @@ impl Closing {
     }
 }
 
-/// Name of the item that uses most of its bound, and the fraction used.
-/// A check counts only if it disagrees or is open, and only if no channel does so.
-/// Published numbers are ignored otherwise: their bound is half a unit of the last digit, and they usually use most of
-/// it.
+/// Name of the item with the largest ratio of error to bound, and this ratio.
+/// The item is a channel, unless all channels agree and a check disagrees or is open.
+/// Checks that agree are ignored: the bound of a published number is half a unit of its last digit, so this ratio is
+/// usually near 1.
 fn worst(proof: &Proof) -> [String; 2] {
     let channel = ranked(proof).into_iter().next().map(|(_, channel)| channel);
     let check = proof.all_checks().filter(|check| grade(&check.verdict) != Grade::Agree);

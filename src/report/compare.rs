@@ -19,13 +19,14 @@ use prover::numbers;
 
 /// Number of channels shown for an agreeing pair in a short report.
 const SHOWN: usize = 3;
-/// A number counts as zero if it is known only to rounding and is smaller than this fraction of the other number.
+/// If a number is known only to rounding error and is smaller than this fraction of the other number, it is shown as
+/// zero.
 const NOTHING: f64 = 1e-4;
 /// Number of names that are listed; further names are only counted.
 const NAMED: usize = 3;
 
 /// The report in lines of at most `width` columns.
-/// It has the verdict, the channels that use most of their bounds, and the reasons of disagreements.
+/// It has the verdict, the channels with the largest ratios of error to bound, and the reasons of disagreements.
 #[must_use]
 pub fn text(paths: [&Path; 2], comparison: &PartyComparison, detail: Detail, tell: Tell, width: usize) -> String {
     let mut text = String::new();
@@ -81,8 +82,8 @@ fn row(own: &Compared, by_crank: bool) -> [String; 7] {
     let [at, first, second, difference, bound] = own.worst.map_or_else(Default::default, |at| {
         let when = if by_crank { numbers::fixed(at.crank.to_degrees(), 2) } else { numbers::fixed(at.time, 6) };
         // An angle may differ by whole revolutions, which do not count as a difference.
-        // A value is shown as zero only if it is known rounding and negligible beside the other value.
-        // Allowed differences do not hide digits.
+        // A value is shown as zero only if it is rounding error and negligible beside the other value.
+        // Allowed differences do not reduce the number of digits shown.
         let values = [at.values[0], if at.difference.is_nan() { at.values[1] } else { at.values[0] + at.difference }];
         let largest = values[0].abs().larger_number(values[1].abs());
         let [first, second] = numbers::beside(values, at.known.smaller_number(NOTHING * largest));

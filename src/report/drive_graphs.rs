@@ -42,7 +42,8 @@ pub(crate) fn graphs(scenario: &Scenario, found: &Found, curves: &Curves) -> Gra
     let rate = reduced([sentences::DERIVATIVE_OF_THE_REDUCED_MOMENT, "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, slope);
     let mut graphs = vec![
         reduced([sentences::REDUCED_MOMENT_OF_INERTIA, "I*", "kg m^2"], |row| row.inertia, means.inertia, inertia),
-        // The inertia is periodic, so the mean of its derivative is zero. If it is constant, that is only rounding.
+        // If the inertia is constant, its derivative is only rounding error.
+        // The graph of the derivative is therefore drawn to the scale of the inertia, if that is larger.
         CrankGraph { size: inertia.greatest.1.larger(slope.greatest.1), ..rate },
         reduced(
             [sentences::REDUCED_MOMENT_OF_RESISTANCE, "M_r", "N m"],

@@ -115,7 +115,7 @@ rows! {
         search["Option::is_none"]: Option<SearchRow> = own.search.as_ref().map(|own| SearchRow::of(own, info)),
         verdict: &'static str = own.verdict.word(),
         reason: Option<String> = own.verdict.reason(tell),
-        /// The judgement that contradicts the forces: of the forces from the motion, of the exerted forces, or both.
+        /// Which forces disagree: those from the motion (`reading`), those that the engine exerts (`exerted`), or both.
         fault: Option<&'static str> = engine.force_fault().map(|fault| match fault {
             ForceFault::Reading => "reading",
             ForceFault::Exerted => "exerted",
@@ -148,7 +148,8 @@ rows! {
     /// A diagnosis in the JSON report.
     pub struct DiagnosisRow = |diagnosis: &Diagnosis| {} {
         suspect: String = diagnosis.suspect.clone(),
-        /// The party that disagrees with all other parties, if there is one, and the standing of all parties.
+        /// The party that disagrees with all other parties, if there is one; then a sentence on the agreement of all
+        /// parties.
         alone: Option<String> = match &diagnosis.alone {
             PartyStanding::Alone(name) => Some(name.clone()),
             PartyStanding::Together | PartyStanding::Camps(_) | PartyStanding::Open(_) => None,
@@ -162,7 +163,7 @@ rows! {
         error: Option<String> = diagnosis.nature.map(nature),
         /// Whether the cause explains all channels.
         explained: bool = diagnosis.is_explained(),
-        /// Other causes that explain the same amount.
+        /// Other causes that explain as much.
         also: Vec<String> = diagnosis.also.iter().map(cause).collect(),
         left_over: Vec<String> = diagnosis.left_over.iter().map(ToString::to_string).collect(),
         cases_tried: usize = diagnosis.solved,

@@ -34,9 +34,9 @@ pub(crate) fn text(view: &View) -> String {
     }))
 }
 
-/// Playback speed for a stated time scale.
-/// Without one, it is the fastest speed at which people can follow a revolution; `turn` is the log time of a revolution
-/// (s).
+/// Playback speed of a recording with the time scale `slow`.
+/// With `slow` = 1, it is the fastest speed at which people can follow a revolution; `turn` is the log time of a
+/// revolution (s).
 pub(crate) fn speed(slow: f64, turn: f64) -> f64 {
     if slow != 1.0 {
         return 1.0;

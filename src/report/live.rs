@@ -49,7 +49,7 @@ pub(crate) enum Request {
 pub(crate) struct Control {
     /// Whether it moves.
     pub plays: bool,
-    /// Log time per second of the clock.
+    /// Playback speed: log time that passes per second of the clock.
     pub speed: f32,
     /// Log time (ns) to go to.
     pub seek: Option<u64>,
@@ -64,13 +64,13 @@ pub(crate) struct State {
     pub plays: bool,
     /// Log time (ns).
     pub time: u64,
-    /// Log time per second of the clock.
+    /// Playback speed: log time that passes per second of the clock.
     pub speed: f32,
     /// Whether playback jumped to this time.
     pub jumped: bool,
 }
 
-/// Log time per second of the clock.
+/// Playback speed: log time that passes per second of the clock.
 /// It is the playback speed of the layout, reduced if a revolution would be too fast to follow.
 pub(crate) fn pace(reel: &Reel) -> f64 {
     let usual = speed(reel.slow, reel.turn);

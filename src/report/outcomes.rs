@@ -70,7 +70,8 @@ impl Outcomes {
 
     /// Adds a proof: every channel of every engine, and every check.
     pub fn add(&mut self, proof: &Proof) {
-        // If the forces exerted by an engine prove nothing, they do not affect the verdict.
+        // If the verdict on the forces exerted by an engine is open, these forces do not affect the verdict of the
+        // proof.
         let counts = |own: &JudgedNumber| own.sort != Sort::OwnForce || grade(own.verdict) != Grade::Open;
         let judged = judged::of(proof).into_iter().filter(counts);
         let by = |own: &JudgedNumber| own.engine.map_or(SIDES, |engine| engine.info.name);

@@ -12,7 +12,7 @@ use linkage::mechanism::GroupId;
 use prover::numbers;
 use scenario::Scenario;
 
-/// Number of extreme positions of one link that are shown in full; the others are only counted.
+/// Number of extreme positions of one link that are shown in full; further positions are only counted.
 const EXTREMES: usize = 8;
 
 /// The range as text.
@@ -93,7 +93,7 @@ fn groups(scenario: &Scenario, range: &Range, width: Option<usize>) -> String {
 
 fn links(scenario: &Scenario, range: &Range, width: Option<usize>) -> String {
     let rows = range.links.iter().map(|link| {
-        // If a link rotates fully, the interval of its angle has no meaning.
+        // If a link rotates fully, the interval of its angle has no meaning and is not shown.
         let end =
             |at: ValueAtCrank| if link.turns == 0 { numbers::fixed(at.value.to_degrees(), 6) } else { "-".into() };
         let [least, most] = link.angles.map(end);

@@ -68,7 +68,7 @@ fn described(info: &EngineInfo) -> String {
     }
 }
 
-/// The section on the forces that an engine exerts, after the table of its channels.
+/// The section on the forces that an engine itself exerts. It follows the table of the engine's channels.
 /// It is a table, or a single line if there are `several` engines.
 fn own_section(engine: &EngineProof, several: bool, width: Option<usize>, text: &mut String) {
     let Some(own) = &engine.own_forces else { return };
@@ -166,7 +166,7 @@ pub(super) fn sentence(proof: &Proof) -> String {
     }
 }
 
-/// The channels as a table with one row per quantity: its channel that uses most of its bound.
+/// The channels as a table with one row per quantity: its channel with the largest ratio of error to bound.
 fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
     let header = "quantity | worst channel | crank deg> | error> | of scale> | bound> | order> | verdict";
     let quantities = distinct(channels.iter().map(|own| own.residual.channel.kind.quantity));
@@ -188,7 +188,7 @@ fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
     trimmed(fitted(header, width).add_rows(rows))
 }
 
-/// The checks as a table with one row per family: its check that uses most of its bound.
+/// The checks as a table with one row per family: its check with the largest ratio of residual to bound.
 /// A family is `expected` if all its wrong numbers are known to be wrong.
 fn checks(proof: &Proof, width: Option<usize>) -> String {
     let families = distinct(proof.all_checks().map(|check| check.family.as_str()));
@@ -233,7 +233,7 @@ mod tests {
     use prover::run::{Options, prove};
     use scenario::of_repository;
 
-    /// Residual, bound and the share used, line by line, in the order of the proof.
+    /// Residual, bound and the used fraction of the bound, line by line, in the order of the proof.
     #[test]
     fn every_residual_is_printed_beside_its_bound() {
         let proof =

@@ -33,7 +33,7 @@ pub(crate) struct Hints<'a> {
 }
 
 /// The settings as text.
-/// `within` is the largest allowed error, as a share of each channel's scale.
+/// `within` is the largest allowed error, as a fraction of each channel's scale.
 pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &Section, hints: Hints) -> String {
     let rows = found.by_engine.iter().map(|candidate| {
         let Settings { resolution, sweeps, substeps, route, extrapolated } = candidate.settings;

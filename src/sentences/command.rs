@@ -29,7 +29,7 @@ linkage::sentences! {
     GIVE_A_NUMBER_ABOVE_ZERO = "give a number above zero";
     // cli/bench.rs
     GIVE_A_DIRECTORY_THAT_MAY = "name a directory that exists or can be created, and is writable";
-    THEIR_FILES_IN_THE_DIRECTORY = "their output files would have the same names: write each to a separate directory";
+    THEIR_FILES_IN_THE_DIRECTORY = "the output files of these scenarios would have the same names: write each scenario's files to a separate directory";
     two_scenarios_are_called(twice) = "two scenarios have the name \"{twice}\"";
     THE_COMMAND_IS_EMPTY = "the command is empty";
     is_no_name_letters_digits(name) = "\"{name}\" is not a valid name: use letters, digits, ., - and _";
@@ -46,7 +46,7 @@ linkage::sentences! {
     the_table(path) = "the table {path}";
     LEAVE_IT_OUT = "leave it out";
     NEITHER_OF_THE_TWO_IS_A_RECORDING = "neither A nor B is a recording";
-    BOTH_ARE_SCENARIOS_WHICH_ARE_SOLVED = "both are scenarios, which are solved at the requested instants";
+    BOTH_ARE_SCENARIOS_WHICH_ARE_SOLVED = "A and B are scenarios: each is solved at the requested instants, so interpolation is not needed";
     MAP_IS_FOR = "use --map for B";
     A_IS_NO_TABLE = "A is not a table";
     SCENARIOS_AND_RECORDINGS_HAVE_CHANNELS = "leave it out: scenarios and recordings already name their channels";
@@ -155,7 +155,7 @@ linkage::sentences! {
     // cli/outputs.rs
     NO_ENDING = "no ending";
     expected_found(expected, found) = "expected {expected}; found {found}";
-    is_standard_output_as(form) = " `-` is standard output, as {form}; `-.ENDING` another form.";
+    is_standard_output_as(form) = " `-` writes {form} to standard output; `-.ENDING` writes another form to it.";
     write_to_a_file_by_its_ending(contents, standard) = "Write results to a file, by its ending: {contents}.{standard} May be given several times";
     // cli/plan.rs
     LEAVE_OUT_POINTS_THAT_THE_PLAN = "leave out points that the plan does not need; `linkproof solve` gives the numbers of all points";
@@ -206,6 +206,6 @@ linkage::sentences! {
     layout_open_in_foxglove_or_lichtblick(to, args) = "layout     {to}\n1. Open {args} in Foxglove or Lichtblick (open local file).\n2. Layouts, import from file: the layout above. The mechanism then moves beside its plots.\n";
     OPEN_THE_FILE_FROM_RERUN = "open the file in Rerun; it contains the whole scene";
     rerun_viewer_has_not_shown(to, found) = "Rerun's viewer did not show {to}: {found}";
-    PYTHON3_PIP_INSTALL_RERUN_SDK = "`python3 -m pip install rerun-sdk`, or name a Python that has it with --python";
+    PYTHON3_PIP_INSTALL_RERUN_SDK = "`python3 -m pip install rerun-sdk`, or use --python to name a Python that has it";
     cannot_be_written_by(to, python, found) = "{to} cannot be written by `{python}`: {found}";
 }

@@ -123,13 +123,13 @@ linkage::sentences! {
     of_in(error, bound, channel) = "{error} with a bound of {bound} in {channel}";
     in_channels_no_single_one_stands(count, channel, pairs) = "In {count} channels no single party can be blamed, first in {channel}: {pairs} differ.";
     the_odd_one_out_in_channels(alone, party, channel) = "The odd one out in {alone} channels is {party}, first in {channel}.";
-    NO_TWO_OF_THEM_DIFFER_BY_MORE = "No two of them differ by more than the sum of their bounds.";
+    NO_TWO_OF_THEM_DIFFER_BY_MORE = "Any two of these parties differ by at most the sum of their bounds.";
     // plain/judged.rs
     THE_ENGINE_OWN_FORCES = "the forces that the engine itself exerts";
     forces_as_itself_exerts_them_2(info) = "the forces that {info} itself exerts";
     AS_THE_ENGINE_EXERTS_IT = " as the engine exerts it";
     // plain/reasons.rs
-    up_to_of_instants_are_not_judged(most, proof, quantities, info) = "Up to {most} of {proof} instants are not judged in {quantities} ({info}): a drive or a loaded link reverses there, or the motion begins.";
+    up_to_of_instants_are_not_judged(most, proof, quantities, info) = "Up to {most} of {proof} instants are not judged in {quantities} ({info}): a drive or a loaded link reverses at these instants, or the motion begins.";
     checks_disagree_as_expected_see(count, told) = "\n{count} checks disagree as expected, see\n  {told}";
     and_more_3(open, tell) = "\n... and {open} more ({tell})";
     // report/accept.rs
@@ -172,9 +172,9 @@ linkage::sentences! {
     // report/bench_plot.rs
     and_more_reasons_see_the_table(left) = "and {left} more reasons: see the table";
     in_part(times, text) = "partly judged {times}: {text}";
-    ERRORS_LARGEST_OVER_INSTANTS_AND_CHANNELS = "Error: largest over instants and channels, as a share of the channel's scale.";
+    ERRORS_LARGEST_OVER_INSTANTS_AND_CHANNELS = "Error: largest over instants and channels, as a fraction of the channel's scale.";
     CROSS_IN_THE_BAND_ABOVE_FAILED = "Cross in the band at the top: failed.";
-    hollow_less_than_times_above(clear) = "Hollow mark: error less than {clear} times the reference's own (dashed line), so limited by the reference.";
+    hollow_less_than_times_above(clear) = "Hollow mark: error less than {clear} times the reference's error (dashed line), so limited by the reference.";
     grey_line_the_reference_own(basis) = "Grey line: the reference's own error ({basis}).";
     LINE_WHAT_NO_OTHER_SETTING = "Line: Pareto front of one program. Ring: on the Pareto front of all programs, or of engines and peers only.";
     IT_COUNTS_NONE_OF_THESE = "; does not report this cost";
@@ -315,7 +315,7 @@ linkage::sentences! {
     ratio_efficiency(ratio, efficiency) = "ratio = {ratio}\nefficiency = {efficiency}";
     periodic_crank_rad_non_uniformity(mean, off_mean, unrest) = "  periodic  crank {mean:.6} rad/s ({off_mean:+.2} %), non-uniformity {unrest:.4}";
     steady_speed_averaged_crank_rad(averaged, off_averaged, geared_up) = "steady speed\n  averaged  crank {averaged:.6} rad/s ({off_averaged:+.2} % from the required speed), motor {geared_up:.4} rad/s";
-    breakdown_of_it(breakdown, breakdown_2, holds) = "  breakdown {breakdown}, {breakdown_2} of the rated torque: {holds}";
+    breakdown_of_it(breakdown, breakdown_2, holds) = "  breakdown {breakdown}, {breakdown_2} times the rated torque: {holds}";
     ABOVE_THE_PEAK = "above the peak";
     peak_of_it_without_what_inertia(peak, share) = "  peak      {peak}, {share:.3} of the rated torque, without inertia";
     on_the_motor_shaft_mean_of_the_rated(mean, share) = "on the motor shaft\n  mean      {mean}, {share:.3} of the rated torque";
@@ -394,7 +394,7 @@ found down to: sizes above this are found in every scenario, to a factor of two;
     forces_as_itself_exerts_them_route_are_not_judged(name, route, why) = "Forces that {name} itself exerts (method {route}) are not judged: {why}";
     step_and_its_own_error_from_and(name, at, coarse, fine) = "{name}, step {at} s; its error is estimated from runs at {coarse} and {fine} s";
     accuracy_and_its_own_error(name, at, coarse, fine) = "{name}, accuracy {at}; its error is estimated from runs at {coarse} and {fine}";
-    side_by_side_the_largest(table) = "\nAll engines: largest error as a share of its scale (bound in brackets):\n{table}";
+    side_by_side_the_largest(table) = "\nAll engines: largest error as a fraction of the channel's scale (bound in brackets):\n{table}";
     engine_against_reference_the_worst(table) = "\nEngine against reference, the worst channel of each quantity:\n{table}";
     // report/tune.rs
     for_or_let_put_it_there(place, write, section) = "\nSection for {place} ({write} writes it):\n\n{section}";
@@ -418,7 +418,7 @@ found down to: sizes above this are found in every scenario, to a factor of two;
     the_jumps_back_in_row_from_to_has_it_begun(what, row, from, to, unit) = "\nthe {what} jumps back in row {row}, from {from} to {to} {unit}: does a second run start there?";
     rows_and_hold_at_the_same(one, other, what, at, unit, channel, first, second) = "\nrows {one} and {other} have the same {what}, {at} {unit}, but different values: {channel} is {first} and {second}";
     left_out_up_to_instants_of_a_channel(count) = "\nleft out: up to {count} instants per channel without a measured value";
-    left_out_instants_of_the_second(unshared) = "\nleft out: {unshared} instants that only the second has";
+    left_out_instants_of_the_second(unshared) = "\nleft out: {unshared} instants that only the second party has";
     of_values(judged, of) = "{judged} of {of} values";
     of_channels(disagree, all) = "{disagree} of {all} channels";
     the_crank_angle_and_of_channels(disagree, all) = "the crank angle and {disagree} of {all} channels";

@@ -125,7 +125,7 @@ mod tests {
 
     const PENDULUM: &str = include_str!("../../scenarios/pendulum.toml");
 
-    /// A folder with a right scenario and one that cannot be read.
+    /// A folder with a valid scenario and an unreadable one.
     fn folder() -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("right.toml"), PENDULUM).unwrap();

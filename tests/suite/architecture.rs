@@ -1,6 +1,8 @@
 //! The architecture as a test.
-//! It checks which crate and which module may use which, and that no files depend on each other in a circle.
-//! It also checks that the two analytic sides share only their common base, and a few rules for every file.
+//! It checks which crate may use which other crate, and which module may use which other module.
+//! No files may depend on each other in a circle.
+//! The two analytic sides may share only their common base.
+//! A few further rules apply to every file.
 
 mod graph;
 
@@ -122,7 +124,7 @@ const NEVER: &[(&str, &str)] = &[
     ("linkproof::cli", "rapier_twin"),
     // Drawings of mechanisms do not depend on the solver.
     ("lab::specimens", "analytic prover linkage::solver"),
-    // The module knows other programs, but not the solvers of this project.
+    // The module runs other programs, but does not use the solvers of this project.
     ("lab::outside", "analytic prover linkage"),
     // Diagrams, drawings and exports accept the states of any solver.
     ("design::diagram", "analytic"),
@@ -143,8 +145,8 @@ const HOMES: &[(&str, &str)] = &[
     ("toml", "scenario"),
     ("toml_edit", "design::synthesize scenario"),
     ("comfy_table", "linkproof::plain linkproof::report"),
-    // Only one module runs other programs.
-    // `testing` uses only an exit code.
+    // Only `lab::outside` runs other programs.
+    // In the command line, `Command` is that of clap; `testing` uses only an exit code.
     ("Command", "linkproof::cli lab::outside"),
     ("process", "linkproof::cli lab::outside linkproof::testing"),
     ("serde", "lab::stress linkproof::report"),
@@ -204,7 +206,8 @@ const HOMES: &[(&str, &str)] = &[
 ];
 
 /// Files and directories of side 1 and side 2.
-/// Both may use the mechanism and the integrator, including the interface through which the integrator calls a side.
+/// Both sides may use the mechanism and the integrator, including the interface through which the integrator calls a
+/// side.
 const SIDES: [&[&str]; 2] = [&["assur", "assur_solver.rs"], &["newton"]];
 
 /// Upper limit of the lines of a file; a longer file has more than one purpose.
@@ -261,7 +264,7 @@ fn room_edges() -> BTreeMap<(String, String), String> {
     edges
 }
 
-/// Rows of a table as pairs.
+/// Pairs from a table: each row gives one pair for every word of its second column.
 fn pairs(table: &'static [(&str, &str)]) -> impl Iterator<Item = (&'static str, &'static str)> {
     table.iter().flat_map(|(from, all)| all.split_whitespace().map(|to| (*from, to)))
 }
@@ -476,7 +479,7 @@ fn no_files_import_each_other_in_a_cycle() {
     nothing(circle.map(told).collect());
 }
 
-/// A type's name is clear without its path.
+/// All public type names are unique, so a name is clear without its path.
 #[test]
 fn public_type_names_are_unique() {
     let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();

@@ -84,7 +84,7 @@ fn the_unedited_scenario_is_valid() {
     assert_eq!(scenario.oracles[0].series[0].points[1].digits, 2);
 }
 
-/// Symptoms: masses of 1e300 ended in DISAGREE by NaN; a start at 1e18 deg never ended.
+/// Symptoms: masses of 1e300 gave NaN and the verdict DISAGREE; with a start at 1e18 deg the program did not end.
 #[test]
 fn regress_numbers_of_extreme_size_are_refused() {
     let mass = ["found 1e", "a mass must be zero or of a magnitude from 1e-100 to 1e30 kg", "check the unit"];
@@ -110,7 +110,7 @@ fn regress_values_beyond_any_machine_are_refused() {
         bad!("y_m_s2 = -9.81" => "y_m_s2 = -1e30", INPUT, at "y_m_s2 = -1e30", key "gravity.y_m_s2", ["to 1e12 m_s2"]),
         bad!("mass_kg = 2.6" => "mass_g = 1e34", INPUT, at "mass_g = 1e34", key "links.crank.mass_g", ["to 1e30 kg"]),
     ]);
-    // Values may be allowed one by one, but be too large together.
+    // Two values may each be allowed, but their combination may be too large.
     let fast = GOOD.replacen("speed_rpm = 130", "speed_rpm = 9e9", 1).replace("_mm = ", "_m = ");
     let error = parse(&fast, TABLE).unwrap_err();
     assert!(error.message().contains("faster than light"), "{error}");
@@ -132,7 +132,7 @@ fn regress_more_parts_than_can_be_drawn_are_refused() {
     assert!(error.scenario_key().is_some_and(|key| key.starts_with("links.rocker.points.P29")), "{error}");
 }
 
-/// Symptom: an array of 31 million numbers took 5.95 GB before anything was estimated.
+/// Symptom: an array of 31 million numbers took 5.95 GB before the required memory was estimated.
 /// Cause: the file was parsed first.
 #[test]
 fn regress_more_values_than_memory_can_hold_are_counted_before_they_are_read() {
@@ -160,7 +160,7 @@ fn regress_twenty_thousand_parameters_and_points_are_read() {
     let ground = &scenario.case.mechanism.links()[LinkId(0)];
     let last = ground.points.iter().find(|point| point.name == "Q19999").unwrap();
     assert!((last.local.x - 20.0).abs() < 1e-12, "{last:?}");
-    // If a file has this many mistakes, each is compared with only a limited number of names.
+    // In a file with this many names, a wrong name is compared with only a limited number of them.
     let wrong = text.replacen("\"p19998 + 1\"", "\"pp\"", 1);
     let error = parse(&wrong, TABLE).unwrap_err();
     assert!(error.to_string().contains("it is not among the more than 1000 names"), "{error}");
@@ -461,7 +461,8 @@ fn oracles() {
             "oracle[3].figures[1].points", ["needs two points, found 1"]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"A\", \"X\"]", INPUT, at "figures =", key
             "oracle[3].figures[1].points", ["no point \"X\""]),
-        // The file cannot confirm its own statements, so the masses and lengths of one link are not allowed as figures.
+        // Masses and lengths of one link are not allowed as figures, because they would only confirm a statement of the
+        // file itself.
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"mass_kg\", link = \"crank\"", INPUT, at "figures =", key
             "oracle[3].figures[1].figure", ["no figure \"mass_kg\""]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"C\", \"C\"]", INPUT, at "figures =", key

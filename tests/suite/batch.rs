@@ -1,6 +1,6 @@
 //! Many poses in one call.
 //! Numbers and errors equal those of a pose-by-pose solution.
-//! The bits of a pose do not depend on its position in the row.
+//! The bits of a pose do not depend on its position in the series.
 
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::{GroupKind, LinkPose, Pose};
@@ -122,8 +122,8 @@ fn batch_poses_match_the_pose_solver() {
         outcome.unwrap();
         assert_eq!(poses.len(), 500);
         let found = differences(&rows(case, &poses), &states);
-        // Differences behind a higher group grow with its condition number, which, unlike that of a dyad, is not near
-        // 1.
+        // A dyad has a condition number near 1, but a higher group has not.
+        // Differences behind a higher group grow with its condition number.
         let is_higher = case.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
         let bound = ROUNDING * if is_higher { condition(case, &states) } else { 1.0 };
         found.iter().for_each(|&found| assert_within!(found, bound, "{name}: {found:?}"));
@@ -148,14 +148,15 @@ fn random_chains_agree_and_fail_alike() {
     let failed = Cell::new(0);
     for_each(60, |sample| {
         let case = &sample.scenario.case;
-        // The grid keeps away from dead points; errors of one dyad grow in the next dyad.
+        // The grid avoids dead points, because errors of one dyad grow in the next dyad.
         let (states, _) = one_by_one(case, &case.grid.inputs, Stage::BalancingMoment);
         let (poses, outcome) = at_once(case, &case.grid.inputs, Stage::BalancingMoment);
         within("poses lost", f64::from(outcome.is_err()), 0.0)?;
         for found in differences(&rows(case, &poses), &states) {
             within("difference", found, ROUNDING * sample.condition)?;
         }
-        // A whole turn in small and in large steps; most chains cannot make a whole turn.
+        // Tries a whole revolution in 200 and in 5 steps.
+        // Most chains cannot make a whole revolution; both methods must then report the same error.
         for count in [200, 5] {
             let cranks = turn(case, count);
             let (states, expected) = one_by_one(case, &cranks, Stage::Positions);

@@ -92,7 +92,7 @@ fn errors_and_counts_are_reproducible() {
     assert_eq!(of(measured(&scenario, &[])), of(measured(&scenario, &[])));
 }
 
-/// The accuracies that `cargo bench --bench run_up` measures.
+/// Measures at the accuracies of `cargo bench --bench run_up`.
 /// At each accuracy, the position error stays within its bound.
 #[test]
 fn sides_keep_their_accuracy() {

@@ -2,8 +2,8 @@
 //! A bound that is a thousand times too wide passes every test that plants multiples of it, but fails here.
 //!
 //! Numbers have two digits.
-//! Two numbers may differ by half their value, which allows for the noise between machines.
-//! The settings of engines are given, so that the search for settings changes nothing here.
+//! A number may differ from the table by half its value, which allows for the noise between machines.
+//! The engine settings are fixed, so changes in the search for settings do not affect the table.
 //! `INSTA_UPDATE=always cargo test --release --test suite bounds` writes the table anew; such a change needs a reason.
 
 use std::collections::BTreeMap;
@@ -73,7 +73,7 @@ fn proven(sample: &Sample) -> Proof {
 }
 
 /// Bounds of claims that are judged without an engine.
-/// Each is the bound at the instant where the claim uses most of it.
+/// For each claim: the bound at the instant with the largest ratio of residual to bound.
 fn claimed(sample: &Sample, all: &mut Numbers) {
     let found = judge(&scenario(sample)).unwrap_or_else(|error| panic!("{}: {error}", sample.0));
     for (side, judged) in found.judgement.sides.iter() {
@@ -87,11 +87,10 @@ fn claimed(sample: &Sample, all: &mut Numbers) {
 /// Numbers of the table.
 type Numbers = BTreeMap<(String, String), Vec<f64>>;
 
-/// The parts of all bounds of a proof, grouped by their subject.
-/// For the channels of a quantity: the widest parts, as fractions of the channel's scale, and the number of omitted
-/// instants.
-/// For the checks of a family: the narrowest and the widest bound of both sides.
-/// For formulas: the bound of each formula.
+/// The parts of all bounds of a proof, grouped by subject.
+/// Channels of a quantity: the widest parts, as fractions of the channel's scale, and the number of omitted instants.
+/// Checks of a family: the narrowest and the widest bound of both sides.
+/// Formulas: the bound of each formula.
 fn parts(sample: &Sample, proof: &Proof, all: &mut Numbers) {
     let mut widen = |what: String, values: &[f64]| {
         let own = all.entry((sample.0.into(), what)).or_insert_with(|| vec![0.0; values.len()]);

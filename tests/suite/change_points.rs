@@ -12,7 +12,8 @@ use scenario::Scenario;
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::sketch::RandomSource;
 
-/// Numbers of steps over the angle: few, many, and numbers without a common factor with the others.
+/// Numbers of equal steps in which the tests follow the same crank angle.
+/// Some are small, some are large, and some have no common factor with the others.
 const STEPS: [usize; 12] = [1, 2, 3, 5, 7, 12, 24, 37, 90, 101, 360, 1009];
 
 /// Follows the branch from the start of a case over an angle of the crank (rad), in equal steps. Returns the directions
@@ -129,7 +130,8 @@ fn no_step_passes_over_the_change_point_of_a_dyad_on_a_dyad() {
             let [least, most] = [f64::smaller, f64::larger].map(|of| distances.iter().copied().fold(extreme, of));
             for defect in [0.0, 1e-9, 1e-7, 1e-4, -1e-7, -1e-4] {
                 let reach = extreme * (1.0 + sign * defect);
-                // These lengths allow the other extreme with a margin.
+                // The distance has two extremes; `reach` decides whether the dyad fits at this one.
+                // At the other extreme, the dyad fits with a margin.
                 let [rod, bar] = if sign > 0.0 {
                     let off = random.number(-0.4, 0.4) * least;
                     [0.5 * reach - off, 0.5 * reach + off]

@@ -143,7 +143,7 @@ fn check(case: &Case, asked: &ClearanceQuestion, found: &ClearanceResult, seen: 
     let cranks: Vec<f64> = (0..=FINE).map(|k| from + (to - from) * (k as f64 / FINE as f64)).collect();
     let fine = at(case, &cranks);
     let grid = course(case, asked).unwrap();
-    // Error of the sides' poses, with condition numbers of up to some thousands.
+    // Allows for the error of the sides' poses at condition numbers of up to some thousands.
     let rounding = 1e-10 * size;
     for (index, pair) in found.pairs.iter().enumerate() {
         let what = || format!("{name}: {:?}", pair.bodies.map(|body| &asked.bodies[body].name));
@@ -248,7 +248,8 @@ fn planted_thin_crossings_are_found() {
             let fine: Vec<f64> = (0..=7_200).map(|k| from + (to - from) * (f64::from(k) / 7_200.0)).collect();
             let fine = case.on(Grid::of_inputs(case.crank(), fine)).unwrap();
             missed += usize::from(course(&fine, &asked).unwrap().rows.iter().all(|row| row[0] > 0.0));
-            // The path may cross the nail a second time, but the first crossing is not later than this one.
+            // The path may cross the nail twice.
+            // The reported first crossing must not be later than the crossing at `crank`.
             assert!((meeting.cranks[1] - from).abs() <= (crank - from).abs() + 1e-3, "{name}: {meeting:?} {crank}");
         }
     }
@@ -278,14 +279,14 @@ fn a_grid_of_several_turns_gives_the_results_of_one() {
     }
 }
 
-/// If area is missing at the border, the value shows it.
-/// The proven bound is as narrow as the limit on the work allows.
+/// The computed area is so close to the closed form that missing area at the border would show.
+/// The proven interval of the area is wider, because the work is limited.
 #[test]
 fn a_swept_area_matches_its_closed_form_to_1e_4() {
     let scenario = shipped("crankcase.toml");
     let asked = ClearanceQuestion { area: 1e-4, pairs: Vec::new(), ..scenario.clearance.clone().unwrap() };
     let found = find(&scenario.case, &asked, &mut |_| ()).unwrap();
-    // The area that the piston's outline sweeps over its stroke; the derivation stands in the next test.
+    // The area that the piston's outline sweeps over its stroke; the next test derives it.
     let expected = (70.0 * 130.0 - 44.0 * 32.0) * 1e-6;
     let area = found.swept[2].1;
     assert!((area.least..=area.most).contains(&expected), "{area:?} {expected}");
@@ -352,7 +353,7 @@ fn motions_under_forces_cover_the_reached_crank_angles() {
 }
 
 /// Without the section `[clearance]`, no clearance is computed.
-/// With the section, the results of a proof keep their bits.
+/// The section does not change any bit of the results of a proof.
 #[test]
 fn a_run_does_not_depend_on_the_clearance_section() {
     let with = shipped("crankcase.toml");
@@ -373,6 +374,6 @@ fn links_on_one_pin_are_joined_without_a_common_joint() {
     let by_pin: Vec<(LinkId, LinkId)> =
         pairs.filter(|&(a, b)| !has_joint(a, b) && are_joined(mechanism, [a, b])).collect();
     assert!(!by_pin.is_empty());
-    // No link is joined to all others.
+    // Some pairs of links are joined neither by a joint nor by a common pin.
     assert!(by_pin.len() < links * (links - 1) / 2 - mechanism.joints().len());
 }

@@ -25,7 +25,7 @@ use linkage::solver::{Solver, State};
 use scenario::Scenario;
 
 /// Number of random mechanisms, faults or inputs that a test draws: `ordinary` times `LINKPROOF_DRAWS`.
-/// An ordinary run already has every kind; the factor adds no kinds.
+/// An ordinary run already covers every kind of mechanism, fault or input; the factor only adds examples.
 pub fn draws(ordinary: usize) -> usize {
     ordinary * std::env::var("LINKPROOF_DRAWS").map_or(1, |times| times.parse().expect("LINKPROOF_DRAWS: a number"))
 }

@@ -40,7 +40,7 @@ fn crank_alone() -> Spec {
     spec
 }
 
-/// Symptom: the analytic sides disagreed by 150 % on a parallelogram, and by 110 % in the moment of a crank alone.
+/// Symptom: the analytic sides disagreed by 150 % on a parallelogram. On a crank without other links, their moments disagreed by 110 %.
 /// Cause: rounding was measured by the range of channels that do not vary.
 #[test]
 fn regress_channels_that_vanish_by_symmetry_agree() {

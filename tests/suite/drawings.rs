@@ -98,7 +98,7 @@ fn every_scenario_can_be_drawn_reproducibly() {
 #[test]
 fn a_loop_that_cannot_close_is_drawn_with_its_gap() {
     let directory = tempfile::tempdir().unwrap();
-    // Rod and rocker together are shorter than the distance of their ends by 2 a - b.
+    // The two rods together are shorter than the distance of their outer ends, so the loop cannot close.
     let short = changed(directory.path(), "five_bar_on_a_spring", |text| {
         text.replace("x_mm = 260", "x_mm = 100").replace("x_mm = 240", "x_mm = 90")
     });
@@ -109,7 +109,7 @@ fn a_loop_that_cannot_close_is_drawn_with_its_gap() {
     assert!(told.contains("apart, but its links span") && told.contains("stays open by"), "{told}");
     let text = fs::read_to_string(&picture).unwrap();
     let document = roxmltree::Document::parse(&text).unwrap();
-    // A (60, 0), B (300, 0) + 45 at 40 deg: the gap is their distance less both rods.
+    // A is at (60, 0), B is 45 mm from (300, 0) in the direction 40 deg. The gap is the distance AB minus both rod lengths.
     let gap = (300.0 + 45.0 * f64::to_radians(40.0).cos() - 60.0).hypot(45.0 * f64::to_radians(40.0).sin()) - 190.0;
     let written = texts(&document)
         .into_iter()
@@ -312,7 +312,8 @@ fn a_prismatic_pair_is_drawn_as_the_file_says() {
         assert_eq!(code, 0, "{told}");
         String::from_utf8(out).unwrap()
     };
-    // A ram on rails, pistons in cylinders, a block in a swinging slot.
+    // For each scenario: the symbol that the program chooses, and the other symbol.
+    // The scenarios have a ram on rails, pistons in cylinders, and a block in a swinging slot.
     for (name, own, other) in [
         ("loaded_slider", "block", "cylinder"),
         ("compressor", "cylinder", "block"),
@@ -329,7 +330,7 @@ fn a_prismatic_pair_is_drawn_as_the_file_says() {
 }
 
 /// In an animation the labels are the numbers of links, drawn on the links.
-/// The names of moving points would jump, so they are not drawn.
+/// Names of points are not drawn, because they would jump from frame to frame.
 #[test]
 fn numbers_move_with_links_in_an_animation() {
     let case = Scenario::load(file("crank_rocker")).unwrap().case;

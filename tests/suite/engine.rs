@@ -46,8 +46,8 @@ fn epsilon(engine: &dyn Engine) -> f64 {
 }
 
 /// The engines whose step the user chooses.
-/// An engine that controls its error is not among them: it chooses its steps, has no instants of the grid on them, and
-/// shows no order.
+/// An engine that controls its error is excluded: it chooses its steps itself, so they miss the instants of the grid
+/// and show no order.
 fn stepping(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
     prover::engines::all(dt).into_iter().filter(|engine| !engine.controls_error())
 }
@@ -189,13 +189,14 @@ fn regress_03_massless_links_keep_the_motion_and_carry_no_force() {
             // The mass centre of a massless link is the origin of its frame, which is a different point.
             let centre = channel.kind.subject == ChannelSubject::Link && channel.kind.unit.symbol().starts_with('m');
             if channel.kind.stage >= Stage::Reactions {
-                // If applied forces cancel the stand-in masses, only rounding remains.
+                // Reactions must be zero.
+                // Only an engine that cancels its stand-in masses by applied forces may leave rounding error.
                 let left = if engine.controls_error() { engine.noise(case, channel.kind) } else { 0.0 };
                 values.iter().for_each(|value| assert_within!(value.abs(), left, "{} {channel}", engine.name()));
             } else if !centre {
-                // Positions follow from the tree.
-                // The small gap of the loop is distributed by mass; accelerations show this first.
-                // In the impulse build the differences are of second order, like all errors of this build.
+                // In the multibody build, positions follow from the tree, whatever the masses.
+                // The masses only distribute the small gap of the loop, which shows mainly in accelerations.
+                // In the impulse build, the differences are of second order, like all errors of this build.
                 let bound = match (engine.name(), channel.kind.stage) {
                     ("rapier", Stage::Accelerations) => 1e-4,
                     ("rapier", _) => 1e-11,

@@ -43,8 +43,8 @@ fn regress_equal_cranks_agree_though_the_rocker_has_no_acceleration() {
 }
 
 /// A crank at constant speed, on a grid that ends beside a dead point.
-/// Only small steps are possible there, so the second differences contain much rounding; at the largest step they
-/// contain least.
+/// Only small steps are possible there, so the second differences contain much rounding error.
+/// The rounding error is smallest at the largest of these steps.
 #[test]
 fn regress_a_constant_speed_crank_leaves_no_verdict_open() {
     let mut slow = scenario("zero_alpha.toml");
@@ -65,8 +65,8 @@ fn translating_links_take_the_scale_of_rotating_ones() {
             assert!(own.residual.scale >= tenth * (1.0 - 1e-9), "{link}{suffix}: {own:?}");
         }
     }
-    // The scale of a small but non-zero channel is at least a thousandth of the natural size; the guide's offset makes
-    // no channel zero.
+    // In this mechanism no channel is zero throughout, so a small channel keeps its small scale.
+    // This scale is at least a thousandth of the natural size.
     let crank = proven(&shipped("crank_rocker.toml"));
     let small = crank.engine().channels.iter().filter(|own| own.residual.scale < 0.05 * natural(&crank, ".ax_m_s2"));
     assert!(small.count() > 0);

@@ -61,7 +61,8 @@ fn bodies_are_the_links_on_the_spanning_tree() {
             assert_eq!((body.parent.as_ref(), &body.joint), (parent.as_ref(), &joint.name), "{}", scenario.name);
             assert_eq!(body.kind == Kind::Slide, joint.slides());
             assert_eq!((body.mass, body.centre), (link.mass, link.mass_centre), "{}: {}", scenario.name, link.name);
-            // MuJoCo's condition on moments of inertia, and the moment that matters in planar motion.
+            // The moments of inertia must satisfy MuJoCo's condition.
+            // Only `z` matters in planar motion.
             let [x, y, z] = body.inertia;
             assert!(x + y >= z && y + z >= x && z + x >= y && x > 0.0);
             assert!(z == link.inertia || link.inertia == 0.0 && z > 0.0, "{}: {}", scenario.name, link.name);

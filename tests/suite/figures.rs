@@ -43,8 +43,9 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
     let scenario = scenario("ov7_base");
     let cells: Vec<usize> =
         scenario.oracles.iter().map(|oracle| oracle.series.iter().map(|series| series.points.len()).sum()).collect();
-    // At 13 crank angles: positions, velocities and accelerations of five points in two directions.
-    // Then seven angles at each crank angle, with their first and second derivatives.
+    // The first three entries count positions, velocities and accelerations: five points, two directions, 13 crank
+    // angles.
+    // The next three count seven angles at each crank angle, and their first and second derivatives.
     // The last two entries are not published numbers: a distance at the start, and one pose with its forces.
     assert_eq!(cells, [130, 130, 130, 91, 91, 91, 0, 84]);
     assert!(
@@ -222,7 +223,7 @@ fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
 }
 
 /// Motor law, gear ratio and resistance of the published course.
-/// The printed speeds follow if the resistance is divided by the ratio twice.
+/// The printed speeds follow only if the resistance is divided by the gear ratio twice.
 #[test]
 fn val_crank_rocker_steady_speed() {
     let scenario = scenario("crank_rocker");
@@ -296,8 +297,8 @@ fn with_correction(printed: f64, right: f64) -> Proof {
 #[test]
 fn known_wrong_numbers_disagree_and_their_corrections_agree() {
     assert_eq!(with_correction(51.0, 50.0).verdict.word(), "agree");
-    // First case: the printed number agrees after all.
-    // Second case: neither number agrees, the right one by two units of the last digit.
+    // First case: the printed number agrees, although the finding calls it wrong.
+    // Second case: neither number agrees; the right number is off by two units of its last digit.
     for (printed, right, words) in
         [(50.0, 51.0, "but it agrees"), (51.0, 50.000_000_002, "neither the printed number nor the one")]
     {

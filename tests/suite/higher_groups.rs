@@ -14,10 +14,10 @@ use prover::bounds::{magnitudes, residuals};
 /// Number of mechanisms of each family.
 const TRIES: usize = 60;
 
-/// A measure of how near the pose is to a singular pose.
-/// It is the largest of speed and square root of acceleration, divided by the crank's speed.
-/// Rounding grows with the square of this measure.
-/// Accelerations are of the order of the square, and show a singular pose even if a speed passes through zero there.
+/// A measure of how near the pose is to a singular pose: the largest speed or square root of an acceleration, divided
+/// by the crank's speed.
+/// Rounding error grows with the square of this measure.
+/// Near a singular pose, accelerations are large even if a speed passes through zero.
 /// Lengths are about a metre.
 fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
     let of = |(channel, values): (&linkage::trajectory::Channel, &[f64])| {

@@ -20,9 +20,9 @@ const COUNT: u32 = 128;
 /// Crank angle between the points of a difference quotient (rad).
 /// It is a little above eps^(1/5), where truncation error and rounding error are equal.
 const TURN: f64 = 1e-3;
-/// Rounding error of a difference quotient, relative to the value's size and times the condition number.
-/// It is the rounding of a value divided by the crank angle of the quotient.
-/// It is ten units in the last place; these mechanisms use a quarter of the bound.
+/// Bound on the rounding error of a difference quotient, relative to the value's size times the condition number.
+/// It is ten units in the last place of the value, divided by the crank angle of the quotient.
+/// The largest error of these mechanisms is a quarter of the bound.
 const NOISE: f64 = 10.0 * f64::EPSILON / TURN;
 
 /// States around an instant: at -4, -2, -1, 0, 1, 2, 4 times the spacing.
@@ -46,8 +46,8 @@ impl Around {
     }
 
     /// Checks that `rate` is the derivative of `of`, whose values are of size `scale`.
-    /// The test compares a five-point rule at one spacing with the same rule at two spacings.
-    /// Their difference is 15 times the error of the finer rule, and therefore bounds this error.
+    /// The test computes the derivative by a five-point rule at one spacing and at twice this spacing.
+    /// The difference of the two results is 15 times the error of the finer one, and therefore bounds this error.
     fn is_slope(&self, what: &str, scale: f64, of: impl Fn(&State) -> f64, rate: f64) -> Result<(), TestCaseError> {
         let y = self.states.each_ref().map(of);
         let fine = (8.0 * (y[4] - y[2]) - (y[5] - y[1])) / (12.0 * self.spacing);
@@ -109,9 +109,9 @@ fn both_solvers_agree_to_rounding() {
                     largest(Stage::Reactions).larger(largest(Stage::BalancingMoment))
                 }
             };
-            // Bounds in units in the last place, times the condition number.
-            // Each derivative, and each linear solve for forces, adds further sums.
-            // Measured on these mechanisms: 13, 55, 230 and 200.
+            // Bounds on the residuals, in units in the last place times the condition number.
+            // Each derivative, and each linear solve for forces, adds further rounding errors.
+            // The measured residuals are 13, 55, 230 and 200, in the order of the stages.
             let units = match stage {
                 Stage::Positions => 50.0,
                 Stage::Velocities => 200.0,

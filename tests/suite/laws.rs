@@ -24,7 +24,7 @@ fn swing(law: &str, grid: &str) -> Scenario {
 }
 
 const RAMP: &str = "law = \"ramp\"\nspeed_rpm = -300\ntime_s = 0.12";
-/// Forward, partly back, and forward again.
+/// The crank moves forward, partly back, and forward again.
 const TABLE: &str = "law = \"table\"\npoints = [{ time_s = 0, angle_deg = 20 }, { time_ms = 60, angle_deg = 90 }, { time_s = 0.12, angle_deg = 50 }, { time_s = 0.2, angle_deg = 160 }]";
 const CYCLOIDAL: &str = "law = \"cycloidal\"\nto_deg = -150\ntime_s = 0.15";
 
@@ -94,7 +94,7 @@ fn val_the_engine_agrees_by_every_route() {
     ] {
         let scenario = swing(law, grid);
         for (route, dt) in [(Route::Differences, 5e-4), (Route::Native, 4e-5), (Route::Probe, 5e-4)] {
-            // This route is of first order and slow, so one law with a changing acceleration is enough.
+            // The native route is of first order and slow, so one law with a changing acceleration is enough.
             if route == Route::Native && law != CYCLOIDAL {
                 continue;
             }

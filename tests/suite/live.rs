@@ -39,7 +39,7 @@ impl Served {
         Served { place, child, address }
     }
 
-    /// Interrupts the server as Ctrl-C does, once its output mentions Ctrl-C.
+    /// Waits until the server has printed its hint about Ctrl-C, then interrupts it as Ctrl-C does.
     /// Returns the exit code.
     fn end(&mut self) -> i32 {
         let mut lines = BufReader::new(self.child.stdout.as_mut().unwrap()).lines();
@@ -370,7 +370,8 @@ fn a_viewer_may_request_a_topic_four_times_at_most() {
     assert_eq!(served.end(), 0);
 }
 
-/// The system's own list of sockets shows the listening address; the printed address would be the same for any.
+/// Reads the listening address from the system's list of sockets.
+/// The printed address would be the same for every listening address.
 #[cfg(target_os = "linux")]
 #[test]
 fn live_listens_locally_unless_an_address_is_given() {

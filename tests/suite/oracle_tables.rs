@@ -181,7 +181,7 @@ fn correct_tables_are_never_refused_by_time_or_crank_angle() {
 }
 
 /// If the instants are exact, the planted error is three units of the last digit.
-/// If the instants are rounded, the number may change within this rounding, and twice this change is added.
+/// If the instants are rounded, twice the change of the number within this rounding is added to the planted error.
 #[test]
 fn a_wrong_number_is_found_among_rounded_instants() {
     let mut planted = 0;
@@ -218,7 +218,8 @@ fn a_wrong_number_is_found_among_rounded_instants() {
     assert!(planted > 100, "{planted}");
 }
 
-/// Ten milliseconds are eight degrees of the crank, so these instants prove neither a right number nor a wrong one.
+/// The instants are rounded to ten milliseconds, in which the crank turns by eight degrees.
+/// A number at such an instant is therefore inconclusive, whether it is right or wrong.
 #[test]
 fn instants_rounded_too_much_are_inconclusive() {
     let scenario = text("scenarios/crank_rocker.toml");
@@ -235,8 +236,8 @@ fn instants_rounded_too_much_are_inconclusive() {
     }
 }
 
-/// A column of zeros may be zero by structure, or a forgotten column.
-/// If a file of nine digits omits trailing zeros, its zeros count as exact.
+/// A column of zeros may be zero by structure, or may be a forgotten column.
+/// If the file prints nine digits and omits trailing zeros, its zeros count as exact.
 #[test]
 fn a_zero_column_is_exact_if_others_omit_trailing_zeros() {
     let scenario = text("scenarios/crank_rocker.toml");
@@ -251,7 +252,8 @@ fn a_zero_column_is_exact_if_others_omit_trailing_zeros() {
         checks(&scenario, &[table]).into_iter().map(|check| check.verdict.word()).collect::<Vec<_>>()
     };
     assert_eq!(verdicts("link.crank.alpha_rad_s2", Format::General(9)), ["agree"; 6]);
-    // The positions are below half a metre, so with the digits of `0` alone they would agree.
+    // All positions are below 0.5 m.
+    // A column of `0` would therefore agree if only the single digit of `0` counted.
     let wrong = ["agree", "agree", "disagree", "agree", "agree", "disagree"];
     assert_eq!(verdicts("point.A.x_m", Format::General(9)), wrong);
 }

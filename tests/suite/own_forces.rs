@@ -88,9 +88,9 @@ fn every_engine_has_its_own_exerted_forces() {
     }
 }
 
-/// At double the step, the impulses of the first five steps still contain the error that the sweeps have not yet
-/// corrected.
-/// All later impulses are judged.
+/// In the run with double the step, the impulses of the first five steps still contain an error that the sweeps have
+/// not yet corrected.
+/// These impulses are left out; all later impulses are judged.
 #[test]
 fn exerted_forces_omit_only_the_start_of_a_free_motion() {
     let scenario = shipped("double_pendulum.toml");
@@ -103,8 +103,9 @@ fn exerted_forces_omit_only_the_start_of_a_free_motion() {
     assert_eq!(left_out, vec![early; own.channels.len()]);
 }
 
-/// In single precision second differences over the first steps are rounding. Later accelerations are judged, and in
-/// double precision all of them.
+/// In single precision, second differences over the first steps consist of rounding error, so these accelerations are
+/// left out.
+/// Later accelerations are judged; in double precision, all accelerations are judged.
 #[cfg(feature = "f32")]
 #[test]
 fn rounded_accelerations_omit_only_the_start_of_free_motion() {
@@ -143,7 +144,7 @@ fn native_errors(name: &str, build: Build, step: f64, times: &[f64]) -> [f64; 2]
 
 /// If a mechanism starts in motion, its first velocities satisfy the constraints of the first pose, not of an earlier
 /// pose.
-/// Without a correction, the impulses of the first steps lack this change.
+/// Without a correction, the impulses of the first steps lack the part that belongs to the change from an earlier pose.
 /// The missing part is 39 % of the range of a reaction, at any step.
 #[test]
 fn impulses_at_the_start_of_a_moving_mechanism_converge() {

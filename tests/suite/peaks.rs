@@ -26,7 +26,7 @@ fn the_reaction_of_a_bare_crank_peaks_with_its_mass_lowest() {
 
 /// Printed maxima of R2 to R7, and the journals designed for them.
 /// The authors search each maximum from a stated angle; for R2 and R3 their search ends 0.05 and 0.03 N too low.
-/// The masses were fitted to their table, to 0.015 N.
+/// The masses of the scenario were fitted to the authors' table and reproduce it to 0.015 N.
 #[test]
 fn val_ov7_new_largest_reactions_and_journals() {
     let scenario = crate::common::shipped("ov7_new_tabulated.toml");

@@ -128,8 +128,8 @@ fn every_contour_of_every_plan_closes() {
 }
 
 /// Burmester and Mehmke: the image of a link is the link, rotated and enlarged.
-/// The test compares sides of the drawn mechanism with those of the plans, using the listed omega and alpha.
-/// It does not use the vectors themselves.
+/// The test compares the sides of the drawn mechanism with the sides of the plans, using the listed omega and alpha.
+/// It does not use the vectors of the plans.
 #[test]
 fn the_image_of_a_link_is_similar_to_it() {
     for (name, degrees) in all() {
@@ -183,7 +183,7 @@ fn normal_and_tangential_parts_have_their_directions() {
         let letters: Vec<char> = vector.name.trim_start_matches("a_").chars().collect();
         let line = place(letters[0]) - place(letters[1]);
         let share = vector.value.dot(&line) / (vector.value.norm() * line.norm());
-        // Rounding of a product of unit vectors.
+        // The bound allows for the rounding error of a product of unit vectors.
         let want = if vector.part == VectorKind::Normal { -1.0 } else { 0.0 };
         assert_within!((share - want).abs(), 1e-12, "{}: {share}", vector.name);
         seen += 1;
@@ -239,8 +239,8 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
             let state = design::plan::state_at(&case, solver, (5.0 * f64::from(degrees)).to_radians()).unwrap();
             let point = SingularPoint::of(&case, group, &state.motions).unwrap().unwrap();
             assert_eq!(point.lines(), "BD x CE");
-            // The farther S is from the group, the more digits cancel. The measure is its distance over the size of the
-            // group.
+            // The farther S is from the group, the more digits cancel.
+            // `far` measures this: it grows with the distance of S divided by the size of the group.
             let far = 1.0 + point.at.norm() / 0.1;
             for (link, omega, alpha) in point.links {
                 let motion = &state.motions[link];

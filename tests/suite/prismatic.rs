@@ -38,8 +38,8 @@ fn motion_matches_the_closed_forms() {
             let slide = state.slide(joint).unwrap();
             let angle = [state.angles[link], state.motions[link].omega, state.motions[link].alpha];
             for order in 0..3 {
-                // Rounding of the closed form and of Newton's last step, at a transmission angle of at least 30
-                // degrees.
+                // The bound allows for the rounding error of the closed form and of Newton's last step, at a
+                // transmission angle of at least 30 degrees.
                 let bound = 1e-14 * SPEED.powi(order as i32) * 10.0;
                 let errors = [slide[order] - exact.slide[order], angle[order] - exact.angle[order]];
                 let what = format!("{} at {crank}: {errors:?}, order {order}", sample.name);
@@ -49,8 +49,9 @@ fn motion_matches_the_closed_forms() {
     });
 }
 
-/// Fourth-order differences with steps h and 2h. Their errors are (h w)^4 / 30 for a motion with harmonics up to a few
-/// w, plus rounding 1e-16 / h of a unit length.
+/// Fourth-order differences with steps h and 2h.
+/// Their truncation error is (h w)^4 / 30 for a motion with harmonics up to a few times w.
+/// Their rounding error is 1e-16 / h for a length of 1.
 #[test]
 fn velocities_and_accelerations_are_derivatives() {
     let h = 1e-4;
@@ -109,8 +110,9 @@ fn every_link_is_in_equilibrium() {
                     force += reaction * sign;
                     moment += (cross(place - middle, *reaction) + own) * sign;
                 }
-                // Rounding of a linear system of nine equations, in units of the largest force; lengths are below a
-                // metre.
+                // The bound allows for the rounding error of a linear system of nine equations, relative to the largest
+                // force.
+                // Lengths are below a metre.
                 let bound = 1e-13 * largest;
                 assert_within!(force.norm(), bound, "{} {index} {time}: {force} {moment}", sample.name);
                 assert_within!(moment.abs(), bound, "{} {index} {time}: {force} {moment}", sample.name);
@@ -140,8 +142,8 @@ fn sliders_are_not_pushed_along_their_guides() {
     });
 }
 
-/// Neither check uses a joint's reaction: the balance of powers gives the drive, the momentum of all links gives the
-/// frame.
+/// The balance of powers gives the drive, and the momentum of all links gives the frame.
+/// Neither check uses the reaction of a joint.
 #[test]
 fn drive_and_frame_agree_with_power_and_momentum() {
     each(|sample, solver| {

@@ -11,17 +11,18 @@ use prover::run::{Options, prove};
 use scenario::{EngineSetting, Scenario};
 
 /// Symptom: correct mechanisms disagree in their velocities, by up to twice the bound.
-/// Cause: too few sweeps leave an error of first order in the velocities.
-/// In the differences behind the bound, this error cancels against the error of second order.
-/// A run with fewer sweeps reveals it.
+/// Cause: with too few sweeps, the velocities have an error of first order.
+/// The bound comes from differences of runs, in which this error cancels against the error of second order.
+/// A run with fewer sweeps reveals the error.
 #[test]
 fn regress_random_chains_of_rrr_dyads_never_disagree() {
     never_disagree(&SORTS[..1], draws(6));
 }
 
-/// The same with all kinds of dyads.
-/// Of sixty chains of up to three dyads, one has an error of first order in slide speeds; it vanishes with 8192 sweeps.
-/// Fifteen chains contain every kind alone and chains of every length.
+/// The same test with all kinds of dyads.
+/// Of sixty chains of up to three dyads, one has an error of first order in slide speeds; with 8192 sweeps this error
+/// vanishes.
+/// The fifteen chains of this test contain every kind of dyad alone, and chains of every length.
 #[test]
 fn regress_random_mechanisms_with_sliders_never_disagree() {
     never_disagree(&SORTS, draws(15));
@@ -75,7 +76,9 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
 /// If a proof is undecided after this work, it is inconclusive; this is also correct.
 const WORK: f64 = 2e4;
 
-/// Every family of higher groups; the surroundings alternate, and with more draws each family has all surroundings.
+/// Tests every family of higher groups.
+/// The surroundings of the group change from family to family; with more draws, each family is tested in all
+/// surroundings.
 /// Before the bound included the error of the sweeps, three of these mechanisms disagreed falsely in velocities.
 #[test]
 fn regress_random_higher_groups_never_disagree() {
@@ -100,7 +103,7 @@ fn regress_random_higher_groups_never_disagree() {
                     }
                     proof.verdict.word()
                 }
-                // The references or the engine cannot reach the pose.
+                // The sides or the engine cannot reach the pose.
                 Err(_) => "refused",
             };
             *counts.entry(word).or_insert(0) += 1;

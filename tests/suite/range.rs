@@ -43,7 +43,7 @@ fn crank_at(d: f64, a: f64, reach: f64) -> Option<f64> {
 }
 
 /// The interval of crank angles around `start` in which |b - c| <= |AC| <= b + c.
-/// Either `start` is in the upper half plane, or the interval is symmetrical about 0 or 180 deg.
+/// If the interval contains neither 0 nor 180 deg, it lies in the half plane of `start`. Otherwise it is symmetrical about 0 or 180 deg.
 fn closed_form([d, a, b, c]: [f64; 4], start: f64) -> Option<[f64; 2]> {
     let (stretched, folded) = (crank_at(d, a, b + c), crank_at(d, a, (b - c).abs()));
     match (folded, stretched) {
@@ -249,7 +249,8 @@ fn near_a_parallelogram_branches_touch_or_end() {
         assert_eq!(ended.map(|limit| limit.kind), [SingularityKind::DeadPoint; 2], "{off:e}");
         let expected = closed_form([0.4, 0.1, 0.4, 0.1 - off], 0.5).unwrap();
         for (limit, expected) in ended.iter().zip(expected) {
-            // Accuracy of the closed form itself: rounding of the lengths over the sine of the crank angle.
+            // Accuracy of the closed form itself: the rounding error of the lengths divided by the sine of the crank
+            // angle.
             let bound = EXACT.larger(4.0 * f64::EPSILON / expected.sin().abs());
             assert_within!((limit.crank - expected).abs(), bound, "{off:e}: {} for {expected}", limit.crank);
         }
@@ -286,7 +287,7 @@ fn two_groups_with_one_dead_point() {
 }
 
 /// At a limit of rotation, two real configurations of the group meet.
-/// A polynomial that finds all configurations therefore has two fewer beyond the limit.
+/// Beyond the limit, the polynomial for all configurations therefore has two fewer real zeros.
 #[test]
 fn groups_of_four_links_lose_two_configurations_at_their_limits() {
     let mut random = four_link::RandomSource::from_seed(13);
@@ -309,7 +310,8 @@ fn groups_of_four_links_lose_two_configurations_at_their_limits() {
                     .map_or(0, |all| all.len() as i32)
             };
             for (limit, outwards) in [(from, -1.0), (to, 1.0)] {
-                // Near a double zero, the zeros of the polynomial have an error of the square root of rounding.
+                // Near a double zero, the error of the polynomial's zeros is of the order of the square root of the
+                // rounding error.
                 let [inside, outside] = [-1e-6, 1e-6].map(|d| count(limit.crank + outwards * d));
                 assert_eq!(
                     (limit.kind, inside - outside),
@@ -357,7 +359,7 @@ fn an_unreachable_angle_is_refused_with_the_reachable_range() {
         let (found, _) = found.split_once(" deg on this branch").expect(&text);
         let (low, high) = found.split_once(" to ").unwrap();
         let [low, high]: [f64; 2] = [low, high].map(|number| number.parse().unwrap());
-        // Rounded inwards at the sixth decimal.
+        // The limits in the message are rounded inwards at the sixth decimal.
         assert!((0.0..=1.001e-6).contains(&(low - from)) && (0.0..=1.001e-6).contains(&(to - high)), "{who}: {text}");
         for end in [low, high] {
             assert!(AssurSolver.solve(&asked(&case, end)).is_ok(), "{end} was said to be reached");
@@ -389,11 +391,12 @@ fn coinciding_configurations_have_no_velocities() {
 }
 
 /// Differences of the two analytic sides near a dead point, for the condition number k of the dyad.
-/// Rounding of positions enters angles with the factor k.
-/// Velocities are divided by a determinant of the order of 1 / k, whose relative error is k times that of the angles.
-/// Accelerations are divided by it once more.
-/// Relative to their size, however, both lose the square of k.
-/// The factors measured are 2.5, 2.1 and 6.4, and nearly the same at 30 and at 0.3 degrees.
+/// Rounding error of positions enters the angles with the factor k.
+/// Velocities are divided by a determinant of the order of 1 / k; the relative error of this determinant is k times
+/// that of the angles.
+/// Accelerations are divided by the same determinant again.
+/// Relative to their size, however, velocities and accelerations both lose a factor of k^2.
+/// The measured factors are 2.5, 2.1 and 6.4, and nearly the same at 30 and at 0.3 degrees.
 /// The condition number is therefore the whole cause.
 /// The bound allows twice as much for other mathematical libraries.
 #[test]
@@ -429,8 +432,8 @@ fn loss_of_digits_at_a_dead_point_follows_the_condition_number() {
     worst.iter().for_each(|&factor| assert_within!(factor, 13.0, "{worst:?}"));
 }
 
-/// Sums that differ by a millionth are not a change point: the shortest link is the frame, and all others rotate fully
-/// about it.
+/// If two sums of link lengths differ by only a millionth, the mechanism has no change point.
+/// The shortest link is the frame, so all other links rotate fully about it.
 #[test]
 fn nearly_equal_sums_of_lengths_are_no_change_point() {
     let of = |more: f64| FourBar::of_lengths([1.0, 2.0, 3.0, 2.0 + more]).of_type;

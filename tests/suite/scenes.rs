@@ -14,11 +14,11 @@ use crate::common::specimens::specimen;
 use crate::common::{assert_within, draws, shipped};
 
 /// Rounding error of a side relative to its largest number.
-/// It holds in poses as well conditioned as those of the shipped scenarios.
+/// The value is valid for poses as well conditioned as those of the shipped scenarios.
 const ROUNDING: f64 = 1e-9;
 
 /// Requests every subject of a case alone.
-/// Solved by either side, its values must be those of the whole solution.
+/// On either side, the values must equal those of the solution of the whole mechanism.
 fn subjects_keep_their_values(case: &Case, about: &str) {
     let times = case.grid.times.iter().step_by(case.grid.len().div_ceil(12)).copied().collect();
     let case = &case.on(Grid::of_times(case.crank(), times)).unwrap();
@@ -26,7 +26,7 @@ fn subjects_keep_their_values(case: &Case, about: &str) {
         let Ok(whole) = solver.solve(case) else { continue };
         let mut words = case.channel_words();
         words.retain(|word| word.split('.').count() < 3 || word.ends_with(".positions"));
-        // If forces determine the motion, a word only selects columns, so a few words are enough.
+        // If forces determine the motion, a word only selects columns of the whole solution, so a few words are enough.
         words.truncate(if case.is_free() { 8 } else { words.len() });
         for word in words {
             let own = case.wanting_only(&case.channels_called(&word));
@@ -102,7 +102,7 @@ fn reactions_need_everything_attached_to_their_joint() {
     assert_eq!((links(&["link.crank"]), links(&["point.3.velocities"]), links(&["link.rod_35.positions"])), (2, 4, 6));
 }
 
-/// Where forces determine the motion, every mass matters.
+/// If forces determine the motion, every mass influences it, so no link may be omitted.
 #[test]
 fn the_scene_of_a_free_motion_omits_nothing() {
     let case = shipped("ov7_new_runup.toml").case;

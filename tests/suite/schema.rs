@@ -1,4 +1,4 @@
-//! The JSON Schema of scenario files: current, true of every scenario of the repository, and strict about keys.
+//! The JSON Schema of scenario files is up to date, accepts every scenario of the repository, and is strict about keys.
 
 use std::path::Path;
 

@@ -57,7 +57,7 @@ fn every_sentence_of_a_guarantee_names_an_existing_test() {
     assert!(!is_there("robustness::names::no_such_test") && !is_there("robustness::names::files"));
 }
 
-/// Checks what SECURITY.md says the program leaves untouched: connections, environment variables, other programs.
+/// Checks the statements of SECURITY.md about connections, environment variables and other programs.
 #[test]
 fn no_connections_no_environment_variables_no_other_programs() {
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -1,6 +1,6 @@
 //! Motions that begin at rest.
-//! A quantity that depends on the direction of motion takes the direction in which the motion begins, not that of
-//! rounding.
+//! A quantity that depends on the direction of motion takes the direction in which the motion begins.
+//! It must not take its direction from the rounding error of the speed.
 
 use std::path::Path;
 
@@ -31,8 +31,10 @@ fn accelerations(solver: &dyn Solver, case: &Case) -> Vec<f64> {
     found.iter().flat_map(|state| state.motions.iter().map(|motion| motion.alpha)).collect()
 }
 
-/// Symptom: with an efficiency below 1 the multibody's accelerations at t = 0 were off by 1 / efficiency squared.
-/// Cause: the crank's speed there is rounding, and a negative one means that power flows back to the motor.
+/// Symptom: with an efficiency below 1, the multibody's accelerations at t = 0 were wrong by a factor of 1 / efficiency
+/// squared.
+/// Cause: at rest, the sign of the crank's speed is rounding error, and a negative speed means that power flows back to
+/// the motor.
 #[test]
 fn regress_a_motor_with_a_lossy_reducer_starts_forwards() {
     let text = shipped("crank_rocker_runup.toml").text;
@@ -95,8 +97,8 @@ fn regress_an_ambiguous_start_is_refused() {
     assert!(error.message().contains("from rest in either sense") && error.way_out().is_some(), "{error}");
 }
 
-/// A pendulum on a driven crank is at rest as the motion begins; its load acts against the motion that begins.
-/// Symptom: at that instant the momentum of the whole mechanism lacked this load, and a right motion disagreed.
+/// A pendulum on a driven crank is at rest when the motion begins; its load acts against the beginning motion.
+/// Symptom: at that instant, the momentum of the whole mechanism lacked this load, so a correct motion disagreed.
 #[test]
 fn regress_a_load_on_a_link_that_starts_at_rest_agrees() {
     let text = |load: &str| {

@@ -89,7 +89,8 @@ fn a_given_step_is_kept_and_the_suggested_remedy_tried() {
     assert_eq!((settings.resolution, settings.extrapolated), (2e-2, 0));
     assert_eq!(proof.verdict.word(), "inconclusive");
     let told = proof.verdict.reason(linkproof::parts::Advice::to_string).unwrap();
-    assert!(told.contains("let the proof choose the step") && told.ends_with("the verdict there is agree"), "{told}");
+    let end = "the verdict with these settings is agree";
+    assert!(told.contains("let the proof choose the step") && told.ends_with(end), "{told}");
     let fixed = prove(&scenario, &Options::default().step(1e-3).sweeps(64).extrapolated(1)).unwrap();
     assert!(fixed.engine().search.is_none());
     assert_eq!(fixed.verdict.word(), "agree");
@@ -126,7 +127,8 @@ fn one_sweep_suffices_without_a_loop() {
 
 /// Symptom: 4096 sweeps are not enough for a four-bar in free motion whose rocker is 156 times lighter than its
 /// coupler.
-/// Cause: the rows of the loop lay along world axes. With rows along and across the rocker 16 sweeps leave 1.5e-7.
+/// Cause: the rows of the loop were along the world axes.
+/// With rows along and across the rocker, 16 sweeps leave an error of 1.5e-7.
 #[test]
 fn regress_a_light_rocker_behind_a_heavy_coupler_needs_few_sweeps() {
     let own = specimen(1, 42, &mut Default::default());
@@ -136,8 +138,9 @@ fn regress_a_light_rocker_behind_a_heavy_coupler_needs_few_sweeps() {
 }
 
 /// Symptom: a mechanism released from rest, with masses over three decades, disagrees at t = 0 only.
-/// Cause: the first sweeps have no previous step to start from, and 16 and 32 of them leave the same error.
-/// The second mechanism is another example of the kind.
+/// Cause: the sweeps of the first step cannot start from a previous step, and runs with 16 and 32 sweeps have the same
+/// error there.
+/// The second mechanism is another example of the same fault.
 #[test]
 fn regress_the_first_step_of_a_start_from_rest_is_left_out() {
     for (seed, index) in [(16, 394), (1, 42)] {
@@ -186,7 +189,8 @@ fn regress_bounds_near_a_change_point_include_the_condition() {
     }
 }
 
-/// The sides meet a number with all digits of a double, but not one that is off by 1e-14.
+/// The sides agree with a published number that has all digits of a double.
+/// They disagree with a number that is off by 4e-14.
 #[test]
 fn regress_oracle_bounds_include_the_error_of_the_sides() {
     for (value, word) in [("1.5707963267948966", "agree"), ("1.5707963267949366", "disagree")] {

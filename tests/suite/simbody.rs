@@ -41,8 +41,8 @@ fn default() -> Simbody {
     Simbody::new(Simbody::ACCURACY)
 }
 
-/// Checks that Simbody and the reference agree in every channel within the engine's error bound, times `condition`.
-/// Returns the largest errors of angles, and of reactions with moments, relative to their scales.
+/// Checks that Simbody and the reference agree in every channel within `condition` times the engine's error bound.
+/// Returns the largest errors relative to their scales: first of angles, then of reactions and moments.
 fn agree(case: &Case, engine: &Simbody, reference: &dyn Solver, condition: f64) -> [f64; 2] {
     let (truth, run) = (solve(reference, case), solve(engine, case));
     let mut worst = [0.0_f64; 2];
@@ -99,7 +99,7 @@ fn distant_instants_are_as_accurate() {
     }
 }
 
-/// Instants before the start, after it, in any order, repeated, and without the start itself.
+/// The instants lie before and after the start, in any order, repeated, and without the start itself.
 #[test]
 fn instants_may_be_unordered_and_before_the_start() {
     for name in ["crank_rocker.toml", "quick_return.toml", "five_bar.toml"] {
@@ -168,7 +168,7 @@ fn felt(spec: &Spec, open: f64) -> BTreeMap<(Stage, &'static str), f64> {
 /// The bound assumes a transmission angle of 6 deg: at 7 deg it is close to the effect, elsewhere it is larger.
 #[test]
 fn the_noise_bound_covers_the_effect_of_an_open_joint() {
-    // This is far above rounding, and small enough that the effect is proportional to it.
+    // This displacement is far above rounding error, and small enough that the effect is proportional to it.
     const OPEN: f64 = 1e-8;
     // Upper limit of bound / effect at 7 deg; measured: 2 to 40.
     const ABOVE: f64 = 100.0;
@@ -285,7 +285,7 @@ fn random_higher_groups_agree() {
         for among in [Among::Alone, Among::BehindADyad, Among::CarryingADyad] {
             let (spec, _) = mechanism(&mut random, family, among);
             let Ok(scenario) = spec.scenario() else { continue };
-            // Beyond a dead point there is nothing to compare.
+            // Beyond a dead point there is no solution with which to compare.
             if let Ok(truth) = AssurSolver.solve(&scenario.case) {
                 agree(&scenario.case, &default(), &AssurSolver, nearness(&scenario.case, &truth).powi(2));
                 solved += 1;
@@ -369,7 +369,7 @@ fn a_slider_out_of_reach_is_an_error() {
     assert!(error.kind() == ErrorKind::Numeric && error.message().contains("crank angle 261.34"), "{error}");
 }
 
-/// Without this check Simbody would assemble another pose nearby without a message.
+/// Without the check that the start pose is closed, Simbody would assemble another nearby pose without a message.
 #[test]
 fn an_open_start_pose_is_refused() {
     let mut parts = shipped("crank_rocker.toml").case.into_parts();

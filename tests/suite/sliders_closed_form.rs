@@ -19,7 +19,7 @@ fn solved(case: &Case) -> Vec<Vec<(f64, State)>> {
     all().iter().map(states_of).collect()
 }
 
-/// Largest difference in a series of pairs, over its largest value.
+/// Largest difference in a series of pairs, divided by the largest value of the series.
 fn relative(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     let (error, size) = pairs.fold((0.0f64, 0.0f64), |(error, size), (found, expected)| {
         (error.larger((found - expected).abs()), size.larger(expected.abs()))
@@ -49,9 +49,10 @@ const CYLINDERS: [(f64, f64, f64, &str, &str); 2] =
     [(0.06, 0.24, 0.0, "rod_2", "B"), (0.05, 0.24, FRAC_PI_2, "rod_4", "D")];
 const COMPRESSOR_SPEED: f64 = 104.719_755_119_659_78;
 
-/// Each printed formula of a rate is the derivative of the one before it.
-/// Fourth-order differences have errors h^4 / 30 of harmonics, which are small for the ratio 1 / 4 of the lengths.
-/// Their rounding is 1e-16 / h.
+/// Each printed formula of a rate is the derivative of the printed formula before it.
+/// Fourth-order differences have a truncation error of h^4 / 30 times the harmonics, which are small for the length
+/// ratio 1 / 4.
+/// Their rounding error is 1e-16 / h.
 #[test]
 fn val_compressor_printed_rates_are_derivatives() {
     let h = 1e-3;
@@ -69,7 +70,7 @@ fn val_compressor_printed_rates_are_derivatives() {
     }
 }
 
-/// Rounding of a few products on either side: 1e-13 of the largest value of the turn.
+/// The bound is 1e-13 of the largest value of the revolution: the rounding error of a few products on either side.
 #[test]
 fn val_compressor_closed_form() {
     let case = shipped("compressor.toml").case;
@@ -128,7 +129,7 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
             let rocker = state.angles[case.mechanism.link_named("rocker").unwrap()];
             let [at, velocity, _] = place(case, &state, "D");
             // The height is O2C + CD.
-            // The bound is rounding of lengths below a metre and of a speed below 3 m/s.
+            // The bound allows for the rounding error of lengths below a metre and of a speed below 3 m/s.
             let errors = [rocker - FRAC_PI_2, at.y - 0.7, velocity.norm()];
             errors.iter().for_each(|error| assert_within!(error.abs(), 1e-14, "{crank}: {errors:?}"));
             assert!(at.y >= highest, "{crank}: {} below {highest}", at.y);
@@ -144,7 +145,7 @@ fn assert_closed_form(name: &str, point: &str, axis: usize, other: f64, form: im
         for order in 0..3 {
             let pair = |(crank, state): &(f64, State)| (place(&case, state, point)[order][axis], form(*crank)[order]);
             let error = relative(rows.iter().map(pair));
-            // Rounding of a few products, and of the crank angle itself.
+            // The bound allows for the rounding error of a few products, and of the crank angle itself.
             assert_within!(error, 1e-14, "{name} {order}: {error:e}");
         }
         for (crank, state) in &rows {
@@ -194,8 +195,8 @@ fn val_quick_return_time_ratio() {
     assert_within!((ratio - (TAU - quick) / quick).abs(), 1e-8, "{ratio}");
     let swing = (first.angle - second.angle).abs();
     assert_within!((swing - 2.0 * (0.1f64 / 0.3).asin()).abs(), 1e-9, "{swing}");
-    // The ram reverses there too.
-    // Its speed, up to 3 m/s elsewhere, is then only the effect of an angle error of 1e-9 rad.
+    // At the extreme positions of the guide, the ram also reverses.
+    // The ram's speed, up to 3 m/s elsewhere, is here only the effect of an angle error of 1e-9 rad.
     let mut cranks = vec![first.crank, second.crank];
     cranks.sort_by(f64::total_cmp);
     for rows in solved(&case.on(Grid::of_inputs(case.crank(), cranks)).unwrap()) {
@@ -237,7 +238,7 @@ fn val_class3_group_contours_close() {
             let c = Vec2::new(0.21, -0.33) + unit(crank) * 0.04;
             let first = unit(a1) * LEADS[0] + unit(a4) * BASE[0] - (FRAME_B - FRAME_A) - unit(a2) * LEADS[1];
             let second = unit(a1) * LEADS[0] + unit(a4 + beta()) * BASE[1] - (c - FRAME_A) - unit(a3) * LEADS[2];
-            // Rounding of vectors shorter than half a metre.
+            // The bound allows for the rounding error of vectors shorter than half a metre.
             assert_within!(first.norm().larger(second.norm()), 1e-15, "{crank}: {first} {second}");
         }
     }

@@ -11,9 +11,9 @@ use scenario::Scenario;
 
 use crate::common::specimens::specimen;
 
-/// Every shape once.
+/// Tests one specimen of every shape.
 /// The same seed gives the same text, and another seed a different one.
-/// Both sides solve it, unless they report that they do not support such a motion.
+/// Both sides solve each specimen, unless they report that they do not support such a motion.
 #[test]
 fn specimens_follow_from_their_seed_and_can_be_solved() {
     let (mut free, mut sorts) = (0, BTreeSet::new());
@@ -30,7 +30,7 @@ fn specimens_follow_from_their_seed_and_can_be_solved() {
         let case = &scenario.case;
         free += usize::from(case.is_free());
         sorts.insert(own.sort.split(',').next().unwrap().to_string());
-        // The largest link; a mass centre may lie beyond it.
+        // The size is the extent of the largest link; a mass centre may lie beyond this extent.
         let size = case.mechanism.size();
         assert!((0.9e-3..40.0).contains(&size), "{index}: {size} m");
         let solved = [&AssurSolver as &dyn Solver, &NewtonSolver].map(|solver| solver.solve(case));

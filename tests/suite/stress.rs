@@ -1,6 +1,6 @@
 //! Numerical stability.
-//! The double-double reference is compared with closed forms, and the sides with it; the rest are faults that stress
-//! has found.
+//! The double-double reference is compared with closed forms, and the sides with the double-double reference.
+//! The other tests cover faults that `stress` has found.
 
 mod precise;
 
@@ -29,8 +29,8 @@ fn family_names_are_unique_and_quick_points_valid() {
     }
 }
 
-/// After 1e4 revolutions, the crank angle as a double has lost five digits before a side starts its computation.
-/// Both sides once agreed, without a warning, although their error was 3.6 times the bound.
+/// After 1e4 revolutions, rounding the crank angle to a double costs five digits before a side starts its computation.
+/// Both sides once agreed without a warning, although their error was 3.6 times the bound.
 #[test]
 fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
     let turns = named("turns").unwrap();
@@ -45,7 +45,7 @@ fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
         println!("{}: {worst:.2e} of its bound", side.name);
         assert_within!(worst, 1.0, "{}", side.name);
         // The bound must not become too wide.
-        // For angles it remains a share of the angle including its revolutions.
+        // For angles it stays proportional to the angle including its revolutions.
         for own in side.deviations.iter().filter(|own| own.channel.kind.unit != Unit::Radian) {
             assert_within!(own.bound, 1e-9, "{} {}", side.name, own.channel);
         }
@@ -67,7 +67,7 @@ fn regress_the_condition_of_a_pose_is_in_the_bound_between_the_sides() {
 
 /// The time to solve and judge a long chain grows little faster than its length.
 /// This test only solves the chain and compares it with double-double.
-/// No fault report is about a chain of 150.
+/// The length of 150 four-bars is an extra case that no fault report mentions.
 #[test]
 fn a_long_chain_keeps_its_digits() {
     let case = (named("chain").unwrap().setup)(150.0, 0, 0).unwrap().case;
@@ -117,7 +117,8 @@ fn refused_points_are_results_with_a_reason() {
 }
 
 /// The reference has one length that is wrong by a millionth.
-/// Both sides contradict it, while they agree with each other; a silent wrong number would appear in the same way.
+/// Both sides contradict it, while they agree with each other.
+/// A wrong number of the sides without a warning would show in the same way.
 #[test]
 fn a_wrong_number_that_both_sides_share_is_counted() {
     let four_bar = |coupler: f64| {

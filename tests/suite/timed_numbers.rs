@@ -1,4 +1,5 @@
-//! Numbers of an `[[oracle]]` at a time of the motion itself: read, compared with both sides, and kept where they hold.
+//! Numbers of an `[[oracle]]` at a time of the motion: they are read and compared with both sides.
+//! For another start, for which they are not valid, they are omitted.
 
 use std::path::Path;
 
@@ -47,7 +48,7 @@ fn verdicts(text: &str) -> Vec<&'static str> {
     own.map(|check| check.verdict.word()).collect()
 }
 
-/// 0.2345 s is not an instant of the grid.
+/// The time 0.2345 s lies between two instants of the grid.
 #[test]
 fn a_number_at_a_time_may_lie_between_grid_instants() {
     let value = speed(0.2345);

@@ -262,7 +262,7 @@ fn mechanism(draw: &mut Draw, moving: bool) -> Option<Scenario> {
     }
 }
 
-/// Whether the class change also reports that the group cannot be followed to one of the times.
+/// Whether the method of class change also reports that the group cannot be followed to one of the times.
 fn class_change_is_lost(case: &Case, times: &[f64]) -> bool {
     match ClassChange::new(case, &only_triad(case)) {
         Ok(mut change) => times.iter().any(|&time| change.solve(case.crank().at(time).value).is_err()),
@@ -294,7 +294,7 @@ fn on_random_mechanisms(moving: bool, count: u32) -> [usize; 2] {
             let states = match states(solver, case, &times) {
                 Ok(states) => states,
                 Err(error) => {
-                    // Only higher groups are followed; dyads are placed.
+                    // Only higher groups are followed from pose to pose; a dyad is computed directly.
                     // The error therefore comes from the class III group.
                     if error.message().contains("cannot be followed") && !moving {
                         prop_assert!(class_change_is_lost(case, &times), "{error}\n{text}");
@@ -304,7 +304,7 @@ fn on_random_mechanisms(moving: bool, count: u32) -> [usize; 2] {
                 }
             };
             let found = differences(case, &only_triad(case), &states, &times);
-            // The two solvers may also differ by this much.
+            // The bound also allows for the difference between the two solvers.
             prop_assert!(found.are_within(1e-11), "{} {found:?}\n{text}", solver.name());
             seen.set([seen.get()[0] + found.exchanges, seen.get()[1]]);
         }

@@ -60,7 +60,7 @@ fn closed(t: f64) -> [f64; 2] {
     [10f64.to_radians() + last * t + (first - last) * constant * (1.0 - left), last + (first - last) * left]
 }
 
-/// Largest difference from the closed form: of angle in rad, and of speed over 25 rad/s.
+/// Largest difference from the closed form: of the angle in rad, or of the speed divided by 25 rad/s.
 fn off(case: &Case, times: &[f64]) -> f64 {
     let last = 25.0;
     let solved = solve(case).unwrap();
@@ -87,14 +87,14 @@ fn a_closed_form_run_up_finds_faults_hidden_at_crank_angles() {
         let kind = named(name).unwrap_or_else(|| panic!("{name}"));
         let Plant::Case(change) = kind.plant else { panic!("{name} is no fault in a case") };
         let wrong = change(case, kind.size.unwrap_or(1.0)).unwrap_or_else(|| panic!("{name} cannot be planted"));
-        // A failing run would show the fault too, but none of these runs fails.
+        // A failing run would also reveal the fault, but all of these runs succeed.
         let found = off(&wrong, times);
         assert!(!(found <= 1e-5), "{name} changes the run-up by {found:e} only");
     }
 }
 
-/// The same numbers in the scenario.
-/// Without them, nothing inside a proof can reveal faults in the shared code.
+/// The scenario contains the same numbers as the run-up in closed form.
+/// Without these numbers, nothing inside a proof can reveal faults in the shared code.
 #[test]
 fn numbers_at_a_time_find_faults_of_a_run_up() {
     let [angle, speed] = closed(0.23);

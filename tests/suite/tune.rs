@@ -12,9 +12,8 @@ use crate::common::shipped;
 use exhaustive::{REFERENCES, Space, thinned};
 use near::{FACTOR, near_the_cheapest, tuned};
 
-/// A part of the space of `cargo bench --bench tune -- whole`.
-/// Only settings that could make the test fail are run.
-/// Neighbouring sweeps differ by a factor of 4, neighbouring steps by a factor of 1.2.
+/// A part of the space of `cargo bench --bench tune -- whole`, with only those settings that could make the test fail.
+/// Neighbouring numbers of sweeps differ by a factor of 4, neighbouring steps by a factor of 1.2.
 const SMALL: Space = Space { sweeps: &[4, 16, 64, 256], factor: 1.2 };
 
 #[test]
@@ -51,7 +50,7 @@ fn an_unreachable_accuracy_reports_the_best_one() {
     assert!(error.message().contains("rapier reaches "), "{error}");
 }
 
-/// Symptom: four sweeps reach the wanted accuracy, but the engine's runs then show no order, so a proof is
+/// Symptom: four sweeps reach the required accuracy, but the engine's runs then show no order, so a proof is
 /// inconclusive.
 #[test]
 fn regress_recommended_settings_prove_the_promised_accuracy() {

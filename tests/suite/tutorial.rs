@@ -1,5 +1,5 @@
 //! docs/tutorial.md, followed word for word.
-//! Its commands run in an empty directory and print the text that stands below them.
+//! Its commands run in an empty directory; their output must equal the text below them on the page.
 
 use std::path::Path;
 use std::{env, fs};
@@ -69,7 +69,8 @@ fn followed(page: &str, place: &Path) -> (String, usize) {
 }
 
 /// Whether two lines have the same content.
-/// The last bit of a sine depends on the processor, so numbers may differ by a hundredth, and rounding errors by more.
+/// The last bit of a sine depends on the processor, so numbers may differ by 1 %.
+/// Numbers below 1e-9 are rounding errors and may differ by more.
 /// Counts of quantities, channels and checks, and file sizes, are ignored.
 fn are_alike(one: &str, other: &str) -> bool {
     let is_near = |(one, other): (&str, &str)| {

@@ -1,4 +1,5 @@
-//! Sixty study variants: this generator writes the files of scenarios/variants60, and their statements are true.
+//! Sixty study variants: this generator writes the files of scenarios/variants60, and the tests check the statements in
+//! them.
 //!
 //! `LINKPROOF_WRITE=1 cargo test --release --test suite variants60::` writes the files and the table of
 //! docs/variants60.md.
@@ -114,8 +115,8 @@ fn the_given_pose_closes_all_joints_of_the_file() {
             pose.extend([slider, along(linkage.c, linkage.d)]);
         }
         pose.push(rocker);
-        // Positions in the file are rounded to 1e-12 m.
-        // The error of x and y together is half of that times the square root of two.
+        // Positions in the file are rounded to 1e-12 m, so x and y are each off by at most half of this.
+        // The position is then off by this half times the square root of two.
         let closure = Pose(pose.into()).closure(&case.mechanism);
         assert_within!(closure, 1e-12, "{}: {closure:e}", v.number);
         if plan.given < 1e-4 {

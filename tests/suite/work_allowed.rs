@@ -34,7 +34,7 @@ fn regress_substeps_count_as_work() {
     assert_refused(&proven(&scenario("substeps.toml"), &Options::default()));
     let many = Options::default().substeps(100_000).budget(1e4);
     assert_refused(&proven(&shipped("crank_rocker.toml"), &many));
-    // The same if no setting is left to search.
+    // The same refusal follows if all settings are given, so that no setting is left to search.
     let given = Options::default().step(1e-3).sweeps(64).extrapolated(0).substeps(usize::MAX >> 12);
     assert_refused(&proven(&shipped("crank_rocker.toml"), &given));
 }
@@ -45,7 +45,8 @@ fn regress_work_per_step_grows_with_the_mechanism() {
     let case = (chain.setup)(100.0, 0, 0).unwrap().case;
     let large = Scenario::of_case("chain", case).unwrap();
     assert_refused(&proven(&large, &Options::default().budget(1e4)));
-    // A run keeps to the allowed work, whatever the mechanism; this one has some 21 moving links.
+    // A run stays within the allowed work, whatever the mechanism.
+    // This mechanism has some 21 moving links.
     let (proof, work) = proven(&scenario("n_four_bar_10.toml"), &Options::default().budget(1e6));
     assert_eq!(proof.verdict.word(), "inconclusive");
     assert!(work.of(Count::Sweeps) < 3_000_000, "{work:?}");
@@ -60,11 +61,11 @@ fn regress_computing_a_range_counts_as_work() {
     let (found, is_over) = limited(1e5, || Range::of(&large));
     let error = found.expect_err("a hundred four-bars are more than 1e5 steps");
     assert!(is_over && error.message().contains("1.0e5 steps") && !error.advice().is_empty(), "{error}");
-    // A four-bar needs little work, and keeps what is left of it.
+    // A single four-bar needs so little work that its range is found within the same limit.
     let small = shipped("crank_rocker.toml").case;
     let (found, is_over) = limited(1e5, || Range::of(&small));
     assert!(found.is_ok_and(|range| range.links.len() == 3) && !is_over);
-    // An error is explained as far as the work allows, and otherwise says that the range is not known.
+    // If the work does not suffice to find the range, the error says that the range is not known.
     let out_of_reach = || Error::new(ErrorKind::Geometry, "the poses end").out_of_reach();
     let (told, _) = limited(10.0, || explained(&small, out_of_reach()));
     assert!(told.message().contains("are not known") && told.message().contains("1.0e1 steps"), "{told}");
@@ -81,7 +82,8 @@ fn regress_planting_faults_keeps_to_the_work_limit() {
     let error = found.err().expect("600 faults in 100 four-bars are too many");
     assert!(error.message().contains("planting") && error.message().contains("1.0e5 are allowed"), "{error}");
     assert!(error.advice().iter().any(|own| own.to_string().contains("some kinds")), "{error}");
-    // The work is that of both sides without a fault and of their exact answers, without a step of an engine.
+    // This work covers the solutions of both sides without a fault, and their exact answers.
+    // No step of an engine was run.
     assert!(work.of(Count::Groups) < 1_000_000 && work.of(Count::Steps) == 0, "{work:?}");
     let few = MutationPlan { kinds: vec!["gravity-sign".into()], parties: vec![FaultyParty::Assur], ..asked };
     assert_eq!(mutate(&large, &few, &mut |_| {}).unwrap().mutants.len(), 1);

@@ -1,4 +1,4 @@
-//! Wrong tables of kinds that were not used to develop the diagnosis, as engineers and students make them.
+//! Wrong tables, as engineers and students make them; their kinds were not used to develop the diagnosis.
 //! All wrong tables are found, no false cause is named, and most causes are named.
 
 mod first_half;
@@ -30,7 +30,7 @@ enum Make {
 }
 
 /// A wrong table: its scenario, its columns, the fault, and how the table is made.
-/// `named` has words of the accepted causes: the true one, or an equivalent one.
+/// `named` lists words of the accepted causes: the true cause, or an equivalent one.
 struct Wrong {
     scenario: &'static str,
     columns: &'static [&'static str],
@@ -77,7 +77,7 @@ fn text(name: &str) -> (String, std::path::PathBuf) {
     (std::fs::read_to_string(&path).unwrap(), path)
 }
 
-/// All channels of a case at the instants of another.
+/// All channels of a case at the given instants of another case.
 fn solved(case: &Case, times: &[f64]) -> Trajectory {
     let case = case.on(Grid::of_times(case.crank(), times.to_vec())).unwrap();
     let all = case.all_channels();
@@ -194,7 +194,8 @@ fn errors_in_unseen_tables_are_named() {
 }
 
 /// Compares a table of another program with a scenario.
-/// Returns the causes with their equivalents, and a row that is off in addition.
+/// Returns the causes with their equivalents.
+/// Each cause comes with the location of a single wrong row, if there is one besides.
 fn told(scenario: &str, table: &str, lines: &[&str]) -> Vec<(Vec<String>, Option<f64>)> {
     let (right, path) = text(scenario);
     let mut mapping = Mapping::default();
@@ -256,7 +257,7 @@ fn angles_within_one_turn_hide_no_cause() {
 }
 
 /// The forces drift by twice the allowed difference.
-/// No mass that is a hundred-thousandth too large may be named as the cause.
+/// The diagnosis must not name a mass that is too large by a hundred-thousandth as the cause.
 #[test]
 fn a_drift_is_not_attributed_to_a_number_of_the_case() {
     let wrong = Wrong {

@@ -85,16 +85,17 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
     let mut times: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     times.dedup();
     let model = match ReducedModel::of(case) {
-        // Either the loads are not functions of the crank angle over whole turns, or the branch is not known over a
-        // full turn.
+        // Use the equations with transfer functions if the reduced equation does not apply.
+        // In that case the loads are not functions of the crank angle over whole turns, or the branch is not known over
+        // a full turn.
         Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::Numeric) => {
             return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
         }
         model => model?,
     };
     if model.kinks().meets {
-        // The equations with transfer functions follow the motion over the change point, where its momentum selects the
-        // branch.
+        // The motion has a change point as a limit. The equations with transfer functions follow the motion beyond this
+        // change point: the momentum selects the branch.
         return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
     }
     let (motion, end) =

@@ -19,7 +19,8 @@ pub struct Mode {
     pub mode: AssemblyMode,
     /// Pose of each link of the group, in the order of its links.
     pub poses: Vec<LinkPose>,
-    /// Angular velocity of each link (rad/s); `None` in a singular configuration, where it is not determined.
+    /// Angular velocity of each link (rad/s). `None` in a singular configuration, where angular velocities are
+    /// undetermined.
     pub omegas: Option<Vec<f64>>,
     /// Whether the motion of the case follows this configuration.
     pub is_followed: bool,
@@ -28,14 +29,14 @@ pub struct Mode {
 /// The known real configurations of one group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modes {
-    /// Configurations of the group. If not all are known, this contains only the followed configuration.
+    /// Configurations of the group. If not all configurations are known, the list contains only the followed one.
     pub modes: Vec<Mode>,
     /// Reason why not all configurations are known, for groups of more than four links; `None` if the list is complete.
     pub unknown: Option<String>,
 }
 
 /// Moves the mechanism to a crank angle (rad).
-/// If a dead point lies in between, moves the crank the other way round to the same pose of the crank.
+/// If a dead point lies on the path, moves the crank in the opposite direction to the same pose of the crank.
 /// Returns the crank angle reached.
 fn reached(case: &Case, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
     let mut poses = PoseSolver::counting_turns(case)?;

@@ -1,4 +1,4 @@
-//! Side 2: all constraints of the mechanism at once, by Newton's method and Lagrange multipliers.
+//! Side 2 solves all constraints of the mechanism at once, by Newton's method and Lagrange multipliers.
 
 mod blocks;
 mod constraint;

@@ -38,7 +38,7 @@ const CONTACT: f64 = 1e-3;
 const SINGULAR: f64 = 1e-6;
 
 /// Work allowed for finding the reachable crank angles as a by-product, for example for an error message.
-/// The unit is that of work budgets. The value is a twentieth of the work allowed for a proof.
+/// It is counted in the unit of work budgets, and is a twentieth of the work allowed for a proof.
 pub const ASIDE: f64 = 1e6;
 
 /// Crank angles over which a mechanism can be followed on its branch.
@@ -118,7 +118,7 @@ impl Range {
     }
 }
 
-/// Crank angles that the branch of a case reaches: the first part of [`Range::of`].
+/// Crank angles that the branch of a case reaches. [`Range::of`] computes them too, before its other results.
 ///
 /// # Errors
 /// Those of [`Range::of`].

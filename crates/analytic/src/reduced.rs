@@ -1,8 +1,9 @@
-//! Motion under forces: the equation of motion of a mechanism of one degree of freedom, reduced to its crank.
+//! Motion under forces of a mechanism of one degree of freedom: the equation of motion is reduced to the crank.
 //!
-//! `omega^2 / 2 dI*/dphi + I* domega/dt = M`. I* and dI*/dphi follow from first and second transfer functions, M from
-//! the powers of motor, gravity and loads.
-//! It is the kinetic energy theorem for E = I* omega^2 / 2. Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
+//! `omega^2 / 2 dI*/dphi + I* domega/dt = M`. The first and second transfer functions give I* and dI*/dphi.
+//! The powers of motor, gravity and loads give M.
+//! This equation is the kinetic energy theorem for E = I* omega^2 / 2.
+//! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 //! See docs/numerics/forces.md.
 
 pub(crate) mod flow;

@@ -115,7 +115,7 @@ linkage::sentences! {
     GIVE_CRANK_ANGLES_FROM_THE_START = "give crank angles that follow the start angle in the sense of motion";
     the_steady_speed_is_asked(crank) = "the steady speed is requested at {crank:.6} deg, which is not in the first period";
     FOLLOW_THE_RUN_UP_INSTEAD = "follow the run-up instead, and inspect the crank's speed";
-    no_steady_motion_was_found(most_shots, share) = "no steady motion was found in {most_shots} turns: each turn leaves {share:.3} of a deviation";
+    no_steady_motion_was_found(most_shots, share) = "no steady motion was found in {most_shots} turns: each turn multiplies a deviation by {share:.3}";
     ADD_A_MOTOR_SECTION_ITS_LAW = "add a `[motor]` section: its law, and the ratio of the reducer";
     A_STEADY_MOTION_IS_ASKED = "a steady motion is requested, but there is no motor";
     // witness/triad.rs

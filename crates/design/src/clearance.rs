@@ -35,7 +35,7 @@ const TOLERANCE: f64 = 1e-6;
 /// If a part of the range cannot be halved further, bodies that are nearer than this count as touching.
 const TOUCH: f64 = 1e-9;
 /// Upper limit of the number of pairs of convex parts that one run examines, over all parts of the range.
-/// The second constant is the upper limit of the number of tests for one swept area.
+/// `AREA_BUDGET` is the upper limit of the number of tests for one swept area.
 const BUDGET: usize = 5_000_000;
 const AREA_BUDGET: usize = 8_000_000;
 
@@ -115,7 +115,7 @@ impl ClearanceResult {
 ///
 /// The poses repeat after a turn if all groups are dyads, there is one drive, and change points are not passed.
 /// Only one turn of a longer range is then examined.
-/// For a free motion with one degree of freedom, the range comes from the crank angles at the instants of the grid.
+/// For a free motion with one degree of freedom, the range spans the crank angles at the instants of the grid.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a free motion with several degrees of freedom.

@@ -68,9 +68,9 @@ linkage::sentences! {
     the_singular_point_lies_in_line(names) = "the singular point {names} lies in line with the outer joints: a dead point";
     the_leads_are_parallel_their(names) = "the leads {names} are parallel: their singular point lies at infinity";
     // export/mjcf/effects.rs
-    ITS_LENGTH_IS_THE_ANGLE_THAT_THE_LOAD = "Its length is the angle that the load depends on.";
-    ITS_LENGTH_IS_THE_LINK_ANGLE = "Its length is the link's angle.";
-    FORCES_IN_WORLD_AXES_REFER = "Forces in world axes refer to it.";
+    ITS_LENGTH_IS_THE_ANGLE_THAT_THE_LOAD = "The tendon's length is the angle that the load depends on.";
+    ITS_LENGTH_IS_THE_LINK_ANGLE = "The tendon's length is the link's angle.";
+    FORCES_IN_WORLD_AXES_REFER = "Forces in world axes refer to this site.";
     // export/mjcf/limits.rs
     GIVE_THE_MOTOR_THE_LAW_LINEAR = "give the motor the law \"linear\" or \"constant\"";
     a_motor_with_the_law(name) = "a motor with the law \"{name}\"";
@@ -89,10 +89,10 @@ linkage::sentences! {
     MUJOCO_CALLS_THE_GROUND_WORLD = "MuJoCo calls the ground \"world\" and accepts no second body with that name";
     GIVE_IT_ANOTHER_NAME_IN_THE_SCENARIO = "give it another name in the scenario";
     // export/mjcf/write.rs
-    WHAT_ACTS_ON_THE_BODY_IN_THE_JOINT = "Load on the body in the joint that carries it, in the body's frame; moments about the joint's position, without frictionloss.";
+    WHAT_ACTS_ON_THE_BODY_IN_THE_JOINT = "Force or moment that the parent body exerts on the body at their joint, in the body's frame. Moments are about the joint's position and do not include frictionloss.";
     DRIVE_A_ROTOR_SO_HEAVY_THAT_ITS_SPEED = "Drive: a rotor so heavy that its speed stays at its initial value.";
     ROTOR_AND_REDUCER_OF_THE_MOTOR = "Rotor and reducer of the motor.";
-    IT_HAS_NO_MASS_OR_NO_INERTIA = "The body has no mass or no moment of inertia: MuJoCo gets a small one.";
+    IT_HAS_NO_MASS_OR_NO_INERTIA = "The body has no mass or no moment of inertia: MuJoCo gets a small value instead.";
     AS_STIFF_AS_A_STEP_ALLOWS = "As stiff as the time step allows: the time constant is raised to twice the time step.";
     // drive/flywheel.rs
     ASK_FOR_A_LARGER_COEFFICIENT = "request a larger coefficient";
@@ -105,12 +105,12 @@ linkage::sentences! {
     the_drive_asks_for_kw_the_strongest(asked, strongest) = "the drive needs {asked:.4} kW, but the strongest motor has {strongest:.4} kW";
     GIVE_THE_SCENARIO_THE_LOADS = "give the scenario the loads that the drive works against";
     the_greatest_moment_of_resistance(greatest) = "the greatest moment of resistance is {greatest:.6} N·m: no motor is needed";
-    GIVE_A_SHARE_ABOVE_AND_AT_MOST = "give a share above 0 and at most 1: 0.92 for 92 %";
+    GIVE_A_SHARE_ABOVE_AND_AT_MOST = "give a fraction above 0 and at most 1: 0.92 for 92 %";
     the_efficiency_is(efficiency) = "the efficiency is {efficiency}";
     // synthesize/redraw.rs
     GIVE_THE_TEXT_OF_THE_SCENARIO = "give the text of the scenario that the task names";
     the_drawing_has_no_where(name) = "the text of the drawing has no `{name}`, which the scenario of the task has";
-    left_out_of_the_drawing_because(keys) = "\nNot taken over from the drawing, because valid for its own dimensions only: {keys}.\nThe comments below come from the drawing.";
+    left_out_of_the_drawing_because(keys) = "\nThese keys of the drawing are left out, because they are valid for its own dimensions only: {keys}.\nThe comments below come from the drawing.";
     the_file_is_not_valid_toml(error) = "the file is not valid TOML: {error}";
     // synthesize/achieved.rs
     THE_MECHANISM_CANNOT_BE_ASSEMBLED = "the mechanism cannot be assembled over a whole turn of its crank, or its output does not rock";
@@ -124,7 +124,7 @@ linkage::sentences! {
     GIVE_DECIMAL_NUMBERS = "give decimal numbers";
     A_COORDINATE_OR_AN_ANGLE = "a coordinate or an angle is not finite";
     MOVE_A_PIVOT_OR_TURN_THE_EXTREME = "move a pivot, or turn the extreme positions away from the line of the pivots";
-    an_extreme_position_lies_on_the_line(told, found) = "{told}: within rounding error, an extreme position lies on the line through the pivots, a {found}";
+    an_extreme_position_lies_on_the_line(told, found) = "{told}: within rounding error, an extreme position lies on the line through the pivots, so the four-bar would not be a crank-rocker but a {found}";
     CHOOSE_A_SMALLER_SWING_OR_PIVOTS = "choose a smaller swing, or pivots whose connecting line leaves both positions of B on one side";
     THE_LINE_OF_THE_TWO_PIVOTS = "the line through the two pivots passes between the two extreme positions, or through one: no crank can move the rocker between them without taking the dyad apart";
     MOVE_A_PIVOT_OR_TURN_THE_EXTREME_POSITIONS = "move a pivot, or turn the extreme positions, so that one lies farther from the crank's pivot";

@@ -6,8 +6,8 @@ use super::mark::{Mark, MarkRole};
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
-/// Radius of the half disc that marks a bar as continuous, radius of a mass centre, and half the width of a traced
-/// point's cross.
+/// Dimensions in units of the sketch: `WELD` is the radius of the half disc that marks a bar as continuous.
+/// `MASS` is the radius of a mass centre. `TRACER` is half the width of a traced point's cross.
 const WELD: f64 = 2.0;
 const MASS: f64 = 1.7;
 const TRACER: f64 = 1.1;
@@ -134,7 +134,7 @@ mod tests {
         assert_eq!(at(&[(0.0, 0.0), (2.0, 2.0), (1.0, 1.0)]), 2);
         assert_eq!(at(&[(0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (1.0, 0.2)]), 3);
         assert_eq!((at(&[(0.0, 0.0)]), at(&[])), (1, 0));
-        // The same far from the frame's origin.
+        // A plate far from the frame's origin must not be taken for a bar.
         assert_eq!(at(&[(1e4, 0.0), (1e4 + 1.0, 0.0), (1e4, 1.0)]), 3);
     }
 }

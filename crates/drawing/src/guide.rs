@@ -7,7 +7,7 @@ use super::travel::Travels;
 use linkage::math::{KeepNan, Vec2, cross, turned};
 use linkage::mechanism::{GROUND, Guise, Joint, JointId, JointSide, LinkId, Mechanism};
 
-/// Half length and half width of a block in a fixed guide, and on a moving one.
+/// Half length and half width of a block: `FIXED` in a fixed guide, `MOVING` on a moving guide.
 /// They differ so that both blocks are visible at the same joint.
 const FIXED: [f64; 2] = [5.0, 3.2];
 const MOVING: [f64; 2] = [3.8, 2.0];
@@ -20,7 +20,8 @@ const HATCH: f64 = 1.6;
 const PITCH: f64 = 2.0;
 /// A centre line extends at most this far beyond the rail, towards the ground point on its line.
 const AXIS: f64 = 150.0;
-/// Box around a pivot in which no rail is drawn: distance of its centre below the pin, and half its width and height.
+/// No rail is drawn in a box around a pivot.
+/// `BELOW` is the distance of the box's centre below the pin, and `BOX` is half its width and height.
 const BELOW: f64 = 2.0;
 const BOX: [f64; 2] = [5.2, 5.0];
 /// If one of these words occurs in the name of the joint or of one of its links, the pair is a piston in a cylinder.
@@ -66,9 +67,9 @@ pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(LinkId
 }
 
 /// Whether a prismatic pair is drawn as a piston in a cylinder.
-/// If the joint states how it is drawn, this decides.
-/// Otherwise the pair is drawn so if the names say so, or if the guide moves and all points of the block's link lie on
-/// the axis.
+/// If the joint states how it is drawn, this statement decides.
+/// Otherwise it is a cylinder if the names say so.
+/// It is also a cylinder if the guide moves and all points of the block's link lie on the axis.
 fn is_cylinder(mechanism: &Mechanism, joint: &Joint, guide: JointSide, block: JointSide, axis: Vec2) -> bool {
     if let Some(guise) = joint.drawn {
         return guise == Guise::Cylinder;
@@ -128,7 +129,8 @@ impl Guide {
         if self.head() > 0.0 { [from, to + HEAD * self.unit] } else { [from - HEAD * self.unit, to] }
     }
 
-    /// A slot of a moving link, or a cylinder whose end opposite the head is open, and the bar that connects it.
+    /// Marks of a moving guide: a slot, or a cylinder that is open opposite its head.
+    /// If the slot or cylinder does not reach the guide's point, a bar connects them.
     fn moving(&self) -> Vec<Mark> {
         let ([from, to], play) = (self.covered(), PLAY * self.unit);
         let ends = if self.is_cylinder { self.barrel() } else { [from - play, to + play] };
@@ -163,7 +165,8 @@ impl Guide {
         let centre = [ends[0].smaller(near) - 2.0 * u, ends[1].larger(near) + 2.0 * u];
         let mut marks = vec![Mark::line(MarkRole::Axis, centre.map(|way| self.guide.local + self.axes[0] * way))];
         let [a, b, c, d] = self.open(self.strip(ends, self.gap()));
-        // The outer side of a wall is to the left or to the right of the path from the open end over the head and back.
+        // The path along the walls runs from the open end over the head and back.
+        // The hatched outer side of a wall may be to the left or to the right of this path.
         let walls = if self.is_cylinder { vec![[a, b], [b, c], [c, d]] } else { vec![[a, b], [c, d]] };
         let middle = (a + b + c + d) / 4.0;
         for wall in walls {

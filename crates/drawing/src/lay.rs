@@ -14,7 +14,7 @@ use linkage::mechanism::{
 /// A joint is open if its gap is larger than this fraction of the mechanism's size.
 const OPEN: f64 = 1e-6;
 /// Gaps smaller than this fraction of the largest gap are ignored.
-/// They only arise because the largest gap is distributed over the joints.
+/// Such small gaps arise only because the largest gap is distributed over the joints.
 const SEEN: f64 = 1e-2;
 
 /// A mechanism at one instant, whole or in part.
@@ -24,9 +24,9 @@ pub struct Laid {
     pub places: Vec<LinkPlacement>,
     /// Joints that stay open: number, and the two world points (m) that should coincide.
     pub gaps: Vec<(JointId, [Vec2; 2])>,
-    /// Circles that the points of links can reach and that do not intersect: centres and radii (m).
+    /// For dyads that cannot be closed: circles on which the inner pin would lie, as centres and radii (m).
     pub reaches: Vec<(Vec2, f64)>,
-    /// What is missing, group by group.
+    /// Reasons why the mechanism cannot be assembled completely, group by group.
     pub faults: Vec<Error>,
     /// Assembly mode of each group that is placed.
     pub modes: Vec<GroupPlacement>,
@@ -114,7 +114,8 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
                 done = tried;
             }
             Err(error) => {
-                // The group can be closed if its only fault is an unspecified mode.
+                // If the group can be closed, its only fault is an unspecified mode.
+                // Otherwise, the circles on which its inner pin would lie are listed.
                 if configurations(mechanism, group, &laid.pose()).is_err() {
                     laid.reaches.extend(reaches(mechanism, group, &laid));
                 }
@@ -125,8 +126,8 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
     close(mechanism, laid)
 }
 
-/// Assembles a mechanism that has no structure, because links or joints are missing or too many.
-/// It places the dyads that it finds.
+/// Assembles a mechanism that has no structure, because it has too few or too many links or joints.
+/// The function places the dyads that it finds.
 #[must_use]
 pub fn lay_loose(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], angles: &[f64], fault: Error) -> Laid {
     let mut laid = Laid::start(mechanism, drivers, angles);

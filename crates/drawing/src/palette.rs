@@ -7,9 +7,9 @@ use linkage::mechanism::LinkId;
 /// A colour for light and dark paper, and the hatching that replaces it in pictures without colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaletteColour {
-    /// On light paper, `#rrggbb`: at least 3 : 1 against white.
+    /// Colour on light paper (`#rrggbb`). Its contrast with white is at least 3 : 1.
     pub light: &'static str,
-    /// On dark paper, `#rrggbb`: at least 3 : 1 against #16181c.
+    /// Colour on dark paper (`#rrggbb`). Its contrast with #16181c is at least 3 : 1.
     pub dark: &'static str,
     /// Angle of the hatching of plates (deg).
     pub hatch_deg: f64,
@@ -35,7 +35,7 @@ pub const LOAD: PaletteColour = PaletteColour { light: "#c1121f", dark: "#ff6b6b
 /// The paper.
 pub const PAPER: PaletteColour = PaletteColour { light: "#ffffff", dark: "#16181c", hatch_deg: 45.0 };
 
-/// Colour of the link with this number; the ground, number 0, has that of text.
+/// Colour of the link with this number. The ground has number 0 and the colour of text.
 #[must_use]
 pub fn link(number: LinkId) -> PaletteColour {
     match number.index().checked_sub(1) {

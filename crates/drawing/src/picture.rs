@@ -17,15 +17,16 @@ const NUMBER: f64 = 2.3;
 const CLEAR: f64 = 1.4;
 /// If points are closer to each other on paper than this (mm), they share one label.
 const ONE: f64 = 0.7;
-/// Length (mm) of the arrow of the largest force, length of the arrow of gravity, and radius of the arrows of moments.
+/// Dimensions of arrows (mm): `FORCE` is the length for the largest force, and `GRAVITY` the length for gravity.
+/// `MOMENT` is the radius of the arrows of moments.
 const FORCE: f64 = 22.0;
 const GRAVITY: f64 = 12.0;
 const MOMENT: f64 = 6.5;
-/// Threshold below which forces and moments are not drawn: as a fraction of the largest one, and as a value (N, N m).
-/// Smaller values are rounding errors.
+/// If a force or moment is below `LEAST` times the largest one, or below `NOTHING` (N, N m), it is not drawn.
+/// Such values are rounding errors.
 const LEAST: f64 = 1e-6;
 const NOTHING: f64 = 1e-9;
-/// Dash patterns: of links whose pose is uncertain, and of construction lines.
+/// Dash patterns: `LOOSE` for links whose pose is uncertain, `CONSTRUCTION` for construction lines.
 const LOOSE: &str = "2 1.4";
 const CONSTRUCTION: &str = "4 1 0.5 1";
 /// Half the angle over which a circle of reachable points is drawn (rad).

@@ -12,7 +12,7 @@ const SWEEP: f64 = 1.7;
 const AHEAD: f64 = 0.35;
 /// Radius of a motor's circle.
 const MOTOR: f64 = 3.4;
-/// Length of an arrow's head, its largest fraction of the arrow's length, and its half width.
+/// Length of an arrow's head, upper limit of this length divided by the arrow's length, and half width of the head.
 const HEAD: f64 = 2.8;
 const HEAD_SHARE: f64 = 0.45;
 const HALF: f64 = 0.9;

@@ -9,7 +9,8 @@ use linkage::mechanism::JointSide;
 const WIDTH: f64 = 4.0;
 /// Distance between the middle lines of parallel springs and dampers, in widths.
 const APART: f64 = 1.25;
-/// Number of teeth of a spring's zigzag, and the fractions of the spring's length at which they begin and end.
+/// Number of teeth of a spring's zigzag.
+/// The teeth begin and end at the fractions `COIL` of the spring's length.
 const TEETH: usize = 8;
 const COIL: [f64; 2] = [0.18, 0.82];
 

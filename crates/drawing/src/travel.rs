@@ -4,7 +4,7 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{JointId, LinkId, Mechanism};
 
 /// Range of the distance between the block's point and the guide's point along the guide's axis (m), for every joint.
-/// `None` for joints that do not slide, and as long as no pose has been included.
+/// `None` for joints that do not slide, and before the first pose is included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Travels(Vec<Option<[f64; 2]>>);
 
@@ -48,7 +48,7 @@ impl Travels {
         self.0[joint]
     }
 
-    /// The travels with this travel (m) of one joint.
+    /// These travels, with the travel of one joint replaced (m).
     #[must_use]
     pub fn with(mut self, joint: JointId, travel: [f64; 2]) -> Travels {
         self.0[joint] = Some(travel);

@@ -43,7 +43,7 @@ fn shown(text: &str, is_escaped: impl Fn(char) -> bool) -> String {
 /// Text of the file at `path`, at most 64 MiB.
 ///
 /// # Errors
-/// Those of the file system; also if the file is larger or not text. [`way_out`] gives the remedy.
+/// Those of the file system. It is also an error if the file is larger than 64 MiB or is not text. [`way_out`] gives the remedy.
 pub fn read_text(path: &Path) -> io::Result<String> {
     text_from(File::open(path)?)
 }

@@ -54,7 +54,7 @@ impl Products {
         self.list.is_empty()
     }
 
-    /// The products of this absolute value within a relative accuracy, the simplest first.
+    /// The products whose absolute value is `size` to within the relative `accuracy`, the simplest first.
     #[must_use]
     pub fn near(&self, size: f64, accuracy: f64) -> Vec<&Product> {
         let [low, high] = [size * (1.0 - accuracy), size * (1.0 + accuracy)];

@@ -30,7 +30,7 @@ use scenario::Scenario;
 pub struct Bench {
     /// Name and title of the scenario.
     pub scenario: [String; 2],
-    /// Number of instants, and the times (s) of the first and the last.
+    /// Number of instants; `span` has the times (s) of the first and the last instant.
     pub instants: usize,
     /// See `instants`.
     pub span: [f64; 2],
@@ -55,8 +55,8 @@ pub struct Bench {
 /// Measures all methods of solving a scenario. `progress` receives the completed fraction.
 ///
 /// # Errors
-/// Those of the two sides, because no error can be measured without a reference.
-/// Engines and peers that fail are points.
+/// Any error of the two sides, because the reference comes from them.
+/// If an engine or a peer fails, its point has the reason.
 pub fn bench(
     scenario: &Scenario,
     options: &BenchOptions,

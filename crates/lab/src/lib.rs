@@ -1,9 +1,9 @@
-//! The laboratory: studies of the prover that a proof does not need.
+//! The laboratory: studies of the prover's quality. A proof does not need this crate.
 //!
 //! - [`mod@bench`]: work against error of every solver and engine.
 //! - [`stress`], [`specimens`]: families of hard mechanisms, and random mechanisms.
 //! - [`mutate`]: faults planted in one party, and the checks that find them.
-//! - [`tune`]: engine settings by their cost.
+//! - [`tune`]: search for the cheapest settings of an engine.
 //! - [`outside`]: other programs that solve a case or show it.
 
 pub mod bench;

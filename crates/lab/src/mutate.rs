@@ -2,11 +2,13 @@
 //! Single faults are planted in one party of a proof at default settings, or in the code that all parties share.
 //!
 //! A fault wraps a solver or an engine; otherwise the proof is the same as a user's.
-//! If one analytic side contradicts a fault in the other side, the verdict needs no engine.
-//! Other proofs with an unchanged engine reuse the runs of the first such proof.
-//! Their verdicts are those of new runs, because an engine's runs do not depend on the data they are compared with.
+//! If the fault is in one analytic side and the other side contradicts it, the verdict needs no engine run.
+//! Proofs in which the engine has no fault share the same engine runs.
+//! The verdicts are the same as with new runs, because an engine's runs do not depend on the data they are compared
+//! with.
 //!
-//! Formulas are a party too: both sides, whose motion is correct, judge a mistake in a formula.
+//! Formulas are a party too.
+//! A mistake in a formula is judged by both sides, whose motion is correct.
 
 mod effect;
 mod formulas;

@@ -98,6 +98,6 @@ linkage::sentences! {
     no_settings_meet_an_error(significant, tells) = "no settings reach an error of at most {significant} of the scale: {tells}";
     does_not_run_it(name) = "{name} cannot run the scenario";
     comes_to(name, significant) = "{name} reaches {significant}";
-    GIVE_A_SHARE_OF_A_CHANNEL = "give a share of a channel's scale between 0 and 1, such as 1e-4";
+    GIVE_A_SHARE_OF_A_CHANNEL = "give a fraction of a channel's scale between 0 and 1, such as 1e-4";
     an_error_within_is_wanted(within) = "an error of at most {within} is requested";
 }

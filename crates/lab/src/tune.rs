@@ -1,4 +1,5 @@
-//! Searches the cheapest settings of an engine that keep a requested error, by measurement.
+//! Searches for the cheapest settings with which an engine meets a requested error.
+//! Errors are measured.
 //!
 //! The error falls with a power of the step, so a few runs against the reference find the largest step of each method.
 //! Three runs of the engine also predict the error without the reference.

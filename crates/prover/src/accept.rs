@@ -14,10 +14,10 @@ use scenario::accepted::{Accepted, AcceptedChannel};
 /// Number of instants at which values are kept. They are evenly spaced over the grid and include its ends.
 const INSTANTS: usize = 5;
 
-/// Fraction of a bound that is added to it for the rounding of written numbers.
+/// Each stored bound is enlarged by this fraction of itself, because the stored numbers are rounded.
 const WRITTEN: f64 = 0.05;
 
-/// Ratio of the accepted and the found bound from which agreement proves nothing.
+/// If the accepted bound is more than this many times the found bound, or the reverse, agreement proves nothing.
 /// The channel is then known much worse than before, or its accepted bound was much too wide.
 const WIDER: f64 = 100.0;
 
@@ -78,7 +78,7 @@ pub struct Moved {
     pub bound: f64,
 }
 
-/// Which value of a channel.
+/// Identifies one value of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ChannelFigure {
     /// Value at this time (s).
@@ -190,7 +190,7 @@ pub fn compared(accepted: &Accepted, found: &Accepted) -> FigureComparison {
     let proof = verdicts.iter().any(|word| word != "agree").then_some(verdicts);
     let is_other =
         is_other_grid || !moved.is_empty() || !new.is_empty() || !gone.is_empty() || found.verdict == "disagree";
-    // A run without channels has no moved value, but proves nothing.
+    // In a run without channels no value can differ, so the run proves nothing.
     let is_open = !wider.is_empty() || !looser.is_empty() || proof.is_some() || found.channels.is_empty();
     let parts = [
         Verdict::Agree { margin: least_margin },
@@ -206,7 +206,8 @@ fn by_name(accepted: &Accepted) -> BTreeMap<&str, &AcceptedChannel> {
     accepted.channels.iter().map(|kept| (kept.name.as_str(), kept)).collect()
 }
 
-/// Returns the accepted values of a channel. `None` if only one of the two has a root mean square.
+/// Returns the accepted values of a channel.
+/// `None` if only the accepted or only the found channel has a root mean square.
 fn counterpart<'a>(
     known: &BTreeMap<&str, &'a AcceptedChannel>,
     found: &AcceptedChannel,

@@ -1,7 +1,7 @@
 //! Compares two parties: scenarios, recordings, or tables of other programs.
 //!
 //! One party is evaluated at the instants of the other.
-//! A scenario is solved at these instants; a table has values there or is interpolated.
+//! A scenario is solved at these instants. A table has values at these instants or is interpolated.
 //! Each channel is then compared within the known errors of both parties plus the allowed tolerance.
 
 mod align;

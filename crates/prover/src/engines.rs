@@ -75,7 +75,8 @@ pub(crate) fn coarse_step(case: &Case) -> f64 {
 fn step(case: &Case, turn: f64, share: f64) -> f64 {
     let last = case.grid.times.iter().fold(0.0f64, |last, t| last.larger(t.abs()));
     let (by_turn, by_time) = (turn / case.drives.top_speed(), share * if last > 0.0 { last } else { 1.0 });
-    // Links at rest do not rotate. A motion under forces may become much faster than at its start.
+    // The rotation does not limit the step of links at rest.
+    // A motion under forces may become much faster than at its start. So the duration also limits the step.
     if case.is_free() || !by_turn.is_finite() { by_turn.smaller(by_time) } else { by_turn }
 }
 

@@ -11,10 +11,11 @@ const DIGITS: usize = 3;
 /// Number of decimal digits that a double always preserves.
 const MOST_DIGITS: usize = 15;
 
-/// A difference above this fraction of a value shows in the value's first four digits.
+/// If the difference of two values exceeds this fraction of a value, it shows in the value's first four digits.
 const FAR: f64 = 1e-3;
 
-/// Lower limit of the shown resolution / value of two values within their bound. It leaves seven digits.
+/// If two values differ by at most their bound, digits below this fraction of a value are not shown.
+/// Seven digits remain.
 const NEAR: f64 = 1e-6;
 
 /// An error, a bound or a fraction of a bound: three significant digits.
@@ -70,8 +71,8 @@ pub fn resolved(value: f64, resolution: f64) -> String {
 }
 
 /// Two values with enough digits to show their difference, at least four.
-/// A value is `0` if it is below the `bound` on the difference and much smaller than the other.
-/// Values within the bound have at most seven digits.
+/// A value is `0` if it is below the `bound` on the difference and much smaller than the other value.
+/// If the difference is within the bound, the values have at most seven digits.
 #[must_use]
 pub fn beside(values: [f64; 2], bound: f64) -> [String; 2] {
     let [a, b] = values;

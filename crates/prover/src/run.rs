@@ -59,7 +59,7 @@ use scenario::Scenario;
 /// Work that the analytic sides may always do, whatever the budget. It takes a second or two.
 /// Without the analytic sides there is no result.
 pub const SIDES: f64 = 1e6;
-/// Upper limit of a diagnosis's work / the proof's budget.
+/// A diagnosis may use at most this multiple of the proof's budget.
 /// With half of this limit, the diagnosis of a free motion with two degrees of freedom could not confirm its finding.
 const DIAGNOSIS: f64 = 1.0;
 
@@ -182,7 +182,7 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
     Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
 }
 
-/// As `prove_with`, but with a separate case for the engines and with the solvers' errors unchanged.
+/// As `prove_with`, but with a separate case for the engines. Errors of the solvers are returned unchanged.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let scene = scenario.case.scene()?;
     let (whole, case) = (&scenario.case, &scene.case);

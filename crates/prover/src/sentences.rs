@@ -99,14 +99,14 @@ linkage::sentences! {
     build_with_the_cargo_feature(feature) = "build with the cargo feature \"{feature}\"";
     the_engine_is_asked_for_but_this_build(name) = "the engine \"{name}\" is requested, but this build does not include it";
     // run.rs
-    ITS_SHARE_OF_THE_WORK_THAT_WAS_ALLOWED = "its share of the work limit was reached";
+    ITS_SHARE_OF_THE_WORK_THAT_WAS_ALLOWED = "the part of the work limit that the diagnosis may use is used up";
     REST_OF_THE_DIAGNOSIS = "rest of the diagnosis";
     WHAT_ORACLE_SAYS = "the data of [[oracle]]";
     // run/checks.rs
     REACTIONS_AND_SPEEDS_COME_FROM_THE_ENGINE = "reactions and speeds are read from the engine independently";
-    BOTH_FROM_THE_SAME_ACCELERATIONS = "both use the same accelerations, so this checks the equations of motion and the loop velocities, but not the accelerations";
+    BOTH_FROM_THE_SAME_ACCELERATIONS = "the moments from reactions and from powers use the same accelerations, so this checks the equations of motion and the loop velocities, but not the accelerations";
     driving_moment_from_reactions_and_from_powers(engine) = "driving moment from reactions and from powers ({engine})";
-    AN_OPENING_IS_ALL_ERROR_IT_MUST = "an open joint is pure error: it must vanish at the rate that the runs show";
+    AN_OPENING_IS_ALL_ERROR_IT_MUST = "the gap of an open joint is pure error: it must vanish at the rate that the runs show";
     closure_of_all_joints(engine) = "closure of all joints ({engine})";
     in_at(channel, reference) = "in {channel} at {reference:.3}";
     TWO_SOLVERS_WITHOUT_A_COMMON = "two solvers without a common equation, each accurate to the rounding error of its poses and to the integration error that a tighter run shows";
@@ -126,15 +126,15 @@ linkage::sentences! {
     // run/engines.rs
     leave_the_step_to_the_proof(error, sweeps, combined, outcome) = "let the proof choose the step: it chooses {error} s and {sweeps} sweeps, {combined}, and {outcome}";
     extrapolated_times(times) = "extrapolated {times} times";
-    the_verdict_there_is(verdict) = "the verdict there is {verdict}";
-    NOTHING_IS_PROVEN_THERE_EITHER = "the result is inconclusive there too";
-    THE_WORK_ALLOWED_IS_NOT_ENOUGH = "the work limit is not enough there either";
+    the_verdict_there_is(verdict) = "the verdict with these settings is {verdict}";
+    NOTHING_IS_PROVEN_THERE_EITHER = "the result with these settings is inconclusive too";
+    THE_WORK_ALLOWED_IS_NOT_ENOUGH = "the result with these settings is inconclusive too, because the work limit is reached";
     A_RUN_WITH_A_QUARTER_OF_THE_SWEEPS = "a run with a quarter of the sweeps fails, so the iteration error is unknown";
-    NO_FORCE_IS_WANTED_OR_ITS_FORCES = "no force is requested, or its forces are already read by its own method";
-    WHAT_IT_EXERTS_ITSELF_BESIDE = "the forces that it exerts itself, besides those that follow from its motion";
+    NO_FORCE_IS_WANTED_OR_ITS_FORCES = "no force is requested, a method is given, or the default method already gives these forces";
+    WHAT_IT_EXERTS_ITSELF_BESIDE = "the forces that the engine itself exerts, besides those computed from its motion";
     own_forces(engine) = "{engine}, own forces";
     other_settings(engine) = "{engine}, other settings";
-    THE_GIVEN_STEP_PROVES_NOTHING = "the given step is inconclusive: tries the settings that a free choice finds";
+    THE_GIVEN_STEP_PROVES_NOTHING = "the given step is inconclusive: tries the settings that the proof would choose";
     the_work_that_was_allowed_is_done(error) = "the work limit was reached without a usable run: {error}";
     ITS_ERROR_FROM_ITS_OWN_RUNS = "estimates its error from its own runs";
     FINDS_ITS_SETTINGS_AND_ITS_ERROR = "chooses its settings and estimates its error from its own runs";
@@ -212,7 +212,7 @@ linkage::sentences! {
     with_sweeps(sweeps) = "with {sweeps} sweeps";
     // run/settle.rs
     THE_OTHERS_ARE_NOT_CONCLUSIVE = "the other results are not conclusive";
-    NO_FINER_RUN_BEARS_IT_OUT = "no finer run confirms it";
+    NO_FINER_RUN_BEARS_IT_OUT = "no finer run confirms the disagreement";
     the_first_runs_of_the_engine(error, error_2) = "the first runs of the engine, with all their substeps, cost {error} steps of a four-bar; {error_2} are allowed";
     // run/solved.rs
     CLAIM_A_CHANNEL_OF_THE_SCENARIO = "claim a channel of the scenario";
@@ -254,7 +254,7 @@ linkage::sentences! {
     the_table_is_cut_off_or_damaged(path, error) = "the table {path} is cut off or damaged: {error}";
     // tables/parquet_file/announced.rs
     a_page_holds_more_than_the_bytes(held) = "a page holds more than the {held} bytes that it announces";
-    a_page_announces_bytes_such_a_page(held, most) = "a page announces {held} bytes; such a page has {most} at most";
+    a_page_announces_bytes_such_a_page(held, most) = "a page announces {held} bytes; the limit for this kind of page is {most}";
     a_dictionary_of_bytes_has_values(held, count) = "a dictionary of {held} bytes has {count} values";
     its_pages_have_more_values(rows) = "its pages have more values than the {rows} rows of their group";
     A_PAGE_IS_LONGER_THAN_ITS_COLUMN = "a page is longer than its column";
@@ -281,15 +281,15 @@ linkage::sentences! {
     observed_order_formal(observed, formal) = "observed order {observed:.2} (formal {formal})";
     below_round_off_order_assumed(formal) = "below round-off, order {formal} assumed";
     // compare.rs
-    NAME_A_SIDE_THAT_BOTH_HAVE_SUCH_AS_REFERENCE = "name a side that both have, such as reference";
+    NAME_A_SIDE_THAT_BOTH_HAVE_SUCH_AS_REFERENCE = "name a side that both parties have, such as reference";
     and_have_no_side_of_the_same(names, names_2) = "{names} and {names_2} have no side of the same name";
     it_has(choice) = "it has: {choice}";
     a_recording_has_no_side(side) = "a recording has no side {side}";
     // compare/align.rs
-    ALLOW_INTERPOLATION_OR_GIVE_BOTH = "allow interpolation, or give both the same instants; check the units of both";
+    ALLOW_INTERPOLATION_OR_GIVE_BOTH = "allow interpolation, or give both parties the same instants; check the units of the instants";
     of_the_second_party_is_one_of_the_first(which, what) = "{which} {what} of the second party occurs in the first";
-    MAP_THE_COLUMNS_OF_BOTH_TO_THE_SAME = "map the columns of both to the same channels";
-    the_two_have_no_channel_in_common(some, some_2) = "the two have no channel in common: {some} against {some_2}";
+    MAP_THE_COLUMNS_OF_BOTH_TO_THE_SAME = "map the columns of both parties to the same channels";
+    the_two_have_no_channel_in_common(some, some_2) = "the two parties have no channel in common: {some} against {some_2}";
     // compare/allowed.rs
     name_one_of_them_a_subject(all) = "name one of them ({all}, ...), a subject or a stage";
     no_channel_that_is_compared(word) = "no compared channel is called {word}";
@@ -299,7 +299,7 @@ linkage::sentences! {
     GIVE_THE_TABLE_A_COLUMN_OF_TIMES = "give the table a column of times";
     COMPARE_THE_SAME_MECHANISM_OR_MAP = "compare the same mechanism, or map columns to channels of the scenario";
     the_scenario_has_no_channel(scenario) = "the scenario {scenario} has no channel in common with the other party";
-    NAME_A_CHANNEL_A_SUBJECT = "name a channel, a subject or a stage of both";
+    NAME_A_CHANNEL_A_SUBJECT = "name a channel, a subject or a stage that both parties have";
     no_channel_that_both_have_is_called(how) = "no common channel is called {how}";
     comparing_rows(at) = "comparing {at} rows";
     // compare/cause.rs
@@ -311,9 +311,9 @@ linkage::sentences! {
     GIVE_MORE_DIGITS_OR_CLOSER = "give more digits or closer instants, or state the allowed difference";
     the_numbers_are_known_to_of_their(scale) = "the numbers are known only to {scale} of their scale, limited by digits, instants or interpolation";
     SAY_WHAT_DIFFERENCE_IS_ALLOWED = "state the allowed difference";
-    they_differ_by_up_to_and_neither(largest) = "they differ by up to {largest}, but neither is analytic, so no bound is known";
-    AT_NO_INSTANT_DO_BOTH_HAVE_A_NUMBER = "there is no instant at which both have a number";
+    they_differ_by_up_to_and_neither(largest) = "the parties differ by up to {largest}, but neither is analytic, so no bound is known";
+    AT_NO_INSTANT_DO_BOTH_HAVE_A_NUMBER = "there is no instant at which both parties have a number";
     // compare/pair.rs
     THE_CRANK_ANGLES_DIFFER_AND_NEITHER = "the crank angles differ, but neither party is analytic: state the allowed difference of the channel crank";
-    BOTH_ARE_SAID_TO_COUNT_THE_CRANK = "both are declared to measure the crank angle alike; digits, rounding error and integration error allow this difference";
+    BOTH_ARE_SAID_TO_COUNT_THE_CRANK = "both parties are declared to measure the crank angle alike; digits, rounding error and integration error allow this difference";
 }

@@ -27,7 +27,8 @@ pub fn load(path: impl AsRef<Path>) -> Result<Raw> {
 }
 
 /// As [`load`], but calls `may` before memory is allocated.
-/// It passes the size before the file is read, and rows and cells before the numbers are stored.
+/// `may` receives the file's size before the file is read.
+/// It receives the numbers of rows and cells before the values are stored.
 ///
 /// # Errors
 /// Those of [`load`], and those of `may`.
@@ -35,7 +36,7 @@ pub fn load_within(path: &Path, may: May) -> Result<Raw> {
     let mut file = File::open(path).map_err(|error| unread(path, &error))?;
     let about = file.metadata().map_err(|error| unread(path, &error))?;
     let size = about.is_file().then_some(about.len());
-    // The first bytes of a pipe can be read only once.
+    // The first bytes are kept, because they cannot be read from a pipe a second time.
     let mut first = Vec::new();
     file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut first).map_err(|error| unread(path, &error))?;
     let raw = match (first == MAGIC, size) {

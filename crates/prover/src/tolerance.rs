@@ -73,7 +73,7 @@ pub enum BoundBasis {
     },
     /// Rounding error of a formula, propagated through its operations, plus the error of the mechanism's values.
     Formula {
-        /// Whether the formula also claims an error.
+        /// Whether the formula also states an error of its values.
         claimed: bool,
     },
     /// A basis with a note on the check that uses it.

@@ -1,6 +1,7 @@
 //! Masses that Rapier needs for a free motion but that the case does not have, and the loads that compensate them.
 //!
-//! Rapier divides by the mass and by the moment of inertia of a separate body, so a point mass could not turn there.
+//! Rapier divides by the mass and by the moment of inertia of a separate body, so a point mass cannot be a separate
+//! body.
 //! In a multibody, Rapier accepts a point mass that does not lie in a joint: the mass matrix of the chain is regular.
 //! A link that lacks mass or inertia gets an added mass or inertia.
 //! It also gets the load m a + J alpha - m g of the added part.

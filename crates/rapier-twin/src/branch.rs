@@ -177,7 +177,7 @@ mod tests {
         let line = (places[1] - places[0]).normalize();
         let mirrored = |v: Vec2| 2.0 * line.dot(&v) * line - v;
         for &link in &group.links {
-            // The fixture's links lie along their x axes.
+            // The fixture's links lie along their x axes, so it is enough to mirror origin and direction.
             let motion = &mut state.motions[link];
             motion.origin = places[0] + mirrored(motion.origin - places[0]);
             motion.direction = mirrored(motion.direction);

@@ -44,8 +44,8 @@ impl Engine for Rapier {
     }
 
     fn own_routes(&self, _: &Case) -> &'static [Route] {
-        // Probes cost more and need many more sweeps at coarse steps.
-        // Their tiny steps cause an error that a comparison of runs does not reveal.
+        // Probes are not tried by default, because they cost more and need many more sweeps at coarse steps.
+        // Their tiny steps also cause an error that a comparison of runs does not reveal.
         &[Route::Native]
     }
 
@@ -54,8 +54,8 @@ impl Engine for Rapier {
         let reports = self.settings.route == Route::Native;
         let begins = case.is_free() && case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
         match self.build {
-            // The worlds that report the forces of a tree have cut joints.
-            // One sweep does not give their links the start velocities, and later steps do not correct them.
+            // Two sweeps are needed here: the worlds that report the forces of a tree have cut joints.
+            // With one sweep, the links would not get their start velocities, and later steps would not correct this.
             Build::Multibody if alone && reports && begins => Some([2, MOST_SWEEPS]),
             // A tree with one motor is solved exactly in one sweep.
             Build::Multibody if alone => Some([1, 1]),
@@ -78,7 +78,7 @@ impl Engine for Rapier {
 
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         let native = self.settings.route == Route::Native && channel.stage >= Stage::Reactions;
-        // In a free motion, each step applies the loads at its start for the whole step.
+        // A free motion has order 1, because the loads at the start of a step act during the whole step.
         if native || case.is_free() { 1.0 } else { 2.0 }
     }
 

@@ -105,7 +105,8 @@ impl Acting {
             }
             own
         };
-        // A point that a force opposes may reverse too.
+        // A point whose motion is opposed by a force may also reverse within the step. Its force is then weighted in
+        // the same way.
         let swept = &self.swept;
         let way = |index: usize, now: Vec2| {
             let next = 2.0 * now - swept[index];

@@ -24,14 +24,14 @@ impl Ghost {
     /// The stand-ins of a case; also its loads if they are missing in the engine (`unloaded`).
     /// `None` if nothing has to be subtracted.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
-        // A flywheel adds a moment only while it is accelerated.
+        // At constant speed, flywheels are left out: a flywheel adds a moment only while it is accelerated.
         let tree = SpanningTree::none(&case.mechanism);
         let masses = if case.is_steady() { masses(case, &tree) } else { masses_with_flywheels(case, &tree) };
         let links = case.mechanism.links().iter().zip(masses);
         let mut extra: Vec<[f64; 2]> =
             links.map(|(link, [mass, inertia])| [mass - link.mass, inertia - link.inertia]).collect();
         if case.is_free() {
-            // Loads in the engine's world already compensate the added masses.
+            // Added masses are left out here, because loads in the engine's world already compensate them.
             for (link, extra) in case.mechanism.links().ids().zip(&mut extra) {
                 let [mass, inertia] = added(case, link, &tree);
                 extra[0] -= mass;

@@ -28,8 +28,8 @@ const LARGEST_GAP: f64 = 0.05;
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
 /// If the kinetic energy grows by more than this factor in one step, the run has diverged.
 /// The factor corresponds to a factor of ten in the speeds.
-/// Energy is not conserved, because the drives supply and absorb whatever their speeds need.
-/// But the kinetic energy depends on the pose alone, and the pose changes little in a step.
+/// Energy is not conserved, because the drives enforce their speeds.
+/// But the kinetic energy depends only on the pose, and the pose changes little in a step.
 const LARGEST_GROWTH: f64 = 100.0;
 
 /// A world and the quantities that are supervised.
@@ -181,7 +181,7 @@ impl<'a> Guard<'a> {
         let mut twice_energy = 0.0;
         for ((link, body), (frame, before_it)) in links.entries().zip(frames.iter().zip(before.iter())).skip(1) {
             let turn = frame.turn_since(before_it);
-            // Written so that NaN also stops the run.
+            // The comparison is negated so that NaN also stops the run.
             if !(turn <= LARGEST_TURN) {
                 let (name, degrees, place) = (&body.name, turn.to_degrees(), place(before));
                 let message = sentences::the_engine_link_has_turned(&name, &degrees, &place);
@@ -224,7 +224,7 @@ impl<'a> Guard<'a> {
         for ((id, link), pose) in case.mechanism.links().entries().zip(&case.start.0).skip(1) {
             let off = |local| (self.world.point(JointSide { link: id, local }) - pose.point(local)).norm();
             let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::larger);
-            // Written so that NaN also stops the run.
+            // The comparison is negated so that NaN also stops the run.
             if !(far <= self.largest_gap) {
                 let at = case.told(case.crank().start);
                 let message = sentences::the_engine_ran_up_from_a_few(&at, &link.name, &format_args!("{far:.3e}"));
@@ -376,7 +376,7 @@ mod tests {
         step_after(0, build, wrong, off)
     }
 
-    /// The same after `healthy` sound steps.
+    /// Result of a guarded step that fails after `healthy` sound steps.
     fn step_after(healthy: usize, build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
         let case = turning(four_bar());
         let engine = Rapier::new(build, Precision::Double, 1e-3);
@@ -427,7 +427,7 @@ mod tests {
 
     /// All links move away together, as sliders can: no link turns and no loop opens.
     /// The links reach 5 m and the drive turns at 1 rad/s.
-    /// In a step of a millisecond, 5 cm is ten times the travel of a link at that distance.
+    /// In a step of a millisecond, a point at 5 m travels 5 mm. A displacement of 5 cm is ten times this travel.
     #[test]
     fn spurious_energy_stops_the_run() {
         for build in BUILDS {

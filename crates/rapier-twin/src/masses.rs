@@ -13,8 +13,9 @@ const SHARE: f64 = 0.1;
 /// Moment of inertia of a slender rod, divided by its mass and the square of its length.
 const ROD: f64 = 1.0 / 12.0;
 
-/// Lower limit of the distance of a mass centre from all joints of its link, divided by the link's extent.
-/// If the distance exceeds this limit, a point mass is enough for a regular mass matrix of a multibody.
+/// If a mass centre is farther from all joints of its link than this fraction of the link's extent, a point mass is
+/// enough.
+/// The mass matrix of a multibody is then regular.
 const OFF_JOINTS: f64 = 1e-2;
 
 /// Additional moment of inertia of driving links, divided by the total mass times the square of the mechanism's size.
@@ -51,7 +52,8 @@ pub(super) fn masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     masses
 }
 
-/// The same, but links that have both mass and moment of inertia get no addition.
+/// Masses and moments of inertia of the links in Rapier.
+/// Links that have both mass and moment of inertia get no addition.
 fn bare_masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     let of = |(index, link): (LinkId, &Link)| {
         let [mass, inertia] = if case.is_free() { added(case, index, tree) } else { stand_in(case, index) };
@@ -65,7 +67,7 @@ fn bare_masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
 
 /// Masses of a world that only provides a motion with prescribed speeds.
 /// Every link has the same mass, and the moment of inertia of a rod of the link's extent.
-/// The motion does not depend on them, but the sweeps do: they hardly converge if the masses differ much.
+/// The motion does not depend on the masses, but the sweeps do: they hardly converge if the masses differ much.
 fn even_masses(case: &Case) -> Vec<[f64; 2]> {
     let of = |link: &Link| [1.0, ROD * length(case, link) * length(case, link)];
     let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(of).collect();

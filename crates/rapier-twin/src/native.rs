@@ -37,7 +37,7 @@ pub(super) struct Native {
     reporters: PerJoint<Option<usize>>,
     ghost: Option<Ghost>,
     row: Vec<f64>,
-    /// Lower limit of the step at or before the reading's instant; readings before it are extrapolated.
+    /// Lower limit of the step at the centre of the interpolation. Readings at earlier instants are extrapolated.
     lowest: i64,
 }
 
@@ -48,9 +48,9 @@ impl Native {
         let width = 3 * case.mechanism.joints().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
         // In a free motion, the first reported step is step 1.
-        // If bodies move at the start, the first steps use velocities along the constraints of the present pose.
-        // Later steps use velocities along the constraints of the pose before.
-        // The impulses of the first steps lack the difference.
+        // If bodies move at the start, the impulses of the first steps are incomplete.
+        // These steps use velocities along the constraints of the present pose; later steps use those of the pose
+        // before.
         let lowest = if case.is_free() { 3 + first_steps(case, plain) } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
         let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);

@@ -74,7 +74,8 @@ impl NewtonEuler {
         NewtonEuler::along(case, &SpanningTree::with(&case.mechanism, &driven), masses, load_share)
     }
 
-    /// The same along any tree that contains all links and all driven joints.
+    /// The equations along any tree that contains all links and all driven joints, with these masses and this fraction
+    /// of the loads.
     #[must_use]
     pub fn along(case: &Case, tree: &SpanningTree, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();

@@ -12,11 +12,12 @@ use linkage::trajectory::{ChannelKind, ChannelSubject, Stage, Unit};
 /// Rounding error of a speed in the solver's sweeps, in units in the last place.
 /// Measured: 12 on the crank-rocker, 2 on `ov7_base`.
 const SPEED_ULPS: f64 = 20.0;
-/// Rounding error of a divided second difference, in units of epsilon times the largest angle.
+/// Rounding error of a second difference before it is divided by the square of the step.
+/// The unit is epsilon times the largest angle.
 /// Four half units come from the difference itself (12.6 epsilon for a full turn; 11.7 were measured).
 /// For the links behind the crank, this is doubled.
 const DIFFERENCE_ULPS: f64 = 4.0;
-/// Lower limit of the angle (rad) in the rounding error of a second difference.
+/// If the largest angle is below this (rad), this angle replaces it in the rounding error of a second difference.
 /// Unit vectors and positions are rounded even if a link has hardly turned.
 /// For a quarter turn and for half a turn, 12.6 epsilon were measured on the crank-rocker and on `quick_return`.
 /// 26 were measured on `ov7_base`; 37 are allowed.
@@ -29,7 +30,8 @@ const MEAN_HALF_ULP: f64 = 0.25;
 /// On the crank-rocker in f32, 3100 and 3570 were measured at 1e-3 s and 2.5e-4 s (in the impulse build 557 and 570).
 /// The bound is about twice as large.
 const IMPULSE_ULPS: f64 = 8000.0;
-/// The same for a probe, which subtracts one reading from twice another reading.
+/// Rounding error of the speed change in a probe, in units in the last place.
+/// It is larger than for an impulse, because a probe subtracts one reading from twice another reading.
 /// 4450 and 7080 were measured; the bound is about twice as large.
 const PROBE_ULPS: f64 = 16000.0;
 
@@ -79,7 +81,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
         Unit::Newton => linear * mass,
         Unit::NewtonMetre => match engine.settings.route {
             Route::Differences => linear * mass * lever(case, reach, channel.subject),
-            // The driving moment follows from the impulse on a flywheel of the mechanism's size.
+            // An impulse corresponds to the difference of the speeds at two successive steps.
             Route::Native | Route::Probe => linear * mass * reach,
         },
     }

@@ -11,9 +11,9 @@ linkage::sentences! {
     READ_AS_THE_BODIES_VELOCITIES = "read as the bodies' velocities, one step old; omega from the rotation in a step; where a drive's speed changes, centred differences of positions";
     READ_AS_GENERALISED_VELOCITIES_ONE_STEP = "read as generalised velocities, one step old, and carried along the tree; where a drive's speed changes, centred differences of positions";
     THE_ENGINE_IMPULSES_IN_TINY = "the engine's impulses in tiny steps from its own poses";
-    THE_ENGINE_IMPULSES_IN_TINY_STEPS = "the engine's impulses in tiny steps from its own poses, each joint in a world whose tree is cut there";
+    THE_ENGINE_IMPULSES_IN_TINY_STEPS = "the engine's impulses in tiny steps from its own poses; the impulse of each joint is read in a world whose spanning tree is cut at this joint";
     THE_ENGINE_IMPULSES = "the engine's impulses";
-    THE_ENGINE_IMPULSES_EACH_JOINT = "the engine's impulses, each joint in a world whose tree is cut there";
+    THE_ENGINE_IMPULSES_EACH_JOINT = "the engine's impulses; the impulse of each joint is read in a world whose spanning tree is cut at this joint";
     NEWTON_EULER_ON_CENTRED_SECOND = "Newton-Euler on centred second differences of the engine's positions";
     ON_DRIVING_LINKS_ALL_MASSES = "on driving links: all masses times the square of the largest length";
     GROUND_CRANK_MOTOR_FORCE_BASED = "ground-crank motor, force-based, damping 1e30, speed tan(omega dt) / dt";

@@ -42,7 +42,8 @@ pub(super) struct Window {
     ring: Ring,
     /// Velocity and angular velocity of every link while they are propagated along the tree.
     rates: Vec<(Vec2, f64)>,
-    /// Smallest steps that may be the centre of an interpolation: for positions, and for their second differences.
+    /// Numbers of the earliest steps that may be the centre of an interpolation: `lowest` for positions, `settled` for
+    /// second differences.
     /// The interpolation uses steps up to two (positions) or three (second differences) before its centre.
     lowest: i64,
     settled: i64,
@@ -214,7 +215,8 @@ impl Window {
         [0, 1, 2].map(|c| (now[c] - 2.0 * before[c] + earlier[c]) / (self.step * self.step))
     }
 
-    /// The same for the step from the newest pose to the pose that `guard` has reached.
+    /// Acceleration of a link's mass centre and its angular acceleration (x, y, angle).
+    /// It is taken for the step from the newest pose to the pose that `guard` has reached.
     pub(super) fn next_acceleration(&self, guard: &Guard, link: LinkId) -> [f64; WIDTH] {
         let [now, before] = [0, 1].map(|back| &self.ring.row(self.newest() - back)[link.index() * WIDTH..][..WIDTH]);
         let centre = guard.centres()[link];

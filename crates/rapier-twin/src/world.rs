@@ -35,7 +35,7 @@ impl LinkFrame {
     pub const GROUND: LinkFrame =
         LinkFrame { origin: Vec2::new(0.0, 0.0), direction: Vec2::new(1.0, 0.0), angle: LinkAngle::Whole(0.0) };
 
-    /// Upper limit of a chord (rad) that is used in place of the rotation.
+    /// If the chord between two directions is shorter than this (rad), it is used in place of the rotation angle.
     /// The relative error of the chord is the square of the rotation divided by 24.
     const SMALL: f64 = 0.1;
 
@@ -56,7 +56,7 @@ impl LinkFrame {
     }
 
     /// Rotation of the link since the frame `before` (rad, without sign), to within 4 parts in ten thousand.
-    /// The result is at most half a turn if the frames hold only full turns and a direction.
+    /// If the frames store only a direction and full turns, the result is at most half a turn.
     #[inline]
     #[must_use]
     pub fn turn_since(&self, before: &LinkFrame) -> f64 {

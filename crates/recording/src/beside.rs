@@ -1,5 +1,5 @@
 //! Path of a recording's file.
-//! A recording replaces an older recording of the same run; otherwise it gets another name in the same directory.
+//! A recording replaces an older recording of the same run. If the usual name belongs to another run, the recording gets another name in the same directory.
 
 use crate::sentences;
 use std::collections::BTreeMap;

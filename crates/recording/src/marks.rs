@@ -49,7 +49,7 @@ impl Brush {
             return;
         }
         let (outline, closed) = (mark.shape.points(), mark.shape.is_closed());
-        // An area of a later side would hide the first side, or be hidden by it.
+        // Only the first side is filled. An area of a later side would hide the first side, or be hidden by it.
         if closed && look.fill != Fill::None && self.broad >= 1.0 {
             let opacity = if look.fill == Fill::Ink { self.rgba[3] } else { TINT };
             let [red, green, blue, _] = self.rgba;

@@ -53,7 +53,7 @@ fn walk(
                 reader.notify_read(next.len());
                 left = rest;
             }
-            // The summary section repeats earlier records.
+            // The summary section after the data is skipped, because it repeats earlier records.
             LinearReadEvent::Record { opcode: op::DATA_END, .. } => is_data = false,
             LinearReadEvent::Record { opcode, data } => {
                 // The total length of the records cannot exceed the decompressed size stated in the file.

@@ -3,7 +3,7 @@
 use mcap::parse_record;
 use mcap::records::{Metadata, Record, op};
 
-/// A file of any size may have this number of decompressed bytes.
+/// A file of any size may have up to this number of decompressed bytes.
 const ANY: u64 = 128 << 20;
 /// Largest allowed ratio of decompressed bytes to file bytes. The ratio of recordings is three.
 const EACH: u64 = 16;

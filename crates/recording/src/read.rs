@@ -47,7 +47,7 @@ struct Found {
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
-/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if it holds no side, or if a topic lacks samples;
+/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if it contains no side, or if a topic lacks samples;
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) if a value is not finite.
 pub fn load(path: &Path) -> Result<Vec<(String, Trajectory)>> {
     read_bytes(&bytes(path)?, path)
@@ -80,7 +80,7 @@ fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
 /// Reads every side from the bytes of a recording. Error messages call the recording `path`.
 ///
 /// # Errors
-/// Those of [`load`], except that the file cannot be read.
+/// The errors of [`load`] that concern the content of the file.
 pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
     if !bytes.starts_with(mcap::MAGIC) {
         let what = if bytes.is_empty() { "is empty" } else { sentences::IS_NO_RECORDING_IT_DOES_NOT_BEGIN };

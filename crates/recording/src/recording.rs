@@ -26,7 +26,7 @@ pub struct Recording<'a> {
     pub show: Show,
 }
 
-/// How a recording is shown, and which samples it keeps. Values do not depend on it.
+/// How a recording is shown, and which samples it keeps. These options do not change the recorded values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Show {
     /// Playback is slower than the simulation by this factor: seconds of log time per simulated second.

@@ -46,7 +46,7 @@ struct Entry {
 /// Makes a reel: everything that the recording's file would contain for viewers.
 ///
 /// # Errors
-/// Those of [`write`](super::write()), except that no file is written.
+/// The errors of [`write`](super::write()) that do not concern the file itself.
 pub fn reel(recording: &Recording) -> Result<Reel> {
     check(recording)?;
     let poured = as_shown(recording, |recording, drawn| {

@@ -28,7 +28,7 @@ pub struct ViewerScene<'a> {
 }
 
 impl<'a> ViewerScene<'a> {
-    /// The scene of all sides that have samples and all positions; `None` if no side has them.
+    /// The scene of all sides that have samples and all positions; `None` if there is no such side.
     pub fn new(mechanism: &'a Mechanism, sides: &[RecordedSide<'a>]) -> Option<Self> {
         let placed = |(number, side): (usize, &RecordedSide<'a>)| {
             let column = |link: &Link, suffix| column(side.trajectory, &format!("link.{}.{suffix}", link.name));

@@ -25,7 +25,7 @@ linkage::sentences! {
     the_file(path, what) = "the file {path} {what}";
     IS_NO_RECORDING_IT_DOES_NOT_BEGIN = "is not a recording: it does not start like an MCAP file";
     RECORD_IT_AGAIN_RECORDINGS_OF_THIS_PROGRAM = "record it again: recordings of this program unpack to about three times their size";
-    the_recording_has_and_says(path, length, told, most) = "the recording {path} has {length} and claims to hold {told}; at most {most} of such a file are read";
+    the_recording_has_and_says(path, length, told, most) = "the recording {path} has {length} and claims to unpack to {told}; at most {most} of such a file are read";
     CHECK_THE_PATH = "check the path";
     the_recording_cannot_be_read(path, error) = "the recording {path} cannot be read: {error}";
     IT_IS_NO_REGULAR_FILE = "it is not a regular file";

@@ -26,7 +26,7 @@ pub struct MessageKind {
 }
 
 impl MessageKind {
-    /// A message in protobuf, with the name and the serialised descriptor set of its schema.
+    /// Kind of a protobuf message, from the name and the serialised descriptor set of its schema.
     pub fn protobuf(schema: impl Into<String>, data: impl Into<Vec<u8>>) -> MessageKind {
         MessageKind {
             schema: schema.into(),

@@ -22,7 +22,7 @@ pub struct Topic<'a> {
 
 enum Field<'a> {
     Value(u32, &'a [f64]),
-    /// Column, and the number of small units in its SI unit.
+    /// Field number, column, and number of small units in the SI unit of the column.
     Scaled(u32, &'a [f64], f64),
     /// The number of the row itself.
     Row(u32),

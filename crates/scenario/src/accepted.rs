@@ -45,7 +45,7 @@ pub struct AcceptedChannel {
     pub rms: Option<f64>,
 }
 
-/// Ending of the file, in place of the scenario's.
+/// File name extension of the accepted figures. It replaces the extension of the scenario file.
 const ENDING: &str = "accepted";
 
 /// The file of a scenario's accepted figures.
@@ -58,7 +58,8 @@ pub fn beside(scenario: &Path) -> PathBuf {
 /// `None` if the file does not exist.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the position.
+/// [`ErrorKind::Io`] if the file cannot be read.
+/// [`ErrorKind::Input`] for a mistake in the file. The error states its position.
 pub fn load(path: &Path, name: &str) -> Result<Option<Accepted>> {
     let text = files::text(path).map_err(|error| {
         Error::new(ErrorKind::Io, sentences::the_accepted_figures_cannot_be_read(&path.display(), &error))
@@ -189,8 +190,8 @@ fn number(value: f64, bound: f64) -> String {
     }
     let decimals = -(bound / 10.0).log10().floor();
     let magnitude = |value: f64| value.abs().log10().floor();
-    // Rounding may carry over into a further digit. The number is therefore rounded a second time, which cannot carry
-    // over.
+    // Rounding may carry over into a further digit. The number is therefore rounded a second time.
+    // The second rounding cannot carry over again.
     let rounded = digits(value, magnitude(value) + decimals).parse().unwrap_or(value);
     if rounded == 0.0 {
         return "0.0".into();

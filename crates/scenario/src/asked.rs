@@ -19,14 +19,14 @@ pub struct StartRequest {
     /// start, counted from 1.
     pub modes: Vec<String>,
     /// Crank angle at t = 0 (rad), in place of `crank` in `[start]`.
-    /// Modes of the file also hold at the requested angle.
-    /// Approximate positions (`near`) hold at the file's angle only. The configuration that they choose there is
-    /// followed to the requested angle.
+    /// Modes of the file also apply at the requested angle.
+    /// Approximate positions (`near`) apply at the file's angle only. They choose a configuration at the file's angle,
+    /// which is followed to the requested angle.
     pub crank: Option<f64>,
     /// Whether the caller defines another grid.
-    /// The case then has no instants, and the drive need not reach those of the file's grid.
+    /// The case then has no instants, and the drive need not reach the instants of the file's grid.
     pub without_grid: bool,
-    /// Parameters of formulas by their keys, in place of the file's own.
+    /// Parameters of formulas by their keys. They replace the parameters of the file.
     pub set: Vec<(String, f64)>,
     /// Limit on the memory for the numbers of the file's tables (bytes); `None` for the default limit of a proof.
     pub memory: Option<f64>,
@@ -130,9 +130,8 @@ impl Start<'_> {
     }
 
     /// Places all groups by these starts.
-    /// If undecided groups are to be listed, each undecided group starts in a configuration that is chosen by its
-    /// number.
-    /// If no group is undecided, the pose counts as lying on the file's branch.
+    /// If undecided groups are to be listed, each of them starts in the configuration that its number selects.
+    /// If all groups are decided, the pose counts as lying on the file's branch.
     fn settled(&self, crank: f64, mut starts: Vec<StartGroup>) -> Result<Placed> {
         let angles = self.angles(crank);
         let mut undecided: Vec<Undecided> = Vec::new();

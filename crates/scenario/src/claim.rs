@@ -9,7 +9,7 @@ use formula::{FormulaFault, FormulaGraph, FormulaTree, NodeShape, Operator};
 use linkage::case::Case;
 use linkage::trajectory::Channel;
 
-/// A channel, a figure, or an arithmetic expression of both, in the units of their names.
+/// A channel, a figure, or an arithmetic expression of channels and figures, in the units of their names.
 #[derive(Clone, Debug)]
 pub struct Claim {
     /// Its text.

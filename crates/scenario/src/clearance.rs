@@ -66,7 +66,7 @@ const AREA: f64 = 5e-3;
 /// The number of squares grows with the inverse of the tolerance.
 const SMALLEST_AREA: f64 = 1e-5;
 /// Lower limit of a tolerance, divided by the mechanism's size.
-/// The second constant is the upper limit of an outline's extent, divided by the mechanism's size.
+/// `FARTHEST` is the upper limit of an outline's extent, divided by the mechanism's size.
 /// Beyond these limits the results would be rounding errors.
 const FINEST: f64 = 1e-10;
 const FARTHEST: f64 = 1e6;
@@ -175,7 +175,7 @@ fn default(table: &TomlTable, points: &[Point], radius: f64) -> Result<Outline> 
 fn of_link(mut table: TomlTable, default_radius: Option<f64>, link: &Link) -> Result<Outline> {
     let drawn = drawn(&mut table, &link.points)?;
     let solid = matches!(drawn, Some(("corners", _)));
-    // A line without a radius has no interior.
+    // A line without a radius has no interior, so its radius must be positive.
     let sign = if solid { Sign::NotNegative } else { Sign::Positive };
     let radius = table.optional_quantity("radius", &LENGTH, sign)?;
     table.finish()?;

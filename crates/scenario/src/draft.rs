@@ -54,7 +54,7 @@ impl Draft {
     /// Reads the same from the text of the file.
     ///
     /// # Errors
-    /// Those of [`Draft::load`], except that the file cannot be read.
+    /// Those of [`Draft::load`] that do not come from reading the file.
     pub fn parse(text: &str, path: &Path, asked: &StartRequest) -> Result<Draft> {
         let plain = Source::new(path, text);
         let tree = plain.tree()?;
@@ -63,7 +63,7 @@ impl Draft {
         let source = plain.with(parameters, keys::rows);
         let found = TomlTable::root(&source, &tree).read_on(|root| read(root, asked));
         let (draft, mistakes) = found.map_err(|error| source.located(tree.get_ref(), error))?;
-        // A faulty parameter may be the cause of all other mistakes.
+        // If a parameter has a mistake, only this mistake is reported, because it may be the cause of all others.
         Ok(Draft { mistakes: fault.or(mistakes), ..draft })
     }
 }

@@ -6,8 +6,8 @@ use toml_edit::{DocumentMut, Item, Table, value};
 use super::engine::{EngineSettings, ROWS, SECTIONS, Slot};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// The text of a scenario, with the given settings as its `[engine]` section. Everything else stays, with comments and
-/// order.
+/// The text of a scenario, with the given settings as its `[engine]` section.
+/// The rest of the text does not change, and neither do its comments and its order.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the text is not TOML, or if `engine` in it is not a section.

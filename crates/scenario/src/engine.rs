@@ -100,7 +100,7 @@ settings! {
     substeps: usize,
     /// Route by which reactions and balancing moment are computed.
     route: Route,
-    /// How often the state is extrapolated to step zero. 1 combines runs at the step and at half the step.
+    /// Number of extrapolations of the state to step size zero. With 1, a run at the given step size and a run at half of it are combined.
     extrapolated: usize,
 }
 

@@ -33,7 +33,7 @@ pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
         .means("claimed error, in the unit of the channel: for series and approximations"),
 ])];
 
-/// The crank's angular velocity, as a diagnosis names it.
+/// Name of the crank's angular velocity in a diagnosis.
 pub const OMEGA: &str = "omega_crank";
 
 /// The formulas of a scenario over their parameters, the crank angle and time.
@@ -144,9 +144,9 @@ impl Formulas {
         self.list[..=of].iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect()
     }
 
-    /// If the formula `of` has no value at `inputs`: the first operation outside its domain, and the index of its
-    /// formula.
-    /// This formula is `of` or a formula that `of` uses.
+    /// The first operation outside its domain and the index of its formula, if the formula `of` has no value at
+    /// `inputs`.
+    /// The index is that of `of` or of a formula that `of` uses.
     /// `inputs` are the crank angle (rad) and the time (s).
     #[must_use]
     pub fn undefined(&self, of: usize, inputs: [Rounded; 2]) -> Option<(usize, FormulaFault)> {
@@ -199,7 +199,7 @@ impl Formulas {
         })
     }
 
-    /// The formulas in which a search for a mistake in the formula `of` works, and the index of `of` among them.
+    /// The formulas that a search for a mistake in the formula `of` needs, and the index of `of` among them.
     /// They are `of`, the `beside` formulas before it, and all formulas that these use.
     /// At most `beside` unused parameters are kept. The rest of the file is left out, so its length does not matter.
     #[must_use]
@@ -290,7 +290,8 @@ pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<TomlTable>, case: &Ca
     let mut formulas = Formulas::over(parameters);
     for mut table in tables {
         let read = faults.read(&mut table, |table| formula(table, &mut formulas, case));
-        // Later formulas may use a formula that is left out.
+        // Later formulas may use a formula that is left out. After such a mistake, the file therefore does not count as
+        // whole.
         faults.whole &= read.is_some();
     }
     formulas

@@ -27,7 +27,7 @@ pub const SECTIONS: &[Section] = &[Section::at("grid").with(&[
 pub const MOST: usize = 1_000_000;
 
 /// Points `from + k * step` (k = 0, 1, ...) up to `to`. The step may be negative.
-/// `to` is included if it lies within 1e-9 of a step of a point.
+/// `to` is included if its distance from a point is at most 1e-9 steps.
 ///
 /// # Errors
 /// A message if a number is not finite, if the step is zero or leads away from `to`, or if there would be more than a

@@ -57,7 +57,7 @@ pub fn read(tables: Vec<TomlTable>, links: &[Link], faults: &mut Faults) -> Vec<
         let read = faults.read(&mut table, |table| joint(table, links, &joints));
         joints.extend(read.filter(|joint| [joint.first, joint.second].iter().all(|side| is_somewhere(side.local))));
     }
-    // Drives and the mechanism may need a joint that is left out.
+    // Drives and the mechanism may need a joint that is left out. The file then does not count as whole.
     faults.whole &= joints.len() == count;
     joints
 }

@@ -95,8 +95,7 @@ pub struct Scenario {
     pub case: Case,
     /// Engines and the settings that the scenario gives.
     pub engine: EngineSettings,
-    /// Upper limit of the engine's discretisation error at which agreement is still a proof, divided by a channel's
-    /// scale.
+    /// If the engine's discretisation error exceeds this fraction of a channel's scale, agreement is no longer a proof.
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
@@ -161,9 +160,9 @@ impl Scenario {
     /// Reads the scenario file at `path` with another start.
     ///
     /// Published numbers belong to the file's branch. On another branch they are left out.
-    /// Another crank angle at t = 0 also leaves out numbers that depend on this angle.
+    /// With another crank angle at t = 0, numbers that depend on this angle are also left out.
     /// These are distances at t = 0 and values at times.
-    /// In three cases they are also the values over the crank angle:
+    /// Values over the crank angle are left out in three cases:
     /// the crank's speed changes, there are further drives, or a torsional spring counts turns from the start.
     ///
     /// # Errors
@@ -176,7 +175,7 @@ impl Scenario {
     /// Reads the same from the text of the file.
     ///
     /// # Errors
-    /// Those of [`Scenario::load_as`], except that the file cannot be read.
+    /// Those of [`Scenario::load_as`] that do not come from reading the file.
     pub fn parse_as(text: &str, path: impl AsRef<Path>, asked: &StartRequest) -> Result<Scenario> {
         Ok(parse(text, path.as_ref(), asked, Lists::No)?.0)
     }
@@ -186,7 +185,7 @@ impl Scenario {
     /// Undecided groups are returned with the reason, in the order of the structure.
     ///
     /// # Errors
-    /// Those of [`Scenario::load_as`], except that an undecided group is no error.
+    /// Those of [`Scenario::load_as`]. An undecided group does not cause an error.
     pub fn load_to_list(path: impl AsRef<Path>, asked: &StartRequest) -> Result<(Scenario, Vec<Undecided>)> {
         Scenario::parse_to_list(&text_of(path.as_ref())?, path, asked)
     }
@@ -194,7 +193,7 @@ impl Scenario {
     /// Reads the same from the text of the file.
     ///
     /// # Errors
-    /// Those of [`Scenario::load_to_list`], except that the file cannot be read.
+    /// Those of [`Scenario::load_to_list`] that do not come from reading the file.
     pub fn parse_to_list(
         text: &str,
         path: impl AsRef<Path>,
@@ -293,7 +292,7 @@ fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<
         unreachable!("what is missing has ended the reading");
     };
     let structure = structure(&stated.mechanism, drives).map_err(in_file)?;
-    // A start that the caller requests has no position in the file.
+    // Errors of a requested start are returned without a position in the file, because the caller requests this start.
     let groups = asked.groups(&stated.mechanism, &structure)?;
     let mechanism = &stated.mechanism;
     let starts = start::groups(start, stated.groups, mechanism, &structure, &groups, lists).map_err(in_file)?;
@@ -339,7 +338,7 @@ fn finished(
     let mut formulas = self::formula::read(source.parameters.list().to_vec(), stated.formulas, &case, &mut faults);
     faults.end()?;
     if !asked.set.is_empty() {
-        // Published numbers belong to the file's own parameters.
+        // Published numbers are valid for the parameters of the file only, so other parameters remove them.
         oracles.clear();
     }
     if !placed.is_own_branch {

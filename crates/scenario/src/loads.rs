@@ -117,7 +117,8 @@ fn resisting_force(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load>
     let point = (table.string("link")?, table.string("point")?);
     let force = table.si("force")?;
     let at = loaded_point(table, mechanism, point)?;
-    // The velocity of such a point is zero plus rounding error. That error would decide the direction of the force.
+    // A point at a ground pivot has the velocity zero plus rounding error. The rounding error would decide the
+    // direction of the force.
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
     if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
         return table.refuse(
@@ -246,7 +247,8 @@ fn turning(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<L
     if link == GROUND {
         return table.refuse("link", sentences::THE_GROUND_DOES_NOT_TURN, sentences::NAME_A_MOVING_LINK);
     }
-    // The angular velocity of such a link is zero plus rounding error. That error would decide the sense of the moment.
+    // A link that cannot turn has the angular velocity zero plus rounding error. The rounding error would decide the
+    // sense of the moment.
     if !mechanism.can_turn(link) {
         let message = sentences::link_does_not_turn_prismatic(&name);
         return table.refuse("link", message, sentences::NAME_A_LINK_THAT_TURNS);
@@ -287,7 +289,7 @@ fn pair(table: &mut TomlTable, mechanism: &Mechanism, names: &[String]) -> Resul
     Ok(links)
 }
 
-/// `links` and `points`: a point of either link.
+/// Reads `links` and `points`: two links, and one point on each of them.
 fn ends(
     table: &mut TomlTable,
     mechanism: &Mechanism,

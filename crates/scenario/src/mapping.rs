@@ -132,7 +132,8 @@ impl Mapping {
     /// Reads a mapping file.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the position.
+    /// [`ErrorKind::Io`] if the file cannot be read.
+    /// [`ErrorKind::Input`] for a mistake in the file. The error states its position.
     pub fn load(path: &Path) -> Result<Self> {
         let text = files::read_text(path).map_err(|error| {
             Error::new(ErrorKind::Io, sentences::the_mapping_cannot_be_read(&path.display(), &error))

@@ -53,8 +53,9 @@ pub const SECTIONS: &[Section] = &[
     ]),
 ];
 
-/// The drives of the mechanism: the crank first, then further drives, each with the start that it states.
-/// The crank has the angle `start` at t = 0 (rad), and the motor. `None` after a mistake.
+/// The drives of the mechanism: the crank first, then the further drives.
+/// The crank has the angle `start` at t = 0 (rad) and gets the motor, if there is one.
+/// Every further drive states its start itself. `None` after a mistake.
 pub fn drives(
     tables: Vec<TomlTable>,
     motor: Option<TomlTable>,
@@ -72,7 +73,8 @@ pub fn drives(
             Ok(drive)
         };
         drives.extend(faults.read(&mut table, own));
-        // An earlier drive may move the link that carries a later drive.
+        // An earlier drive may move the link that carries a later drive. After a mistake, the file does not count as
+        // whole.
         faults.whole &= drives.len() > index;
     }
     let motor = motor.map(|mut motor| faults.read(&mut motor, motor::read));

@@ -96,7 +96,7 @@ pub struct Oracle {
     /// The name that the scenario states, or else the file name of the table (`positions.csv`).
     /// Numbers in the scenario itself are named `inline 1`, `inline 2`, ...
     pub name: String,
-    /// Source of the numbers. If the numbers have a known error, also the reason for it.
+    /// Source of the numbers. If the numbers have a known error, the text also states the reason for the error.
     pub source: String,
     /// How they are known.
     pub basis: OracleBasis,
@@ -118,8 +118,8 @@ pub enum OracleBasis {
 }
 
 impl Oracle {
-    /// The part of the oracle that still holds if the case starts at another crank angle of the same branch.
-    /// `None` if nothing holds.
+    /// The part of the oracle that is still valid if the case starts at another crank angle of the same branch.
+    /// `None` if no part is valid.
     pub(super) fn at_another_start(mut self, case: &Case) -> Option<Oracle> {
         self.figures.retain(|figure| !matches!(figure.figure, MechanismFigure::Distance(_)));
         // With another start angle, the motion is a different function of time.

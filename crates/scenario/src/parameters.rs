@@ -93,8 +93,9 @@ impl Parameters {
 }
 
 /// The number that `text` gives for a key. The text is an arithmetic expression of numbers and parameters.
-/// A parameter's short name stands for its value in the key's unit, if both measure the same quantity (`length_mm = "2
-/// * a"`). Otherwise it stands for its value in SI.
+/// A parameter's short name denotes its value in the key's unit, if both measure the same quantity (`length_mm = "2 *
+/// a"`).
+/// Otherwise it denotes its value in SI.
 ///
 /// # Errors
 /// The mistake in the text, with its position.
@@ -106,7 +107,7 @@ pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std:
         let (_, number) = own.names().find(|(own, _)| *own == name)?;
         let is_short = own.short() == Some(name);
         let of_key = wanted.filter(|wanted| is_short && own.unit.is_some_and(|unit| unit::alike(unit, wanted)));
-        // The number without conversion, if it is given in the key's unit.
+        // If the parameter is given in the key's unit, its number is used without conversion.
         Some(Rounded::exact(match of_key {
             Some(unit) if Some(unit) == own.unit => own.given,
             Some(unit) => number.value / unit.to_si(1.0),

@@ -54,7 +54,7 @@ pub struct TomlTable<'a> {
     missing: Vec<(Vec<String>, Option<&'static str>)>,
     /// Keys that lead to this table, with `*` for names. They are the path of its section in the table of keys.
     section: String,
-    /// The rows of that section.
+    /// Rows of this table's section in the table of keys.
     rows: &'static [FileKey],
 }
 
@@ -69,7 +69,8 @@ impl<'a> TomlTable<'a> {
             .iter()
             .map(|(key, value)| Entry { key: key.get_ref().as_ref(), key_span: key.span(), value })
             .collect();
-        // If the header of a table comes after one of its children, the parser moves the table.
+        // The entries are sorted by their position in the file.
+        // The parser moves a table whose header comes after that of one of its children.
         entries.sort_by_key(|entry| entry.key_span.start);
         let places = entries.iter().enumerate().map(|(place, entry)| (entry.key, place)).collect();
         TomlTable {
@@ -177,7 +178,7 @@ impl<'a> TomlTable<'a> {
 
     fn fault_at(&self, key: &str, value: &Spanned<DeValue>, fault: &FormulaFault) -> Error {
         let (mut span, text) = (value.span(), value.get_ref().as_str().unwrap_or_default());
-        // The text stands literally in the file, unless it contains escapes.
+        // The value appears literally in the file, unless it contains escapes.
         if let Some(offset) = self.source.text[span.clone()].find(text) {
             let start = span.start + offset;
             // A fault beyond the end of the text is shown at its last character.

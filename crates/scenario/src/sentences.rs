@@ -18,7 +18,7 @@ linkage::sentences! {
     THE_FILE_HOLDS_NO_ACCEPTED = "the file contains no accepted figures";
     the_accepted_figures_cannot_be_read(path, error) = "the accepted figures {path} cannot be read: {error}";
     // asked.rs
-    AN_ANGLE_NEARER_TO_THE_FILE = "an angle nearer to the file's start, or ask for a configuration by its number";
+    AN_ANGLE_NEARER_TO_THE_FILE = "a crank angle nearer to that of the file's start, or the number of a configuration";
     the_configuration_of_the_group(names, crank, crank_2) = "the configuration of the group ({names}) at the start, crank angle {crank:.4} deg, cannot be followed to {crank_2:.4} deg";
     // claim.rs
     there_is_no_channel_here(name) = "there is no channel {name} here";
@@ -206,7 +206,7 @@ linkage::sentences! {
     A_MAPPING_IS_AN_ARITHMETIC = "a mapping is an expression of columns, `=`, and a channel";
     // masses.rs
     CHECK_THE_UNIT_LEAVE_OUT = "check the unit; leave out masses that no requested quantity needs";
-    link_has_a_moment_of_inertia(link, own, own_2) = "link \"{link}\" has a moment of inertia of {own} kg·m², including its mass at the length of the largest link; this is {own_2} times that of everything else";
+    link_has_a_moment_of_inertia(link, own, own_2) = "link \"{link}\": its moment of inertia plus its mass times the square of the largest link's length is {own} kg·m²; this is {own_2} times that of everything else";
     CHECK_THE_UNIT_A_LINK_THAT_IS_SO = "check the unit; if the link really is so large, add a point there";
     the_mass_centre_of_link_is_away(link, far, far_2) = "the mass centre of link \"{link}\" is {far} m away from all its points, {far_2} times the largest link";
     CHECK_THE_UNITS_OF_ITS_SPEED = "check the units of its speed and of its length";
@@ -244,9 +244,9 @@ linkage::sentences! {
     GIVE_ALL_DRIVES_CONSTANT_SPEEDS = "give all drives constant speeds";
     ONE_OF_SEVERAL_DRIVES_HAS_A_SPEED = "one of several drives has a variable speed";
     // motor.rs
-    ADD_INTERMEDIATE_RATIO_ITS_SPEED = "add `intermediate_ratio`: the shaft's speed over that of the crank";
+    ADD_INTERMEDIATE_RATIO_ITS_SPEED = "add `intermediate_ratio`: the shaft's speed divided by that of the crank";
     THE_INTERMEDIATE_SHAFT_HAS_A_MOMENT = "the intermediate shaft has a moment of inertia, but its speed is not known";
-    GIVE_THE_SPEED_OF_THE_INTERMEDIATE = "give the speed of the intermediate shaft over that of the crank";
+    GIVE_THE_SPEED_OF_THE_INTERMEDIATE = "give the speed of the intermediate shaft divided by that of the crank";
     found_but_a_ratio_of_speeds(ratio) = "found {ratio}, but a ratio of speeds is positive";
     a_table_of_torques_needs(speeds) = "a table of torques needs at least two points, found {speeds}";
     WRITE_THE_POINTS_IN_ASCENDING_ORDER_OF_SPEED = "write the points in ascending order of speed, each speed once";
@@ -257,9 +257,9 @@ linkage::sentences! {
     GIVE_SYNCHRONOUS_SPEED_SPEED_OF_BREAKDOWN = "give (synchronous speed - breakdown speed) divided by the synchronous speed";
     THE_SLIP_AND_THE_SPEED_OF_BREAKDOWN = "breakdown slip and breakdown speed are both given";
     GIVE_ONE_OF_THE_TWO_BREAKDOWN = "give one of the two: `breakdown_slip`, or `breakdown_speed_rpm` or `breakdown_speed_rad_s`";
-    GIVE_A_SHARE_FOR = "give a share: 0.92 for 92 %";
+    GIVE_A_SHARE_FOR = "give a fraction: 0.92 for 92 %";
     found_but_an_efficiency_lies(efficiency) = "found {efficiency}, but an efficiency is above 0 and at most 1";
-    GIVE_THE_SPEED_OF_THE_MOTOR = "give the speed of the motor over that of the crank; 1 without a reducer";
+    GIVE_THE_SPEED_OF_THE_MOTOR = "give the speed of the motor divided by that of the crank; 1 without a reducer";
     IS_NO_LAW_OF_A_MOTOR = "is not a law of a motor";
     // oracle.rs
     THERE_IS_NO_VALUE = "no value is given";

@@ -39,8 +39,8 @@ pub struct OracleSeries {
 pub struct OraclePoint {
     /// Where the value holds.
     pub at: When,
-    /// Largest error of the instant (rad or s) that arises because the table prints it rounded. 0 if the instant was
-    /// chosen.
+    /// Largest rounding error of the instant (rad or s), if a table prints the instant.
+    /// It is 0 for numbers in the scenario itself.
     pub at_error: f64,
     /// Value in the channel's SI unit.
     pub value: f64,
@@ -129,7 +129,7 @@ impl OracleSeries {
 }
 
 impl Known<'_> {
-    /// The same channels, for a table with this known error.
+    /// The same channels for a table whose known error is `slack`.
     /// `digits` is the table's number of decimals if the table does not print trailing zeros.
     pub fn of_table(self, digits: Option<i32>, slack: f64) -> Self {
         Known { digits, slack, ..self }

@@ -66,7 +66,7 @@ pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>
 /// Default of [`engine_rel`]. It is chosen, not derived.
 pub const ENGINE_REL: f64 = 1e-2;
 
-/// Upper limit of the engine's error bound at which agreement is still a proof, divided by a channel's scale.
+/// If the engine's error bound exceeds this fraction of a channel's scale, agreement is no longer a proof.
 pub fn engine_rel(table: &mut TomlTable) -> Result<f64> {
     let share = table.optional_number("engine_rel")?.unwrap_or(ENGINE_REL);
     table.finish()?;

@@ -1,5 +1,5 @@
 //! The file of a scenario: positions in it, and its spanned tree.
-//! It also finds the position of the key that an error of the `linkage` crate carries.
+//! If an error of the `linkage` crate names a key, this module finds the key's position.
 
 use crate::sentences;
 use std::ops::Range;
@@ -24,8 +24,8 @@ const LONGEST_TEXT: usize = 10_000;
 const MOST_VALUES: usize = 2_000_000;
 
 /// Upper limit of the number of parts of a file: tables, such as points, links, joints, loads and formulas.
+/// Published numbers are not counted as parts.
 /// Some computations take a time that grows with the square of this number. At the limit they take seconds.
-/// Published numbers do not count.
 const MOST_PARTS: usize = 30_000;
 const UNCOUNTED: &str = "oracle";
 
@@ -106,7 +106,7 @@ impl<'a> Source<'a> {
     /// Checks all keys and texts of a table. They must not contain invisible characters or be longer than a limit.
     ///
     /// Titles, sources and names go into reports, tables, drawings and recordings.
-    /// A line break there would forge a line of a report. An escape character would command a terminal.
+    /// A line break in a title would forge a line of a report. An escape character would command a terminal.
     /// A change of writing direction would show a wrong name.
     fn check_table(&self, table: &DeTable, path: &str, parts: &mut usize) -> Result<()> {
         for (key, value) in table {

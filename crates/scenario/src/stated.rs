@@ -116,6 +116,7 @@ impl<'a> FileSections<'a> {
             .ok()
             .and_then(|drives| motion::drives(drives, motor, &mechanism, asked.crank.unwrap_or(crank), &mut faults));
         // The remaining sections depend on numbers of the mechanism and of the drive.
+        // After a mistake in these numbers, the file does not count as whole.
         faults.whole &= faults.is_empty();
         let clearance =
             clearance.and_then(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));

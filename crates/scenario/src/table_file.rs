@@ -96,7 +96,7 @@ fn series(
         bound: channel.to_si(number.half_unit() + slack),
         digits: number.digits,
     };
-    // The slack applies to the printed value, not to the correct value.
+    // The slack widens the bound of the printed value, but not that of the correct value.
     let corrected = |row: usize, finding: &str, right: &Printed| ExpectedCell {
         point: point(row, &printed[row], known.slack),
         right: point(row, right, 0.0),
@@ -252,7 +252,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// The other columns that hold numbers, whether the oracle reads them or not.
+    /// The other columns that contain numbers, whether the oracle reads them or not.
     fn others(&self, column: usize) -> impl Iterator<Item = Vec<columns::TableCell>> {
         let others = (0..self.records.header.len()).filter(move |other| *other != column);
         let rows = || 0..self.records.len();

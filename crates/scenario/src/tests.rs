@@ -196,7 +196,8 @@ fn cells_known_to_be_wrong_keep_their_finding() {
     assert!((points[0].value - 10f64.to_radians()).abs() < 1e-15);
     // Trailing zeros were not printed: 7 has the digits of 9.25, and 12.5 has three.
     assert!((points[1].bound / 0.005f64.to_radians() - 1.0).abs() < 2e-9);
-    // 0, 0.5 and 1e0 may have been rounded. 1e0 may have been rounded to one digit.
+    // The angle 0 may have been rounded to one decimal, like 0.5 in the same column.
+    // The angle 1e0 may have been rounded to one digit.
     assert!((points[0].at_error - 0.05).abs() < 1e-9 && (points[1].at_error - 0.5).abs() < 1e-8);
 }
 

@@ -248,7 +248,7 @@ impl LinkageRun {
         Ok(())
     }
 
-    /// Sets the loads on every body that the next readings of reactions include.
+    /// Sets the loads on every body. The next readings of reactions include these loads.
     /// A load is the force at the mass centre (N, world axes) and the moment about it (N m). All loads are zero at
     /// first.
     /// Loads do not affect the motion, because every degree of freedom is prescribed.

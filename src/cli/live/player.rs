@@ -15,7 +15,7 @@ pub(super) struct Player {
     pub told: usize,
     /// Whether it moves.
     pub plays: bool,
-    /// Log time per second of the clock.
+    /// Playback speed: log time that passes per second of the clock.
     pub speed: f64,
 }
 

@@ -30,7 +30,7 @@ impl Live {
     /// Listens at an address, and accepts viewers from now on.
     ///
     /// # Errors
-    /// If the program cannot listen there.
+    /// If the program cannot listen at this address.
     pub(super) fn at(address: &str) -> Result<Live> {
         let wrong = |found: &std::io::Error| {
             Error::new(ErrorKind::Io, sentences::viewers_cannot_be_served_at(&address, &found))
@@ -47,7 +47,7 @@ impl Live {
     }
 
     /// Shows the reference alone, before the proof is finished.
-    /// If this fails, the proof gives the reason.
+    /// An error of this step is ignored here, because the proof reports its reason.
     pub(in crate::cli) fn show_reference(&self, record: &RecordArgs, scenario: &Scenario, reference: Reference) {
         let reel = || {
             let case = scenario.case.scene()?.case;
@@ -62,7 +62,7 @@ impl Live {
     /// Shows the contents that a recording of the proof would have.
     ///
     /// # Errors
-    /// Those of a recording.
+    /// If these contents cannot be recorded.
     pub(in crate::cli) fn show_proof(&self, record: &RecordArgs, scenario: &Scenario, proof: &Proof) -> Result<()> {
         record.reel(scenario, proof).map(|reel| self.stage.show(reel))
     }
@@ -92,7 +92,7 @@ impl Live {
     /// `begin` is called when the server reacts to signals.
     ///
     /// # Errors
-    /// If signals cannot be waited for.
+    /// If no handler for the signals can be installed.
     pub(in crate::cli) fn serve(&self, begin: impl FnOnce()) -> Result<()> {
         let (tell, told) = mpsc::channel();
         ctrlc::set_handler(move || {

@@ -33,7 +33,7 @@ const LARGEST: usize = 1 << 20;
 /// Largest number of requests between two readings of the clock.
 const REQUESTS: usize = 64;
 /// Channel numbers of a content begin at this constant times the number of content changes.
-/// No channel number is therefore used twice.
+/// Each channel number is therefore unique.
 const CHANNELS: u64 = 1 << 16;
 
 /// One viewer.

@@ -15,7 +15,7 @@ pub(super) struct Wants {
 
 impl Wants {
     /// Adds a topic under a number that the viewer chose; returns whether it was added.
-    /// A subscription to a topic is refused if the viewer already has [`EACH`] to it.
+    /// A subscription is refused if the viewer already has [`EACH`] subscriptions to the topic.
     pub(super) fn add(&mut self, number: u32, topic: u16) -> bool {
         let numbers = self.numbers.entry(topic).or_default();
         let is_new = numbers.len() < EACH && !self.topics.contains_key(&number);

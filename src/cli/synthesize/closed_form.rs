@@ -73,7 +73,7 @@ pub(super) struct CrankRockerArgs {
     /// Angle of the rocker in one extreme position, counter-clockwise from x
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     extreme_deg: f64,
-    /// Angle from there to the other extreme position, counter-clockwise positive
+    /// Swing: angle from the first extreme position to the other one, counter-clockwise positive
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     swing_deg: f64,
     #[command(flatten)]

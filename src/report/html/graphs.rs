@@ -13,7 +13,8 @@ use linkage::trajectory::{Channel, Trajectory};
 
 /// Points of the motor's curve.
 const POINTS: u32 = 240;
-/// Upper limit of the speed axis of the motor's curve / the larger of the run's largest speed and the no-load speed.
+/// The speed axis of the motor's curve ends at this multiple of the largest speed of the run or of the no-load speed,
+/// whichever is larger.
 const BEYOND: f64 = 1.15;
 
 /// Graphs over the crank angle.
@@ -29,7 +30,8 @@ pub(super) fn over_crank(graphs: &Graphs) -> Value {
     json!({ "period": graphs.period, "graphs": each, "note": graphs.notes.last() })
 }
 
-/// The moment of the motor on the crank over the crank's speed, in the motor's direction; `null` without a motor.
+/// The moment of the motor on the crank as a function of the crank's speed, in the motor's direction; `null` without a
+/// motor.
 pub(super) fn motor(case: &Case, trajectory: &Trajectory) -> Value {
     let Some(motor) = case.crank().motor() else { return Value::Null };
     let sense = case.crank().sense();

@@ -51,7 +51,7 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
     let drives = case.drives.with_moment().filter_map(|(number, drive)| {
         let joint = &mechanism.joints()[drive.joint];
         let is_its_moment = |channel: &Channel| seats.of(channel) == Some(Seat::Drive(number));
-        // The channels may include no moments.
+        // A drive is left out if the channels do not include its moment.
         let torque = reference.channels().iter().position(is_its_moment)?;
         let what = if drive.is_free() { sentences::MOMENT_OF_THE_MOTOR } else { "balancing moment" };
         let at = JointSide { link: drive.link, local: joint.on(drive.link).expect("a drive's joint is on its link") };

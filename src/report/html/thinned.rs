@@ -24,7 +24,7 @@ pub(super) struct Thinned {
 
 impl Thinned {
     /// The instants of a page: all, or as many as fit.
-    /// If not all fit, they are evenly chosen instants, and the extremes of values and errors.
+    /// If not all fit, the page has evenly chosen instants, and the instants with extreme values and errors.
     /// `beside` is the number of single-precision values in a row in addition to channels and errors.
     pub(super) fn of(proof: &Proof, errors: &[Errors], beside: usize) -> Thinned {
         let reference = &proof.reference_trajectory;

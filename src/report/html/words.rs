@@ -34,13 +34,12 @@ pub(super) fn sentence(proof: &Proof) -> String {
     escaped(&format!("{judged} Reference: {}. {engine}: {parties}; {at}.", proof.reference))
 }
 
-/// Table of the checks and of the forces that engines themselves exert, sorted by the fraction of the bound that they
-/// use.
+/// Table of the checks and of the forces that engines themselves exert, sorted by the ratio of residual to bound.
 pub(super) fn checks(proof: &Proof) -> String {
     let share = |own: &JudgedNumber| if own.bound > 0.0 { own.value / own.bound } else { f64::from(own.value > 0.0) };
     let mut all = judged::of(proof);
     all.retain(|own| own.sort != Sort::Channel);
-    // At equal fractions, checks come first.
+    // At equal ratios, checks come first.
     all.sort_by_key(|own| own.sort != Sort::Check);
     all.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let rows = all.into_iter().map(|own| {

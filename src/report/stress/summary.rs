@@ -99,8 +99,8 @@ pub(super) fn names<'a>(outcomes: &[&'a StressOutcome]) -> Vec<&'a str> {
     distinct(outcomes.iter().flat_map(|own| &own.parties).map(|party| party.name.as_str()))
 }
 
-/// Parameter values at which a party agrees, and those at which it does not.
-/// For the points with agreement: the largest errors, the largest used fraction of a bound, and the widest bound of a
+/// Cells of a party: parameter values at which it agrees, and values at which it does not agree.
+/// For the points with agreement: the largest errors, the largest ratio of error to bound, and the widest bound of a
 /// worst channel.
 pub(super) fn cells(outcomes: &[&StressOutcome], name: &str) -> [String; 7] {
     let mut by_dial: Vec<(f64, PointEnd)> = Vec::new();

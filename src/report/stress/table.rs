@@ -29,7 +29,7 @@ const HEADER: [&str; 21] = [
 ];
 
 /// The table.
-/// Errors and bounds are shares of the channel's scale; missing numbers are empty cells.
+/// Errors and bounds are divided by the channel's scale; missing numbers are empty cells.
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.

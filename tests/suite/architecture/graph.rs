@@ -1,4 +1,4 @@
-//! Which source file of the workspace uses which.
+//! Determines which source file of the workspace uses which other source file.
 //!
 //! Paths are followed through modules, imports and re-exports to the file that defines the named item. Code under
 //! `#[cfg(test)]` does not count: tests may use anything.
@@ -69,8 +69,8 @@ impl Graph {
         names
     }
 
-    /// The module that defines the item that a path names in the module `at`; `None` for foreign names and for modules
-    /// themselves.
+    /// The module that defines the item that `path` names in the module `at`.
+    /// `None` if the name is foreign, or if the path names a module.
     fn definer(&self, at: &[String], path: &[String], depth: usize) -> Option<Vec<String>> {
         if depth > 16 {
             return None;

@@ -1,4 +1,4 @@
-//! Masses that do not fit the mechanism: a wrong unit.
+//! Masses that do not fit the mechanism, for example because of a wrong unit.
 
 use super::{Bad, GOOD, INPUT, assert_refused};
 
@@ -29,7 +29,7 @@ fn large_and_heavy_links_within_precision_are_accepted() {
         super::parse(&GOOD.replacen(from, to, 1), super::TABLE).unwrap_or_else(|error| panic!("{to}: {error}"))
     };
     taken("{ x_mm = 13, y_mm = 0 }", "{ x_m = 300, y_m = 0 }");
-    // A point at this position makes the link that large.
+    // A point at the position of the mass centre makes the link as large as the distance of its mass centre.
     let point = "mass_centre = { x_mm = 13, y_mm = 0 }\n[links.crank.points]";
     taken(point, "mass_centre = { x_m = 1300, y_m = 0 }\n[links.crank.points]\nG = { x_m = 1300, y_m = 0 }");
     // No other link has a mass, so this value swamps no digits.

@@ -82,13 +82,13 @@ fn says(error: &Error) -> String {
     format!("{key}: {}; {}", error.message(), error.way_out().unwrap_or_default())
 }
 
-/// Whether a text holds the key as a word.
+/// Whether a text contains the key as a word.
 fn names(says: &str, key: &str) -> bool {
     says.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == key)
 }
 
 /// Calls `look` with every key of the shipped scenarios: its file, its text, and the key.
-/// Of keys with the same name, in sections with the same first name, only the first two files are tried.
+/// Many keys occur often: in sections with the same first name, only the first two occurrences of a key are tried.
 fn for_each_key(mut look: impl FnMut(&Path, &str, &Key) -> Option<String>) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let all = ["scenarios", "scenarios/formulas"].map(|directory| files_in(root.join(directory)).unwrap());
@@ -133,7 +133,7 @@ fn a_missing_key_is_not_mistaken_for_another() {
         let rest = &text[key.end..];
         let rest = if key.is_line { rest } else { rest.strip_prefix(", ").unwrap_or(rest) };
         let error = Scenario::parse(&[&text[..key.start], rest].concat(), path).err()?;
-        // Nothing else in the file is misspelt.
+        // Nothing in the file is misspelt, so the error must not propose another word.
         let is_told = error.each().all(|error| {
             let is_named = !error.message().ends_with("is missing") || names(&says(error), key.name);
             proposed(error).is_empty() && error.way_out().is_some() && is_named

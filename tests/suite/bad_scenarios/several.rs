@@ -44,7 +44,8 @@ fn mistakes_in_different_tables_are_reported_together() {
         ("length_mm = 26", "lenght_mm = 26", "links.crank.points.A.length_mm", "lenght_mm"),
         ("links = [\"crank\", \"coupler\"]", "links = [\"crank\", \"cuopler\"]", "joints.A.links", "cuopler"),
         ("speed_rpm = 130", "speed_rpm = 0\ncolour = 1", "drive.speed_rpm", "speed_rpm = 0"),
-        // If a section name is wrong and no key has changed, the reported line is the one after the section name.
+        // The edit of the drive makes two mistakes.
+        // This edit only adds an empty line; it is listed for the second of them.
         ("[gravity]", "\n[gravity]", "drive.colour", "colour"),
         ("x_m_s2 = 0\n", "", "gravity", "[gravity]"),
         ("link = \"rocker\"", "link = \"rockre\"", "loads[1].link", "rockre"),

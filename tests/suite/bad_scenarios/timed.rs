@@ -2,7 +2,7 @@
 
 use super::{Bad, GOOD, INPUT, assert_all_refused, assert_refused, parse};
 
-/// The good scenario with a free crank, over a tenth of a second; its only numbers are at a time.
+/// The good scenario with a free crank, over a tenth of a second; all its published numbers are at a time.
 fn free() -> String {
     let edits = [
         ("speed_rpm = 130\n", "motion = \"free\"\nspeed_rpm = 130\n"),
@@ -60,7 +60,7 @@ fn times_must_lie_within_the_run() {
     assert!(parse(&good.replacen(own, "time_ms = 100\nvalues", 1), super::TABLE).is_ok(), "the last instant itself");
 }
 
-/// Both motions refuse a time outside the law.
+/// A time beyond the end of a motion law or of a free motion is refused.
 /// For a table, the message names the line of the row.
 #[test]
 fn times_must_lie_within_the_law_and_rows_name_their_line() {

@@ -54,7 +54,7 @@ fn the_file_is_text_for_people_and_stays_as_it_is() {
     let told = place.ok(&format!("accept {SCENARIO}"));
     assert_eq!(told, format!("crank_rocker: all figures are unchanged, {FILE} stays as it is ({all} channels).\n"));
     assert_eq!(fs::read_to_string(place.path(FILE)).unwrap(), text);
-    // No command takes the file for a scenario.
+    // No command mistakes the file of accepted figures for a scenario.
     let listed = place.run("list scenarios");
     assert!(!listed.stdout.contains("accepted") && !listed.stderr.contains("accepted"));
 }
@@ -179,7 +179,7 @@ fn new_and_missing_channels_are_reported() {
 #[test]
 fn another_grid_is_reported_without_comparing_values() {
     let place = accepted();
-    // An instant that is off by a millionth is a different instant.
+    // An instant that is changed by a millionth counts as a different instant.
     edit(&place, FILE, "times_s = [0.0, 0.11538461538461539", "times_s = [0.0, 0.11538473");
     let outcome = check(&place);
     assert!(outcome.code == 1 && outcome.stdout.contains("the instants differ"), "{}", outcome.stdout);
@@ -216,7 +216,8 @@ fn a_hundredfold_larger_bound_is_inconclusive() {
     assert_eq!([&wider["accepted_bound"], &wider["found_bound"]], [6.6e-15, 6.6e-12]);
 }
 
-/// Symptom: if every stored bound was 1e300, or the stored verdict was `disagree`, any result of a run was as accepted.
+/// Symptom: any result of a run counted as accepted if every stored bound was 1e300, or if the stored verdict was
+/// `disagree`.
 #[test]
 fn regress_loosely_bounded_or_unproven_figures_are_inconclusive() {
     let place = accepted();
@@ -273,7 +274,7 @@ fn unproven_figures_are_accepted_only_on_request() {
     let outcome = check(&place);
     assert_eq!(outcome.code, 1);
     assert!(outcome.stdout.contains("the proof was accepted as disagree and still is"), "{}", outcome.stdout);
-    // The scenario is proven again, but the stored figures are not from a proof.
+    // The original scenario is proven again, but the stored figures come from the scenario that disagrees.
     fs::write(place.path(SCENARIO), text).unwrap();
     assert_eq!(check(&place).code, 3);
     place.ok(&format!("accept {SCENARIO}"));

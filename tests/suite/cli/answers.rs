@@ -1,5 +1,5 @@
 //! JSON answers to questions about a mechanism.
-//! Every number is that of the library, under the promised key and in the promised unit.
+//! Every number equals that of the library, and has the promised key and unit.
 
 use std::f64::consts::{PI, TAU};
 use std::fs;
@@ -219,7 +219,8 @@ fn a_range_is_reported_in_json() {
     assert!(text.contains("over 32.000000 deg"), "{text}");
 }
 
-/// Pins get journals, sliders get moments; lever and stress have the units of the options.
+/// Revolute joints are reported with journals, prismatic joints with moments.
+/// Lever and stress have the units of the options.
 #[test]
 fn bearings_are_reported_in_json() {
     let place = Place::new();
@@ -268,7 +269,8 @@ fn bearings_are_reported_in_json() {
     }
 }
 
-/// Least and greatest values are those of the table, the slope is that of the inertia.
+/// The least and greatest values equal those of the table.
+/// The slope column is the derivative of the inertia column.
 #[test]
 fn a_drive_is_reported_in_json_and_its_run_up_in_csv() {
     let place = Place::new();
@@ -326,7 +328,7 @@ fn a_drive_is_reported_in_json_and_its_run_up_in_csv() {
 }
 
 /// The vectors of a plan are the differences of its points.
-/// Its lengths on paper are their magnitudes divided by the scale.
+/// The length of a vector on paper is its magnitude divided by the scale.
 #[test]
 fn a_plan_is_reported_in_json() {
     let place = Place::new();
@@ -371,7 +373,7 @@ fn a_plan_is_reported_in_json() {
     }
 }
 
-/// The numbers of a choice are those of the model's, power is moment times speed.
+/// The numbers of a choice in JSON equal those of the library; power is moment times speed.
 #[test]
 fn a_choice_of_a_motor_is_reported_in_json() {
     let place = Place::new();
@@ -489,7 +491,7 @@ fn a_comparison_is_reported_in_json() {
         assert_within!((number("t_s") - times[row]).abs(), 1e-9, "{key}: {own}");
         assert_within!((number("crank_deg") - cranks[row].to_degrees()).abs(), 1e-6, "{key}: {own}");
         assert_within!((number("difference").abs() - off(row)).abs(), 1e-9, "{key}: {own}");
-        // The first is the analytic side, the second the table.
+        // `first` is the value of the analytic side, `second` that of the table.
         assert_within!((number("first") - right[row]).abs(), 1e-9, "{key}: {own}");
         assert_within!((number("second") - right[row] - off(row)).abs(), 1e-9, "{key}: {own}");
     }

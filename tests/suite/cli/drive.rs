@@ -19,7 +19,7 @@ fn the_published_drive_as_json() {
     near(&value["resistance_N_m"]["mean"], 160.0 / 9.0, 1e-10);
     near(&value["averaged"]["crank_rad_s"], 14.33204, 5e-6);
     near(&value["averaged"]["motor_rad_s"], 302.6266, 5e-5);
-    // I* / (ratio^2 slope), by hand.
+    // The time constant, computed by hand, is I* / (ratio^2 slope).
     let constant = 0.164_846_013 / ((2745.0f64 / 130.0).powi(2) * 0.0716);
     near(&value["averaged"]["time_constant_s"], constant, 2e-11);
     near(&value["steady"]["mean_rad_s"], 14.263_883_878_5, 1e-9);
@@ -80,7 +80,7 @@ fn graphs_as_svg() {
     ] {
         assert!(words.contains(label), "{label}: {words}");
     }
-    // The drawing is written in addition to the text.
+    // The command writes the drawing in addition to the text.
     // Without a motor there is no steady motion, and a resistance by gravity alone has a zero mean.
     let text = place.ok("drive scenarios/ov7_base.toml --svg ov7.svg");
     assert!(text.contains("no motor"), "{text}");

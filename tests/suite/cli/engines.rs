@@ -13,8 +13,8 @@ fn all_engines_are_reported_side_by_side() {
     let run = &document["runs"][0];
     let names = texts(&run["engines"], "name");
     assert!(names.starts_with(&rapiers()), "{names:?}");
-    // Single precision proves less, and engines that agree do not outvote it.
-    // Still, nothing may disagree.
+    // Single precision proves less, so the result is inconclusive even if the other engines agree.
+    // In any build, no engine may disagree.
     let single = cfg!(feature = "f32");
     let expected = if single { (3, Some("inconclusive")) } else { (0, Some("agree")) };
     assert_eq!((outcome.code, run["verdict"].as_str()), expected, "{run}");
@@ -26,7 +26,7 @@ fn all_engines_are_reported_side_by_side() {
     assert!(run["disputes"].is_null());
 
     let report = place.ok("run scenarios/crank_rocker.toml --engine rapier --engine impulse --dt 2e-3 --no-record -v");
-    for word in ["All engines", "rapier ", "impulse ", "No two of them differ by more than the sum of their bounds"] {
+    for word in ["All engines", "rapier ", "impulse ", "Any two of these parties differ by at most the sum"] {
         assert!(report.contains(word), "{word}: {report}");
     }
 }
@@ -86,7 +86,7 @@ fn tune_writes_settings_that_meet_the_accuracy() {
         let [max, scale] = ["max", "scale"].map(|key| channel[key].as_f64().unwrap());
         assert_within!(max, 1e-3 * scale, "{channel}");
     }
-    // No clock enters: the same command gives the same bytes, including counts of runs.
+    // The output does not depend on measured times: the same command gives the same bytes, including counts of runs.
     let all = "tune scenarios/pendulum.toml --within 1e-3 --channel positions --json -";
     assert_eq!(place.ok(all), place.ok(all));
     let found = place.run(&format!("{command} --json -")).json();

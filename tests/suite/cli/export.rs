@@ -21,7 +21,7 @@ fn mjcf_is_written_to_the_given_file() {
     assert_eq!(step(&place.ok("export scenarios/crank_rocker.toml --mjcf - --dt 2e-5")), 2e-5);
     assert_eq!(place.ok("export scenarios/crank_rocker.toml --mjcf model.mjcf"), "");
     assert_eq!(fs::read_to_string(place.path("model.mjcf")).unwrap(), text);
-    // The user did not choose the name, so it is printed.
+    // If the user does not choose the file name, the command prints it.
     for option in ["", "--mjcf"] {
         assert_eq!(place.ok(&format!("export scenarios/crank_rocker.toml {option}")), "crank_rocker.xml\n");
     }

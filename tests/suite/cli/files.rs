@@ -37,7 +37,7 @@ fn regress_runs_to_one_path_do_not_mix() {
     assert_eq!(fs::read(own).unwrap(), fs::read(place.path("alone/pendulum.mcap")).unwrap());
 }
 
-/// Symptom: a link at the path of the partial file was followed, and its target overwritten.
+/// Symptom: a symbolic link at the path of the partial file was followed, and its target overwritten.
 #[test]
 fn regress_symlinks_at_temporary_paths_are_not_followed() {
     let place = Place::new();
@@ -54,8 +54,8 @@ fn regress_symlinks_at_temporary_paths_are_not_followed() {
     );
 }
 
-/// A link as the target is the user's choice of a file name.
-/// The file keeps its permissions.
+/// A symbolic link as the target is the user's choice of a file.
+/// The file that it points to keeps its permissions.
 #[test]
 fn a_symlink_given_as_target_is_followed() {
     let place = Place::new();
@@ -98,7 +98,7 @@ fn regress_a_full_disk_leaves_the_older_file() {
         }
         assert_eq!(files(&place, ""), Vec::<String>::new());
     }
-    // A device is written to, not replaced.
+    // The command writes to a device; it does not replace the device by a file.
     place.refused(&format!("{QUICK} --no-record --json /dev/full"), &["/dev/full", "cannot be written"]);
     place.ok(&format!("{QUICK} --no-record --json /dev/null"));
 }

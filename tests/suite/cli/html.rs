@@ -233,7 +233,7 @@ fn a_page_has_loads_and_the_vectors_of_the_plans() {
         loads["between"].as_array().unwrap().iter().map(|own| own["name"].as_str().unwrap()).collect();
     assert_eq!(between[..2], ["spring from H on cylinder to B on piston", "damper from S to B on piston"]);
     assert_eq!(loads["drives"][0]["name"], "balancing moment on cylinder");
-    // The Coriolis component and the relative acceleration of the piston in its cylinder, as in `plan`.
+    // The Coriolis component and the relative acceleration of the piston in its cylinder equal those of `plan`.
     let start = doubles(&data["crank"])[0].to_degrees();
     let plan: Value =
         serde_json::from_str(&place.ok(&format!("plan scenarios/rotary_engine.toml --crank-deg {start} --json -")))

@@ -1,5 +1,5 @@
-//! Every number of `run --json` against that of the proof.
-//! A field without a number here, or with a different number, fails the test.
+//! Compares every number of `run --json` with the number in the proof.
+//! The test fails for a numerical field that is missing here, and for a different number.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -17,7 +17,7 @@ use super::tools::Place;
 type Numbers<'a> = BTreeMap<&'a str, f64>;
 
 /// Compares all numbers of an object with `wanted`.
-/// Other tests check nested objects and lists.
+/// Nested objects and lists are left to other tests.
 fn is_said(what: &str, object: &Value, wanted: &Numbers) {
     let object = object.as_object().unwrap_or_else(|| panic!("{what} is no object"));
     let found: Numbers = object.iter().filter_map(|(key, value)| Some((key.as_str(), value.as_f64()?))).collect();

@@ -27,7 +27,8 @@ fn a_dyad_starts_in_the_requested_mode() {
     let away = |a: f64, b: f64| ((a - b).sin()).abs() + (1.0 - (a - b).cos());
     let right = rocker(&place, "--mode coupler,rocker=right");
     assert_within!(away(right, mirrored(left)), 1e-12, "{right} {left}");
-    // With the links in the other order, left and right are exchanged. Ranks count as in `inspect --modes`.
+    // With the links in the other order, left and right are exchanged.
+    // Configurations are numbered as in `inspect --modes`.
     assert_eq!(rocker(&place, "--mode rocker,coupler=left"), right);
     assert_eq!(rocker(&place, "--mode coupler,rocker=2"), right);
     assert_eq!(rocker(&place, "--mode coupler,rocker=1"), left);
@@ -103,7 +104,9 @@ fn invalid_modes_are_refused() {
 #[test]
 fn inspect_reports_how_unambiguous_the_start_is() {
     let place = Place::new();
-    // In the next configuration of fourth_class, the point E is where `--modes` lists it.
+    // `inspect` reports the distance of point E from its approximate position, in the selected and in the next
+    // configuration.
+    // Both distances must follow from the positions that `--modes` lists.
     let found: Value = serde_json::from_str(&place.ok("inspect scenarios/fourth_class.toml --modes --json -")).unwrap();
     let at = |mode: usize| {
         let points = found["modes"]["groups"][0]["modes"][mode]["links"][2]["points"].as_array().unwrap().clone();
@@ -120,8 +123,8 @@ fn inspect_reports_how_unambiguous_the_start_is() {
     assert!(!place.ok("inspect scenarios/ov7_base.toml").contains("approximate position"));
 }
 
-/// A crank, and two pinned base links on four leads, one of which is hinged to the crank: a group of six links.
-/// Scenario text without `near`.
+/// Text of a scenario without `near`: a crank and a group of six links.
+/// The group has two pinned base links on four leads; one lead is hinged to the crank.
 const SIX: &str = r#"format = 1
 name = "six"
 title = "A group of six links"

@@ -120,7 +120,8 @@ fn mistakes_in_formulas_are_found_and_counted_separately() {
     assert_eq!(place.run("check wrong.toml").code, 1, "{wrong}");
 }
 
-/// The tolerance of a formula hides mistakes: the command reports the share of each mistake that is still found.
+/// The tolerance of a formula hides small mistakes.
+/// For each mistake, the command reports the smallest fraction of it that is still found.
 #[test]
 fn the_smallest_detected_formula_mistake_is_reported() {
     let place = Place::new();
@@ -138,6 +139,6 @@ fn a_file_without_formulas_reports_nothing_planted() {
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
     assert!(outcome.stdout.starts_with("NOTHING PLANTED"), "{}", outcome.stdout);
     assert!(outcome.unbroken().contains("its formulas claim no exact value"), "{}", outcome.stdout);
-    // If other kinds are requested, this one does not matter.
+    // If another kind of fault is requested too, the missing formula mistakes do not change the result.
     place.ok("mutate scenarios/pendulum.toml --kind gravity-sign --kind formula --party assur --no-sizes");
 }

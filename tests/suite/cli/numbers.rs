@@ -53,7 +53,7 @@ fn every_option_refuses_invalid_numbers() {
             }
             tried += 1;
         }
-        // Counts, and numbers of threads, where 0 may mean all.
+        // Options that take a count, or a number of threads (where 0 may mean all).
         for (option, _) in options(&place, command).iter().filter(|(_, value)| value == "N") {
             for wrong in ["-1", "2.5", "many"] {
                 place.refused(&format!("{command} {option}={wrong}"), &[option, wrong]);

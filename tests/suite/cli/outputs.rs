@@ -135,7 +135,7 @@ fn in_shell(place: &Place, prepare: &str, arguments: &str) -> Output {
     Command::new("sh").current_dir(place.path("")).args(["-c", &script]).arg(linkproof).output().unwrap()
 }
 
-/// A limit on the size of files ends a write as a full disk does, and needs no rights.
+/// A limit on the size of files ends a write as a full disk does, and needs no special permissions.
 #[test]
 fn no_output_is_left_half_written() {
     let place = Place::new();

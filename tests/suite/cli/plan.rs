@@ -33,7 +33,7 @@ fn diagrams_as_text_json_csv_and_drawing() {
     let json = place.run(&format!("{of} --divisions 24 --json -")).json();
     assert_eq!(json["methods"][0]["points"].as_array().unwrap().len(), 24);
     let csv = place.ok(&format!("{of} --csv -"));
-    // The header, twelve midpoints and twelve ends of chords, and thirteen ends for each of the two integrations.
+    // One header line; twelve midpoints and twelve ends of chords; thirteen ends for each of the two integrations.
     assert_eq!(csv.lines().count(), 1 + 12 + 12 + 13 + 13);
     assert!(roxmltree::Document::parse(&place.ok(&format!("{of} --svg -"))).is_ok());
 }

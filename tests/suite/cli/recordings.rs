@@ -131,7 +131,7 @@ fn a_time_scale_changes_no_number() {
     let (thin, few) = run("--record-hz 100", "thin");
     assert!(thin.len() < plain.len() / 4, "{} {}", thin.len(), plain.len());
     for ((_, few), (_, whole)) in few.iter().zip(&whole) {
-        // One turn takes 0.46 s; the first and the last instant are there too.
+        // One revolution takes 0.46 s; at 100 Hz this gives 48 samples, including the first and the last instant.
         assert_eq!(few.times().len(), 48);
         let row = |time: &f64| whole.times().iter().position(|own| own == time).unwrap();
         for ((channel, few_values), (_, values)) in few.iter().zip(whole.iter()) {
@@ -165,7 +165,7 @@ fn layouts_show_the_recorded_data() {
         mcap::MessageStream::new(&bytes).unwrap().map(|message| message.unwrap().channel.topic.clone()).collect();
     let panels = layout["configById"].as_object().unwrap();
     let scene = &panels["3D!mechanism"];
-    // Each viewer uses a different key.
+    // Foxglove and Lichtblick read the title under different keys, so the layout contains both keys.
     for (name, panel) in panels {
         let title = panel["foxglovePanelTitle"].as_str().unwrap();
         assert_eq!(panel["lichtblickPanelTitle"].as_str(), Some(title), "{name}");

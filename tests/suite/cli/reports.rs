@@ -146,7 +146,7 @@ fn reports_have_every_verdict_with_judge_and_reason() {
         let numbers = ["agree", "expected", "disagree", "inconclusive"].map(count).map(|count| count.to_string());
         assert!(row.ends_with(&format!(" | {} |", numbers.join(" | "))), "{row} {numbers:?}");
     }
-    // Ten reasons are listed for each; the others are counted.
+    // Each section lists ten reasons and counts the others.
     let sections: Vec<&str> = text.split("\n### ").skip(1).collect();
     assert_eq!(sections.len(), 3);
     for ((section, proof), errors) in sections.iter().zip(&proofs).zip([0, 0, 1]) {

@@ -360,8 +360,8 @@ fn unrequested_channels_are_neither_compared_nor_checked() {
 }
 
 /// One factor scales all bounds.
-/// Stricter bounds disagree.
-/// A factor of zero prints every channel and check with its bound, and leaves the verdicts as usual.
+/// With stricter bounds, numbers disagree.
+/// With a factor of zero, the report prints every channel and check with its bound, and the verdicts are as usual.
 #[test]
 fn the_tolerance_scale_applies_to_every_bound() {
     let place = Place::new();

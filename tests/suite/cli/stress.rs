@@ -102,7 +102,7 @@ fn an_unusable_directory_is_reported_before_any_run() {
     place.refused("stress speed --quick --out out --jobs 0", &["a whole number of at least 1"]);
 }
 
-/// If the mechanism blocks the engines, they fail; this is a result with a reason, not an error of the command.
+/// If an engine cannot move the mechanism, it fails; this is a result with a reason, not an error of the command.
 #[test]
 fn failures_are_results_with_reasons() {
     let place = Place::new();

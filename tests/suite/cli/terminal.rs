@@ -128,7 +128,7 @@ fn any_number_of_jobs_prints_the_same_bytes() {
         let [one, two] = ["1", "2"].map(|own| fs::read(place.path(own).join(format!("{file}.mcap"))).unwrap());
         assert!(one == two, "{file}");
     }
-    // The report ends with the table over all files.
+    // The report ends with one table for all files.
     let close = one.stdout.split("\nscenario ").nth(1).expect(&one.stdout);
     assert!(close.ends_with("\n\n5 scenarios: 1 error, 1 disagree, 3 agree\n"), "{close}");
     for [name, verdict] in [["wrong", "disagree"], ["scenarios/none.toml", "error"], ["pendulum", "agree"]] {

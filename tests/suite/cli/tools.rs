@@ -122,7 +122,7 @@ impl Table {
 }
 
 /// The commands that a help lists.
-/// Continuation lines are indented further, and arguments begin with a sign.
+/// Continuation lines are skipped because they are indented further, and arguments because they begin with a sign.
 pub fn listed(help: &str) -> impl Iterator<Item = &str> {
     let above = help.split("\nOptions:").next().unwrap_or_default().lines();
     above

@@ -10,7 +10,8 @@ use super::tools::{Place, listed};
 /// Columns of the terminal.
 const COLUMNS: usize = 80;
 
-/// Runs a command at 80 columns and checks both streams. Lines of a file in a message are quoted as they are.
+/// Runs a command at 80 columns and checks the width of both streams.
+/// Lines that a message quotes from a file are not broken, so they may be wider.
 fn assert_fits(place: &Place, arguments: &str) {
     let mut command = Command::cargo_bin("linkproof").unwrap();
     let command = command.current_dir(place.path("")).env("COLUMNS", "80").args(arguments.split_whitespace());

@@ -53,8 +53,9 @@ fn three_programs_agree_within_their_tolerances() {
         let found = compared(map, table, &[]);
         let channels = &found.pairs[0].channels;
         assert_eq!(found.verdict.word(), "agree", "{map}: {:?}", found.verdict);
-        // The errors must come near the tolerance, otherwise the test would prove nothing.
-        // The errors of closed formulas come near the rounding of their digits.
+        // In each table, some error must come near its tolerance, otherwise the test would prove nothing.
+        // The errors of closed formulas are only about the rounding error of their digits, so a smaller ratio is enough
+        // there.
         let near = if map.starts_with("pylinkage") { 0.01 } else { 0.3 };
         assert!(channels.iter().any(|own| own.worst.unwrap().used() > near), "{map}");
         let mapping = Mapping::load(&path(&format!("{map}.map.toml"))).unwrap();

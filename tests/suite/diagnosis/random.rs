@@ -101,7 +101,8 @@ fn planted(case: &Case, random: &mut RandomSource) -> Option<(Case, String)> {
     Some((Case::new(parts).ok()?, words))
 }
 
-/// Every fault is named or at least mentioned; for every twenty faults that are named, at most one is only mentioned.
+/// Every fault is named or at least mentioned.
+/// The faults that are only mentioned are at most a twentieth of the named faults.
 #[test]
 fn random_faults_are_named() {
     let names = [

@@ -61,9 +61,8 @@ fn two_faults_at_once_have_no_single_cause() {
     assert!(report.contains("\n  cause     no"));
 }
 
-/// The search for a cause has a separate limit: it may do as much work as the proof.
-/// The search stops at this limit.
-/// The report and the JSON say that the search was stopped early.
+/// The search for a cause has a separate limit: it may do as much work as the proof, and stops at this limit.
+/// The report and the JSON then say that the search was stopped early.
 #[test]
 fn a_truncated_search_for_a_cause_is_reported() {
     let right = text("double_pendulum");
@@ -72,8 +71,8 @@ fn a_truncated_search_for_a_cause_is_reported() {
     let mut whole = parsed("double_pendulum", &right);
     whole.oracles.clear();
     let wrong = parsed("double_pendulum", &twice).case;
-    // Every changed case is integrated again, which costs much work; the given settings keep the engine's own work
-    // small.
+    // Every changed case is integrated again, which costs much work.
+    // The engine settings are given, so that the work of the engine itself is small.
     let of = |budget: f64| {
         let options = Options::default().step(5e-3).sweeps(1).extrapolated(0).budget(budget);
         let proof = prove_against(&whole, &wrong, &options).unwrap();

@@ -198,7 +198,7 @@ fn twin_run_ups_are_of_order_one_and_extrapolate_accurately() {
         let forces = worst(&reference, &best, force);
         println!("{name} {}: {most:.1e} rad, {forces:.1e} of the range of forces", route.name());
         assert_within!(most, 1e-6, "{name} {}: {most:e} rad, {forces:e}", route.name());
-        // Forces at the start are extrapolated from those of later steps.
+        // The wider bound includes the start, where forces are extrapolated from those of later steps.
         assert_within!(forces, 4e-5, "{name} {}: {most:e} rad, {forces:e}", route.name());
         let forces = crank.iter().filter(|residual| force(&residual.channel) && residual.max > 0.0);
         let later = forces.map(|residual| {
@@ -211,8 +211,8 @@ fn twin_run_ups_are_of_order_one_and_extrapolate_accurately() {
 }
 
 /// The case has neither rotor nor flywheel.
-/// A second pass of Rapier over the constraints after the step would increase the error 23 times.
-/// It would remove the velocity that moved the bodies across the constraints.
+/// After the step, Rapier could pass over the constraints a second time, but this would increase the error 23 times.
+/// The second pass would remove the velocity that moved the bodies across the constraints.
 #[test]
 fn the_twin_keeps_the_velocities_that_moved_it() {
     let scenario = shipped("crank_rocker_runup.toml");

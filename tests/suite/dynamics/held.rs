@@ -82,7 +82,8 @@ fn a_higher_group_moves_between_two_free_cranks() {
     }
 }
 
-/// A torsional spring that the pendulum winds up over several revolutions absorbs energy in each revolution.
+/// The pendulum winds up a torsional spring over several revolutions.
+/// The spring absorbs energy in each revolution.
 #[test]
 fn a_spring_is_wound_up_by_a_free_motion() {
     let case = shipped("pendulum.toml").case;
@@ -114,7 +115,7 @@ fn tables_of_many_turns_act_on_a_free_motion() {
     both("tables", &loaded(&case, &loads), 1e-9);
 }
 
-/// A force against the motion of the pendulum's end is equivalent to a moment against its rotation.
+/// A force against the motion of the pendulum's end has the same effect as a moment against the pendulum's rotation.
 #[test]
 fn a_force_against_a_point_of_a_pendulum_is_a_moment() {
     let case = shipped("pendulum.toml").case;
@@ -132,8 +133,8 @@ fn a_force_against_a_point_of_a_pendulum_is_a_moment() {
 }
 
 /// Symptom: in a step in which the point reverses, the twin kept the force's direction for the whole step.
-/// If the reversal lay just behind a step, all runs had the same error, and the bound from their differences was too
-/// small.
+/// If the reversal came just after the start of a step, all runs had the same error, so the bound from their
+/// differences was too small.
 /// Moments against a link were already right: each direction counted for its part of the step.
 #[test]
 fn regress_a_point_reversal_in_a_step_counts_by_its_shares() {
@@ -153,8 +154,8 @@ fn regress_a_point_reversal_in_a_step_counts_by_its_shares() {
     }
 }
 
-/// With two degrees of freedom, the force keeps opposing its point's motion as that direction rotates, from the first
-/// instant on.
+/// With two degrees of freedom, the direction of a point's motion rotates.
+/// From the first instant on, the resisting force opposes the current direction.
 /// The energy lost is the force times the path of the point.
 #[test]
 fn resisting_forces_dissipate_force_times_path() {
@@ -212,8 +213,9 @@ fn a_piston_starts_from_its_dead_centre_against_a_force() {
     assert_within!(((pin(&first) - pin(&found[0])).abs() - 20.0).abs(), 1e-6, "{} {}", pin(&first), pin(&found[0]));
 }
 
-/// The same for a link: the rocker at the end of its swing.
-/// Its resistance does not hold the crank there; it acts against the motion that begins.
+/// The rocker starts at the end of its swing, as the piston in the previous test starts at its dead centre.
+/// The resistance on the rocker cannot hold the crank there; it acts against the motion that the rocker is about to
+/// begin.
 #[test]
 fn a_rocker_starts_from_its_dead_centre_against_a_moment() {
     let text = shipped("crank_rocker_runup.toml").text;

@@ -113,7 +113,7 @@ fn reactions_of_one_four_bar_match_the_hand_calculation() {
             let (s, c) = angle[row].sin_cos();
             let acceleration =
                 Vec2::new(-s * alpha[row] - c * omega[row].powi(2), c * alpha[row] - s * omega[row].powi(2));
-            // Forces of two bars, with their mass centres at half length, and of the rod.
+            // The sum of the forces on two bars, with their mass centres at half length, and on the rod.
             let all = acceleration * 2.0 + Vec2::new(0.0, 3.0 * G);
             let ground = Vec2::new(ox0[row] + ox1[row], oy0[row] + oy1[row]);
             assert_within!((ground - all).norm(), 1e-8, "{} row {row}: {ground} {all}", side.name());
@@ -343,7 +343,8 @@ fn the_benchmark_agrees_with_rapier() {
 
 /// A class III group that is singular where its two equal leads are level with the plate.
 /// It is tested alone, and behind a parallelogram whose change points are 4.8 deg away from the group's change point.
-/// Around each change point, the solution uses a window; reactions have poles at both change points.
+/// Around each change point, the solution uses a window of crank angles.
+/// Reactions have poles at the change points of the group and of the parallelogram.
 #[test]
 fn higher_groups_pass_their_change_points() {
     // For two close change points, the windows are ten times narrower than usual, so accelerations lose three digits.
@@ -361,8 +362,8 @@ fn higher_groups_pass_their_change_points() {
             let all = apart(&found, |_| true);
             println!("free {}: motion {motion:.1e}, all {all:.1e}", case.is_free());
             assert_within!(motion, smooth, "{motion}");
-            // Near a pole, the relative error of reactions is the error of the crank angle divided by the distance to
-            // the pole.
+            // With reactions, the bound is wider: near a pole, their relative error is the error of the crank angle
+            // divided by the distance to the pole.
             assert_within!(all, poles, "{all}");
             if case.is_free() {
                 for found in &found {
@@ -374,7 +375,8 @@ fn higher_groups_pass_their_change_points() {
         let plain = driven.replace("through = \"smooth\"\n", "");
         let case = Scenario::parse(&plain, Path::new("through.toml")).unwrap_or_else(|error| panic!("{error}")).case;
         // The different steps put instants at different distances from the change point.
-        // The branch that keeps the sign of the determinant is as near as the branch that continues the motion.
+        // Near it, the wrong branch, which keeps the sign of the determinant, is as close as the branch that continues
+        // the motion.
         for steps in [20.0f64, 30.0, 60.0, 37.0, 100.0, 200.0, 300.0, 731.0, 2000.0] {
             let times = (0..).map(|k| 0.6 * f64::from(k) / steps).take_while(|&t| t <= 0.6).collect();
             let case = case.on(Grid::of_times(case.crank(), times)).unwrap();

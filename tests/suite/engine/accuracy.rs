@@ -38,7 +38,7 @@ fn worst(found: &[Residual]) -> [f64; 2] {
 }
 
 /// Story 61.
-/// Errors divided by half the range: of angles, and by every route of reactions and moments.
+/// Errors of angles, and errors of reactions and moments by every route; all are divided by half the range.
 /// The bounds are 10 % above the measured errors.
 #[test]
 fn regress_61_errors_of_every_route_are_as_measured() {
@@ -98,10 +98,11 @@ fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
 }
 
 /// Story 64.
-/// At that step, loops open by 1.02e-7 of the mechanism's size.
-/// At every crank angle, this is exactly the local error of one step.
+/// At a step of 0.08 deg of the crank, loops open by 1.02e-7 of the mechanism's size.
+/// At every crank angle, the opening is exactly the local error of one step.
 /// The earlier value 1e-7 was for a crank half as long.
-/// With two substeps the opening is a quarter; if extrapolated, it is the rounding of the combination.
+/// With two substeps the opening is a quarter.
+/// In an extrapolated run, only the rounding error of the combination remains.
 #[test]
 fn regress_64_loops_open_by_the_local_error_of_a_step() {
     let case = whole("crank_rocker");
@@ -158,8 +159,7 @@ fn regress_70_two_substeps_meet_all_accuracy_goals_at_once() {
     assert_within!(largest, 1e-7, "{largest:e}");
 }
 
-/// Origin of the value 1e-7: it was printed for a crank of half the length, for which the same step leaves a smaller
-/// gap.
+/// The value 1e-7 was printed for a crank of half the length, for which the same step leaves a smaller gap.
 #[test]
 fn regress_64_half_the_crank_leaves_gaps_below_1e_7() {
     let whole_crank = whole("crank_rocker");
@@ -178,9 +178,9 @@ fn regress_64_half_the_crank_leaves_gaps_below_1e_7() {
 }
 
 /// Story 62.
-/// Mechanisms of all classes, also with sliders, converge with order 2 at this step.
-/// This holds for angles, and for reactions by centred differences.
-/// With extrapolation, their errors are below 1e-7 and 1e-5.
+/// At a step of 0.08 deg of the crank, mechanisms of all classes, also with sliders, converge with order 2.
+/// This is tested for angles, and for reactions by centred differences.
+/// With extrapolation, the errors of angles are below 1e-7, and those of reactions below 1e-5.
 #[test]
 fn regress_62_orders_and_extrapolation_of_all_classes() {
     for name in ["ov7_base", "ov7_new", "fourth_class", "quick_return", "scotch_yoke"] {
@@ -253,8 +253,8 @@ fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
 /// Story 60.
 /// Symptom: halving the step makes an f32 run worse.
 /// Cause: rounding error.
-/// Its bound must hold by every route, on long and on short grids.
-/// The difference from the f64 run consists of rounding error only.
+/// The bound on the rounding error must be valid for every route, on long and on short grids.
+/// The difference between the f32 and the f64 run consists of rounding error only.
 #[test]
 #[cfg(feature = "f32")]
 fn regress_60_single_precision_is_within_its_rounding_bound() {
@@ -292,9 +292,9 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
                     let by_route = (kind.stage >= Stage::Reactions).then(|| route.name());
                     let most = used.entry((kind.stage, kind.unit.symbol(), by_route)).or_insert(0.0);
                     *most = most.larger(residual.max / noise);
-                    // The bound is proportional to epsilon, so a bound that holds in single precision also holds in
-                    // double precision.
-                    // The rotation of a probe is an exception.
+                    // The bound is proportional to epsilon, so a bound that is valid in single precision is also valid
+                    // in double precision.
+                    // The exception is the rotation of a probe.
                     if route != Route::Probe {
                         let [own, single] =
                             [0, 1].map(|k| engines[k].noise(&case, kind) / super::epsilon(engines[k].as_ref()));
@@ -311,7 +311,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
             }
         }
     }
-    // The bounds are tight: each reaches at least a fiftieth of its value at some channel.
+    // The bounds are tight: for each bound, the error of some channel is at least a fiftieth of the bound.
     // The bound of a slide's moment assumes all masses at the mechanism's size.
     // The guided links of `quick_return` and `scotch_yoke` are lighter and nearer, so a thousandth is enough for this
     // bound.

@@ -47,7 +47,7 @@ fn assert_helpful(error: &linkage::Error) {
     assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
     assert!(error.message().contains("crank angle"), "{error}");
     assert!(error.input().is_some() && error.time().is_some(), "{error:?}");
-    // A smaller step does not help an engine that chooses its steps itself.
+    // A smaller step does not help an engine that chooses its steps itself, so another remedy is allowed.
     let helps = |way: String| way.contains("smaller time step") || way.contains("can be assembled");
     assert!(error.way_out().is_some_and(helps), "{error}");
 }
@@ -76,7 +76,7 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
 }
 
 /// Story 42.
-/// The same with a slider, where no gap in the guide shows the error.
+/// The same symptom as in story 41, with a slider: the gap in the guide does not show the error.
 /// Beyond 261.347 deg the rod is too short.
 #[test]
 fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {

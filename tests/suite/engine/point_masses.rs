@@ -50,15 +50,15 @@ fn approaches(what: &str, case: &Case, step: f64, bound: f64) {
     let known = states(&AssurSolver, case, &times).unwrap_or_else(|error| panic!("{what}: {error}"));
     for name in ["rapier", "impulse"] {
         for route in [Route::Differences, Route::Native] {
-            // The impulses of a massless crank take 40 times as long as all other cases.
-            // They are tested by one route; with more draws, by both routes.
+            // With the engine `impulse` and its own impulses, the massless crank takes 40 times as long as all other cases.
+            // This engine is therefore tested on it by one route; with more draws, by both routes.
             if name == "impulse" && route == Route::Native && what == "crank" && !by_night() {
                 continue;
             }
             let of = |step: f64| {
                 let engine = prover::engines::named(name, step).unwrap();
-                // Between separate bodies, the impulses of the first steps need the most sweeps; even with 4096 an
-                // error of a thousandth remains.
+                // In the impulse build, the impulses of the first steps need the most sweeps.
+                // Even with 4096 sweeps, an error of a thousandth remains.
                 let many = if name == "impulse" && route == Route::Native { 4 } else { 1 };
                 let own = engine.settings();
                 let engine = engine.with(Settings { route, sweeps: many * own.sweeps, ..own });

@@ -110,8 +110,8 @@ fn regress_chained_claims_are_judged_once_each() {
     let right = of(3000, &|index| after(index, "phi", "2*phi - s"));
     assert_eq!(right.verdict.word(), "agree");
     assert!(right.judgement.sides.iter().all(|(_, all)| all.len() == 3000 && all[2999].len() == 3));
-    // Wrong formulas share the work of a search.
-    // The first undefined one is reported with its location.
+    // All wrong formulas share the work limit of one search.
+    // The first undefined formula is reported with its location.
     for (first, next) in
         [("phi + 1e-3", "2*phi - s"), ("phi + 0*ln(phi - 1)", "2*phi - s"), ("phi", "s + 0.1*exp(-phi)")]
     {

@@ -54,7 +54,7 @@ fn figures_of_the_mechanism_may_be_claimed() {
     let place = Place::new();
     let check = |formula: &str| format!("check scenarios/crank_rocker.toml {formula} --channel figure.");
     place.ok(&format!("{}reduced_inertia_mean_kg_m2 --error 5e-7", check("0.164846")));
-    // The rocker moves against 100 N m over 32 degrees to and fro.
+    // The rocker moves over 32 degrees and back, against a moment of 100 N m.
     let exact = place.ok(&format!("{}reduced_resistance_mean_N_m", check("100*64/360")));
     assert!(!exact.contains("derivative"), "{exact}");
     let outcome = place.run(&format!("{}reduced_resistance_mean_N_m*2", check("17.7778")));

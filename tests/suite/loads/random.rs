@@ -44,7 +44,7 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
             own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.larger(v.abs()))
         };
         let scale = forces(Stage::Reactions).larger(forces(Stage::BalancingMoment));
-        // The same bound as without loads; see `both_solvers_agree_to_rounding` in the invariants.
+        // The bound is the same as without loads; see `both_solvers_agree_to_rounding` in the invariants.
         let bound = 1000.0 * f64::EPSILON * sample.condition;
         for residual in residuals(&a, &b).expect("one grid") {
             if residual.channel.kind.stage >= Stage::Reactions {

@@ -72,7 +72,7 @@ fn every_key_unit_and_word_has_external_numbers() {
             missing.extend(spelled.map(|spelling| format!("{path}: {spelling}")));
             if let ValueKind::Choice(words) = key.kind {
                 let has = |word: &&&str| found.contains(&(key.name.into(), (**word).into()));
-                // A default need not be stated in a file.
+                // A file need not state a default, so default words are skipped.
                 let words = words();
                 let said = words.iter().filter(|word| !has(word) && !key.default.contains(&format!("\"{word}\"")));
                 missing.extend(said.map(|word| format!("{path}: {} = {word:?}", key.name)));

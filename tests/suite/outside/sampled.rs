@@ -161,7 +161,7 @@ impl Row<'_> {
         let on_frame = loads.iter().filter(|own| own.0 == GROUND);
         on_frame.for_each(|(_, place, own, couple)| take(*own, cross(*place, *own) + couple));
         let by_reactions = [force.norm() / largest, moment.abs() / turning];
-        // The same from momentum: F = sum of m (g - a) + loads.
+        // The same sums from the momentum: F = sum of m (g - a) + loads.
         let (mut force, mut moment, mut power) = (sampled.0, sampled.1, 0.0);
         let (mut largest, mut turning, mut strongest) = (largest, turning, 0.0f64);
         let mut work = |own: f64| {

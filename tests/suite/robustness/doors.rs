@@ -207,7 +207,7 @@ fn arguments(place: &Place, command: &str, found: &mut Vec<(String, String, Stri
     }
 }
 
-/// Every argument that the command line describes as input has a kind of hostile input.
+/// For every argument that the command line describes as input, there is a kind of hostile input.
 #[test]
 fn every_argument_that_is_read_gets_hostile_input() {
     let mut listed = Vec::new();

@@ -34,7 +34,8 @@ fn peak(arguments: &[&str]) -> f64 {
     most
 }
 
-/// Runs with all channels and with positions alone, in prescribed and in free motion, and with a table of the solution.
+/// The test measures runs with all channels and with positions alone, in prescribed and in free motion, and with a
+/// table of the solution.
 /// If `LINKPROOF_DRAWS` is above 1, the test adds a larger mechanism.
 #[test]
 fn a_run_uses_the_estimated_memory() {

@@ -127,7 +127,7 @@ fn foreign_files_are_replaced_only_if_named() {
         meets(&place, writer, "a file of the user's");
         assert_eq!(fs::read_to_string(&at).unwrap(), "mine", "{command}: {file}");
         remove();
-        // A link to a file of the user.
+        // The path is a symbolic link to a file of the user.
         fs::write(place.path("precious"), "mine").unwrap();
         symlink(place.path("precious"), &at).unwrap();
         meets(&place, writer, "a link");
@@ -150,7 +150,7 @@ fn foreign_files_are_replaced_only_if_named() {
         assert_eq!(first.code, 0, "{command}: {}", first.stderr);
         let own = fs::read(&at).unwrap();
         match command.starts_with("new") {
-            // Even its own output is not replaced by `new`.
+            // `new` does not replace even a file that it wrote before.
             true => drop(meets(&place, writer, "its output")),
             false => assert_eq!(place.run(command).code, 0, "{command}: {file}"),
         }
@@ -188,8 +188,8 @@ fn an_older_output_is_replaced_by_a_new_one() {
     }
 }
 
-/// Symptom: a dangling link was replaced, and a file appeared at a path that the user had not named.
-/// A link that the user names means its target, as in other programs.
+/// Symptom: a dangling symbolic link was replaced, and a file appeared at a path that the user had not named.
+/// If the user names a symbolic link, the command writes to its target, as other programs do.
 #[test]
 fn a_named_symlink_is_followed_even_to_a_missing_file() {
     for (command, file) in [
@@ -215,7 +215,7 @@ fn a_named_symlink_is_followed_even_to_a_missing_file() {
             assert!(!written.is_empty() && written != "an older file", "{command}");
             assert!(fs::symlink_metadata(place.path(file)).unwrap().is_symlink(), "{command}");
         }
-        // Links that form a cycle.
+        // Symbolic links that form a cycle.
         fs::remove_file(place.path("second")).unwrap();
         symlink(file, place.path("second")).unwrap();
         place.refused(&command, &["links"]);

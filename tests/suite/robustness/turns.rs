@@ -14,8 +14,8 @@ fn assert_repeats(near: &Trajectory, far: &Trajectory, turns: f64, what: &str) {
         let scale = near.iter().fold(1e-3, |most: f64, value| if value.abs() > most { value.abs() } else { most });
         for (near, far) in near.iter().zip(far) {
             let gone = match channel.kind.unit {
-                // For each revolution of the crank, the link makes the same whole number of revolutions as in the first
-                // ones.
+                // For each revolution of the crank, the link must make the same whole number of revolutions as at the
+                // start of the motion.
                 Unit::Radian => ((far - near) / TAU).round() * TAU,
                 _ => 0.0,
             };
@@ -54,8 +54,8 @@ fn motion_and_work_are_the_same_after_1e5_turns() {
 }
 
 /// Motions that do not repeat after a revolution are followed revolution by revolution.
-/// A parallelogram is refused at its change points, a motion law has no whole revolutions, and two drives do not repeat
-/// together.
+/// A parallelogram is refused at its change points.
+/// A motion law does not consist of whole revolutions, and two drives do not repeat together.
 #[test]
 fn several_drives_are_followed_turn_by_turn() {
     let case = shipped("five_bar.toml").case;

@@ -75,9 +75,9 @@ fn the_search_finds_the_lengths_of_the_closed_form() {
     let found = search(&task, 2, &mut |_| {}).unwrap();
     assert_within!(found.cost, 1e-7, "{found:?}");
     assert!(found.cost < found.random_cost, "{found:?}");
-    // Along the valley of equal swing, the time ratio hardly depends on the lengths.
-    // If the crank changes by 0.5 mm, the crank angle between the extreme positions changes by 0.064 deg.
-    // The refinement stops at a cost of this size.
+    // Many pairs of lengths give the same swing, and along them the time ratio hardly depends on the lengths.
+    // If the crank changes by 0.5 mm, the crank angle between the extreme positions changes by only 0.064 deg.
+    // The refinement stops before it corrects such a small change.
     let expected = [known.crank, known.coupler, known.stretched.crank];
     for ((value, expected), within) in found.values.iter().zip(expected).zip([1e-3, 4e-3, 2e-2]) {
         assert_within!((value - expected).abs(), within, "{found:?} {known:?}");
@@ -111,8 +111,9 @@ fn the_written_scenario_has_the_values_found() {
     let values = redraw::round_values(&task, &[0.031_234_567, 0.345_678_912, 1.234_567_89]);
     let text = redraw::redrawn(&task, &drawing.text, &values, "one\n\ntwo").unwrap();
     assert!(
-        text.starts_with("# one\n#\n# two\n# Not taken over from the drawing, because valid for its own dimensions")
-            && text.contains("\n\nformat = 1\nname = \"recovered\"\n"),
+        text.starts_with(
+            "# one\n#\n# two\n# These keys of the drawing are left out, because they are valid for its own dimensions"
+        ) && text.contains("\n\nformat = 1\nname = \"recovered\"\n"),
         "{text}"
     );
     let scenario = Scenario::parse(&text, "recovered.toml").unwrap();
@@ -129,7 +130,8 @@ fn the_written_scenario_has_the_values_found() {
 }
 
 /// Symptom: the scenario found disagreed in 210 of 339 numbers, and did not load in another directory.
-/// Cause: it kept the published numbers of the original scenario, and their tables.
+/// Cause: the scenario found still contained the published numbers of the original scenario, and references to their
+/// tables.
 #[test]
 fn regress_numbers_of_the_drawing_are_not_written() {
     let TaskFile { mut task, drawing } = task(TASK);
@@ -147,8 +149,9 @@ fn regress_numbers_of_the_drawing_are_not_written() {
     // The scenario loads in any directory, and states what was removed.
     let found = Scenario::parse(&written, "elsewhere/found.toml").unwrap();
     assert!(found.oracles.is_empty() && found.formulas.list.is_empty() && found.source.is_none());
-    let told = "Not taken over from the drawing, because valid for its own dimensions only: oracle, formula, source.\n";
-    assert!(written.starts_with(&format!("# found\n# {told}")), "{written}");
+    let keys = "are valid for its own dimensions only: oracle, formula, source.\n";
+    let told = format!("# found\n# These keys of the drawing are left out, because they {keys}");
+    assert!(written.starts_with(&told), "{written}");
 }
 
 /// The two phases end at the extreme positions of the published crank-rocker, at the crank angles of its range of

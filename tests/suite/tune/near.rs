@@ -1,5 +1,5 @@
 //! The result of `tune`, compared with all settings of a space by the cost model.
-//! The tests use a part of the space, `benches/tune.rs` the whole space.
+//! The tests use a part of the space; `benches/tune.rs` uses the whole space.
 
 use lab::tune::{Tuning, WantedAccuracy, price_of, tune};
 use linkage::engine::Engine;
@@ -23,9 +23,9 @@ pub fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Opti
 }
 
 /// Tunes all Rapier engines.
-/// The other analytic side must confirm the promised error of the result, and the cost model its cost.
-/// The space is searched for settings that cost less than the cost of the result divided by `below`.
-/// The result may cost at most [`FACTOR`] times the cheapest of them.
+/// The error that `tune` promises is confirmed with the other analytic side, and the cost with the cost model.
+/// An exhaustive search then finds the cheapest settings below the cost of the result divided by `below`.
+/// The cost of the result may be at most [`FACTOR`] times the cost of these settings.
 pub fn near_the_cheapest(scenario: &Scenario, within: f64, below: f64, space: &Space) {
     let name = &scenario.name;
     let engines = prover::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());

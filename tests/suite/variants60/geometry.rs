@@ -89,7 +89,7 @@ impl Linkage {
         let rod = v.alpha + 180.0 - beta * v.beta;
         let (b, c) = (a + degrees(rod) * l2, a + degrees(rod) * v.ac);
         let Some(l4) = v.rocker else {
-            // Scheme 4: gamma is the angle at B between coupler and rocker; D and B are one point.
+            // In scheme 4, D and B are one point, so gamma is the angle at B between coupler and rocker.
             let o2 = b + degrees(rod + 180.0 + gamma * v.gamma) * l3;
             return Linkage { variant: v, a, b, c, d: b, o2, slide: None };
         };
@@ -115,9 +115,9 @@ impl Linkage {
         cross(self.o2 - outer, self.d - outer) > 0.0
     }
 
-    /// Cosines of the transmission angles at crank angle `crank` (deg): between rod and normal, and between link 3 and
-    /// rocker.
-    /// Beyond a limit of the first dyad, the second cosine is infinite.
+    /// Cosines of the transmission angles at crank angle `crank` (deg).
+    /// The first is that of the angle between rod and normal, the second that of the angle between link 3 and rocker.
+    /// If the first dyad is beyond a limit, the second cosine is infinite.
     pub fn cosines(&self, crank: f64) -> [f64; 2] {
         let [l1, l2, l3] = self.variant.lengths;
         let a = degrees(crank) * l1;

@@ -5,12 +5,13 @@ use linkage::math::KeepNan;
 
 /// If the crank cannot turn fully, the grid ends where the transmission angle falls to this value (deg).
 const LEAST: f64 = 15.0;
-/// The same limit for variants whose given pose has a smaller transmission angle.
+/// The transmission angle (deg) at which the grid ends, for variants whose given pose has a smaller angle than `LEAST`.
 const SMALL: f64 = 10.0;
 /// Number of engine steps between the ends of the grid and the limits of the crank.
-/// Near a limit the motion varies as the square root of the distance to it.
-/// This distance in steps alone determines the accuracy of a step.
-/// With forty steps, one channel each of variants 15 and 35 stays inconclusive; with sixty, all are decided.
+/// Near a limit, the motion varies as the square root of the distance to the limit.
+/// The number of steps in this distance alone therefore determines the accuracy of a step.
+/// With forty steps, one channel of variant 15 and one of variant 35 are inconclusive; with sixty, all channels are
+/// decided.
 const STEPS_TO_LIMIT: f64 = 60.0;
 /// Engine step (deg) far from limits, and the smallest unit (deg): all steps are multiples of it.
 const ENGINE: [f64; 2] = [0.25, 0.01];

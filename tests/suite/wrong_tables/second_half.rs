@@ -1,4 +1,4 @@
-//! The half of the wrong tables that was run only after the work on the first half.
+//! The half of the wrong tables that was tried only after the diagnosis had been improved with the first half.
 
 use super::{Make, Sheet, Wrong, link};
 

@@ -61,7 +61,8 @@ impl<'a> Batch<'a> {
     /// Those of [`PoseSolver::new`].
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
-        // Vectorised poses keep the signs of the groups constant, but a change point changes them.
+        // A case that passes change points is not vectorised: vectorised poses keep the signs of the groups constant,
+        // but at a change point a sign changes.
         let groups = match case.crank().through {
             true => None,
             false => Groups::of(case, &poses.plan, Layout::of(case, false)),
@@ -81,8 +82,9 @@ impl<'a> Batch<'a> {
     }
 
     /// Whether several poses are solved at once.
-    /// If `false`, the case has groups other than RRR dyads and groups of four or six links on pins, or loads other
-    /// than moments of resistance, and is solved pose by pose.
+    /// This requires that all groups are RRR dyads or groups of four or six links on pins, and that all loads are
+    /// moments of resistance.
+    /// If `false`, the case is solved pose by pose.
     #[must_use]
     pub fn is_vectorised(&self) -> bool {
         self.groups.is_some()
@@ -116,7 +118,7 @@ impl<'a> Batch<'a> {
         }
         for (row, &crank) in cranks.iter().enumerate() {
             let is_placed = self.is_vectorised() && out.is_placed(row);
-            // The anchors already contain the intermediate poses.
+            // If anchors exist, no intermediate poses are solved here: the anchors already contain them.
             if !(is_placed && (self.anchors.is_some() || (crank - self.crank).abs() <= STEP)) {
                 let deepest = if is_placed { Stage::Positions } else { deepest };
                 match self.walk(crank, omega, alpha, deepest) {

@@ -22,14 +22,15 @@ use linkage::case::Case;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
-/// Ratio of two distances to an end of the gauge's range: that of the stored band to that of the band of the present
-/// step.
+/// The stored band of a gauge is wider than the band of the present step.
+/// The distance of the stored band to an end of the gauge's range is this fraction of the distance of the present
+/// step's band.
 const SPARE: f64 = 0.25;
 /// Bounds are computed for steps longer by this factor. The steps of a grid are equal only within rounding error.
 const LONGER: f64 = 1.0 + 1e-6;
 /// A gauge without an upper limit may grow by this factor while the bounds hold.
 const GROWN: f64 = 4.0;
-/// After this many steps, a missing proof is tried again.
+/// If a proof is missing, it is tried again after this many steps.
 const AGAIN: f64 = 16.0;
 
 /// A group with a gauge.
@@ -40,7 +41,8 @@ struct Watched {
     is_direct: bool,
     /// Whether the proof for this step is missing.
     is_open: bool,
-    /// Range of the gauge, from `low` to `high`. A step of the stored length within this range is proven.
+    /// Range of the gauge, from `low` to `high`. If the gauge stays in this range, a step of the stored length is
+    /// proven.
     low: f64,
     high: f64,
     /// Gauges at the pose before the last and at the last pose; NaN before the first pose.
@@ -175,8 +177,8 @@ impl Gauges {
 
     /// Whether the gauges of all direct groups stay within their ranges between two poses, for steps of length `step`
     /// (rad).
-    /// Stores the bounds of this proof. Their bands leave the fraction `share` of the remaining distance to the range's
-    /// ends free.
+    /// Stores the bounds of this proof. The distance from each stored band to an end of the gauge's range is the
+    /// fraction `share` of the distance that this step leaves.
     /// An indirect group without a proof is marked open.
     fn prove(&mut self, ends: &[End; 2], plan: &SolutionPlan, step: f64, share: f64) -> bool {
         let motions = &ends[1].motions;

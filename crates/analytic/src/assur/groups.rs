@@ -28,8 +28,8 @@ use linkage::math::{KeepNan, Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{AssemblyMode, GROUND, GroupId, GroupKind, LinkId, Mechanism, PerGroup, Structure};
 use linkage::work::{Count, WorkTally};
 
-/// Of two configurations, the nearer to an expected pose is accepted only if the ratio of the squared distances is
-/// below this value.
+/// Two configurations of a dyad are compared with an expected pose.
+/// The nearer one is accepted only if its squared distance, divided by that of the farther one, is below this value.
 const NEARER: f64 = 0.04;
 
 /// Driving link that turns about a joint with the ground or with an earlier driving link.
@@ -170,13 +170,14 @@ impl Step {
             Step::Rrr(dyad) => dyad.bound(band, links),
             Step::Rrp(dyad) => dyad.bound(band, step, motions, links),
             Step::Rpr(dyad) => dyad.bound(band, links),
-            // The travel of these groups' sliders is unlimited.
+            // No bounds are written for these groups, because the travel of their sliders is unlimited.
             Step::Prp(_) | Step::Rpp(_) | Step::Chain(_) => {}
         }
     }
 
-    /// Returns a dyad with two configurations in its other configuration, together with its links; `None` for all other
-    /// groups.
+    /// If the group is a dyad with two configurations, returns the dyad in its other configuration and the dyad's
+    /// links.
+    /// Returns `None` for all other groups.
     fn other(&self) -> Option<(Step, [LinkId; 2])> {
         match self {
             Step::Rrr(dyad) => Some((Step::Rrr(dyad.flipped()), dyad.links())),
@@ -316,7 +317,8 @@ impl SolutionPlan {
     /// The plan keeps these configurations.
     ///
     /// # Errors
-    /// Those of [`SolutionPlan::positions`]; [`Misfit::Singular`] if two configurations are about equally near.
+    /// [`Misfit::Singular`] if two configurations are about equally near to the expected pose, and those of
+    /// [`SolutionPlan::positions`].
     pub(crate) fn positions_like(
         &mut self,
         like: &[Motion],

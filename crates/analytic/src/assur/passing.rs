@@ -25,15 +25,16 @@ use window::Window;
 /// If the estimated distance to a change point is below this value (rad), the change point is searched for.
 /// The search thus comes before a step can lead into the window.
 const LOOK: f64 = 1.0;
-/// If a known change point is nearer than this multiple of the estimated distance, no search is made.
-/// The known change point is then the estimated one or lies before it.
+/// A search is made only if no known change point is nearer than this multiple of the estimated distance.
+/// A nearer known change point is the estimated one or lies before it.
 /// Change points beyond it are searched for from its window.
 const NEXT: f64 = 1.3;
 /// Two change points closer together than this (rad) count as one change point, at which several groups are singular.
 const SAME: f64 = 1e-6;
 /// Largest number of windows kept; the nearest windows are kept. A discarded window is found again when it is needed.
 const MOST_WINDOWS: usize = 8;
-/// Largest number of remembered intervals without a change point. A motion of many small steps produces this many.
+/// Largest number of remembered intervals without a change point. A motion of many small steps produces this many
+/// intervals.
 const MOST_CLEAR: usize = 256;
 
 /// The change points found so far in a mechanism with one driving link.
@@ -99,7 +100,7 @@ impl Passing {
             if self.looked.contains(&from) {
                 break;
             }
-            // The next change point may be nearer than a step.
+            // Search from the end of the window, because the next change point may be nearer than a step.
             let old = (self.looked.len() + 1).saturating_sub(MOST_CLEAR);
             self.looked.drain(..old);
             self.looked.push(from);
@@ -156,7 +157,7 @@ impl Passing {
         let found: Vec<(GroupId, f64)> =
             plan.steps().ids().zip(plan.clearances(&self.motions)).filter_map(near).collect();
         self.last = (angle, plan.steps().ids().map(|group| plan.determinant(group)).collect());
-        // If an interval is forgotten, it is searched again.
+        // Forget the oldest intervals. If a forgotten interval is needed again, it is searched again.
         let old = self.clear.len().saturating_sub(MOST_CLEAR);
         self.clear.drain(..old);
         for (group, ahead) in found {
@@ -206,7 +207,8 @@ const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;
 /// Advice for passing a pose that may be a change point.
 pub(super) fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
-        // Either the case is already set to pass change points, or it has several drives, for which this is impossible.
+        // The case cannot pass this pose: it is already set to pass change points, or it has several drives, for which
+        // passing is impossible.
         true => sentences::LET_THE_GRID_END_BEFORE_IT,
         false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }

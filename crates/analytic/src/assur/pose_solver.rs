@@ -115,7 +115,7 @@ impl<'a> PoseSolver<'a> {
 
     /// The state at the crank angle `crank` (rad, as the scenario states it) for the crank's angular velocity `omega`
     /// (rad/s) and acceleration `alpha` (rad/s^2).
-    /// Further drives have their speed ratios at that crank angle.
+    /// The rates of further drives follow from their speed ratios at that crank angle.
     /// Only stages up to `deepest` are computed. Later stages keep their old values.
     /// The links' angles also keep their old values: see [`PoseSolver::with_angles`].
     ///
@@ -123,7 +123,7 @@ impl<'a> PoseSolver<'a> {
     /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch. The error states the group and the
     /// angle at which it fails.
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
-        // Only a normal number has an inverse.
+        // The solution in one pass needs 1 / omega, which requires a normal number.
         self.in_one_pass = deepest >= Stage::Accelerations && omega.is_normal();
         (self.omega, self.alpha) = (omega, alpha);
         self.go_to(crank)?;
@@ -226,7 +226,7 @@ impl<'a> PoseSolver<'a> {
         self.go_far_to(target)
     }
 
-    /// Moves the mechanism to `target` where one step is not enough.
+    /// Moves the mechanism to `target` if one step is not enough.
     #[cold]
     fn go_far_to(&mut self, target: f64) -> Result<()> {
         self.skip_turns(target)?;
@@ -305,7 +305,7 @@ impl<'a> PoseSolver<'a> {
         Ok(())
     }
 
-    /// Takes one step. If a group cannot be followed over it, takes two steps of half the size instead.
+    /// Takes one step. If a group cannot be followed over this step, takes two steps of half the size instead.
     fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
         work::spend(work::PLACED * self.case.structure.groups.len() as f64)?;
         match self.place(target) {
@@ -319,12 +319,12 @@ impl<'a> PoseSolver<'a> {
     }
 
     /// The last state with its links' angles (rad).
-    /// If turns are [counted](PoseSolver::counting_turns), the angles contain them.
+    /// If turns are [counted](PoseSolver::counting_turns), the angles include whole turns.
     /// Otherwise only driving links have their present angles; all other links have the angles of the start of the
     /// case.
     pub fn with_angles(&mut self) -> &State {
         if let Some(turns) = &self.turns {
-            // The frame does not turn, and the crank's angle is given as an input.
+            // Skip the frame, which does not turn, and the crank, whose angle is given as an input.
             let crank = self.case.crank().link;
             let links = self.state.angles.entries_mut().skip(1).filter(|(link, _)| *link != crank);
             links.for_each(|(link, angle)| *angle = turns.angle(link));

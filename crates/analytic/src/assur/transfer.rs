@@ -187,7 +187,7 @@ impl<'a> TransferSide<'a> {
             .help(sentences::LET_THE_GRID_END_BEFORE_THE_MOTION)
     }
 
-    /// Angles of all links, turns kept.
+    /// Computes the angles of all links, including whole turns.
     fn find_angles(&mut self, driving: &[f64]) {
         self.state.angles.iter_mut().zip(self.turns.angles()).for_each(|(angle, found)| *angle = found);
         for (drive, &input) in self.case.drives.iter().zip(driving) {

@@ -66,7 +66,7 @@ impl Turns {
 }
 
 /// Angle of a direction (rad), from -pi to pi.
-/// Adding zero turns -0 into 0. The angle on the axis -x is therefore +pi, as the count assumes.
+/// The addition of 0.0 changes -0.0 to 0.0. The angle on the axis -x is therefore +pi, as the count assumes.
 #[inline]
 fn principal(direction: Vec2) -> f64 {
     (direction.y + 0.0).atan2(direction.x)

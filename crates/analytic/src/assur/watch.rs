@@ -14,7 +14,7 @@ use linkage::mechanism::{PerGroup, PerLink};
 
 /// If the clearance of a dyad is below this value, a change point may lie within a step.
 /// While the clearance goes from 0.8 to 0 and back, the links of the dyad turn by 106 deg relative to each other.
-/// At [`FAST`] this takes 7 deg of the crank.
+/// If they turn [`FAST`] times as fast as the crank, the crank turns by 7 deg meanwhile.
 /// This angle is larger than a step behind a higher group, but smaller than a step of 15 deg for dyads alone.
 const NARROW: f64 = 0.8;
 /// If a clearance exceeds this multiple of its expected change over the rest of the step, it is assumed to stay above
@@ -47,7 +47,7 @@ impl Seen {
     /// Whether the clearance may have fallen to zero and risen again. `sense` is the crank's direction in this step.
     #[inline]
     pub(super) fn may_pass(&self, sense: f64) -> bool {
-        // An unknown rate may have any value.
+        // `last.rate` may be unknown (NaN). Its comparison is negated, so that an unknown rate counts as falling.
         self.last.sine.smaller(self.now.sine) < NARROW
             && !(self.last.rate * sense >= 0.0)
             && self.now.rate * sense > 0.0
@@ -124,8 +124,9 @@ impl Watch {
     /// Whether the positions alone show that no group passes a change point on this step of the crank.
     /// A step through a change point changes the angle between the dyad's links by at least the sum of the sines at its
     /// two ends.
-    /// The sum must exceed the largest expected rotation in this step.
-    /// It must also exceed `CLEAR` times the change over the last step, scaled to this step.
+    /// A group is therefore safe if this sum exceeds two limits.
+    /// The first limit is the largest expected rotation in this step.
+    /// The second limit is `CLEAR` times the change of the clearance over the last step, scaled to this step.
     #[inline]
     pub(super) fn is_far(&mut self, step: f64, plan: &SolutionPlan, motions: &[Motion]) -> bool {
         let (steps, mut is_far) = (CLEAR * step / self.step, true);

@@ -11,7 +11,7 @@ use super::PoseSolver;
 use linkage::error::Result;
 use linkage::math::Motion;
 
-/// If at least this number of crank turns can be skipped, a check for equal turns pays off.
+/// The check for equal turns is made only if at least this number of crank turns can be skipped.
 const WORTH: f64 = 3.0;
 /// Two poses are equal if their differences are at most this large.
 /// Positions are compared in units of the mechanism's size, directions in rad.
@@ -19,7 +19,7 @@ const WORTH: f64 = 3.0;
 const SAME: f64 = 1e-9;
 
 impl PoseSolver<'_> {
-    /// Follows one whole turn towards the crank angle `target` and skips the turns equal to it.
+    /// Follows one whole turn towards the crank angle `target` and skips the following turns if they are equal to it.
     /// At most a few turns then remain.
     /// Does not skip turns if one turn leads to another pose, or if other drives or change points make turns differ.
     pub(super) fn skip_turns(&mut self, target: f64) -> Result<()> {

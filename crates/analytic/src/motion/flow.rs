@@ -37,7 +37,7 @@ enum Bound {
     KnotAhead,
 }
 
-/// The bounds of every piece. In the numbering of all bounds, they follow the bounds of the loads.
+/// Bounds that every piece has. In the numbering of all bounds, they follow the bounds of the loads.
 const COMMON: [Bound; 4] = [Bound::TooFast, Bound::TooSlow, Bound::KnotBehind, Bound::KnotAhead];
 /// A link or point counts as at rest at the end of a piece if its speed is below this fraction of its largest speed so
 /// far.
@@ -319,7 +319,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
         self.accelerate(work, place.x, &place.y)?;
         let begun: Vec<Vec2> = stood.iter().map(|&own| work.second(own)).collect();
         let ahead = self.ahead(work, place, stood);
-        // A link or point at its dead centre has no acceleration, and its load does no work at first.
+        // A link or point at its dead centre is idle: it has no acceleration, and its load does no work at first.
+        // Its sense is taken from its velocity after a short time.
         let idle =
             |second: Vec2, k: usize, (after, rates): &(f64, Vec<Vec2>)| second.norm() * after < 0.5 * rates[k].norm();
         let is_idle = |k: usize| ahead.as_ref().is_some_and(|found| idle(begun[k], k, found));
@@ -502,7 +503,7 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
 
     fn begin(&self, t: f64, y: &[f64; N]) {
         self.origin.set(*y);
-        // At the beginning of a piece, the senses come from the accelerations.
+        // At the beginning of a piece, the senses are kept: they come from the accelerations.
         if t == self.entered.get() {
             return;
         }

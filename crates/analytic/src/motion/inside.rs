@@ -2,8 +2,9 @@
 //!
 //! The interpolant of DOP853 has order 7.
 //! It is the sum of two terms (Hairer, Norsett, Wanner, "Solving ordinary differential equations I", II.6).
-//! The first is a cubic H through the values and rates at both ends. The second is s^2 (1 - s)^2 times a cubic C.
-//! The library exchanges s and 1 - s in C. Its value at s contains C at 1 - s, and has order 4.
+//! The first term is a cubic H through the values and rates at both ends. The second term is s^2 (1 - s)^2 times a
+//! cubic C.
+//! The library exchanges s and 1 - s in C. The library's value at s therefore contains C at 1 - s, and has order 4.
 //! The factor of C is the same at s and 1 - s. The true value is therefore H(s) + (library(1 - s) - H(1 - s)).
 //! A test below checks the order. It will fail if the library corrects this error.
 //! See docs/numerics/forces.md.
@@ -157,7 +158,8 @@ mod tests {
         }
     }
 
-    /// Largest error inside one step of the length `h`. The reference values are the ends of short steps.
+    /// Largest error inside one step of the length `h`. The reference values are the end states of sequences of short
+    /// steps.
     fn error(h: f64) -> f64 {
         let start = [0.3, 1.1];
         let mut method = a_step(&Swing, 0.0, &start, h).unwrap();

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use linkage::case::Case;
 use linkage::math::KeepNan;
 
-/// Distance beyond a knot at which a piece ends (rad). A motion that reverses on a knot then leaves it.
+/// A piece ends this far beyond a knot (rad). This lets a motion that reverses exactly on the knot leave it.
 /// The effect of the jump over this distance is far below rounding error.
 const BEYOND: f64 = 1e-9;
 

@@ -25,7 +25,7 @@ pub const ACCURACY: f64 = 1e-11;
 /// Tolerance for the error estimate of a step, divided by the allowed error. The estimate refers to the end of the
 /// step.
 /// Inside a step the order is lower by one, and errors are some hundred times larger.
-/// The errors inside the steps of `crank_rocker_runup` are 40 to 400 times an estimate.
+/// The errors inside the steps of `crank_rocker_runup` are 40 to 400 times the estimate.
 const ESTIMATED: f64 = 0.01;
 /// Smallest tolerance for an error estimate.
 /// With a smaller tolerance, rounding shortens the steps. Many short steps then add more rounding error than truncation
@@ -33,25 +33,27 @@ const ESTIMATED: f64 = 0.01;
 const LEAST_ESTIMATED: f64 = 2e-15;
 /// Fractions of a step at which the bounds are checked.
 const LOOKED_AT: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
-/// Error allowed in the tighter runs, divided by [`ACCURACY`]. The difference of the two runs shows the error of the
-/// normal runs.
+/// Error allowed in the tighter runs, divided by [`ACCURACY`]. The difference between a normal run and a tighter run
+/// shows the error of the normal run.
 /// With a smaller value, rounding error dominates.
 pub(crate) const TIGHTER: f64 = 0.01;
 /// Width of the windows around change points in the tighter runs, divided by the usual width.
-/// The tighter runs pass a change point with other poses, so that the difference of the runs also shows the error of
-/// the windows.
+/// The tighter runs pass a change point with other poses. The difference between a normal run and a tighter run
+/// therefore also shows the error of the windows.
 pub(crate) const NARROWER: f64 = 0.8;
-/// Largest number of consecutive pieces of zero duration. With more, the motion is stuck at a kink.
+/// If more than this number of consecutive pieces have zero duration, the motion is stuck at a kink.
 pub(crate) const MOST_EMPTY: usize = 8;
-/// Largest number of steps of one piece. A hundred turns of a mechanism take some ten thousand.
+/// Largest number of steps of one piece. A hundred turns of a mechanism take about ten thousand steps.
 const MOST_STEPS: usize = 3_000_000;
-/// After every such number of steps, the total number of steps is predicted. The march ends if it exceeds `MOST_STEPS`.
-/// This happens if a motor is much too strong for the machine. The motor's decay then limits the steps, not the motion.
+/// After every such number of steps, the total number of steps is predicted. If the total exceeds `MOST_STEPS`, the
+/// march ends.
+/// This happens if a motor is much too strong for the machine: the motor's decay, not the motion, then limits the
+/// length of the steps.
 const PREDICTED: usize = 50_000;
-/// A step is short if its length is at most this fraction of the integration interval, or of its position if that is
-/// larger.
+/// A step is short if its length is at most this fraction of the integration interval or of the step's position,
+/// whichever is larger.
 /// A long sequence of short steps ends the march.
-/// Such steps would never pass a singular pose, near which accelerations are rounding errors or cannot be computed.
+/// Short steps would never pass a singular pose: near it, accelerations are rounding errors or cannot be computed.
 const SHORTEST: f64 = 1e-9;
 const MOST_SHORT: usize = 400;
 /// A step may be longer than planned by this factor if it then reaches the last target. This avoids a tiny last step.
@@ -66,7 +68,7 @@ const CORRECTIONS: usize = 6;
 pub(crate) enum Stop {
     /// At the wanted end.
     End,
-    /// On a bound of the piece.
+    /// The march ended on a bound of the piece.
     Bound(usize),
 }
 
@@ -214,7 +216,7 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
     Ok(Stop::Bound(passed.0))
 }
 
-/// Position in the last step, before `beyond`, at which the method passes a bound. It is as accurate as the
+/// Position in the last step, before `beyond`, at which the method passes a bound. The position is as accurate as the
 /// interpolation.
 fn crossing<const N: usize, F: Flow<N>>(
     flow: &F,
@@ -230,8 +232,9 @@ fn crossing<const N: usize, F: Flow<N>>(
     Ok(low)
 }
 
-/// Takes a step of about the length `h` that ends on the bound. Secants give the length of each repetition.
-/// `known` holds the length of a longer step and the margin at its end.
+/// Takes a step of about the length `h` that ends on the bound. The step is repeated, and the secant method gives its
+/// new length.
+/// `known` contains the length of a longer step and the margin at its end.
 fn shortened<const N: usize, F: Flow<N>>(
     flow: &F,
     (x, y): (f64, [f64; N]),
@@ -251,7 +254,8 @@ fn shortened<const N: usize, F: Flow<N>>(
     best.map(|(taken, _)| taken).ok_or_else(|| lost(x, sentences::NO_STEP_REACHES_ITS_BOUND))
 }
 
-/// Largest number of pieces of one motion. A hundred turns of a mechanism under tables of loads take some thousand.
+/// Largest number of pieces of one motion. A hundred turns of a mechanism under tables of loads take some thousand
+/// pieces.
 const MOST_PIECES: usize = 3_000_000;
 /// After every such number of pieces, the total number of pieces is predicted and compared with `MOST_PIECES`.
 const JUDGED: usize = 5_000;

@@ -55,7 +55,7 @@ pub(crate) fn loads_held(case: &Case, motions: &[Motion], angles: &[f64], held: 
 }
 
 /// Solves a side's equations of motion for the accelerations of the free driving links, and writes them to the inputs.
-/// `free` holds the indices of these links.
+/// `free` contains the indices of these links.
 pub(crate) fn embed(matrix: &mut Lu, right: &mut [f64], free: &[usize], inputs: &mut Inputs) -> Result<()> {
     if !matrix.factor() {
         let message = sentences::THE_EQUATIONS_OF_MOTION_ARE_SINGULAR;
@@ -86,8 +86,8 @@ pub(crate) trait Side {
     /// Angular velocity and acceleration of a link after the last call of [accelerate](Side::accelerate).
     fn link_rates(&self, link: LinkId) -> [f64; 2];
 
-    /// Fills in the complete state after the last call of [accelerate](Side::accelerate). The links' angles keep their
-    /// turns.
+    /// Fills in the complete state after the last call of [accelerate](Side::accelerate). The links' angles include
+    /// whole turns.
     /// The state includes reactions if they are requested.
     fn fill(&mut self, inputs: &Inputs, state: &mut State) -> Result<()>;
 }

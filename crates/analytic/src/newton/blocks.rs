@@ -4,10 +4,10 @@
 //! A driving link does not depend on the groups, and a group does not depend on later groups.
 //! Elimination within the diagonal blocks alone keeps this structure.
 //! A group near a singular pose then does not affect the accuracy of results that do not depend on it.
-//! Elimination over all rows together brought the rounding error of this group's large accelerations into those of the
-//! crank's own pin.
+//! Elimination over all rows together carried the rounding error of this group's large accelerations into the
+//! accelerations of the crank's own pin.
 //! Every block also has its own determinant.
-//! The determinant of the whole matrix would keep its sign if two blocks change theirs.
+//! The determinant of the whole matrix would keep its sign if the determinants of two blocks change their signs.
 
 use linkage::case::Case;
 use linkage::math::KeepNan;

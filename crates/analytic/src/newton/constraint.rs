@@ -8,8 +8,8 @@
 //! C1'' = 0 gives n . d'' = 2 omega1 e . d' + alpha1 e . d. The first term on the right and the centripetal terms of
 //! d'' form gamma.
 //! The multiplier of C1 is therefore a force along n that acts at p2 on both links. The multiplier of C2 is a moment.
-//! Derived here; the constraints are equations 3.3.10 and 3.3.13 of E. J. Haug, Computer Aided Kinematics and Dynamics
-//! of Mechanical Systems, vol. 1, Allyn and Bacon 1989.
+//! The derivatives are derived here. The constraints are equations 3.3.10 and 3.3.13 of E. J. Haug, Computer Aided
+//! Kinematics and Dynamics of Mechanical Systems, vol. 1, Allyn and Bacon 1989.
 
 use super::system::System;
 use linkage::drive::Drive;

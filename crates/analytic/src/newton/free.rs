@@ -31,7 +31,7 @@ pub(super) struct Embedded<'a> {
     free: Vec<usize>,
     /// Columns V of all drives, one after the other.
     columns: Vec<f64>,
-    /// First a0, later Q - M a0.
+    /// Contains a0 at first, and Q - M a0 afterwards.
     rest: Vec<f64>,
     force: Vec<f64>,
     matrix: Lu,

@@ -4,8 +4,8 @@
 //! The path is followed as a function of the crank angle, with the first and second derivatives of all coordinates by
 //! this angle.
 //! In a [`Window`] around a change point, no system of equations is solved.
-//! The coordinates there are an osculating polynomial through poses on both sides. Its derivatives give velocities and
-//! accelerations.
+//! Instead, an osculating polynomial through poses on both sides gives the coordinates. Its derivatives give velocities
+//! and accelerations.
 //! See docs/numerics/change_points.md.
 
 mod multipliers;
@@ -25,17 +25,18 @@ use window::Window;
 
 /// If the estimated distance to a change point is below this value (rad), the change point is searched for.
 const LOOK: f64 = 0.8;
-/// Rotation of the crank (rad) for the slopes of the determinants at the start.
+/// Rotation of the crank (rad) from which the slopes of the determinants at the start are computed.
 const PROBE: f64 = 1e-4;
-/// If a known change point is nearer than this multiple of the estimated distance, no search is made.
-/// The known change point is then the estimated one or lies before it.
+/// A search is made only if no known change point is nearer than this multiple of the estimated distance.
+/// A nearer known change point is the estimated one or lies before it.
 /// Change points beyond it are searched for from its window.
 const NEXT: f64 = 1.3;
 /// Two change points closer together than this (rad) count as one change point, at which several groups are singular.
 const SAME: f64 = 1e-6;
 /// Largest number of windows kept; the nearest windows are kept.
 const MOST_WINDOWS: usize = 8;
-/// Largest number of remembered intervals without a change point. A motion of many small steps produces this many.
+/// Largest number of remembered intervals without a change point. A motion of many small steps produces this many
+/// intervals.
 const MOST_CLEAR: usize = 256;
 
 /// The path of a mechanism with one driving link, and the change points found so far.
@@ -94,7 +95,7 @@ impl Passing {
     /// Computes the slopes of the determinants at the first pose.
     fn begin(&mut self, system: &mut System) -> Result<()> {
         self.spot.shares = system.jacobian.shares().collect();
-        // A change point may lie within a probe on either side; the next probe then serves instead.
+        // If a change point lies within a probe on one side, the next probe is used.
         let probes = [PROBE, -PROBE, 0.01 * PROBE, -0.01 * PROBE];
         let mut found = probes.iter().map(|probe| walked(system, &self.spot, self.spot.angle + probe));
         let before = match found.find(Result::is_ok) {
@@ -134,7 +135,7 @@ impl Passing {
         if turned == 0.0 {
             return Ok(());
         }
-        // If an interval is forgotten, it is searched again.
+        // Forget the oldest intervals. If a forgotten interval is needed again, it is searched again.
         let old = self.clear.len().saturating_sub(MOST_CLEAR);
         self.clear.drain(..old);
         for block in 0..self.spot.shares.len() {

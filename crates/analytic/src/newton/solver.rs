@@ -1,4 +1,4 @@
-//! Side 2: the whole mechanism at once, from its constraint equations and their Jacobian.
+//! Side 2 solves the whole mechanism at once, from its constraint equations and their Jacobian.
 //!
 //! Coordinates are (x, y, theta) of every link's mass centre frame.
 //! Constraints: two equations C = 0 per joint, and the given angle of the driving link.
@@ -18,7 +18,7 @@ use linkage::error::{Error, Result};
 use linkage::solver::{Progress, Provision, Solver, State, Visit};
 use linkage::trajectory::Channel;
 
-/// The solver of side 2: the whole mechanism by Newton's method and Lagrange multipliers.
+/// The solver of side 2. It solves the whole mechanism by Newton's method and Lagrange multipliers.
 #[derive(Clone, Copy, Debug)]
 pub struct NewtonSolver;
 

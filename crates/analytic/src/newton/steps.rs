@@ -1,5 +1,5 @@
-//! Follows the branch in small rotations of the crank. Newton's method corrects a prediction of each pose; then follow
-//! velocities, accelerations and multipliers.
+//! Follows the branch in small rotations of the crank. Newton's method corrects a prediction of each pose.
+//! Velocities, accelerations and multipliers are computed from the corrected pose.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -62,7 +62,7 @@ impl System<'_> {
             None => drive.top_speed().abs() * (t - self.time).abs(),
         };
         let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
-        // If a law reaches its top speed only for a moment, nothing else limits this angle.
+        // Refuse too many turns. If a law reaches its top speed only for a moment, this is the only limit of `turn`.
         if !(turn <= 2.0 * Grid::MOST_TURNS * TAU) {
             let turns = turn / TAU;
             return Err(self.lost(&sentences::up_to_turns_on_the_way_to_are_too(&format_args!("{turns:.1e}"), &t)));
@@ -76,8 +76,8 @@ impl System<'_> {
         self.step_to(t, HALVINGS)
     }
 
-    /// Takes one step from a prediction. If the branch cannot be followed over it, takes two steps of half the size
-    /// instead.
+    /// Takes one step from a prediction. If the branch cannot be followed over this step, takes two steps of half the
+    /// size instead.
     pub(super) fn step_to(&mut self, t: f64, halvings: u32) -> Result<()> {
         work::spend(work::PLACED * self.case.mechanism.links().len() as f64)?;
         let (from, dt) = (self.time, t - self.time);
@@ -90,8 +90,8 @@ impl System<'_> {
         self.set_time(t);
         self.predicted.copy_from_slice(&self.q);
         let followed = self.correct().and_then(|()| self.check_branch(dt)).and_then(|()| {
-            // If branches cross here, velocities and accelerations are mostly rounding error. A check for jumps then
-            // gives random results.
+            // Refuse a pose at which branches cross before velocities are compared. At such a pose, velocities and
+            // accelerations are mostly rounding error, and a check for jumps gives random results.
             self.check_singular()?;
             self.differentiate();
             self.check_velocities(dt)
@@ -110,7 +110,7 @@ impl System<'_> {
         }
     }
 
-    /// Newton's method to rounding accuracy, from the pose in `q`.
+    /// Corrects the pose in `q` by Newton's method, to rounding accuracy.
     /// The factored Jacobian is that of the pose before the last correction. The two poses differ by rounding error.
     pub(super) fn correct(&mut self) -> Result<()> {
         self.tally.one(Count::Poses);
@@ -257,7 +257,7 @@ impl System<'_> {
 
     pub(super) fn lost(&self, why: &str) -> Error {
         let (at, t) = (self.case.told(self.case.crank().from_world(self.inputs[0].value)), self.time);
-        // In a free motion only the integrator knows the time.
+        // In a free motion the error contains no time, because only the integrator knows the time.
         if self.case.is_free() {
             return Error::new(ErrorKind::Numeric, format!("{at}: {why}"))
                 .at_input(at)
@@ -271,7 +271,8 @@ impl System<'_> {
 /// Advice for passing a pose that may be a change point.
 fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
-        // Either the case is already set to pass change points, or it has several drives, for which this is impossible.
+        // The case cannot pass this pose: it is already set to pass change points, or it has several drives, for which
+        // passing is impossible.
         true => sentences::LET_THE_GRID_END_BEFORE_IT,
         false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }

@@ -39,7 +39,7 @@ pub(super) struct System<'a> {
     pub(super) second_before: Vec<f64>,
     /// The driving links at the present time: world angles, angular velocities and angular accelerations.
     pub(super) inputs: Vec<InputState>,
-    /// Motions and angles of all links, from which their loads follow, and the loads.
+    /// Motions and angles of all links, and the loads computed from them.
     pub(super) motions: Vec<Motion>,
     pub(super) angles: Vec<f64>,
     pub(super) loads: Vec<Wrench>,
@@ -158,7 +158,7 @@ fn by_law(drive: &Drive, t: f64) -> InputState {
 }
 
 /// Angle of a joint's second link minus that of its first link (rad), if the axes of a prismatic joint are parallel.
-/// It contains the whole turns of the start pose. It is 0 for a revolute joint, which does not use it.
+/// This angle includes the whole turns of the start pose. For a revolute joint it is 0 and unused.
 fn twist(case: &Case, joint: &Joint) -> f64 {
     let Some(axes) = joint.kind.axes() else { return 0.0 };
     let [first, second] = axes.map(|axis| axis.y.atan2(axis.x));

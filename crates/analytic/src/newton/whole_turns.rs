@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use super::system::System;
 use linkage::error::Result;
 
-/// If at least this number of crank turns can be skipped, a check for equal turns pays off.
+/// The check for equal turns is made only if at least this number of crank turns can be skipped.
 const WORTH: f64 = 3.0;
 /// Two poses are equal if their differences are at most this large.
 /// Positions are compared in units of the mechanism's size, angles in rad.
@@ -18,9 +18,10 @@ const WORTH: f64 = 3.0;
 const SAME: f64 = 1e-9;
 
 impl System<'_> {
-    /// Follows one whole turn towards `t` and skips the turns equal to it. At most a few turns then remain.
-    /// Does not skip turns if one turn leads to another pose, with several drives, or without a constant speed of the
-    /// drive.
+    /// Follows one whole turn towards `t` and skips the following turns if they are equal to it. At most a few turns
+    /// then remain.
+    /// Does not skip turns if one turn leads to another pose, if there are several drives, or if the speed of the drive
+    /// is not constant.
     pub(super) fn skip_turns(&mut self, t: f64) -> Result<()> {
         let [drive] = &self.case.drives.iter().collect::<Vec<_>>()[..] else { return Ok(()) };
         let Some(speed) = drive.constant_speed() else { return Ok(()) };

@@ -153,7 +153,7 @@ impl<'a> Constraints<'a> {
             }
         }
         if first.link != GROUND {
-            // The normal turns with the first link.
+            // This term arises because the normal turns with the first link.
             equations.jacobian[(row, Self::angle(first.link))] -= axis.dot(&gap);
         }
     }

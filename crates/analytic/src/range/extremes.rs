@@ -24,7 +24,7 @@ pub struct ExtremePosition {
     pub crank: f64,
     /// Angle of the link (rad).
     pub angle: f64,
-    /// Whether the angle has a maximum there; otherwise it has a minimum.
+    /// Whether the angle has a maximum at this position; otherwise it has a minimum.
     pub is_greatest: bool,
 }
 
@@ -69,7 +69,7 @@ fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: LinkId) -> L
         }
     }
     let last = points.len() - 1;
-    // On a closed curve, a start in an extreme position is both the first and the last pose.
+    // The start of a closed curve is both the first and the last pose. If it is an extreme position, it is added here.
     if let (true, Some(&first), Some(&end)) = (closed, moving.first(), moving.last())
         && first > 0
         && rate(&points[first]) * rate(&points[end]) < 0.0

@@ -11,7 +11,7 @@ pub enum SingularityKind {
     DeadPoint,
     /// Branches cross: the determinant passes through zero linearly in the crank angle, and the crank need not reverse.
     ChangePoint,
-    /// The two axes of an RPP or PRP dyad are parallel. Towards this pose its slides grow without bound.
+    /// The two axes of an RPP or PRP dyad are parallel. Towards this pose the slides of the dyad grow without bound.
     ParallelAxes,
     /// Another branch is so near that the determinant is below 1e-3 without changing its sign.
     BranchContact,
@@ -39,12 +39,12 @@ pub struct Singularity {
     pub crank: f64,
     /// The group with the zero determinant: index in [`Structure::groups`](linkage::mechanism::Structure::groups).
     pub group: GroupId,
-    /// Normalised determinant of the group there: 0, except for a contact. The transmission angle of a dyad is its arc
-    /// sine.
+    /// Normalised determinant of the group in this pose: 0, except for a contact. For a dyad, the arc sine of the
+    /// determinant is the transmission angle.
     pub determinant: f64,
 }
 
-/// A crank angle (rad) and the value there.
+/// A value and the crank angle (rad) at which it occurs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueAtCrank {
     /// Crank angle (rad, in the scenario's convention).

@@ -47,7 +47,7 @@ const STEPS_TO_ZERO: usize = 60;
 const MOST_POINTS: usize = 200_000;
 /// Work of one elimination, or of two solutions with a factored matrix, divided by the square of the number of
 /// coordinates.
-/// The unit is that of work budgets.
+/// The work is in the unit of work budgets.
 const SQUARE: f64 = 1e-3;
 /// If the crank has turned this number of turns, the search for a return to the first pose ends.
 const MOST_TURNS: i32 = 12;
@@ -342,7 +342,7 @@ impl<'a> Tracker<'a> {
     /// The smallest singular value is small if links are far away, even without a branch nearby, because the axes that
     /// guide these links are almost parallel.
     /// The singular value is therefore multiplied by the extent.
-    /// Groups without a far link do not grow with the extent; their determinants bound the distance.
+    /// This factor is not valid for groups without a far link. For these groups, the determinants bound the distance.
     fn clearance(&self, here: &Point) -> f64 {
         let extent = self.extent(&here.q);
         let all = here.sigma * extent;
@@ -385,8 +385,8 @@ impl<'a> Tracker<'a> {
         let q = if known.len() < 3 { last.q.clone() } else { neville_at_zero(&known) };
         let moved = (&q - &last.q).norm();
         let q = if moved < 1e-3 { q } else { last.q.clone() };
-        // This is a dead point of several groups at once. The crank stands still on the curve, as at the dead point of
-        // one group.
+        // If the crank stands still on the curve, this is a dead point of several groups at once. The crank also stands
+        // still at the dead point of one group.
         let kind =
             if self.crank_rate(last).abs() < 1e-3 { SingularityKind::DeadPoint } else { SingularityKind::ChangePoint };
         let mut end = Point { q, ..last.clone() };

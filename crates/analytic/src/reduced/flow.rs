@@ -1,9 +1,10 @@
 //! The equation of motion on one piece, in two independent forms.
 //!
-//! The first form is in time, for run-ups, which begin at rest: phi' = omega, omega' = (M - omega^2 / 2 dI*/dphi) / I*.
+//! The first form is a function of time, for run-ups, which begin at rest: phi' = omega, omega' = (M - omega^2 / 2
+//! dI*/dphi) / I*.
 //! The second form is a function of the crank angle, for steady regimes, in which the interval and the positions of the
 //! kinks are known.
-//! With E = I* omega^2 / 2, it is dE/dphi = M and dt/dphi = 1 / omega.
+//! With E = I* omega^2 / 2, the second form is dE/dphi = M and dt/dphi = 1 / omega.
 //! The second form does not contain dI*/dphi, so that each form checks the other.
 
 use std::cell::{Cell, RefCell};

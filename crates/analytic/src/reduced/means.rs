@@ -108,7 +108,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     let start = case.crank().start;
     let within = |crank: f64, period: f64| {
         let inside = (crank - start).rem_euclid(period);
-        // Rounding may place a kink slightly before the start.
+        // Rounding may place a kink slightly before the start. This kink is then set to the start.
         start + if period - inside < 1e-12 { 0.0 } else { inside }
     };
     let Reach { turns, limits, meets, reversals: mut cranks } = match FullTurn::of(case, &sensed) {

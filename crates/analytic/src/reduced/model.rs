@@ -63,15 +63,15 @@ pub struct ReducedModel<'a> {
     /// Loads that depend only on the pose.
     steady: Vec<Load>,
     kinks: Kinks,
-    /// Crank angles of the boundaries between pieces. They are the kinks of one period, or its start if there are no
-    /// kinks.
+    /// Crank angles of the boundaries between pieces. The boundaries are the kinks of one period.
+    /// If there are no kinks, the start of the period is the only boundary.
     /// If the motion has limits, these are included.
     boundaries: Vec<f64>,
     /// Sense of the transfer function of each link in `sensed`, on each piece of one period: +1 or -1.
     /// The values of the first piece come first, then those of the next piece.
     senses: Vec<f64>,
     pub(crate) motor: Option<Motor>,
-    /// Sense in which the motor drives the crank. It is that of the prescribed speed in the scenario.
+    /// Sense in which the motor drives the crank: the sense of the prescribed speed in the scenario.
     pub(crate) sense: f64,
     /// Moment of inertia that turns with the crank: motor and reducer reduced to it, and a flywheel (kg m^2).
     pub(crate) added: f64,
@@ -118,7 +118,7 @@ impl<'a> ReducedModel<'a> {
         Ok(model)
     }
 
-    /// A pose solver of the case. If the model knows that the crank turns fully, the solver uses this.
+    /// A pose solver of the case. If the crank is known to turn fully, the solver is set to use this fact.
     pub(crate) fn guided<'p>(&self, poses: PoseSolver<'p>) -> PoseSolver<'p> {
         if self.kinks.period.is_some() { poses.turning_fully() } else { poses }
     }
@@ -155,9 +155,9 @@ impl<'a> ReducedModel<'a> {
     }
 
     /// Angle (rad) to subtract so that the crank angle stays small and loses no digits.
-    /// If the crank moves upwards and `crank` is at the end of the last piece, it is the period.
-    /// If the crank moves downwards and `crank` is at the beginning of the first piece, it is minus the period.
-    /// Otherwise it is zero.
+    /// If the crank moves upwards and `crank` is at the end of the last piece, the result is the period.
+    /// If the crank moves downwards and `crank` is at the beginning of the first piece, the result is minus the period.
+    /// Otherwise the result is zero.
     pub(crate) fn wrap(&self, crank: f64, way: f64) -> f64 {
         let first = self.boundaries[0];
         match self.kinks.period {
@@ -194,7 +194,7 @@ impl<'a> ReducedModel<'a> {
         };
         let below = all.iter().filter(|&&boundary| boundary <= inside).count() as i64 - 1;
         let count = all.len() as i64;
-        // Rounding may have selected the neighbouring piece.
+        // Check the neighbouring pieces too: rounding may have selected one of them.
         let guess = below + turns * count;
         let holds = |piece: &Piece| match way > 0.0 {
             true => crank >= piece.ends[0] && crank < piece.ends[1],

@@ -36,11 +36,11 @@ pub struct CrankState {
 /// How a motion ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RunUpEnd {
-    /// At the last requested instant.
+    /// The motion ended at the last requested instant.
     Reached,
-    /// At a standstill, held by loads and losses. The fields are time (s) and crank angle (rad).
+    /// The motion ended at a standstill, held by loads and losses. The fields are time (s) and crank angle (rad).
     Held(f64, f64),
-    /// Before a limit of rotation. The fields are time (s) and crank angle (rad).
+    /// The motion ended before a limit of rotation. The fields are time (s) and crank angle (rad).
     Limit(f64, f64),
 }
 
@@ -160,8 +160,8 @@ impl<'m, 'a> Runner<'m, 'a> {
     /// end.
     fn enter(&mut self) -> Result<Option<RunUpEnd>> {
         let (t, [crank, omega]) = (self.place.x, self.place.y);
-        // From standstill, the crank starts in a direction if it is accelerated in this direction. The resistance
-        // against this direction is included.
+        // From standstill, the crank starts in a direction if its acceleration points in this direction. The
+        // acceleration includes the resistance against this direction.
         let ways: &[f64] = if omega == 0.0 { &[1.0, -1.0] } else { &[omega.signum()] };
         for &way in ways {
             let Some(piece) = self.flow.0.model.piece_at(crank, way) else {
@@ -215,7 +215,7 @@ impl<'m, 'a> Runner<'m, 'a> {
         if let RunUpEnd::Held(t, crank) = end
             && times.get(found.len()) == Some(&t)
         {
-            // The forces that hold the crank balance the motor.
+            // The shaft transmits the whole moment of the motor: the forces that hold the crank balance it.
             let motor = self.flow.0.motor_moment(0.0);
             found.push(CrankState { t, crank, within: crank - self.gone, omega: 0.0, alpha: 0.0, motor, shaft: motor });
         }
@@ -276,7 +276,7 @@ impl RunUp {
             times: motion.iter().map(|instant| instant.t).collect(),
             inputs: motion.iter().map(|instant| instant.crank).collect(),
         };
-        // Forces determine this motion, so the law of the crank must not limit its time.
+        // Forces determine this motion. The law of the crank must therefore not limit the time of the grid.
         let case = model.case.at_top_speed().on(grid)?;
         let mut sampler = Sampler::new(&case);
         let (mut natural, size) = (0.0f64, case.mechanism.size());

@@ -120,7 +120,8 @@ fn between(
         reversals.extend(found);
         return Ok(());
     }
-    // The link may have reversed twice only if the tangents at both ends intersect beyond zero.
+    // The link may have reversed twice only if the tangents of its angular velocity at both ends intersect on the other
+    // side of zero. Otherwise the interval is not halved.
     let at = (b.omega - a.omega + a.slope * a.crank - b.slope * b.crank) / (a.slope - b.slope);
     let is_dip = a.omega * a.slope < 0.0 && b.omega * b.slope > 0.0;
     if halvings > 0 && is_dip && (a.omega + a.slope * (at - a.crank)) * a.omega <= 0.0 {

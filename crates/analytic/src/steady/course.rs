@@ -61,7 +61,7 @@ impl ReducedModel<'_> {
     /// Extremes over one period of dI*/dphi, refined between samples.
     ///
     /// # Errors
-    /// As [`ReducedModel::extremes`].
+    /// Those of [`ReducedModel::extremes`].
     pub fn slope_extremes(&self) -> Result<Extremes> {
         Ok(self.extremes_of([|row| row.slope])?[0])
     }
@@ -71,7 +71,7 @@ impl ReducedModel<'_> {
         let count = (period / SAMPLE_STEP).ceil();
         let start = self.case.crank().start;
         let mut cranks: Vec<f64> = (0..=count as usize).map(|k| start + period * (k as f64 / count)).collect();
-        // A kink may be an extreme. The curve is not flat at such an extreme.
+        // Kinks are added as samples: a kink may be an extreme at which the curve is not flat.
         cranks.extend(&self.kinks().cranks);
         cranks.sort_by(f64::total_cmp);
         let mut poses = PoseSolver::new(self.case)?;

@@ -47,7 +47,7 @@ pub struct Regime {
     /// Ratio of a small deviation of the energy at the end of a period to the deviation at the beginning.
     /// It is below 1; otherwise the motion would not be stable.
     pub multiplier: f64,
-    /// The crank at the requested crank angles.
+    /// Speeds of the crank at the requested crank angles.
     pub samples: Vec<SpeedAtCrank>,
     /// Energy of the reduced motion at the start of the period (J).
     energy: f64,

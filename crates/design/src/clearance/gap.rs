@@ -1,8 +1,8 @@
 //! Distance of two bodies at the middle of a part of the range, with a lower bound over the whole part.
 //!
-//! parry2d computes the nearest points. The bound uses only the direction between these points.
-//! Along a fixed direction, two convex parts are as far apart as their extreme corners.
-//! Up to a proven error, every corner moves uniformly.
+//! parry2d computes the nearest points. The bound depends only on the direction between these points.
+//! The distance of two convex parts along a fixed direction is that of their extreme corners along this direction.
+//! Every corner moves uniformly, up to a proven error.
 //! A wrong pair of nearest points therefore weakens the bound but never invalidates it.
 
 use linkage::math::{KeepNan, Vec2, turned};
@@ -14,7 +14,8 @@ use parry2d_f64::shape::{ConvexPolygon, Segment, Shape};
 use super::tube::{Slice, Track};
 use scenario::clearance::Outline;
 
-/// Nearest points are not computed beyond this distance, a multiple of the mechanism's size.
+/// If two convex parts are farther apart than this multiple of the mechanism's size, their nearest points are not
+/// computed.
 const FAR: f64 = 1e9;
 
 /// If two convex parts are nearer than this multiple of the mechanism's size, the normals of their sides are tried too.
@@ -54,8 +55,8 @@ struct PlacedPiece {
 /// Distance of two bodies over a part of the range.
 #[derive(Clone, Copy, Debug)]
 pub struct Gap {
-    /// Upper bound of the distance at the middle (m).
-    /// It is 0 if the bodies meet. It is infinite if all convex parts are farther apart than the requested distance.
+    /// Upper bound of the distance at the middle (m). It is 0 if the bodies meet.
+    /// It is infinite if all convex parts are farther apart than the argument `enough` of the function `gap`.
     pub now: f64,
     /// Nearest points at the middle, on the first and the second body (m).
     pub points: [Vec2; 2],
@@ -159,8 +160,9 @@ pub fn gap(
                 ask((p - q) / core);
             }
             if core < CLOSE * a.scale {
-                // The direction between points this close is only rounding error.
-                // If the two parts can be separated, the normal of one of their sides separates them.
+                // The direction between points this close is only rounding error, so the normals of the sides are tried
+                // too.
+                // If the two parts can be separated, one of these normals separates them.
                 normals(&own.corners, -1.0, &mut ask);
                 normals(&other.corners, 1.0, &mut ask);
             }
@@ -179,7 +181,8 @@ fn closest(pieces: [&Piece; 2], placed: [&PlacedPiece; 2], places: [&PlacedSolid
             let middle = (placed[0].centre + placed[1].centre) / 2.0;
             [middle; 2]
         }
-        // Any two points of the pieces give an upper bound of the distance.
+        // The centres of the pieces replace the nearest points. Any two points of the pieces give an upper bound of the
+        // distance.
         Ok(ClosestPoints::Disjoint) | Err(_) => placed.map(|piece| piece.centre),
     }
 }

@@ -12,7 +12,7 @@ use super::gap::{Gap, PlacedSolid, Solid, gap};
 use super::tube::{MOST_HALVINGS, RangePart, Slice, Tubes};
 
 /// Number of golden-section steps that refine the smallest distance found.
-/// The second constant limits the number of brackets that are searched one after another.
+/// `STRIDES` is the upper limit of the number of brackets that are searched one after another.
 const REFINEMENTS: usize = 30;
 const STRIDES: usize = 8;
 /// Number of halvings beyond [`MOST_HALVINGS`] that are allowed for enclosing a first meeting.
@@ -38,8 +38,8 @@ pub struct Smallest {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
     /// Two crank angles (rad), in the direction of motion, that enclose the meeting.
-    /// Up to the first angle, the distance is proven to be larger than the given one.
-    /// At the second angle, the given distance is reached.
+    /// Up to the first angle, the distance is proven to be larger than the given distance.
+    /// At the second angle, the distance is at most the given distance plus the contact distance.
     pub cranks: [f64; 2],
     /// Point of the meeting at the second crank angle (m, world).
     pub place: Vec2,
@@ -85,7 +85,8 @@ impl DistanceSearch<'_, '_> {
         let mut parts: Vec<(RangePart, Vec<usize>)> =
             self.tubes.parts().map(|part| (part, (0..pairs.len()).collect())).collect();
         while !parts.is_empty() {
-            // All parts of this size are evaluated first. A small distance found here saves later halvings.
+            // All parts of the present size are evaluated before any of them is halved.
+            // A small distance found in one part makes halvings of other parts unnecessary.
             let mut bounds: Vec<Bounds> = Vec::with_capacity(parts.len());
             for (part, alive) in parts {
                 let slice = self.tubes.at(part)?;
@@ -144,7 +145,7 @@ impl DistanceSearch<'_, '_> {
         self.open.push(self.tubes.ends(part));
     }
 
-    /// Refines the distance to its minimum near the best instant.
+    /// Searches for a smaller distance near the crank angle of the smallest distance found so far.
     fn refine(&mut self, own: &mut Smallest, pair: [usize; 2]) -> Result<()> {
         let [from, to] = self.tubes.range();
         let (low, high) = (from.smaller(to), from.larger(to));
@@ -161,7 +162,7 @@ impl DistanceSearch<'_, '_> {
                 Ok::<f64, linkage::Error>(-found.now)
             };
             golden(ends, REFINEMENTS, &mut look)?;
-            // Golden section never evaluates the ends.
+            // The ends are evaluated separately, because golden section never evaluates them.
             look(ends[0])?;
             look(ends[1])?;
             if (own.crank - begun).abs() < 0.9 * wide {

@@ -17,12 +17,11 @@ use linkage::mechanism::LinkId;
 use super::tube::{MOST_HALVINGS, RangePart, Track, Tube, Tubes};
 use scenario::clearance::Outline;
 
-/// Upper limit of the displacement of the outline's border during a part of the range, divided by a square's half
-/// diagonal.
-/// If the displacement is larger, the part is halved.
+/// If the outline's border moves farther than this fraction of a square's half diagonal during a part of the range, the
+/// part is halved.
 const SPREAD: f64 = 0.5;
 /// Width of a window divided by the width of its part of the range.
-/// The second constant is the number of parts whose windows are tried: the part itself and its ancestors.
+/// `ANCESTORS` is the number of parts whose windows are tried: the part itself and its ancestors.
 const WINDOW: f64 = 4.0;
 const ANCESTORS: usize = 4;
 /// If the outline's border moves less than this fraction of a square's half diagonal, no window is tried for the
@@ -36,7 +35,7 @@ const MOST_DIVISIONS: usize = 24;
 pub struct Area {
     /// Area (m2). Within every square that the border crosses, the border is taken as straight.
     pub value: f64,
-    /// Proven lower bound: covered area (m2).
+    /// Proven lower bound: area of the covered squares (m2).
     pub least: f64,
     /// Proven upper bound: area of the covered squares and of the squares on the border (m2).
     pub most: f64,
@@ -73,8 +72,9 @@ struct Window {
 enum Square {
     Covered,
     Free,
-    /// On the border: the parts of the range during which the outline is near, and the covered fraction for a straight
-    /// border.
+    /// Square on the border.
+    /// The first field lists the parts of the range during which the outline is near the square.
+    /// The second field is the fraction of the square that is covered if the border is straight.
     Border(Vec<u32>, f64),
 }
 
@@ -187,9 +187,9 @@ impl<'a, 'c> Sweep<'a, 'c> {
         self.outline.sides().map(|side| side.map(|end| tube.point(end))).collect()
     }
 
-    /// Whether a side passes over a disc during a window: a wider part of the range around a node or one of its
-    /// ancestors.
-    /// A wider part is needed because during a short part a side moves only into a small square, not across it.
+    /// Whether a side passes over a disc during a window.
+    /// A window is a wider part of the range around a node or around one of its ancestors.
+    /// During the short part of a node itself, a side may only move into a small square and not across it.
     fn is_passed(&mut self, node: u32, centre: Vec2, about: f64) -> Result<bool> {
         let mut next = Some(node);
         for _ in 0..ANCESTORS {
@@ -249,7 +249,8 @@ impl<'a, 'c> Sweep<'a, 'c> {
                 return Ok(Square::Covered);
             }
             let away = rotated(node.tube.frame().1, away);
-            // The border's point that is nearest to the square moves away from the square or towards it.
+            // Point of the border that is nearest to the square.
+            // It may move away from the square or towards it, so only the magnitude of its rate counts.
             let border = node.tube.point(node.tube.local(centre - away * (now + self.outline.radius())));
             let swing = away.dot(&border.rate).abs() * node.half;
             if self.least(node, centre) > about {
@@ -334,12 +335,14 @@ fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool 
         cross(b - a, centre - a) / (b - a).norm()
     };
     let [before, after] = [signed(-half), signed(half)];
-    // If the ends of a line are hardly farther apart than their errors, its direction is not proven.
+    // The limit contains twice the error of the ends.
+    // If the ends of a line are hardly farther apart than their errors, the line's direction is not proven.
     let sure = about + 2.0 * error;
     if !(before.abs() > sure && after.abs() > sure && before * after < 0.0) {
         return false;
     }
-    // (centre - a) . (b - a) is a quadratic function of the crank angle. The same holds with a and b exchanged.
+    // (centre - a) . (b - a) is a quadratic function of the crank angle, and so is the expression with a and b
+    // exchanged.
     let beyond = |a: &Track, b: &Track| {
         let (own, along) = (centre - a.at, b.at - a.at);
         let (moved, turned) = (-a.rate, b.rate - a.rate);

@@ -1,4 +1,5 @@
-//! Poses of all links over an interval of crank angles: side 1's pose at the middle and a proven bound over the rest.
+//! Poses of all links over an interval of crank angles: side 1's pose at the middle, and a proven bound of the
+//! deviation.
 //!
 //! Over the interval, a uniform motion approximates the motion of each link.
 //! Its reference point moves along a straight line, and its angle changes in proportion to the crank angle.
@@ -30,10 +31,10 @@ use linkage::trajectory::Stage;
 
 /// Upper limit of the width of the first parts, into which the range is divided at the beginning (rad).
 const FIRST: f64 = std::f64::consts::PI / 24.0;
-/// Upper limit of the number of halvings of a first part. The smallest part has about 1.5e-8 of its width.
+/// Upper limit of the number of halvings of a first part. The smallest part has about 1.5e-8 of the first part's width.
 pub const MOST_HALVINGS: u32 = 26;
 /// Upper limit of the number of trials to find a box that contains the motion.
-/// The second constant is the factor by which each trial widens the box.
+/// `WIDER` is the factor by which each trial widens the box.
 const TRIALS: usize = 12;
 const WIDER: f64 = 1.1;
 /// Rounding error of a position, divided by the lengths from which the position is computed.
@@ -87,7 +88,7 @@ pub struct Tube {
     rate: Vec2,
     direction: Vec2,
     spin: f64,
-    /// Error bound of the reference point (m). The next field is the error bound of the angle (rad).
+    /// Error bound of the reference point (m). `twist` is the error bound of the angle (rad).
     off: f64,
     twist: f64,
     half: f64,
@@ -253,8 +254,8 @@ impl<'a> Tubes<'a> {
         }
         for drive in case.drives.iter() {
             // The crank turns uniformly about its pivot on the ground.
-            // A drive on a moving link does not occur here: it is free, and a single angle does not determine a pose
-            // with several degrees of freedom.
+            // A drive on a moving link is free, so the mechanism then has several degrees of freedom.
+            // A single angle does not determine its pose, and such a mechanism does not occur here.
             let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
             let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
             (tube.centre, tube.at, tube.rate) = (pivot, motion.point(pivot), Vec2::zeros());

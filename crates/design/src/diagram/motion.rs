@@ -20,7 +20,7 @@ pub const DIVISIONS: std::ops::RangeInclusive<usize> = 4..=1000;
 /// Lower limit of the number of points of the exact curves.
 const CURVE: usize = 720;
 /// Lower limit of a derivative's scale, divided by its natural scale.
-/// The errors of a nearly constant derivative come from the displacement.
+/// The range of a nearly constant derivative is too small a scale, because its errors come from the displacement.
 const SMALLEST: f64 = 1e-3;
 /// If an error is below this fraction of its scale, it is rounding error and no order is computed from it.
 const ROUNDING: f64 = 1e-11;
@@ -57,7 +57,9 @@ impl MotionCurve {
     }
 }
 
-/// Lists the possible names: those of the same link or point, else those of the same kind, else the kinds.
+/// Lists the possible names: those of the link or point that `name` contains.
+/// If this link or point does not exist, all names of links or all names of points are listed.
+/// If `name` begins with neither `link` nor `point`, the help states how names are formed.
 fn help(all: &[Channel], name: &str) -> String {
     let positions = all.iter().filter(|channel| channel.kind.stage == Stage::Positions);
     let parts: Vec<&str> = name.splitn(2, '.').collect();
@@ -194,7 +196,7 @@ impl MotionDiagram {
             let largest = errors[0].iter().fold(0.0f64, |most, error| most.larger(error.abs()));
             let orders = [order(size[0], size[1]), order(size[1], size[2])];
             let [(rows, values), ..] = runs;
-            // For a curve without motion, both scale and error are zero.
+            // For a curve without motion, the error and the scale are both zero. `share` then returns zero.
             let share = share(largest, scale);
             MethodResult { method, rows, values, largest, rms: size[0], share, orders }
         });
@@ -215,7 +217,7 @@ fn scales(exact: &[Vec<f64>; 3], period: f64) -> [f64; 3] {
     [0, 1, 2].map(|order| half_range(&exact[order as usize]).larger(natural(order)))
 }
 
-/// Applies a method to divisions of `stride` rows. Returns the rows and the values there.
+/// Applies a method to divisions of `stride` rows. Returns the rows, and the method's values in these rows.
 fn apply(method: Method, stride: usize, times: &[f64], exact: &[Vec<f64>; 3]) -> (Vec<usize>, Vec<f64>) {
     let ends: Vec<usize> = (0..times.len()).step_by(stride).collect();
     let middles: Vec<usize> = (stride / 2..times.len()).step_by(stride).collect();

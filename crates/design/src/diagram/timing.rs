@@ -13,16 +13,17 @@ pub struct Stretch {
     pub rests: bool,
     /// Achieved motion, in a few characters.
     pub figure: String,
-    /// Smallest required travel, as a line: achieved fraction of the stroke at the start, required fraction at the end.
+    /// Smallest required travel, drawn as a line.
+    /// The line begins at the achieved fraction of the stroke and ends at the required fraction.
     pub least: [f64; 2],
 }
 
-/// Timing diagram: shares of the stroke over the crank angle.
+/// Timing diagram: the output as a fraction of the stroke over the crank angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimingDiagram {
-    /// Achieved curve: crank angle (rad) and share of the stroke.
+    /// Achieved curve: crank angle (rad) and fraction of the stroke.
     pub curve: Vec<[f64; 2]>,
-    /// Required curve, in the same form; empty if only senses of motion are required.
+    /// Required curve: crank angle (rad) and fraction of the stroke. It is empty if only senses of motion are required.
     pub wanted: Vec<[f64; 2]>,
     /// Phases.
     pub stretches: Vec<Stretch>,

@@ -50,7 +50,7 @@ pub fn framed(sheet: &DrawnFigure, margin: f64, title: &str) -> String {
 /// Vertical axis between two round values.
 #[derive(Clone, Copy, Debug)]
 pub struct ValueAxis {
-    /// Lower end of the axis, in multiples of `step`. The next field is the upper end.
+    /// Lower end of the axis, in multiples of `step`. `up` is the upper end.
     bottom: f64,
     up: f64,
     /// Value between two grid lines.

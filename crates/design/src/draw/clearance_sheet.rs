@@ -19,7 +19,7 @@ use scenario::clearance::{ClearanceQuestion, Outline};
 const ROOM: Vec2 = Vec2::new(150.0, 150.0);
 /// Number of positions drawn for a link's swept area.
 const POSITIONS: usize = 240;
-/// Opacity of swept areas. The second constant is that of outlines.
+/// Opacity of swept areas. `OUTLINE` is the opacity of outlines.
 const SWEPT: f64 = 0.2;
 const OUTLINE: f64 = 0.45;
 /// Smallest line width (mm).

@@ -9,12 +9,12 @@ use linkage::math::{KeepNan, Vec2};
 
 /// Length of the crank angle axis (mm): two degrees per millimetre for one turn.
 const LONG: f64 = 180.0;
-/// Upper limit of the height of a graph (mm). The second constant holds the distances between graphs (mm).
+/// Upper limit of the height of a graph (mm). `ROOM` contains the distances between graphs (mm).
 const HIGH: f64 = 56.0;
 const ROOM: Room = Room { gap: 3.0, left: 22.0, between: 6.0 };
 /// Space above and below a curve for the labels of its extremes, divided by the curve's range.
 const ASIDES: f64 = 0.2;
-/// If an extreme is nearer than this to an end of the axis (mm), its label is not centred.
+/// If the distance of an extreme from an end of the axis is below this limit (mm), its label is not centred.
 /// The label then starts or ends at the extreme.
 const ASIDE: f64 = 28.0;
 /// Line at the mean.

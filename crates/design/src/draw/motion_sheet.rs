@@ -10,7 +10,7 @@ use linkage::math::statistics::ends;
 
 /// Length of the crank angle axis (mm): two degrees per millimetre.
 const LONG: f64 = 180.0;
-/// Upper limit of the height of a diagram (mm). The second constant holds the distances between diagrams (mm).
+/// Upper limit of the height of a diagram (mm). `ROOM` contains the distances between diagrams (mm).
 const HIGH: f64 = 60.0;
 const ROOM: Room = Room { gap: 3.4, left: 28.0, between: 10.0 };
 /// Chords of the displacement.

@@ -14,17 +14,17 @@ use drawing::paper::table::LegendTable;
 use linkage::math::{KeepNan, Vec2, cross, turned};
 
 /// Margin of the sheet (mm).
-/// The next constants are the distance between plans and the distance between a figure and its table (mm).
+/// `GAP` is the distance between plans (mm), and `SPACE` the distance between a figure and its table (mm).
 const MARGIN: f64 = 8.0;
 const GAP: f64 = 12.0;
 const SPACE: f64 = 6.0;
-/// Height of the sheet's title (mm). The second constant is the height of a column's heading (mm).
+/// Height of the sheet's title (mm). `HEADING` is the height of a column's heading (mm).
 const TITLE: f64 = 18.0;
 const HEADING: f64 = 15.0;
 /// Points closer to each other on paper than this (mm) share one label.
 const ONE: f64 = 0.7;
-/// Distance at which arrows that would coincide are drawn beside each other (mm).
-/// The second constant is the common length above which they are drawn beside each other (mm).
+/// Distance between arrows that would coincide and are therefore drawn beside each other (mm).
+/// Arrows are drawn beside each other if their common length exceeds `SHARED` (mm).
 const APART: f64 = 0.8;
 const SHARED: f64 = 1.0;
 /// Length below which an arrow is drawn as a point (mm).
@@ -191,7 +191,7 @@ fn table(plan: &VectorPlan) -> LegendTable {
         let meaning = vector.meaning.replace(", perpendicular to the ", " ⊥ ").replace(", along the ", " ∥ ");
         let meaning = meaning.replace(", perpendicular to ", " ⊥ ");
         let meaning = meaning.replace("omega^2", "ω²").replace("omega x", "ω ×").replace("alpha", "α");
-        // At a dead point some vectors are pure rounding error.
+        // At a dead point some vectors are only rounding error. The table shows their magnitude as zero.
         let size = if plan.paper(vector) > NOTHING { vector.value.norm() } else { 0.0 };
         let cells = vec![
             scripted(&vector.name),

@@ -66,7 +66,7 @@ fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2
 /// Table of the links with their numbers, angular velocities and angular accelerations.
 pub fn table(scheme: &Scheme) -> LegendTable {
     let driver = scheme.links.iter().find(|link| link.number == scheme.driver).map_or(0.0, |link| link.omega.abs());
-    // At a dead point the values are only rounding error.
+    // At a dead point the values are only rounding error, so values below the limit are shown as zero.
     // The natural scale is the crank's speed for an angular velocity, and its square for an angular acceleration.
     let shown = |value: f64, scale: f64| significant(if value.abs() > ROUNDING * scale { value } else { 0.0 });
     let row = |link: &SchemeLink| {

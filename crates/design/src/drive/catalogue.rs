@@ -13,7 +13,8 @@ use scenario::unit::{ANGULAR_SPEED, POWER};
 /// Reads the motors of a catalogue file, in the file's order.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for an invalid entry, with its place.
+/// [`ErrorKind::Io`] if the file cannot be read.
+/// [`ErrorKind::Input`] for an invalid entry. The error states the entry's position.
 pub fn load(path: &Path) -> Result<Vec<CatalogueMotor>> {
     let text = files::read_text(path).map_err(|error| {
         Error::new(ErrorKind::Io, sentences::the_catalogue_cannot_be_read(&path.display(), &error))

@@ -1,8 +1,8 @@
 //! Motors from catalogues, and the choice of a motor by the peak of the reduced moment of resistance.
 //!
-//! The required power is that on the crank's shaft at the peak, at the required speed.
-//! Divided by the efficiency between motor and crank, it is the smallest allowed rated power of the motor.
-//! Courses of machine design choose motors in this way.
+//! The power on the crank's shaft is computed at the peak and at the required speed.
+//! This power divided by the efficiency between motor and crank is the smallest allowed rated power of the motor.
+//! Courses of machine design teach this rule.
 //! The rule is conservative, because inertia carries the crank over peaks.
 
 use crate::sentences;
@@ -31,7 +31,7 @@ pub struct CatalogueMotor {
 }
 
 impl CatalogueMotor {
-    /// Rated torque (N m): rated power over rated speed.
+    /// Rated torque (N m): rated power divided by rated speed.
     #[must_use]
     pub fn rated_torque(&self) -> f64 {
         self.power / self.rated_speed

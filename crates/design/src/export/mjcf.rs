@@ -12,7 +12,7 @@
 //!   Its inertia is so large that the speed is practically constant: it changes by 1e-9.
 //!   This holds with any integrator and at any step.
 //!   A velocity actuator of the same stiffness diverges, because `implicitfast` solves the constraints without the
-//! actuator's damping.
+//!   actuator's damping.
 //!   A softer actuator lags.
 //!   The rotor does not enter the interaction forces that sensors read.
 //!   The torque sensor of the hinge therefore reads the driving moment.
@@ -48,7 +48,7 @@ use linkage::error::Result;
 use linkage::solver::Solver;
 
 /// The case as MJCF, with the model name `name` and the time step `step` (s).
-/// The pose is that of the case at t = 0, and `solver` finds its speeds.
+/// The model starts in the case's pose at t = 0, with the velocities that `solver` computes for this pose.
 ///
 /// # Errors
 /// [`ErrorKind::Input`](linkage::ErrorKind::Input) for a step that is not positive and finite.

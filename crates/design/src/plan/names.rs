@@ -1,4 +1,5 @@
-//! Letters of the plans: points A, B become a, b, mass centres s2, ends of normal parts n1.
+//! Letters of the plans.
+//! Points A and B get the letters a and b, the mass centre of link 2 gets s2, and the end of a normal part gets n1.
 //! The pole has a reserved letter.
 
 use linkage::math::Vec2;

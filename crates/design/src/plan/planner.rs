@@ -3,8 +3,8 @@
 //! All absolute vectors start in the pole.
 //! For the plane motion of a rigid link, v_B = v_A + omega x AB and a_B = a_A + alpha x AB - omega^2 AB.
 //! The vector between the ends of two absolute vectors is therefore the relative vector.
-//! The image of a link in the velocity plan is the link turned by 90 deg and enlarged omega times.
-//! In the acceleration plan it is turned by 180 deg - atan2(alpha, omega^2) and enlarged sqrt(alpha^2 + omega^4) times.
+//! The image of a link in the velocity plan is the link turned by 90 deg and scaled by omega.
+//! In the acceleration plan it is turned by 180 deg - atan2(alpha, omega^2) and scaled by sqrt(alpha^2 + omega^4).
 //! These are Mehmke's and Burmester's theorems.
 //!
 //! A point A that slides on a moving guide of link 3 coincides with a point A3 of that link.
@@ -12,7 +12,7 @@
 //! Differentiation in fixed axes gives v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e.
 //! Here e is the guide's unit vector and omega its angular velocity (Coriolis 1835).
 //!
-//! Every vector is computed from the motion of its link, and a vector along a guide from the slide.
+//! Every vector is computed from the motion of its link. A vector along a guide is computed from the slide.
 //! The difference of two other vectors is never used, so the closure of the polygons is a result.
 
 use super::builder::Builder;
@@ -122,7 +122,8 @@ impl<'a> Planner<'a> {
 /// Computes the state of `case` at the crank angle `crank` (rad, as the scenario defines it), up to accelerations.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for a crank angle too far away to be reached step by step; those of the solver.
+/// [`ErrorKind::Input`] for a crank angle too far away to be reached step by step.
+/// Those of the solver.
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
     let grid = Grid::of_inputs(case.crank(), vec![crank]);
     grid.check(case.crank())

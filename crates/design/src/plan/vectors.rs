@@ -6,7 +6,8 @@ use linkage::mechanism::LinkId;
 
 /// Upper limit of the length of a plan's longest vector (mm).
 pub(super) const ROOM: f64 = 100.0;
-/// Lower limit of the scale factor of a plan of selected vectors, divided by the scale factor of the full plan.
+/// If only selected vectors are drawn, the scale factor of the plan is at least this fraction of the full plan's scale
+/// factor.
 const FINEST: f64 = 1e-3;
 
 linkage::words! {
@@ -153,7 +154,7 @@ impl VectorPlan {
         let is_touched = |tip: &Tip| kept.iter().any(|own| own.from == tip.letter || own.to == tip.letter);
         let tips = self.tips.iter().filter(|tip| is_chosen(&tip.letter) || is_touched(tip)).cloned().collect();
         let longest = kept.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger);
-        // The lower limit of the scale keeps vectors short that are only rounding error.
+        // Vectors that are only rounding error stay short on paper, because the scale factor has a lower limit.
         self.scale = factor(longest, ROOM).larger(self.scale * FINEST);
         (self.vectors, self.tips) = (kept, tips);
     }

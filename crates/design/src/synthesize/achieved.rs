@@ -18,17 +18,17 @@ pub const BAND: f64 = 0.01;
 /// Achieved motion in one phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhaseDone {
-    /// Displacement from its beginning to its end, forward positive (share of the stroke).
+    /// Displacement from its beginning to its end, forward positive (fraction of the stroke).
     pub displacement: f64,
     /// Largest minus smallest position (fraction of the stroke). In a dwell it should be zero.
     pub motion: f64,
-    /// Distance travelled in the wrong sense (share of the stroke); 0 in a dwell.
+    /// Distance travelled in the wrong sense (fraction of the stroke); 0 in a dwell.
     pub wrong: f64,
-    /// Position of the output at the end of the phase (share of the stroke).
+    /// Position of the output at the end of the phase (fraction of the stroke).
     pub level: f64,
     /// Crank angle (rad) at which the phase actually ends.
-    /// Between two motions in opposite senses, this is the extreme position.
-    /// At the beginning or end of a dwell, it is where the output enters or leaves the band.
+    /// Between two motions in opposite senses, it is the crank angle of the extreme position.
+    /// At the beginning or end of a dwell, it is the crank angle at which the output enters or leaves the band.
     /// The band has the half width [`BAND`] about the mean of the dwell's largest and smallest output.
     /// `None` between two phases of the same sense, and if there is no such crank angle nearby.
     pub end: Option<f64>,
@@ -46,7 +46,7 @@ pub struct Achieved {
     pub phases: Vec<PhaseDone>,
     /// Crank angles of the curve (rad from crank angle zero in the sense of rotation).
     pub turns: Vec<f64>,
-    /// The output at these angles (share of the stroke, 0 rearmost).
+    /// Output at the crank angles of `turns` (fraction of the stroke; 0 is the rearmost position).
     pub shares: Vec<f64>,
     /// Sense of the output that is forward: +1 or -1.
     pub forward: f64,
@@ -104,14 +104,14 @@ impl Achieved {
         self.phases.iter().zip(phases).zip(next).map(|((done, phase), next)| (done, phase, next))
     }
 
-    /// Largest motion in any dwell (share of the stroke).
+    /// Largest motion in any dwell (fraction of the stroke).
     #[must_use]
     pub fn unrest(&self, task: &Task) -> f64 {
         let dwells = self.with_next(task).filter(|(_, phase, _)| phase.sense == Sense::Dwell);
         dwells.map(|(done, ..)| done.motion).fold(0.0, f64::larger)
     }
 
-    /// Largest distance travelled in the wrong sense in any phase (share of the stroke).
+    /// Largest distance travelled in the wrong sense in any phase (fraction of the stroke).
     #[must_use]
     pub fn wrong(&self) -> f64 {
         self.phases.iter().map(|phase| phase.wrong).fold(0.0, f64::larger)
@@ -126,9 +126,9 @@ impl Achieved {
         apart.fold(0.0, f64::larger)
     }
 
-    /// Largest crank angle (rad), at either end of a dwell, over which the output is outside [`BAND`] although it
-    /// should dwell.
-    /// A dwell that is longer than required does not count.
+    /// Largest crank angle (rad) by which a dwell is too short at its beginning or end.
+    /// Over this angle the output is outside [`BAND`] although it should dwell. A dwell that is too long does not
+    /// count.
     #[must_use]
     pub fn short(&self, task: &Task) -> f64 {
         let missing = |(done, phase, next): (&PhaseDone, &Phase, Sense)| match (phase.sense, next) {

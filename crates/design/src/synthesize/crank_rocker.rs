@@ -2,7 +2,8 @@
 //!
 //! In the extreme positions crank and coupler are in line: stretched, `|O B1| = OA + AB`; folded, `|O B2| = AB - OA`.
 //! With both positions of B given, the two lengths are half the sum and half the difference of the two distances.
-//! Derived here. Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
+//! This solution is derived here. Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka
+//! 1988.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -66,7 +67,8 @@ impl CrankRocker {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for lengths and angles that make no sense.
-    /// [`ErrorKind::Geometry`] if the two positions permit no crank that turns fully, with the distances and help.
+    /// [`ErrorKind::Geometry`] if the two positions permit no crank that turns fully.
+    /// The error states the distances and a help text.
     pub fn of(wish: CrankRockerSpec) -> Result<Self> {
         check(&wish)?;
         let frame = wish.rocker_pivot - wish.crank_pivot;
@@ -199,7 +201,7 @@ mod tests {
             (CrankRockerSpec { rocker: -1.0, ..wish }, ErrorKind::Input, "length is -1 m"),
             (CrankRockerSpec { rocker_pivot: Vec2::zeros(), ..wish }, ErrorKind::Input, "one point"),
             (CrankRockerSpec { extreme: f64::NAN, ..wish }, ErrorKind::Input, "not finite"),
-            // The two positions of B are symmetric about the line of the pivots, so both distances are equal.
+            // The two positions of B are symmetric about the line of the pivots, so they are equally far from O.
             (
                 CrankRockerSpec { rocker_pivot: Vec2::new(0.15, 0.0), extreme: -0.3, swing: 0.6, ..wish },
                 ErrorKind::Geometry,

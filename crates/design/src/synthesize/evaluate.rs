@@ -53,8 +53,8 @@ impl<'a> Evaluator<'a> {
     /// The last angle is a turn after the first. The crank's zero is at the world direction `zero` (rad).
     ///
     /// # Errors
-    /// If the mechanism cannot be assembled over the whole turn, or if the output turns fully: the fraction of poses
-    /// reached.
+    /// The fraction of poses reached, if the mechanism cannot be assembled over the whole turn, or if the output turns
+    /// fully.
     pub(super) fn run(&mut self, values: &[f64], zero: f64, turns: &[f64]) -> Result<(), f64> {
         self.dimension(values);
         let case = &self.task.case;

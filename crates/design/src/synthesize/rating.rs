@@ -1,10 +1,10 @@
 //! Deviation of an output from the required motion: one number, zero for a perfect output.
 //!
-//! The output is divided by its stroke, so that neither amplitude nor offset matters.
-//! The cost is a sum of squares of such fractions of the stroke.
+//! The output is divided by its stroke, so that amplitude and offset do not matter.
+//! The cost is a sum of squares of fractions of the stroke.
 //! Its terms are motion in dwells, distances in the wrong sense, missed levels, and moving phases that hardly move.
 //! Another term is the deviation of extreme positions from the limits of their phases.
-//! A cost of 1e-4 is about one hundredth of the stroke.
+//! A cost of 1e-4 corresponds to a deviation of about one hundredth of the stroke.
 
 use std::f64::consts::TAU;
 
@@ -12,12 +12,13 @@ use crate::synthesize::task::{Phase, Sense, Task, Timing};
 use linkage::math::KeepNan;
 use linkage::math::statistics::ends;
 
-/// Weight, relative to motion in a dwell, of motion in the wrong sense and of a moving phase that moves too little.
+/// Weight of two terms relative to motion in a dwell.
+/// The terms are motion in the wrong sense, and too little motion in a moving phase.
 const WRONG: f64 = 4.0;
-/// At the limit between two opposite motions, the output's rate is multiplied by this crank angle (rad, 20 deg).
-/// The product counts as a fraction of the stroke.
+/// At the limit between two opposite motions, the output's rate should be zero.
+/// The rate times this crank angle (rad, 20 deg) counts as a deviation (fraction of the stroke).
 const LATE: f64 = TAU / 18.0;
-/// Distance (rad, 0.25 deg) between a limit of a phase and the two rows from which the rate at the limit is computed.
+/// Distance of two rows from a limit of a phase (rad, 0.25 deg). The rate at the limit is computed from these two rows.
 const BESIDE: f64 = TAU / 1440.0;
 /// Weight of violated limits in the cost, relative to fractions of the stroke.
 const LIMIT: f64 = 10.0;
@@ -52,8 +53,8 @@ impl<'a> Rater<'a> {
     }
 
     /// Places rows at most `step` (rad) apart, which include every limit of a phase.
-    /// Two more rows close to each limit give the rate there.
-    /// Over whole steps, the rate would be off by a few hundredths of a degree.
+    /// Two more rows close to each limit give the output's rate at the limit.
+    /// If the rate were computed over whole steps, the extreme position would be off by a few hundredths of a degree.
     pub(super) fn fitted(timing: &'a Timing, step: f64) -> Self {
         let (mut turns, mut ends) = (vec![0.0], Vec::new());
         for phase in timing.phases() {

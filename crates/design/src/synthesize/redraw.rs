@@ -8,7 +8,8 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Link, LinkId};
 
-/// Number of steps per millimetre and per degree to which dimensions are rounded: the accuracy of a workshop.
+/// Dimensions are rounded to the accuracy of a workshop.
+/// The first number is the number of steps per millimetre, the second is the number of steps per degree.
 const DECIMALS: [f64; 2] = [1e3, 1e4];
 
 /// A number rounded to a multiple of 1 / `parts`.

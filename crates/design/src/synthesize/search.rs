@@ -48,7 +48,7 @@ pub struct SearchResult {
     pub values: Vec<f64>,
     /// Sense of the output that is forward: +1 or -1.
     pub forward: f64,
-    /// Cost of the best candidate: a sum of squares of shares of the stroke.
+    /// Cost of the best candidate: a sum of squares of fractions of the stroke.
     pub cost: f64,
     /// Cost of the best candidate before refinement, on a coarser grid.
     pub random_cost: f64,

@@ -37,7 +37,8 @@ pub struct SliderCrank {
     pub rod: f64,
     /// Crank angle (rad, from 0 to a full turn) and position of the slider along its line (m) where it is farthest from the pivot.
     pub far: [f64; 2],
-    /// The same for the slider's nearest position.
+    /// Crank angle (rad, from 0 to a full turn) and position of the slider along its line (m) where it is nearest to
+    /// the pivot.
     pub near: [f64; 2],
     /// Time of the slower stroke divided by that of the faster one.
     pub time_ratio: f64,
@@ -53,7 +54,8 @@ impl SliderCrank {
     /// The slider-crank with this stroke and offset (m).
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for numbers that make no sense, [`ErrorKind::Geometry`] if no crank turns fully, with the limit.
+    /// [`ErrorKind::Input`] for numbers that make no sense.
+    /// [`ErrorKind::Geometry`] if no crank turns fully. The error states the limit.
     pub fn of(stroke: f64, offset: f64, given: Given) -> Result<Self> {
         if !(stroke > 0.0 && stroke.is_finite()) {
             return Err(wrong("stroke", sentences::the_stroke_is(&stroke), sentences::GIVE_A_LENGTH_GREATER_THAN_ZERO));

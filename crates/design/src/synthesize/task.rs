@@ -38,7 +38,7 @@ pub struct Variable {
     pub name: String,
     /// Least and greatest value (m or rad).
     pub bounds: [f64; 2],
-    /// Whether it is an angle; else it is a length or a coordinate.
+    /// Whether the variable is an angle. Otherwise it is a length or a coordinate.
     pub is_angle: bool,
 }
 
@@ -52,7 +52,7 @@ pub enum TaskNumber {
 }
 
 impl TaskNumber {
-    /// Its value (SI), given the values of the variables.
+    /// Value of the number (SI). `values` are the values of the variables.
     #[inline]
     #[must_use]
     pub fn value(self, values: &[f64]) -> f64 {
@@ -141,9 +141,9 @@ impl Task {
     /// Checks the consistency of the parts of a task.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for mechanisms with several degrees of freedom, or if a transmission angle is limited
-    /// for groups that have none.
-    /// [`ErrorKind::Input`] if nothing may vary or the effort is zero.
+    /// [`ErrorKind::Unsupported`] for mechanisms with several degrees of freedom.
+    /// [`ErrorKind::Unsupported`] if a transmission angle is limited and the mechanism has higher groups.
+    /// [`ErrorKind::Input`] if no dimension may vary, or if a count of the search is outside its limits.
     pub fn check(&self) -> Result<()> {
         let wrong = |kind: ErrorKind, key: &str, message: &'static str, help: &'static str| {
             Err(Error::new(kind, message).key(key).help(help))

@@ -34,8 +34,9 @@ impl TaskFile {
     /// Reads the synthesis file at `path` and the scenario that it names, which is searched in the same directory.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] if a file cannot be read, [`ErrorKind::Input`] for anything wrong in it, and those of
-    /// [`Scenario::load`] and [`Task::check`].
+    /// [`ErrorKind::Io`] if a file cannot be read.
+    /// [`ErrorKind::Input`] for a mistake in a file.
+    /// Those of [`Scenario::load`] and [`Task::check`].
     pub fn load(path: &Path) -> Result<Self> {
         let text = files::read_text(path).map_err(|error| {
             Error::new(ErrorKind::Io, sentences::the_synthesis_file_cannot_be_read(&path.display(), &error))
@@ -59,8 +60,8 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
 
     let beside = root.source().path.parent().unwrap_or(Path::new("")).join(&file);
     let drawing = Scenario::load(&beside).map_err(|error| {
-        // A missing drawing is an error in the synthesis file. An error inside the drawing already has a position
-        // there.
+        // An error inside the drawing has a position in the drawing and is returned unchanged.
+        // An error without a position, such as a missing drawing, is an error in the synthesis file.
         if error.place().is_some() {
             error
         } else {

@@ -17,7 +17,7 @@ const SMALL: f64 = 0.72;
 /// Downward shift of subscripts and upward shift of superscripts, divided by the font size.
 const LOW: f64 = 0.28;
 const HIGH: f64 = 0.36;
-/// Length of an arrow head (mm), and its largest fraction of the arrow's length.
+/// Length of an arrow head (mm), and upper limit of this length divided by the arrow's length.
 const HEAD: f64 = 2.8;
 const HEAD_SHARE: f64 = 0.45;
 

@@ -20,7 +20,7 @@ const NEIGHBOURS: f64 = 12.0;
 /// Upper limit of all comparisons of labels with their surroundings. Beyond it, labels take their first position.
 /// A drawing of hundreds of links has no space for their names anyway.
 const MOST_COMPARED: usize = 200_000_000;
-/// Smallest share of these comparisons for one of many drawings made together, such as frames.
+/// Number of comparisons that each drawing may use at least, if many drawings such as frames are made together.
 const LEAST_COMPARED: usize = 10_000_000;
 
 /// Font size of labels (mm).
@@ -80,8 +80,8 @@ fn place_within(labels: &[PlacedLabel], obstacles: &Obstacles, most: usize) -> V
 }
 
 /// Lets neighbouring labels exchange positions if this lowers their total cost.
-/// A single label could not leave a position that only this label can take.
-/// Each pair uses two of the calls in `left`.
+/// Without exchanges, a label would keep its position even if its neighbour needs this position more.
+/// Each pair uses two of the searches counted in `left`.
 fn trade(labels: &[PlacedLabel], places: &mut [Option<Vec2>], obstacles: &Obstacles, left: &mut usize) {
     let both = |a: usize, b: usize, places: &[Option<Vec2>]| {
         let one = |index: usize| places[index].map_or(f64::INFINITY, |at| cost(index, at, labels, places, obstacles));
@@ -100,7 +100,7 @@ fn trade(labels: &[PlacedLabel], places: &mut [Option<Vec2>], obstacles: &Obstac
             places[b] = None;
             places[a] = cheapest(a, labels, places, obstacles);
             places[b] = cheapest(b, labels, places, obstacles);
-            // An exchange without gain would be repeated back and forth.
+            // An exchange without gain is undone. Otherwise it would be repeated back and forth.
             if !(both(a, b, places) < was - 1e-9) {
                 [places[a], places[b]] = old;
             }
@@ -211,7 +211,7 @@ mod tests {
             ([3.0, -5.0], [3.0, 5.0], 0.0),
             ([-5.0, 4.0], [5.0, 4.0], 0.0),
         ] {
-            // Rounding error of two quotients, times the segment's length, which is at most ten.
+            // The tolerance is the rounding error of two quotients, times the segment's length, which is at most ten.
             assert!((inside(a, b) - length).abs() <= 20.0 * f64::EPSILON);
         }
     }

@@ -7,7 +7,7 @@ use linkage::math::KeepNan;
 const SAME: f64 = 1e-12;
 
 /// The smallest number of the form 1, 2, 2.5 or 5 times a power of ten that is at least `least`.
-/// The result is 1 if `least` is not positive and finite.
+/// The result is 1 if `least` is zero, negative, infinite or NaN.
 ///
 /// Neighbouring numbers differ by a factor of two at most.
 /// A vector drawn at this scale therefore fills more than half of the available length.

@@ -4,10 +4,11 @@
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RunEffort(pub Vec<(String, u64)>);
 
-/// Counts that each mean one solution of the whole mechanism at one state. The first count that is present is used.
+/// Names of counts that give the number of solutions of the whole mechanism, each at one state.
+/// The first count that is present is used.
 /// A step of a multistage method has one evaluation for each stage.
 const SOLUTIONS: [&[&str]; 3] = [&["evaluations"], &["steps", "probes"], &["poses"]];
-/// Counts of the inner work of such a solution. The first count that is present is used.
+/// Names of counts that give the inner work of the solutions. The first count that is present is used.
 const INNER: [&[&str]; 4] = [&["sweeps"], &["factorisations"], &["iterations"], &["groups"]];
 
 impl RunEffort {
@@ -22,13 +23,15 @@ impl RunEffort {
     }
 
     /// Number of solutions of the whole mechanism.
-    /// It is the number of evaluations of the equation of motion, else of an engine's steps and probes, else of poses.
+    /// It is the number of evaluations of the equation of motion.
+    /// If these were not counted, it is the number of an engine's steps and probes, or the number of poses.
     #[must_use]
     pub fn solutions(&self) -> Option<u64> {
         self.first(&SOLUTIONS)
     }
 
-    /// Inner work: number of an engine's sweeps, else of factorisations, else of iterations, else of placed groups.
+    /// Inner work: the first of these numbers that was counted: sweeps of an engine, factorisations, iterations, placed
+    /// groups.
     #[must_use]
     pub fn inner(&self) -> Option<u64> {
         self.first(&INNER)

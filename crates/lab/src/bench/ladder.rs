@@ -75,7 +75,9 @@ pub(super) struct Plan {
 }
 
 /// The methods of sides and engines.
-/// All curves of engines share the budget equally; each curve takes ever finer steps until its share is used.
+/// A curve is one engine with settings that differ only in the resolution.
+/// The budget is divided equally between the curves.
+/// Each curve gets ever finer resolutions until its part of the budget is used.
 pub(super) fn plan(case: &Case, options: &BenchOptions) -> Plan {
     let mut points = sides(case, options);
     let names = if options.engines.is_empty() { EngineName::ALL.to_vec() } else { options.engines.clone() };
@@ -95,7 +97,7 @@ pub(super) fn plan(case: &Case, options: &BenchOptions) -> Plan {
         for (rung, resolution) in resolutions(engine, curve.resolution, options).into_iter().enumerate() {
             let settings = Settings { resolution, ..curve };
             spent += work(case, engine, &settings);
-            // The coarsest run of a curve is always made.
+            // The coarsest run of a curve is made even if it exceeds the curve's budget.
             if spent > share && rung > 0 {
                 left_out += 1;
                 continue;
@@ -146,7 +148,8 @@ fn curves(engine: &dyn Engine, case: &Case, options: &BenchOptions) -> Vec<Setti
     let mut curves = Vec::new();
     for &route in &routes {
         for &sweeps in &sweeps {
-            // Probes and impulses use one run or two runs, so further extrapolation gives nothing new.
+            // Readings by probes or impulses are extrapolated at most once, because a second extrapolation gives
+            // nothing new.
             let worth = times.iter().filter(|&&times| route == Route::Differences || times < 2);
             curves.extend(worth.map(|&extrapolated| Settings { sweeps, route, extrapolated, ..own }));
         }

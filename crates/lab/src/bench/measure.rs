@@ -15,10 +15,10 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkage::work::{Count, Work, counted};
 
-/// If a run is shorter than this (s), it is repeated and timed together. The second value limits the repetitions.
+/// If a run is shorter than `SHORT` (s), it is repeated at most `MOST` times, and the repetitions are timed together.
 const SHORT: f64 = 5e-3;
 const MOST: f64 = 1000.0;
-/// If a run is longer than this (s), it is timed at most twice, and only once for a peer.
+/// If a run is longer than this (s), a side or an engine is timed at most twice, and a peer once.
 const LONG: f64 = 0.2;
 /// Largest number of rounds for long runs of sides and engines, and for short runs of peers.
 const FEW: usize = 2;
@@ -162,7 +162,7 @@ impl Desk<'_> {
                 Err(error) => failed.push((stage, error.to_string())),
             }
         }
-        // An answer with none of the requested channels is a failure.
+        // If the answer contains no requested channel, it counts as a failure.
         match (errors.iter().any(Option::is_some), failed.first()) {
             (true, _) => Ok(AnsweredRun { errors, failed, without, seconds, effort: answer.effort }),
             (false, Some((_, reason))) => Err(reason.clone()),

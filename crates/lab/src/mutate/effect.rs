@@ -1,4 +1,4 @@
-//! Effect of a fault on exact answers. Faults that do not change them do not count.
+//! Effect of a fault on exact answers. A fault that changes no exact answer is not counted.
 
 use super::kinds::{FaultInstant, Plant};
 use super::planted::{Fault, Planted};
@@ -12,8 +12,9 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage as Of;
 use prover::bounds::magnitudes;
 
-/// Largest relative change that counts as rounding error, in terms of the largest number of a quantity.
-/// Rounding causes such a change if a case is solved again from recomputed, mathematically equivalent input numbers.
+/// If an exact answer changes by at most this fraction of the quantity's largest number, the change counts as rounding
+/// error.
+/// Such changes also arise if a case is solved again from recomputed, mathematically equivalent input numbers.
 /// The limit is at most a tenth of the difference allowed between the two sides.
 pub(super) fn rounding(stage: Of) -> f64 {
     match stage {

@@ -16,7 +16,7 @@ use prover::check::{KnownTrajectory, planted};
 use prover::run::{Judgement, Reference, formula_checks};
 use scenario::{Claim, Formula, Formulas};
 
-/// Work of one operation of a formula at one instant, in steps of an engine's four-bar.
+/// Work of one operation of a formula at one instant. The unit is the work of an engine's step on a four-bar.
 const OPERATION: f64 = 0.04;
 
 /// A mistake, ready to be judged.
@@ -33,7 +33,7 @@ impl Stage<'_> {
     }
 
     /// Indices of the formulas that claim an exact value, and of the steps of derivation that they use.
-    /// Claims with a stated error are left out: with a mistake, they may stay right within that error.
+    /// A claim with a stated error is left out: despite a mistake, it may be correct within this error.
     pub(super) fn formulas(&self) -> Vec<usize> {
         let all = &self.scenario.formulas.list;
         let judged = self.judged_formulas();
@@ -50,7 +50,7 @@ impl Stage<'_> {
         found
     }
 
-    /// Work of judging all formulas once, on both sides (in steps of an engine's four-bar).
+    /// Work of judging all formulas once, on both sides. The unit is the work of an engine's step on a four-bar.
     pub(super) fn work_of_formulas(&self) -> f64 {
         let formulas = &self.scenario.formulas;
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
@@ -95,8 +95,8 @@ impl Stage<'_> {
         }
     }
 
-    /// A claim of another channel.
-    /// It is the first channel, counted from the claimed one, for which `is_meant` holds.
+    /// A claim of another channel: the first channel for which `is_meant` holds.
+    /// The search begins at the claimed channel and continues from the start of the list.
     fn other(&self, own: &Formula, is_meant: &dyn Fn(&Channel, &Channel) -> bool) -> Option<Claim> {
         let claim = own.claim.as_ref()?;
         let [(name, claimed)] = claim.channels.as_slice() else { return None };

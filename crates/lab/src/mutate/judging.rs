@@ -70,8 +70,8 @@ const BETWEEN: &str = "assur against newton";
 
 /// Faults of side 1: scenario, fault, number of channels in which the sides differ, families of checks that find it.
 /// The number 0 means "not counted", because other channels depend on the wrong quantity.
-/// These are the channels of the link, its mass centre and its points, and the power.
-/// Lengths are tenths of a metre, speeds some rad/s, forces hundreds of newtons.
+/// The dependent channels are those of the link, its mass centre and its points, and the power.
+/// Orders of magnitude: lengths are tenths of a metre, speeds some rad/s, forces hundreds of newtons.
 static IN_A_SIDE: [(&str, &str, usize, &[&str]); 12] = [
     ("crank_rocker", "a closed loop is open (m)", 0, &["closure of all joints (assur)"]),
     ("crank_rocker", "an angle at the first instant", 1, &[BETWEEN]),
@@ -178,7 +178,7 @@ fn the_balance_of_powers_finds_a_wrong_unrequested_speed() {
     let FaultyProof::Detected { channels, checks, .. } = stage.proven(wrong, FaultyParty::Assur) else {
         panic!("it escapes from the sides")
     };
-    // The mass centre's acceleration depends on the square of the speed, and so does the momentum balance.
+    // The momentum balance also disagrees, because the mass centre's acceleration depends on the square of the speed.
     assert_eq!((channels, checks), (0, vec![POWERS.to_string(), SHAKING.to_string()]));
     let proof = stage.engine_proof(wrong).unwrap();
     assert_eq!(proof.verdict.word(), "disagree", "{:?}", proof.checks);
@@ -186,7 +186,7 @@ fn the_balance_of_powers_finds_a_wrong_unrequested_speed() {
     assert_eq!(powers.verdict.word(), "disagree");
 }
 
-/// Velocities do not reveal a wrong position, but the loop is open: the closure check alone decides the verdict.
+/// A wrong position changes no velocity, but it opens the loop. The closure check alone decides the verdict.
 #[test]
 fn an_open_loop_decides_the_verdict_without_any_channel() {
     let whole = scenario("crank_rocker");

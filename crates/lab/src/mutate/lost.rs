@@ -6,7 +6,7 @@ use linkage::math::KeepNan;
 const LEAST: f64 = 1e-16;
 /// Factor between successive sizes in the downward search.
 const STEP: f64 = 10.0;
-/// Largest factor between the smallest size that is found and a smaller size that is not found.
+/// The search ends if the smallest size that is found is at most this multiple of a size that is not found.
 const FACTOR: f64 = 2.0;
 /// Largest number of proofs for one search.
 const MOST: usize = 24;
@@ -33,7 +33,7 @@ pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) 
         }
     }
     let Some(mut lost) = lost else { return found };
-    // If the guess was too small, the search goes up in steps and then halves the interval.
+    // If the guess was too small, the search increases the size in steps, and then bisects the interval.
     while found > STEP * lost {
         let size = lost * STEP;
         if is_found(size) {

@@ -1,4 +1,5 @@
-//! Detection of a fault: channels and checks that exceed their bounds, the first instant, and the margin.
+//! Detection of a fault: the channels and checks that exceed their bounds, the first instant at which this happens, and
+//! the margin.
 
 use crate::sentences;
 use linkage::math::statistics::ascending;
@@ -92,7 +93,7 @@ pub(super) struct Eyes {
 }
 
 impl Eyes {
-    /// Adds the detections by the analytic sides. `is_outside` leaves out the comparison of the two sides.
+    /// Adds the detections by the analytic sides. If `is_outside`, the comparison of the two sides is left out.
     pub(super) fn sides(mut self, sides: &ObservedSides, is_outside: bool) -> Self {
         if !is_outside {
             let beyond = sides.beyond();

@@ -110,7 +110,8 @@ fn faults_of_sliders_on_moving_guides_are_found_in_every_party() {
     }
 }
 
-/// No shipped crank reverses under a moment that acts only in one sense of rotation. A rocker does.
+/// The fault has an effect only if the loaded link reverses.
+/// No shipped crank reverses under such a load, so the moment acts on a rocker.
 #[test]
 fn a_one_sided_moment_that_always_acts_is_found_in_every_party() {
     let mut rocking = scenario("crank_rocker");

@@ -63,8 +63,9 @@ impl<'a> Command<'a> {
         let directory = place.as_ref().expect("it was made").path();
         let table = directory.join("answer.csv");
         let request = directory.join("request.json");
-        // A table from an earlier run must not be taken as an answer.
-        // A symbolic link at the path of the request must not be followed.
+        // Removes the files of an earlier run.
+        // An old table must not be taken as an answer, and a symbolic link at the path of the request must not be
+        // followed.
         for old in [&table, &request] {
             let _ = fs::remove_file(old);
         }
@@ -78,7 +79,7 @@ impl<'a> Command<'a> {
         fs::write(&request, value.to_string()).map_err(|error| sentences::the_request_cannot_be_written(&error))?;
         let request = request.to_string_lossy();
         let output = process::run(&self.command, &[what, &request], directory, self.limit, self.clock);
-        // Users see the message of a failed peer, so it must not contain control characters.
+        // Removes control characters from the message of a failed peer, because users see this message.
         output.and_then(|output| read(&output, directory)).map_err(|reason| visible(&reason))
     }
 

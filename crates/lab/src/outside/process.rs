@@ -9,7 +9,8 @@ use std::time::Duration;
 
 use crate::bench::Clock;
 
-/// Pauses between two checks of a running program. The first pauses are short, so that a quick program does not wait.
+/// Pauses between two checks of a running program, in the first 0.1 s and later.
+/// The first pauses are short, so that the end of a quick program is noticed without delay.
 const PAUSES: [Duration; 2] = [Duration::from_millis(2), Duration::from_millis(20)];
 /// Largest number of bytes read from a program.
 const MOST: u64 = 64 << 20;
@@ -88,7 +89,7 @@ fn end_group(child: &Child) {
 /// Ends a program and the processes that it has started.
 fn stop(child: &mut Child) {
     end_group(child);
-    // The program may have ended already.
+    // An error is ignored, because the program may have ended already.
     let _ = child.kill();
     let _ = child.wait();
 }

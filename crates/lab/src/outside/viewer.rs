@@ -10,7 +10,7 @@ use crate::bench::Clock;
 
 /// Script that writes a film as a recording of Rerun. Only Rerun's library knows the format.
 const SCRIPT: &str = include_str!("rerun.py");
-/// Longest duration of that conversion (s).
+/// Longest duration of the conversion of a film to a recording (s).
 const LIMIT: f64 = 120.0;
 
 /// Converts a film (JSON) to a recording of Rerun with its blueprint, using a Python that has Rerun's library.

@@ -8,7 +8,7 @@ use super::sketch::{RandomSource, SpecimenSketch};
 use super::spec::{Ask, Dyad, Spec, Start};
 use scenario::Scenario;
 
-/// Upper limits: of the mechanisms' size (m), and of the rotation of their links (rad).
+/// Upper limit of the distance of joints and mass centres from the origin (m). Also the scale of link angles (rad).
 pub const REACH: f64 = 4.0;
 /// Smallest sine of a transmission angle: 10 degrees.
 pub const DEAD: f64 = 0.17364817766693033;
@@ -23,7 +23,7 @@ pub const SORTS: [[bool; 3]; 5] =
 pub struct DyadSpecimen {
     /// The mechanism as data.
     pub spec: Spec,
-    /// The scenario read from that data.
+    /// The scenario, read from the text of `spec`.
     pub scenario: Scenario,
     /// Product of 1 / sin(smallest transmission angle) of all dyads.
     /// A chain of dyads can magnify an error by this factor.
@@ -34,7 +34,7 @@ pub struct DyadSpecimen {
 pub fn dyad(sketch: &mut SpecimenSketch, slides: [bool; 3], bases: [usize; 2]) -> [usize; 2] {
     let hook = sketch.poses[bases[0]].origin + sketch.random.vector(0.1, 0.6);
     let (mut one, mut two) = (sketch.link(hook), sketch.link(hook));
-    // Either link may come first in the mechanism, and so be the first of the group.
+    // The two links are exchanged at random, so that either may come first in the mechanism and in its group.
     if sketch.random.yes() {
         (one, two) = (two, one);
     }
@@ -87,7 +87,8 @@ pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> 
         let count = sketch.poses.len();
         let moving = count - 1 - sketch.random.index(2.min(count - 1));
         let other = if sketch.random.yes() { 0 } else { sketch.random.index(count) };
-        // A dyad with both ends on the same link would only enlarge this link.
+        // If both ends were on the same link, the dyad would only enlarge this link. One end is then moved to the
+        // ground.
         let other = if other == moving { 0 } else { other };
         let bases = if sketch.random.yes() { [moving, other] } else { [other, moving] };
         let slides = sort(sketch.random, allowed);

@@ -26,7 +26,8 @@ pub struct Pin {
     pub links: [String; 2],
 }
 
-/// A prismatic joint: its name, its links, a point of each, and its axis in the frame of each (rad).
+/// A prismatic joint: its name, its two links, a point on each link, and the angle of its axis in the frame of each
+/// link (rad).
 #[derive(Clone, Debug)]
 pub struct Guide {
     /// Name.
@@ -35,7 +36,7 @@ pub struct Guide {
     pub links: [String; 2],
     /// A point of each.
     pub points: [String; 2],
-    /// Its axis in the frame of each (rad).
+    /// Angles of the joint's axis in the frames of the two links (rad).
     pub axes: [f64; 2],
 }
 
@@ -48,7 +49,7 @@ impl Guide {
     }
 }
 
-/// Start of a group other than an RRR dyad.
+/// Start configuration of a group other than an RRR dyad.
 #[derive(Clone, Debug)]
 pub enum Ask {
     /// The configuration that lies ahead, in the direction of the axis.

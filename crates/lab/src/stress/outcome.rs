@@ -90,7 +90,7 @@ pub struct PartyAtPoint {
     /// Work of the engine's search for settings, in steps without sweeps.
     pub work: Option<f64>,
     /// Counted operations, in the order of [`Count::ALL`](linkage::work::Count::ALL).
-    /// For a side they are those of its run, for an engine those of all its runs.
+    /// For a side, they are counted in its run; for an engine, in all its runs together.
     #[serde(default)]
     pub done: Vec<(String, u64)>,
     /// Number of channels that exceed their bound although the verdict is agreement: wrong numbers without a warning.

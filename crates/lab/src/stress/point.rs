@@ -61,7 +61,7 @@ fn built() -> impl Iterator<Item = EngineName> {
 
 /// An error as one line, with its input value.
 fn told(error: &Error) -> String {
-    // Some messages contain the input value already.
+    // The input value is omitted if the message names the input already.
     let at = error.input().filter(|at| !error.message().contains(at.input.noun()));
     format!("{}{}", error.message(), at.map_or_else(String::new, |at| format!(" at {at}")))
 }
@@ -222,7 +222,7 @@ fn reached(deviations: &[Deviation]) -> Vec<WorstOfGroup> {
 }
 
 /// Converts a verdict to the form that is counted.
-/// The families have no numbers that are known to be wrong, so an expected disagreement cannot occur.
+/// An expected disagreement cannot occur, because the families state only correct numbers.
 fn end(verdict: &Verdict) -> PointEnd {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => PointEnd::Agree,

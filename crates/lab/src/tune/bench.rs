@@ -16,17 +16,18 @@ use prover::run::Options;
 
 /// Coarsest accuracy that is tried for an engine that controls its error.
 const COARSEST: f64 = 0.1;
-/// Number of sweeps that is tried first.
+/// If no cost limit is known yet, the first number of sweeps tried is the smallest available one that is at least this.
 const ENOUGH: usize = 64;
 /// First step that is tried, as a multiple of the requested step.
 /// A coarse step is cheap, and its cost predicts that of other steps.
 const COARSE_START: f64 = 4.0;
-/// Factor from the step found with some number of sweeps to the first step tried with twice as many.
+/// When the number of sweeps is increased, the first step tried is this multiple of the step found before.
 const COARSER: f64 = 1.4;
-/// Settings are of interest only if they cost less than this share of the cheapest known settings.
+/// Settings are of interest only if they cost less than this fraction of the cheapest known settings.
 const GAIN: f64 = 0.95;
-/// Rotation of the fastest driving link (rad) in one step.
-/// The steps are so coarse that a run costs little more than its readings.
+/// Coarse steps, as rotations of the fastest driving link (rad), from which the lower limit of a run's cost is
+/// measured.
+/// With such a step, a run costs little more than its readings.
 /// The first step at which the engine runs is used.
 const ROUGH: [f64; 3] = [PI / 6.0, PI / 18.0, PI / 54.0];
 
@@ -47,7 +48,8 @@ pub(super) struct Bench<'a> {
     pub(super) wanted: &'a [Channel],
     pub(super) price: Price<'a>,
     pub(super) runs: usize,
-    /// Whether the engine has refused the last method. Other steps or numbers of sweeps cannot change that.
+    /// Whether the engine has refused the last method. With other steps or numbers of sweeps it would refuse the method
+    /// again.
     pub(super) refused: bool,
     /// Work done so far, and total work allowed, in steps without sweeps.
     pub(super) effort: f64,
@@ -56,12 +58,13 @@ pub(super) struct Bench<'a> {
     pub(super) is_spent: bool,
 }
 
-/// Lower limit of a run's cost at any step: instants are read, and some routes do all sweeps at each of them.
-/// It is known for some numbers of sweeps, in ascending order.
+/// Lower limit of a run's cost at any step, as pairs of number of sweeps and cost, in ascending order.
+/// A run cannot cost less, because instants are read, and some routes do all sweeps at each instant.
 struct Floor(Vec<(usize, f64)>);
 
 impl Floor {
-    /// A run costs a constant and a part proportional to `sweeps`; neither is negative.
+    /// Lower limit of the cost at this number of sweeps.
+    /// The cost is assumed to be a constant plus a part proportional to the number of sweeps, both at least zero.
     fn at(&self, sweeps: usize) -> f64 {
         let sweeps = sweeps.max(1) as f64;
         let of = |&(many, price): &(usize, f64)| price * (sweeps / many.max(1) as f64).smaller(1.0);
@@ -75,7 +78,8 @@ impl Floor {
 struct Row {
     /// The first step to try.
     start: f64,
-    /// Error with the last number of sweeps within the lowest known cost, and how many times in a row it has risen.
+    /// Error with the last number of sweeps, at the lowest known cost.
+    /// `rising` counts how many times in a row this error has risen.
     last: f64,
     rising: usize,
 }
@@ -87,9 +91,9 @@ struct Search<'e> {
     /// Lowest cost of the other engines.
     others: f64,
     best: Option<Candidate>,
-    /// Smallest error of the settings that do not meet the request at any cost.
+    /// Smallest error among methods that do not meet the request at any step.
     least: f64,
-    /// Whether some settings would, or might, meet the request at a higher cost.
+    /// Whether some settings meet, or might meet, the request, but at too high a cost.
     dear: bool,
 }
 
@@ -123,13 +127,14 @@ impl Bench<'_> {
         }
     }
 
-    /// One method with all numbers of sweeps that may be of interest, in ascending order.
-    /// Within the lowest known cost, the error first falls with more sweeps; beyond the needed number it rises again.
+    /// Searches one method with increasing numbers of sweeps, as far as these may be of interest.
+    /// At a fixed cost, the error first falls with more sweeps. When there are more sweeps than needed, it rises again.
     fn through_sweeps(&mut self, search: &mut Search, way: &Settings, sweeps: &[usize]) {
         let unlimited = search.limit().is_infinite();
         self.refused = false;
         let floor = if unlimited { Floor(Vec::new()) } else { self.floor(search.engine, way, sweeps, search.limit()) };
-        // Without a limit, a small number of sweeps would be searched down to the finest steps.
+        // Without a cost limit, the search with few sweeps would continue down to the finest steps. So it begins with
+        // many sweeps.
         let first = sweeps.iter().copied().find(|&sweeps| sweeps >= ENOUGH && unlimited);
         let start = if search.engine.controls_error() { way.resolution } else { COARSE_START * way.resolution };
         let mut row = Row { start, last: f64::INFINITY, rising: 0 };
@@ -154,8 +159,8 @@ impl Bench<'_> {
         }
     }
 
-    /// Searches the largest step at which the settings meet the request. Returns their error within the lowest known
-    /// cost.
+    /// Searches for the largest step at which the settings meet the request.
+    /// Returns the error that the settings have, or are expected to have, at the lowest known cost.
     fn largest_step(&mut self, search: &mut Search, row: &mut Row, settings: Settings) -> f64 {
         let Search { engine, within, .. } = *search;
         let limit = search.limit();
@@ -191,7 +196,7 @@ impl Bench<'_> {
     }
 
     /// Lower limit of the cost of one method, from runs so coarse that they cost little more than their readings.
-    /// It stops as soon as the cost is known to exceed `limit`.
+    /// The measurement stops as soon as the cost is known to exceed `limit`.
     fn floor(&mut self, engine: &dyn Engine, way: &Settings, sweeps: &[usize], limit: f64) -> Floor {
         let rough = match engine.controls_error() {
             true => vec![COARSEST],
@@ -246,7 +251,7 @@ impl Bench<'_> {
                 (error, worst) = (own, residual.channel.to_string());
             }
         }
-        // An engine without a requested channel does not meet the request.
+        // If an engine lacks a requested channel, it does not meet the request.
         if seen < self.wanted.len() { failed(price) } else { Measured { error, worst, price } }
     }
 
@@ -256,8 +261,9 @@ impl Bench<'_> {
         let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
         let mut rungs = vec![at(2.0), settings, at(0.5)];
         // The comparison run has twice the sweeps.
-        // Its iteration error is small against the present one, so the difference is the error itself.
-        // (A proof uses half of the sweeps, which costs a quarter and errs on the safe side.)
+        // Its iteration error is small compared with that of the run at `settings`.
+        // The difference of the two runs is therefore the iteration error at `settings`.
+        // (A proof compares with half of the sweeps. That costs a quarter, and overestimates the error.)
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }

@@ -12,7 +12,7 @@ pub struct Candidate {
     pub settings: Settings,
     /// Whether the resolution in the settings is an accuracy, not a step.
     pub controls_error: bool,
-    /// Largest error against the reference, over the channel's scale.
+    /// Largest error against the reference, divided by the channel's scale.
     pub verified: f64,
     /// Channel with the largest error.
     pub worst: String,
@@ -22,13 +22,14 @@ pub struct Candidate {
     pub is_proven: bool,
 }
 
-/// Measures the cost of a run. It gets the engine and the run, which it must call at least once.
+/// Measures the cost of a run. The arguments are the engine, and a closure that does the run and must be called at
+/// least once.
 pub type Price<'a> = &'a mut dyn FnMut(&dyn Engine, &mut dyn FnMut() -> Result<()>) -> Result<f64>;
 
 /// Error and cost of one run.
 #[derive(Clone, Debug)]
 pub(super) struct Measured {
-    /// Largest error over the channel's scale; infinite if the run failed.
+    /// Largest error divided by the channel's scale; infinite if the run failed.
     pub(super) error: f64,
     /// Channel with the largest error.
     pub(super) worst: String,

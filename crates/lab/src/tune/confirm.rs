@@ -1,6 +1,7 @@
 //! Settings confirmed by a proof.
-//! The error measured against the reference may be small by chance, or where an engine's runs show no order.
-//! Then the same settings prove nothing.
+//! The error measured against the reference may be small by chance, or although the engine's runs show no order of
+//! convergence.
+//! A proof may then not agree at the same settings.
 
 use linkage::engine::Engine;
 use linkage::error::{Advice, Result};
@@ -14,12 +15,13 @@ use scenario::Scenario;
 
 /// Largest number of refinements.
 const MOST: usize = 16;
-/// Factor from one trial to the next, on the step, or on the accuracy of an engine that chooses its steps itself.
+/// Factors from one trial to the next: `FINER` for the step, `TIGHTER` for the accuracy of an engine that chooses its
+/// steps itself.
 const FINER: f64 = 0.7;
 const TIGHTER: f64 = 0.1;
 
 /// Refines the candidate as little as necessary until a proof confirms its settings.
-/// A candidate that cannot be confirmed is returned unchanged and is marked so.
+/// If no proof confirms it, the original candidate is returned and stays marked as unproven.
 ///
 /// # Errors
 /// Those of [`prove`].
@@ -55,9 +57,9 @@ pub(super) fn confirmed(
     Ok(candidate)
 }
 
-/// Advice of the requested channels that the proof leaves open.
-/// If all channels are requested, the advice of its checks is included.
-/// `None` if all agree.
+/// Advice for the requested channels that the proof does not confirm.
+/// If all channels are requested, the advice of the proof's checks is included.
+/// `None` if all these channels and checks agree.
 fn open(proof: &EngineProof, wanted: &[Channel], scenario: &Scenario) -> Option<Vec<Advice>> {
     if proof.channels.is_empty() {
         return Some(Vec::new());

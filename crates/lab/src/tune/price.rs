@@ -25,13 +25,13 @@ struct Costs {
     sweep: f64,
     /// Reading all channels at an instant.
     instant: f64,
-    /// A step in a world whose reactions are read, relative to any other step.
+    /// Cost of a step in a world whose reactions are read, divided by the cost of any other step.
     native: f64,
-    /// A tiny step of a probe, relative to any other step.
+    /// Cost of a tiny step of a probe, divided by the cost of an ordinary step with one substep.
     tiny: f64,
 }
 
-/// Measured once on `crank_rocker` by `cargo bench --bench tune -- prices`.
+/// The costs were measured once on `crank_rocker` by `cargo bench --bench tune -- prices`.
 /// The costs with one and with two substeps show which part of a step happens once and which happens in every substep.
 /// Simbody's costs are those of its steps and readings, from runs of `bench` on the same file at 1e-4 and 1e-10.
 fn costs(engine: EngineName) -> Costs {

@@ -5,20 +5,20 @@ use linkage::math::KeepNan;
 
 /// Largest number of runs in one search.
 const MOST_RUNS: usize = 9;
-/// An error of at least this share of the requested one is close enough: a larger step would save less than an eighth
-/// at order 2.
+/// If the error is at least this fraction of the requested error, the step is large enough.
+/// At order 2, a larger step would save less than an eighth of the cost.
 const NEAR_ENOUGH: f64 = 0.8;
-/// Target of the search, as a share of the requested error.
+/// The search aims at this fraction of the requested error.
 const AIM: f64 = 0.92;
 /// If a step is known to be too large by at most this factor, no further run is made.
 const CLOSE: f64 = 1.06;
-/// Below this order, the error does not fall with the step: it has another cause.
+/// If the observed order is below this, the error does not depend on the step: it has another cause.
 const FLAT: f64 = 0.3;
 /// Largest factor from one step to the next.
 const LEAP: f64 = 16.0;
 /// Highest order that is assumed possible: extrapolated accelerations were observed to fall with order 4.
 const STEEPEST: f64 = 6.0;
-/// A run that costs this share of the limit has the finest affordable step.
+/// If a run costs at least this fraction of the limit, its step counts as the finest affordable step.
 const AT_THE_LIMIT: f64 = 0.9;
 
 /// Outcome of a search.
@@ -31,8 +31,8 @@ pub(super) enum Found {
         /// Its run.
         measured: Measured,
     },
-    /// The request would cost more than the limit: the finest affordable step, and the error there, measured or
-    /// expected.
+    /// The request would cost more than the limit.
+    /// The fields are the finest affordable step, and the measured or expected error at this step.
     TooDear {
         /// The step.
         resolution: f64,
@@ -97,7 +97,8 @@ pub(super) fn largest_step(
         } else {
             missed = Some(missed.map_or(step, |known: f64| known.smaller(step)));
             if met.is_none() && error.is_finite() {
-                // Errors at the finest affordable step: at the highest possible order, and at the present order.
+                // Errors expected at the finest affordable step, with the highest possible order and with the present
+                // order.
                 let [at_best, expected] =
                     [STEEPEST, order].map(|order| error * (affordable / step).smaller(1.0).powf(order));
                 if price >= AT_THE_LIMIT * limit || at_best > within {
@@ -138,7 +139,7 @@ fn settled(met: Option<(f64, Measured)>, least: f64) -> Found {
 mod tests {
     use super::*;
 
-    /// An error that falls with a power of the step down to a floor; the cost is 1 over the step.
+    /// A model run: its error falls with a power of the step down to a floor, and its cost is 1 / step.
     fn model(order: f64, floor: f64) -> impl FnMut(f64) -> Measured {
         move |step: f64| Measured { error: (step.powf(order)).larger(floor), worst: "x".into(), price: 1.0 / step }
     }

@@ -194,7 +194,7 @@ mod tests {
         assert!(zeros(3, 1.0, |x| if x > 5.0 { f64::NAN } else { x.cos() }).is_none());
     }
 
-    /// Two zeros at the distance d form a parabola of depth d^2 / 4 (times 1/2 here).
+    /// Between two zeros at the distance d, a parabola of unit curvature has the depth d^2 / 8.
     /// The method distinguishes them from a near miss if this depth is above `ZERO`.
     #[test]
     fn a_close_pair_is_distinguished_from_a_near_miss() {

@@ -16,13 +16,13 @@ use linkage::math::statistics::{differences, rms};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// If the observed order deviates from the formal order by at most this fraction of it, the smaller safety factor
-/// holds.
-/// With a tenth, random chains with an observed order of 1.91 had errors of 1.1 times the bound.
+/// If the observed order deviates from the formal order by at most this fraction of the formal order, the smaller
+/// safety factor applies.
+/// With a limit of a tenth, random chains with an observed order of 1.91 had errors of 1.1 times the bound.
 const AS_GOOD: f64 = 0.02;
 
-/// If the observed order deviates from the formal order by more than this fraction of it, the limit of the runs is not
-/// estimated.
+/// If the observed order deviates from the formal order by more than this fraction of the formal order, the runs are
+/// not extrapolated to their limit.
 const BEARS_OUT: f64 = 0.1;
 
 /// Runs of one engine on one grid.
@@ -73,9 +73,9 @@ impl Convergence {
         } else {
             (observed.clamp(0.5, formal), 3.0)
         };
-        // Without a usable order, the error may be as large as the coarser difference.
-        // If only the finer difference is rounding, the coarser one gives the estimate.
-        // The coarser one also counts if the finer one is smaller by a whole order than any step explains.
+        // If the observed order is too low, the error may be as large as the coarser difference.
+        // If only the finer difference is rounding, the coarser difference gives the estimate.
+        // The coarser difference also counts if the observed order exceeds the formal order by more than one.
         // Errors of several orders then cancel in the finer difference, which may happen if there are few instants.
         let before = largest_size(&coarse);
         let largest = match observed {
@@ -88,7 +88,7 @@ impl Convergence {
         Convergence { observed, formal, error, safety, iteration: 0.0 }
     }
 
-    /// The same estimate for extrapolated runs.
+    /// Adapts the safety factor of this estimate to runs that are extrapolated `times` times.
     /// Errors that are not a power series in the step do not cancel.
     /// Examples are errors near a jump of a load or near a knot of its table.
     /// They were measured to be up to ten times the difference of neighbouring runs (`benches/peers`).

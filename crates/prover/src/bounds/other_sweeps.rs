@@ -10,8 +10,8 @@
 //! A third run shows how the differences develop.
 //! Let each number of sweeps be r times the previous one, and each difference s times the previous one.
 //!
-//! - If the differences shrink and go on so, s / (1 - s) of the last difference remains (Aitken). This is the worst
-//!   case: differences of a geometric convergence shrink faster and faster.
+//! - If the differences continue to shrink by the factor s, s / (1 - s) of the last difference remains (Aitken). This
+//! is the worst case: differences of a geometric convergence shrink faster and faster.
 //! - Differences may grow at first: an iteration that has hardly begun changes little from run to run, and s is close
 //!   to r. At most (r - 1) s / (r - s) of the last difference then remains if one mode dominates the iteration.
 //! - The position with the slowest convergence decides for all channels. If its differences grow, the error is unknown.
@@ -78,7 +78,8 @@ impl OtherSweeps<&[f64]> {
             [Some(fewer), None] => last(fewer),
             // A channel that sweeps do not change has no iteration error.
             [Some(fewer), Some(_)] if last(fewer) == 0.0 => 0.0,
-            // Even small differences are then not rounding: the iteration has not reached this channel yet.
+            // If the differences of a position grow, the iteration has not reached this channel yet. Even small
+            // differences of the channel are then not rounding.
             [Some(_), Some(_)] if self.growth > 1.0 => f64::INFINITY,
             [Some(fewer), Some(_)] => match self.growth(single, noise, periodic) {
                 // A difference that is only rounding is taken as the error itself.
@@ -132,7 +133,8 @@ mod tests {
         assert!((left(shrinking, 4.0, 0.0, 0.0) - 3.0 * 0.1 * (1.0 / 9.0)).abs() < 1e-12);
         assert!((left(shrinking, 4.0, 0.9, 0.0) - 0.1 * 9.0).abs() < 1e-12);
         assert_eq!(left(shrinking, 4.0, 1.5, 0.0), f64::INFINITY);
-        // The same holds if the channel's differences could be rounding.
+        // If the differences of a position grow, the error is unknown, even if the channel's differences could be
+        // rounding.
         // A channel that sweeps do not change has no iteration error.
         assert_eq!(left(shrinking, 4.0, 1.5, 5.0), f64::INFINITY);
         assert_eq!(left([&[1.0], &[1.0], &[1.0]], 4.0, 1.5, 0.0), 0.0);

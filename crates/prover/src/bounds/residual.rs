@@ -10,11 +10,12 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::{differences, half_range, quantile, rms, share, sorted_sizes};
 use linkage::trajectory::{Channel, Trajectory, Unit};
 
-/// Lower limit of a channel's scale / the natural size of its quantity.
-/// The errors of a nearly constant coordinate come from its neighbours, not from its own motion.
+/// A channel's scale is at least this fraction of the natural size of its quantity.
+/// If a coordinate is nearly constant, its errors come from neighbouring coordinates. Its own small motion is then no
+/// measure of them.
 const SMALLEST_SHARE: f64 = 1e-3;
 
-/// Lower limit of the scale of a rate, a force or a moment / its largest value.
+/// The scale of a rate, a force or a moment is at least this fraction of its largest value.
 const SMALLEST_OWN_SHARE: f64 = 0.1;
 
 /// Distribution of the absolute differences in one channel.
@@ -46,8 +47,9 @@ impl Residual {
     }
 }
 
-/// Forces below this fraction of the largest force are rounding. The sides know forces to a tenth of this limit.
-/// Any quantity is rounding below this fraction of its size in `Built`.
+/// A force counts as rounding if it is at most this fraction of the largest force.
+/// The sides know forces to a tenth of this limit.
+/// A value of any quantity counts as rounding if it is at most this fraction of the quantity's size in `Built`.
 const VANISHING: f64 = 1e-9;
 
 /// Scale of every channel: half the range of its values over the run.
@@ -68,7 +70,7 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     scales_beyond(&vec![0.0; trajectory.channels().len()], trajectory, &Built::default())
 }
 
-/// The same for a trajectory with known `errors` (in the units of its channels).
+/// The same scales for a trajectory with known `errors` (in the units of its channels).
 /// A rate, a force or a moment that is zero throughout, within its error, has no size: its values are rounding.
 /// The cause may be a constant speed, a link that only translates, a joint that guides nothing, or a parallelogram.
 /// The scale of such a channel is a tenth of the natural size of its quantity.
@@ -114,12 +116,14 @@ pub(crate) struct Built {
     pub(crate) length: f64,
     /// Fastest speed of a drive; for a free link, its nominal speed (rad/s).
     pub(crate) speed: f64,
-    /// The weight of all links (N). If larger, the force that accelerates the links at that speed and size.
+    /// The larger of two forces (N): the weight of all links, and the force that accelerates the links at the above
+    /// speed and length.
     pub(crate) force: f64,
 }
 
 impl Built {
-    /// Value of a unit that follows from these sizes. Angles and their rates also use a rotation `turn` (rad).
+    /// Size of a quantity with this unit, from the sizes in `self`.
+    /// For angles and their rates, the rotation `turn` (rad) is used too.
     fn of(&self, unit: Unit, turn: f64) -> f64 {
         let Built { length, speed, force } = *self;
         match unit {
@@ -207,7 +211,7 @@ impl Sizes {
         sizes
     }
 
-    /// The larger sizes of both.
+    /// For each kind of size, the larger of the two values.
     fn with(mut self, other: &Sizes) -> Self {
         for (quantity, size) in &other.of_quantity {
             let own = self.of_quantity.entry(quantity).or_insert(0.0);
@@ -338,7 +342,8 @@ mod tests {
         assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from <= to), [2e9, 2e9]);
         // The scale of an error, however, is the channel's own range.
         assert_eq!(scales(&all), [1.5e9, 0.5]);
-        // Exception: the range is rounding, as for the shaking force of a balanced mechanism.
+        // If the channel's own range is only rounding, it is not the scale. An example is the shaking force of a
+        // balanced mechanism.
         let balanced = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![0.0, 1e-7])]);
         assert_eq!(scales(&balanced), [1.5e9, 2e6]);
     }

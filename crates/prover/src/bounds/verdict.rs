@@ -65,7 +65,7 @@ impl Verdict {
         Verdict::Inconclusive { reason: reason.into(), advice: Vec::new() }
     }
 
-    /// Reason of a verdict other than agreement. `tell` words the advice.
+    /// Reason of a verdict other than agreement. `tell` converts advice to text.
     #[must_use]
     pub fn reason(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
         match self {
@@ -166,7 +166,8 @@ const NEGLIGIBLE: f64 = 0.1;
 /// The factor is the larger safety factor of the estimate, applied once more.
 const DISPROVEN: f64 = 3.0;
 
-/// Names the largest part of an engine's error, to be added to a reason, with advice to make this part smaller.
+/// Names the largest part of an engine's error, as text to be added to a reason.
+/// Also returns advice on how to reduce this part.
 fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     match parts.largest() {
         BoundPart::Rounding => {
@@ -268,7 +269,7 @@ impl Check {
         if self.detail.is_empty() { self.family.clone() } else { format!("{}, {}", self.family, self.detail) }
     }
 
-    /// Fraction of the bound that the number uses; infinite for NaN, so that NaN counts as the worst.
+    /// Ratio of the number to its bound; infinite for NaN, so that NaN counts as the worst.
     #[must_use]
     pub fn used(&self) -> f64 {
         let used = share(self.value, self.bound);

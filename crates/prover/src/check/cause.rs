@@ -43,7 +43,7 @@ pub enum FormulaCause {
         /// Number of further causes that are left out.
         more: usize,
     },
-    /// The formula gives another channel of the mechanism, by name.
+    /// The formula gives another channel of the mechanism. The text names this channel.
     Other(String),
     /// The formula is constant, but the claimed quantity varies.
     Constant,
@@ -184,11 +184,11 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     let is_sound = |own: &&Mended| !own.rank.0;
     let is_simple = |own: &&Mended| own.slip.kind != SlipKind::Value || !own.rank.1;
     let mut sound: Vec<&Mended> = tried.right.iter().filter(is_sound).filter(is_simple).collect();
-    // In these cases a slip has to match only one number: the mechanism's value is constant, or the formula is wrong by
-    // a factor or an offset.
+    // If the mechanism's value is constant, or the formula is wrong by a factor or an offset, a slip has to match only
+    // one number.
     let is_weak = trial.is_constant() || trial.is_number;
     if let Some(first) = sound.first().copied() {
-        // Some evidence is stronger than the number: a sign, a unit, or units that only the correction makes
+        // Some evidence is stronger than a matching number: a sign, a unit, or units that only the correction makes
         // consistent.
         let own = formulas.list[trial.index].tree.clone();
         let is_natural = match first.slip.kind {
@@ -213,8 +213,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
                 let is_near = own.rank.2 == rank.2 || trial.is_constant();
                 return own.rank.1 == rank.1 && is_near && !is_same && kinds.insert((own.slip.kind, own.rank.2));
             }
-            // A mechanism's numbers may coincide by chance: one length is twice another, or a ratio is twice its
-            // inverse.
+            // Both explanations are reported, because a mechanism's numbers may coincide by chance. For example, one
+            // length is twice another, or a ratio is twice its inverse.
             let is_number = |kind: SlipKind| kind == SlipKind::Factor;
             let is_other = own.rank.1 == rank.1
                 && (matches!(rank.3, SlipKind::Name | SlipKind::Exchanged) && is_number(own.slip.kind)
@@ -246,12 +246,14 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     if trial.gives_one_number() && !trial.is_constant() {
         return Some(FormulaCause::Constant);
     }
-    // An approximation is right by chance at the instants at which it crosses the exact curve.
+    // An approximation is not examined for this cause: it is right by chance at the instants at which it crosses the
+    // exact curve.
     let is_exact = trial.formula.error.is_none();
     if let Some(found) = leaves(&rows).filter(|_| is_exact) {
         return Some(found);
     }
-    // With the probability `CHANCE`, one of this many equally simple slips leaves so little at two instants.
+    // Largest remainder that counts as evidence for a slip. By chance, one of `among` equally simple slips leaves so
+    // little at two instants with the probability `CHANCE`.
     let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
     let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
     let mostly = |own: Mended| FormulaCause::Mostly { cause: Box::new(FormulaCause::Slip(own.slip)), left: own.left };
@@ -303,7 +305,7 @@ fn of_numbers(rows: &[Row]) -> Option<FormulaCause> {
     }
     let left = |row: &Row| row[2] - row[3];
     let largest = |column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::larger);
-    // A fitted coefficient is known only to the accuracy of the numbers.
+    // The bound is widened by the rounding of the numbers, because a fitted coefficient is not known more accurately.
     let slack = 8.0 * f64::EPSILON * (largest(2) + largest(3));
     let by = |basis: &dyn Fn(&Row) -> f64| {
         let [above, below] = rows.iter().fold([0.0, 0.0], |[above, below], row| {

@@ -128,7 +128,7 @@ fn claimed(claim: &Claim) -> Known {
     if !claim.unit().is_empty() {
         return of_unit(claim.unit());
     }
-    // A claim reduced to the crank contains masses as plain numbers.
+    // The dimension is unknown if the claim is reduced to the crank, because its text contains masses as plain numbers.
     if claim.channels.iter().any(|(name, _)| !claim.text.contains(name.as_str())) {
         return None;
     }

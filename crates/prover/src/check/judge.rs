@@ -124,7 +124,8 @@ pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<Ju
         let judged = (0..=orders).map(|order| JudgedFormula::new((formula, claim), order)).collect();
         all.push(One { formula, turn: claim.turn(), claimed, judged });
     }
-    // The largest value of the claim decides how accurately a formula must be known.
+    // The scale is determined first, because the largest value of the claim decides how accurately a formula must be
+    // known.
     for row in 0..course.len() {
         let crank = course.cranks()[row];
         claims.iter_mut().for_each(|claim| {

@@ -88,7 +88,7 @@ pub struct JudgedFormula {
 /// If the formula's error exceeds this fraction of the scale, digits may count as lost: see `NO_WORSE`.
 const TELLING: f64 = 1e-6;
 /// If a formula's error is at most this multiple of the mechanism's error, no digits count as lost.
-/// The limit allows for a few products of numbers that are known as accurately as the mechanism's.
+/// The limit allows for a few products of numbers that are known as accurately as the mechanism's numbers.
 const NO_WORSE: f64 = 1e3;
 /// If the bound is not decisive at more than this fraction of the instants, the judgement is inconclusive.
 const MOST_LOST: f64 = 0.03;
@@ -123,7 +123,8 @@ impl JudgedFormula {
         own
     }
 
-    /// Takes a value of the claim into the scale. All values must be seen before the first instant is judged.
+    /// Enlarges the scale to the size of this value of the claim.
+    /// All values must be passed to this function before the first instant is judged.
     pub(super) fn seen(&mut self, mechanism: Rounded) {
         match has_number(mechanism) {
             true => self.scale = self.scale.larger(mechanism.value.abs()),

@@ -107,7 +107,7 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
     found.dedup_by(|one, other| one.1.changed == other.1.changed);
     let mut right: Vec<(usize, Candidate)> = Vec::new();
     for (weight, own) in found {
-        // Equally simple, and at the same position.
+        // Keeps only explanations that are equally simple and at the same position.
         let is_equal = right.first().is_none_or(|(least, first)| weight <= least + 1 && own.is_beside(first));
         if is_equal && right.len() < MOST && trial.fits(&own.changed, 0.0) {
             right.push((weight, own));
@@ -132,7 +132,7 @@ impl Ratios {
     fn alike(&mut self, entries: &[Entry], needed: &Needed) -> Vec<usize> {
         let mut known: Vec<(usize, [f64; 2])> =
             needed.iter().enumerate().filter_map(|(instant, own)| Some((instant, (*own)?))).collect();
-        // The instants with the smallest relative error.
+        // Selects the two instants with the smallest relative error.
         let sharpness = |(_, [amount, known]): &(usize, [f64; 2])| (amount / known).abs();
         known.sort_by(|one, other| sharpness(other).total_cmp(&sharpness(one)));
         let [(one, [first, first_known]), (other, [second, second_known])] = match known.as_slice() {
@@ -193,7 +193,7 @@ impl Candidate {
 /// Whether a number alone proves that a product is missing.
 /// The number must have more digits than chance explains, given the number of products with the same unit.
 /// `places` is the number of positions at which the product may be missing.
-/// It is given if the formula is wrong only by a number, because all these positions then fit.
+/// It is `None` unless the formula is wrong only by a number. Such a product fits at all these positions.
 fn is_believed(
     monomials: &Monomials,
     dimensions: &Dimensions,
@@ -205,7 +205,7 @@ fn is_believed(
 ) -> bool {
     let dimension = dimensions.of_constant(what);
     let (products, one) = monomials.by_chance(coefficient, ACCURACY, weight, dimension);
-    // No other quantity has the missing unit.
+    // A simple product is accepted if no other product of its complexity has the missing unit.
     if weight <= 2 && products <= 1 && dimension.is_some() {
         return true;
     }
@@ -326,7 +326,7 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
 /// Factor by which the missing amount is proportional to an entry. `None` if the amount is not proportional to it.
 fn coefficient(entry: &Entry, needed: &Needed) -> Option<f64> {
     let known = || entry.values.iter().zip(needed).filter_map(|(value, own)| Some((*value, (*own)?)));
-    // The instant with the smallest relative error.
+    // Selects the instant with the smallest relative error.
     let sharpness = |(value, [_, known]): &(f64, [f64; 2])| (value / known).abs();
     let (sharpest, [amount, sharp]) = known().max_by(|one, other| sharpness(one).total_cmp(&sharpness(other)))?;
     // A constant can be recognised from fewer instants, if the trial has fewer.

@@ -30,9 +30,9 @@ pub struct Term {
 const ACCURACY: f64 = 1e-8;
 /// Complexity of a coefficient that is not a product of parameters.
 const UNKNOWN_NUMBER: usize = 20;
-/// Upper limit of a term / the difference that it explains in part.
+/// If a term exceeds this multiple of the largest difference, it does not explain the difference.
 const LARGER: f64 = 3.0;
-/// Assumed error of a channel's values / the largest value of the channel.
+/// The values of a channel are assumed to have an error of this fraction of their largest value.
 const KNOWN: f64 = 1e-10;
 
 /// One or two terms that explain the whole difference.
@@ -99,7 +99,7 @@ pub(super) fn is_other(trial: &Trial, claim: &Claim, course: &KnownTrajectory) -
     let turn = claim.turn();
     let is_right = |(channel, values): &(&Channel, &[f64])| {
         let largest = rows.iter().fold(0.0, |largest: f64, &row| largest.larger(values[row].abs()));
-        // A channel with a unit of another kind is compared in its own SI unit.
+        // A channel with a unit of another kind is compared in the channel's SI unit.
         let is_alike = channel.kind.unit == claimed.channel.kind.unit;
         let (unit, turn) = if is_alike { (claimed.to_si(1.0), turn) } else { (1.0, None) };
         let fits = |(&row, pair): (&usize, &Pair)| {

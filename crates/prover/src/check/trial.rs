@@ -11,8 +11,9 @@ use scenario::{Claim, Formula, Formulas, INPUTS, Parameter};
 
 /// Number of instants at which every change is tried first, besides the instant with the largest error.
 const FIRST: usize = 9;
-/// Number of preceding steps that are kept although the formula does not use them, and likewise of parameters.
-/// The author may have omitted them by mistake.
+/// Up to this number of preceding steps are kept although the formula does not use them. The same limit applies to
+/// parameters.
+/// The author may have omitted these steps or parameters by mistake.
 const BESIDE: usize = 20;
 /// Cost of making a change as a tree and judging it, without its evaluations, in operations.
 const TREE: u64 = 2000;
@@ -34,7 +35,8 @@ pub(super) struct Trial<'a> {
     /// Input values of the formulas at every instant. `pairs` holds the values of formula and mechanism.
     inputs: Vec<[Rounded; 4]>,
     pub(super) pairs: Vec<Pair>,
-    /// Some of the instants. The first and the last alone do not suffice, because many values are zero there.
+    /// Some of the instants. The first and the last instant alone do not suffice, because many values are zero at these
+    /// two instants.
     pub(super) few: Vec<usize>,
     /// The derivation, evaluated at the instants of `few`.
     pub(super) sheet: DerivationSheet,
@@ -42,7 +44,7 @@ pub(super) struct Trial<'a> {
     pub(super) targets: Vec<FormulaTarget>,
     /// Indices into `few`, the instants with the largest error first.
     pub(super) order: Vec<usize>,
-    /// The largest difference at the instants of `few`. It is at most the largest value of the mechanism there.
+    /// The largest difference at the instants of `few`, limited to the mechanism's largest value at these instants.
     before: f64,
     /// Whether a factor or an offset makes the formula right.
     pub(super) is_number: bool,
@@ -97,7 +99,8 @@ impl<'a> Trial<'a> {
         few.dedup();
         let mut order: Vec<usize> = (0..few.len()).collect();
         order.sort_by(|one, other| size(few[*other]).total_cmp(&size(few[*one])));
-        // If the difference is larger than the mechanism's values, almost any change leaves little of it.
+        // The largest difference is limited to the mechanism's largest value. Otherwise almost any change would leave
+        // only a small fraction of a large difference.
         let largest = |of: &dyn Fn(usize) -> f64| few.iter().map(|&place| of(place)).fold(0.0, f64::larger);
         let numbers = largest(&|place| own.pairs[place].mechanism.value.abs());
         own.before = largest(&size).smaller(numbers);
@@ -175,7 +178,7 @@ impl<'a> Trial<'a> {
         self.left(changed, slack) == Some(0.0)
     }
 
-    /// Fraction of the difference that such a change leaves.
+    /// Fraction of the difference that remains if the trees `changed` replace those of the file.
     /// It is zero if the formula is right at every instant.
     /// Otherwise it is the largest remaining difference at the instants of `few`, divided by the largest difference
     /// before.
@@ -194,7 +197,8 @@ impl<'a> Trial<'a> {
             JudgedFormula::of((formula, claim), claim.turn(), pairs.into_iter())
         };
         let first = judged(&mut few.iter().copied());
-        // If digits cancel, the few instants alone do not suffice to decide.
+        // If the formula is right at the few instants, it is judged at all instants. The few instants do not suffice if
+        // digits cancel.
         let is_right = first.since.is_none() && judged(&mut (0..inputs.len())).outcome() == FormulaOutcome::Right;
         let rows = if first.since.is_none() { inputs.len() } else { few.len() };
         let work = (program.len() * (rows + ADDED) + after * ADDED) as u64 + TREE;

@@ -15,7 +15,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use scenario::Claim;
 
-/// An instant counts as equal to that of a row if it differs by at most this fraction of the distance of rows.
+/// Two instants count as equal if they differ by at most this fraction of the spacing of the rows.
 const SAME: f64 = 1e-6;
 
 /// Compares two parties at the instants of the second.

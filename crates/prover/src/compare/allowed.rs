@@ -44,8 +44,8 @@ impl ComparisonRule {
         Words::of(own.filter_map(|(index, allowed)| Some((index, allowed.of.as_deref()?))))
     }
 
-    /// Allowed difference of the crank angle (rad) with this scale.
-    /// It follows from allowances for all channels and for the word `crank`. Absolute sizes are in degrees.
+    /// Allowed difference of the crank angle (rad). `scale` is the scale of the crank angle.
+    /// The difference follows from allowances for all channels and for the word `crank`. Absolute sizes are in degrees.
     #[must_use]
     pub fn allows_crank(&self, scale: f64) -> Option<Allowance> {
         let own = self.allowed.iter().filter(|own| own.of.as_deref().is_none_or(|word| word == CRANK));
@@ -143,7 +143,8 @@ impl Allowances<'_> {
     }
 }
 
-/// Allowed difference by all of `own`, with absolute sizes in `unit`. Of each kind the last counts.
+/// Allowed difference by all of `own`, with absolute sizes in `unit`.
+/// If several allowances are of the same kind, the last one counts.
 fn allowance<'a>(own: impl Iterator<Item = &'a Allowed>, scale: f64, unit: f64) -> Option<Allowance> {
     let mut sizes: [Option<f64>; 3] = [None; 3];
     for allowed in own {

@@ -33,7 +33,7 @@ pub struct Explained {
     pub terms: Vec<Term>,
     /// Remaining fraction of the largest difference; zero if the cause explains the channels within their bounds.
     pub left: f64,
-    /// Time (s) of one additional wrong row that the cause does not explain.
+    /// Time (s) of a single wrong row that the cause does not explain; `None` if there is no such row.
     pub but: Option<f64>,
 }
 
@@ -105,7 +105,7 @@ pub(super) fn explained(
 }
 
 impl Compared {
-    /// Whether it is a single channel with numbers from both parties.
+    /// Whether a single channel is compared, with numbers from both parties.
     fn is_plain(&self) -> bool {
         matches!(self.claim.tree.shape, NodeShape::Name(_)) && self.largest.is_some()
     }
@@ -126,7 +126,8 @@ fn may_leave(cause: &DisagreementCause) -> bool {
         DisagreementCause::Case(Change { part, how: PartChange::Instead { .. } }) => {
             matches!(part, CasePart::StartAngle(_))
         }
-        // A diverging simulation ends in rows with errors so large that all other errors look small.
+        // For these two slips, no remainder is allowed. A diverging simulation ends in rows with huge errors, beside
+        // which all other errors look small.
         DisagreementCause::Values { slip: DataSlip::Differences { .. } | DataSlip::Outlier(_), .. } => false,
         DisagreementCause::Case(_) | DisagreementCause::Values { .. } => true,
     }
@@ -206,7 +207,7 @@ impl Stage {
         }
         let all: Vec<Channel> = scenario.case.all_channels();
         let case = scenario.case.on(Grid { times: times.clone(), inputs: cranks.clone() })?.wanting_only(&all);
-        // The compared channels could be solved at these instants, but other channels may not.
+        // If other channels cannot be solved at these instants, no cause is sought.
         let Ok(right) = AssurSolver.solve(&case) else { return Ok(None) };
         for ((channel, column), (.., agrees)) in names.iter().zip(&mut columns).zip(&bounds) {
             if let Some(right) = right.column(channel).filter(|_| channel.kind.periodic) {
@@ -217,7 +218,7 @@ impl Stage {
         Ok(Some(Stage { case, right, found, bounds }))
     }
 
-    /// A cause that explains some of the channels except for a remaining fraction of at most `left`.
+    /// A cause for some of the channels. At most the fraction `left` of their difference remains.
     fn examined(&self, of: &[&Compared], left: f64) -> Option<Explained> {
         let mut diagnosis = self.diagnosis(of, left)?;
         let causes = diagnosis.cause.take().into_iter().chain(std::mem::take(&mut diagnosis.also));
@@ -302,8 +303,8 @@ impl Stage {
             few: &few,
         };
         let (terms, left) = missing_in_numbers(&KnownTrajectory::new(&self.case, &self.right, &|_, _| 0.0), &wrong)?;
-        // Some term resembles any smooth difference. A term in time or in the crank angle alone is not a term of a
-        // mechanism.
+        // A term in time or in the crank angle alone does not count: it resembles any smooth difference and is not a
+        // term of a mechanism.
         let drifts = terms.iter().any(|term| term.of == "t" || term.of == "phi");
         (left == 0.0 && !drifts).then_some(())?;
         let diagnosis = self.diagnosis(&[own], 0.0)?;
@@ -369,7 +370,8 @@ mod tests {
             unwrap(&mut values, &right, is_right);
             assert!(values.iter().zip(meant).all(|(a, b)| (a - b).abs() < 1e-12), "{is_right}: {values:?}");
         }
-        // Unwrapped angles do not change, unless they are right except for whole revolutions.
+        // Unwrapping changes angles that are right except for whole revolutions. It does not change other angles
+        // without jumps.
         for (is_right, turns) in [(false, 2.0), (true, 0.0)] {
             let mut values: Vec<f64> = right.iter().map(|angle| angle + 2.0 * TAU).collect();
             unwrap(&mut values, &right, is_right);

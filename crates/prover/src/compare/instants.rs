@@ -15,7 +15,7 @@ use scenario::Claim;
 /// Uncertainty of numbers due to the rounding of their instants, row by row; empty if the instants are exact.
 #[derive(Default)]
 pub(super) struct Drift {
-    /// By claim, in the claim's unit.
+    /// Uncertainty by claim, in the claim's unit.
     pub claims: Vec<Vec<f64>>,
     /// The crank angle (rad).
     pub crank: Vec<f64>,

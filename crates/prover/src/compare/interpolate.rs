@@ -6,7 +6,8 @@ use linkage::math::KeepNan;
 
 /// Number of rows needed to interpolate: four for a cubic, and one more to estimate its error.
 const FEWEST: usize = 5;
-/// Upper limit of the fourth divided difference between rows / the largest one of nearby windows of five rows.
+/// Between rows, the fourth divided difference is assumed to be at most this multiple of the largest one in nearby
+/// windows of five rows.
 const SAFETY: f64 = 2.0;
 
 /// A column in ascending order of its instants.
@@ -19,7 +20,7 @@ pub(super) struct Course {
 
 impl Course {
     /// Creates a column from its instants and values, sorted by instants.
-    /// Rows without a number are left out. Angles with this `turn` may jump by it.
+    /// Rows without a number are left out. Angles may jump by multiples of `turn`.
     pub(super) fn new(at: &[f64], values: &[Rounded], turn: Option<f64>) -> Self {
         let rows: Vec<(f64, Rounded)> =
             at.iter().copied().zip(values.iter().copied()).filter(|(_, own)| own.value.is_finite()).collect();
@@ -63,7 +64,7 @@ impl Course {
     }
 }
 
-/// Angles without jumps by whole turns between rows.
+/// Removes jumps by multiples of `turn` between the rows of an angle.
 fn unwound(mut values: Vec<Rounded>, turn: Option<f64>) -> Vec<Rounded> {
     let Some(turn) = turn else { return values };
     for row in 1..values.len() {

@@ -1,4 +1,4 @@
-//! Channel by channel: differences, bounds, verdicts.
+//! Computes differences, bounds and verdicts, channel by channel.
 
 use crate::sentences;
 use std::ops::Deref;
@@ -27,11 +27,11 @@ pub struct Compared {
     /// It is at least a thousandth of the natural size of the quantity.
     /// It does not depend on which other channels are compared.
     pub scale: f64,
-    /// Result of comparing the numbers of both, in the claim's unit.
+    /// Result of comparing the numbers of both parties, in the claim's unit.
     pub found: JudgedColumns,
     /// Whether the bound comes only from the known errors of both parties, without an allowed difference.
     pub is_derived: bool,
-    /// Agreement within the bounds of all instants.
+    /// The channel agrees only if the difference is within its bound at every instant.
     pub verdict: Verdict,
 }
 
@@ -117,7 +117,7 @@ impl Both<'_> {
             let is_coordinate = matches!(claim.tree.shape, NodeShape::Name(_))
                 && matches!(claim.channels[0].1.channel.kind.unit, Unit::Radian | Unit::Metre);
             let share = match (numbers.len(), is_coordinate) {
-                // A single instant has no range.
+                // A single instant has no range, so its value is the scale.
                 (1, _) => 1.0,
                 (_, true) => 1e-3,
                 (_, false) => 0.1,
@@ -157,7 +157,8 @@ impl Both<'_> {
                 sentences::SAY_WHAT_DIFFERENCE_IS_ALLOWED,
             ),
             Some(since) => Verdict::Disagree { place: place(&since) },
-            // Numbers that agree this closely prove agreement, however large the uncertainty due to their digits.
+            // If the difference is at most the fraction `TELLING` of the scale, the numbers agree, however large the
+            // uncertainty due to their digits.
             None if is_derived && own.widest > TELLING * scale && largest > TELLING * scale => open(
                 sentences::the_numbers_are_known_to_of_their(&format_args!("{:.1e}", own.widest / scale)),
                 sentences::GIVE_MORE_DIGITS_OR_CLOSER,

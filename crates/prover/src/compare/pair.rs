@@ -34,7 +34,7 @@ pub struct SidePair {
     pub instants: usize,
     /// Number of these instants that the other party does not have.
     pub unshared: usize,
-    /// Channels that only one of the two has.
+    /// Channels that only one of the two sides has.
     pub alone: [Vec<String>; 2],
     /// The first row at which time or crank angle goes backwards: its number, its instant and the previous one. See
     /// [`At::turns_back`](crate::tables::RowKey::turns_back).
@@ -49,7 +49,7 @@ pub struct SidePair {
 }
 
 impl SidePair {
-    /// Compares the claims of both; `party` sets the instants.
+    /// Compares the claims of both parties; `party` sets the instants.
     pub(super) fn of(both: &Both, party: Which, claims: &[Claim]) -> SidePair {
         SidePair {
             channels: both.judged(claims),
@@ -140,7 +140,7 @@ pub(super) fn crank_check(both: &Both, cranks: [&[Rounded]; 2], drift: &[f64]) -
     let values: Vec<f64> = cranks[measure.party].iter().map(|own| own.value).filter(|own| own.is_finite()).collect();
     let allowed = both.how.allows_crank(half_range(&values));
     let mut allowance = allowed.unwrap_or_default();
-    // Subtracting whole turns causes rounding errors.
+    // The allowance includes the rounding error of subtracting whole revolutions.
     allowance.fixed += 4.0 * f64::EPSILON * TAU;
     let found = judge(&Beside { values: cranks, places: both.places(), drift, turn: Some(TAU), allowance, measure });
     let worst = found.worst.filter(|_| both.how.asks_for_crank())?;

@@ -33,7 +33,7 @@ pub(super) struct Bench<'a> {
     left: Rc<Cell<usize>>,
 }
 
-/// Differences of the suspect that remain under a hypothesis, as shares of the bounds: column by column, instant by
+/// Differences of the suspect that remain under a hypothesis, each divided by its bound: column by column, instant by
 /// instant.
 #[derive(Clone, Debug)]
 pub(super) struct Misfit(pub(super) Vec<f64>);
@@ -64,7 +64,7 @@ impl Misfit {
 
     /// Range of factors on `effect` for which the sum of this misfit and the scaled effect stays within all bounds.
     /// `None` if no such factor exists.
-    /// Least squares cannot find it, because errors of a suspect are not random.
+    /// Least squares cannot find this range, because errors of a suspect are not random.
     pub(super) fn kept_by(&self, effect: &Misfit) -> Option<[f64; 2]> {
         let mut range = [f64::NEG_INFINITY, f64::INFINITY];
         for (own, change) in self.0.iter().zip(&effect.0) {
@@ -83,7 +83,8 @@ impl Misfit {
 }
 
 impl<'a> Bench<'a> {
-    /// The question at the given rows of its grid. `left` is the number of cases that may still be solved.
+    /// Creates a bench for the given rows of the question's grid. `left` is the number of cases that may still be
+    /// solved.
     pub(super) fn new(question: &DiagnosisInput<'a>, rows: &[usize], left: Rc<Cell<usize>>) -> Option<Self> {
         let grid = &question.case.grid;
         let of_rows = |values: &[f64]| rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
@@ -124,7 +125,7 @@ impl<'a> Bench<'a> {
         self.tried_in(case, None)
     }
 
-    /// The same, but the values of the changed case replace those of the reference in the channels of one stage only,
+    /// As `tried`, but the values of the changed case replace those of the reference in the channels of one stage only,
     /// or in all channels.
     pub(super) fn tried_in(&self, case: &Case, stage: Option<Stage>) -> Option<Misfit> {
         self.left.set(self.left.get().checked_sub(1)?);
@@ -197,7 +198,7 @@ pub(super) fn thinned(question: &DiagnosisInput) -> Vec<usize> {
     in_order(rows)
 }
 
-/// The same, but from the early time in which the differences are still small.
+/// As `thinned`, but the rows are from the early time in which the differences are still small.
 pub(super) fn early(question: &DiagnosisInput) -> Vec<usize> {
     let ascending = ascending(question.reference.times());
     let mut end = ascending.len();

@@ -45,7 +45,7 @@ plain! {
     Half,
     /// Zero instead of the values.
     Zero,
-    /// Absolute values. Of an angle: the absolute value after wrapping, as an arc cosine gives it.
+    /// Absolute values. For an angle, the absolute value after wrapping, as an arc cosine returns it.
     Size,
     /// An angle within a quarter revolution of zero with the right sine, as an arc sine returns it.
     ArcSine,
@@ -86,7 +86,7 @@ pub enum DataSlip {
         /// Rows between which the differences are taken.
         over: Over,
     },
-    /// The acceleration without the Coriolis term of a block on a moving guide, by joint.
+    /// The acceleration without the Coriolis term of a block on a moving guide. The text names the joint.
     NoCoriolis(String),
     /// The moment about another point. The force has this additional arm.
     About(Arm),
@@ -108,7 +108,7 @@ pub enum DataSlip {
         /// The amount, in the channel's unit.
         offset: f64,
     },
-    /// Multiplied by the same number at every instant.
+    /// Values multiplied by the same number at every instant.
     Factor(f64),
     /// Values of another instant.
     Late {
@@ -166,7 +166,7 @@ pub struct Change {
 pub enum CasePart {
     /// Gravity.
     Gravity,
-    /// Masses and moments of inertia of all links in their resistance to acceleration. The weights are not affected.
+    /// Masses and moments of inertia of all links, as far as they resist acceleration. The weights are not affected.
     InertiaForces,
     /// Moments of inertia of all links.
     Inertias,
@@ -180,7 +180,7 @@ pub enum CasePart {
     Body(String),
     /// Weight of a link. Its resistance to acceleration is not affected.
     Weight(String),
-    /// Mass and moment of inertia of a link in their resistance to acceleration. Its weight is not affected.
+    /// Mass and moment of inertia of a link, as far as they resist acceleration. Its weight is not affected.
     Inert(String),
     /// Mass centre of a link.
     MassCentre(String),

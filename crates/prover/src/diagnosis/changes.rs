@@ -12,19 +12,20 @@ use super::question::{DiagnosisInput, Found, Rank};
 use super::tries::{Candidate, Tries};
 use super::whole::whole_changes;
 
-/// Limit of changed cases solved on thinned grids to find numbers and other instants.
+/// Two limits on thinned grids: `MOST` limits the changed cases solved to find numbers and other instants.
 /// The same limit holds separately for changes without a number.
-/// A prescribed motion costs little; its limit is this many times as high.
+/// For a prescribed motion, which costs little, the limit is `CHEAP` times as high.
 const MOST: usize = 120;
 const CHEAP: usize = 3;
 /// Up to this number of links, solving a case costs as little as for the smallest mechanisms.
 const LINKS: usize = 16;
 /// Largest number of causes that are confirmed on the whole grid.
 const CONFIRMED: usize = 6;
-/// Claims are rounded to a bound divided by this number before they are compared. Smaller differences are rounding.
+/// Claims (sums of changes divided by bounds) are rounded to multiples of 1 / this number before they are compared.
+/// Smaller differences are rounding.
 const CLAIMED: f64 = 1e3;
-/// Limit of cases solved on the whole grid to confirm causes. More than one per cause, because a value may need
-/// correction.
+/// Limit of cases solved on the whole grid to confirm causes. It allows several cases per cause, because a value may
+/// need correction.
 const WHOLE: usize = 4 * CONFIRMED;
 
 /// Every change that explains disagreeing channels, and the number of cases that were solved.
@@ -39,7 +40,7 @@ pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     let first = Bench::new(question, &[0], Rc::new(Cell::new(2 * most)));
     let (Some(thin), Some(soon), Some(first)) = (thin, soon, first) else { return (Vec::new(), 0) };
     let tries = Tries { first, starts: [soon.start(), thin.start()], soon, thin, is_free };
-    // Differences of rounding size have no cause to find.
+    // No cause is sought if all differences are within their bounds, or if one of them is not finite.
     if tries.starts[1].fits() || !tries.starts[1].worst().is_finite() {
         return (Vec::new(), 0);
     }

@@ -89,8 +89,8 @@ pub(crate) fn even(times: &[f64]) -> Option<f64> {
     (step > 0.0 && is_even).then_some(step)
 }
 
-/// Whether the term is missing in an acceleration: twice the guide's angular velocity times the block's speed on the
-/// guide.
+/// Whether the Coriolis term is missing in an acceleration. This term is twice the guide's angular velocity times the
+/// block's speed on the guide.
 fn lacks_coriolis(question: &DiagnosisInput, one: &Wrong, joint: &str) -> Option<bool> {
     let mechanism = &question.case.mechanism;
     let joint = mechanism.joints().iter().find(|own| own.name == joint)?;
@@ -106,7 +106,7 @@ fn lacks_coriolis(question: &DiagnosisInput, one: &Wrong, joint: &str) -> Option
         match (one.channel.kind.unit, slide) {
             (Unit::MetrePerSecondSquared, _) if suffix.starts_with("ax") => -size * (angle[row] + local).sin(),
             (Unit::MetrePerSecondSquared, _) if suffix.starts_with("ay") => size * (angle[row] + local).cos(),
-            // Angular acceleration of the guide itself, from the distance of the block.
+            // The Coriolis term as an angular acceleration of the guide: divided by the distance of the block.
             (Unit::RadianPerSecondSquared, Some(slide)) => -size / slide[row],
             _ => 0.0,
         }
@@ -143,7 +143,7 @@ fn arm(question: &DiagnosisInput, one: &Wrong) -> Option<Arm> {
             return Some(Arm::Between(Some((*from).to_string()), (*name).to_string()));
         }
     }
-    // A constant arm, by least squares.
+    // Fits a constant arm by least squares.
     let sum = |of: &dyn Fn(usize) -> f64| (0..gaps.len()).map(of).sum::<f64>();
     let (xx, xy, yy) = (sum(&|row| x[row] * x[row]), sum(&|row| x[row] * y[row]), sum(&|row| y[row] * y[row]));
     let (of_x, of_y) = (sum(&|row| -x[row] * gaps[row]), sum(&|row| y[row] * gaps[row]));

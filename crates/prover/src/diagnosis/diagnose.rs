@@ -68,7 +68,8 @@ pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option
     found.extend(others::found(question, &off));
     found.extend(derived::found(question, &off));
     found.extend(of_case);
-    // A number that explains only a part of the channels is easily found, so it is no evidence.
+    // A cause with a fitted number is dropped if it explains only a part of the channels. Such a number is easily
+    // found, so it is no evidence.
     found.retain(|one| one.explained.len() == wrong.len() || !has_number(&one.cause));
     // The sort is stable: among equally simple causes the one tried first comes first.
     found.sort_by_key(|one| (wrong.len() - one.explained.len(), one.rank));

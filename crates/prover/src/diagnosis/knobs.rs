@@ -11,17 +11,17 @@ use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism};
 
-/// Gives the parts another value; `None` if there is no such case.
+/// Sets another value in the parts of a case; `None` if no case has this value.
 type Turn = Box<dyn Fn(&mut CaseParts, f64) -> Option<()>>;
 
 /// Channels that a part influences if the motion is prescribed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shows {
-    /// In reactions and moments only.
+    /// Only reactions and moments.
     Forces,
     /// In the motion.
     Motion,
-    /// In forces, and in positions of mass centres.
+    /// Forces, and positions of mass centres.
     Centres,
 }
 
@@ -118,7 +118,8 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     knobs.extend((0..case.loads.len()).filter_map(|index| free(case, index)));
     knobs.extend(motor(case));
     let moving = || case.mechanism.links().entries().skip(1);
-    // If only one link has mass, the link's own knob has the same effect.
+    // A knob for all links together is added only if several links have the quantity. Otherwise the link's own knob has
+    // the same effect.
     if moving().filter(|(_, link)| link.mass > 0.0).count() > 1 {
         knobs.push(share(CasePart::Masses, |link, factor| link.mass *= factor));
     }
@@ -254,8 +255,9 @@ fn moved(parts: &mut CaseParts, link: LinkId, old: Vec2, new: Vec2) -> Option<()
     reassembled(parts)
 }
 
-/// Distances between two joints on a link whose line is not parallel to an axis of its frame.
-/// On a parallel line the coordinate is already the distance.
+/// Distances between two joints on a link.
+/// If the line through the joints is parallel to an axis of the link's frame, the pair is left out. The coordinate is
+/// then already the distance.
 fn lengths(case: &Case) -> Vec<Knob> {
     let places = places(case);
     let at = |&(joint, link): &(JointId, LinkId)| case.mechanism.joints()[joint].on(link);
@@ -305,10 +307,10 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
     if given == 0.0 {
         (speed.plain, speed.nudge) = (Vec::new(), 1e-3 * drive.top_speed());
     } else if !drive.is_free() {
-        // A prescribed motion needs a speed.
+        // A speed of zero is not tried, because a prescribed motion needs a speed.
         speed.plain.remove(0);
     }
-    // The whole motion depends on speed and angle.
+    // The whole motion depends on speed and angle, so a first approximation is useless for distant values.
     vec![Knob { is_far: true, ..speed }, Knob { is_far: true, ..angle }]
 }
 
@@ -376,7 +378,7 @@ pub(super) fn significant(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 
-/// The same; angles are rounded in degrees.
+/// As `significant`, but angles are rounded in degrees.
 pub(super) fn significant_in(is_angle: bool, value: f64, digits: usize) -> f64 {
     if is_angle { significant(value.to_degrees(), digits).to_radians() } else { significant(value, digits) }
 }

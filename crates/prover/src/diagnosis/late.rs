@@ -119,7 +119,7 @@ impl Search<'_, '_> {
     fn clock(&self) -> Option<Candidate> {
         let bench = self.bench;
         let of = |factor: f64| bench.tried(&on_clock(&bench.case, factor)?);
-        // Following a free motion for longer would cost too much.
+        // In a free motion, factors above 1 are not tried, because following the motion for longer would cost too much.
         let mut clocks = CLOCKS.iter().filter(|(factor, _)| *factor < 1.0 || !bench.case.is_free());
         let plain = clocks.find_map(|&(factor, told)| {
             let misfit = of(factor)?;
@@ -212,7 +212,7 @@ fn shifted(case: &Case, by: f64) -> Option<Case> {
     at_times(case, |t| (t - by).larger(earliest))
 }
 
-/// The same case at its instants times a factor.
+/// The case at its instants multiplied by a factor.
 fn on_clock(case: &Case, factor: f64) -> Option<Case> {
     at_times(case, |t| factor * t)
 }

@@ -23,8 +23,8 @@ const PARTS: usize = 6;
 const GROWS: f64 = 4.0;
 /// If an error exceeds this fraction of a scale, it does not come from a method.
 const SMALL: f64 = 0.02;
-/// Limits of the mean second difference / that of irregular numbers.
-/// An error below the first limit is smooth; an error above the second is noise.
+/// Limits of the ratio that `disorder` returns.
+/// If the ratio is below the first limit, the error is smooth. If it is above the second limit, the error is noise.
 const ORDER: [f64; 2] = [0.15, 0.5];
 
 /// The kind of the differences, if it is the same for all disagreeing channels.
@@ -78,7 +78,7 @@ fn growth(times: &[f64], gaps: &[f64]) -> Option<Option<u32>> {
     Some(((power - whole).abs() <= 0.2 && (1.0..=4.0).contains(&whole)).then_some(whole as u32))
 }
 
-/// Mean second difference / that of irregular numbers.
+/// Mean second difference, divided by the mean second difference of irregular numbers.
 fn disorder(gaps: &[f64]) -> f64 {
     let second: Vec<f64> = gaps.windows(3).map(|three| three[2] - 2.0 * three[1] + three[0]).collect();
     rms(&second) / (6f64.sqrt() * rms(gaps))

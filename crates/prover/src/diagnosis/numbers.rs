@@ -97,7 +97,7 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
         let on = |value: f64| tries.thin.tried(&knob.at(&tries.thin.case, value)?);
         let mut misfit = on(value);
         if tries.is_free && !misfit.as_ref().is_some_and(Misfit::fits) {
-            // The value comes from a short time only. The whole run gives a more accurate value.
+            // The value was found from a short time only, so it is searched again over the whole run.
             let Some(better) = search(knob, value, &tries.thin, None) else { continue };
             ([value, middle], misfit) = (better, on(better[0]));
         }
@@ -192,7 +192,7 @@ fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Opt
             continue;
         }
         let by = -effect.dot(&misfit) / square;
-        // The search has converged, but differences remain.
+        // The search fails: it has converged, but differences remain.
         if by.abs() <= 1e-6 * (value - knob.given).abs() {
             return None;
         }
@@ -209,20 +209,20 @@ fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
     fewest.into_iter().chain([middle]).collect()
 }
 
-/// Whether a found number may have been meant, because any smooth error resembles a tiny change of some number.
-/// The number must differ noticeably, or have few digits, or be known to a small fraction of its change.
-/// For the latter, `excess` must be large: it is the ratio of the differences to their bounds.
+/// Whether a found number may have been meant. Any smooth error resembles a tiny change of some number.
+/// So the number must differ noticeably, have few digits, or be known to a small fraction of its change.
+/// The third criterion counts only if `excess`, the ratio of the differences to their bounds, is large.
 pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
     let PartChange::Instead { found, given, unit } = change.how else { return true };
     let told = if unit == "rad" { found.to_degrees() } else { found };
-    // The conversion to degrees causes a rounding error.
+    // The comparison allows for the rounding error of the conversion to degrees.
     let has_few_digits = (knobs::significant(told, FEW_DIGITS) - told).abs() <= 1e-9 * told.abs();
     (found - given).abs() >= TRIFLE * found.abs().larger(given.abs()) || has_few_digits || excess >= TELLING
 }
 
 /// A number has few digits if it has at most this many.
 const FEW_DIGITS: usize = 4;
-/// A relative change below this limit is not considered intentional.
+/// A relative change below this limit counts as a mistake in the number only with further evidence: see [`is_sure`].
 const TRIFLE: f64 = 1e-3;
 /// A tiny change with many digits counts if the difference is at least this many times its bound.
 /// The change is then known to a hundredth.
@@ -252,7 +252,7 @@ mod tests {
     use super::*;
     use crate::diagnosis::cause::CasePart;
 
-    /// A number that is wrong by less than a thousandth and has many digits was hardly typed.
+    /// A number that is wrong by less than a thousandth and has many digits is unlikely to have been typed.
     /// It counts only if the difference is a hundred times its bound.
     #[test]
     fn a_tiny_change_of_many_digits_is_no_cause() {

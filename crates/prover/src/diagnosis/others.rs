@@ -42,7 +42,7 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
             continue;
         }
         let pairs = question.reference.iter().filter(|(channel, _)| channel.kind.suffix == one.channel.kind.suffix);
-        // A constant channel cannot identify another reference of the values.
+        // Constant channels are left out: they cannot show that values are relative to another link or point.
         let all: Vec<(&Channel, &[f64])> = pairs.filter(|(_, values)| one.varies(values)).collect();
         if let Some(slip) = between(one, &all) {
             let is_plain = matches!(slip, DataSlip::Between { offset: 0.0, .. });
@@ -78,7 +78,7 @@ fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<DataSlip> {
     }
     for (first, minuend) in all {
         for (second, subtrahend) in all.iter().filter(|(second, _)| second != first) {
-            // A few rows suffice to exclude most pairs.
+            // A few rows are compared first, because they exclude most pairs.
             let gap = |row: usize| one.found[row] - (minuend[row] - subtrahend[row]);
             let few = (0..FEW).map(|part| part * (one.found.len() - 1) / (FEW - 1));
             if few.map(gap).any(|own| !((own - gap(0)).abs() <= 2.0 * one.bound)) {

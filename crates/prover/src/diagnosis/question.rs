@@ -60,7 +60,7 @@ pub(super) enum Rank {
     Change,
     /// A part of the case multiplied by a number with a meaning.
     Scale,
-    /// A change of the case, or another instant, by a fitted number.
+    /// A number of the case, or the instant, changed by a fitted amount.
     Number,
     /// Values changed by a fitted number.
     Fitted,

@@ -11,10 +11,11 @@ use linkage::math::angle::wrapped;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Stage, Unit};
 
-/// Lower limit of a bound / the size of the reference's numbers. The reference is not known more accurately.
+/// A bound is at least this fraction of the size of the reference's numbers. The reference is not known more
+/// accurately.
 pub(super) const KNOWN: f64 = 1e-10;
 
-/// A factor on the values of a channel, and the unit confusion that it stands for.
+/// A factor on the values of a channel, and the confusion of units that causes it.
 type Mistaken = (f64, &'static str);
 
 const DEGREES: Mistaken = (180.0 / PI, sentences::DEGREES_INSTEAD_OF_RADIANS);
@@ -202,7 +203,7 @@ impl Wrong<'_> {
             DataSlip::Outlier(time) => {
                 (0..self.times.len()).all(|row| self.times[row] == time || self.gap(row).abs() <= self.bound)
             }
-            // Need the solution at other instants, or of other channels: see `late`, `others` and `derived`.
+            // These slips need the solution at other instants or of other channels: see `late`, `others` and `derived`.
             DataSlip::Late { .. } | DataSlip::Clock { .. } | DataSlip::Instead(_) | DataSlip::Opposite(_) => false,
             DataSlip::Exchanged(_) | DataSlip::Between { .. } | DataSlip::Magnitude(_) => false,
             DataSlip::Differences { .. } | DataSlip::NoCoriolis(_) | DataSlip::About(_) => false,

@@ -1,5 +1,5 @@
-//! The analytic sides without engines: each side is compared with external numbers, or with the other side if there are
-//! none.
+//! The analytic sides without engines. Each side is compared with external numbers or, without such numbers, with the
+//! other side.
 
 use super::checks;
 use super::each_side::{EachSide, Reference};
@@ -35,9 +35,11 @@ pub struct AnalyticSide {
     pub name: &'static str,
     /// Every compared channel; empty if the side failed, or if there are no values to compare with.
     pub deviations: Vec<Deviation>,
-    /// Largest opening of a joint / the mechanism's size or, if larger, its distance from the origin.
+    /// Largest opening of a joint, divided by the larger of two lengths: the mechanism's size and its distance from the
+    /// origin.
     pub closure: Option<f64>,
-    /// Difference of the balancing moments from equilibrium and from powers / the moments in the balance.
+    /// Largest difference between the balancing moment from equilibrium and that from powers, divided by the moments in
+    /// the balance.
     pub balance: Option<f64>,
     /// What it has done.
     pub work: Work,
@@ -155,7 +157,8 @@ mod tests {
     use linkage::case::Grid;
     use scenario::of_repository;
 
-    /// At a single instant in the middle of the run, in every channel.
+    /// The external numbers are wrong at a single instant in the middle of the run. The error is found in every
+    /// channel.
     #[test]
     fn external_numbers_wrong_at_one_instant_are_found() {
         let case = of_repository("scenarios/crank_rocker.toml").case;

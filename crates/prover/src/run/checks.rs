@@ -14,15 +14,16 @@ use linkage::math::statistics::{ascending, share};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, ChannelKind, Stage, Trajectory, Unit};
 
-/// Limit for an analytic side: opening of its joints / the mechanism's size or, if larger, its distance from the
-/// origin.
-/// The shipped mechanisms have 5e-16 at most.
+/// Upper limit of a ratio for an analytic side: the opening of a joint, divided by the larger of the mechanism's size
+/// and its distance from the origin.
+/// For the shipped mechanisms the ratio is at most 5e-16.
 const CLOSURE: f64 = 1e-13;
-/// Limit for an analytic side: difference of the balancing moments computed by two methods / the moments in the
-/// balance.
+/// Two methods compute the balancing moment of an analytic side. Their difference, divided by the moments in the
+/// balance, must not exceed this limit.
 const TWO_WAYS: f64 = 1e-11;
 
-/// `TWO_WAYS`, or a larger limit for a side that passes change points, because forces are known less accurately there.
+/// Returns `TWO_WAYS`, or a larger limit for a side that passes change points. Near change points, forces are known
+/// less accurately.
 fn two_ways(side: &Observed) -> f64 {
     TWO_WAYS.larger(of_condition(Stage::Reactions, side.passing))
 }
@@ -168,7 +169,7 @@ fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
 }
 
 /// Checks the engine's driving moment against the balance of powers of the same motion.
-/// Both belong to one motion, so their difference must vanish with the step.
+/// Both moments belong to one motion, so their difference must vanish with the step.
 fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let kind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
     // If all moments are only rounding, the scale is the moment that the mechanism's data make possible.
@@ -180,7 +181,7 @@ fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
         of: &|run: &Observed| gaps(run).into_iter().map(|gap| share(gap, scale)).collect(),
         value: share(largest_size(&gaps(runs.single())), scale),
         kind,
-        // Both moments may have this error.
+        // The factor is 2, because both moments may have this rounding error.
         noise: if scale == 0.0 { 0.0 } else { 2.0 / scale },
         note: match by_differences {
             true => sentences::BOTH_FROM_THE_SAME_ACCELERATIONS,
@@ -199,16 +200,16 @@ struct Vanishing<'a> {
     value: f64,
     /// The kind of channel whose order and rounding error the number has.
     kind: &'static ChannelKind,
-    /// Rounding error of the number / that of the channel.
+    /// Ratio of the number's rounding error to that of the channel.
     noise: f64,
     /// Note on what the check shows.
     note: &'static str,
 }
 
 impl Vanishing<'_> {
-    /// The number must not exceed the size that the runs predict for it.
-    /// A part that does not vanish with the step is found once it exceeds the vanishing part times the margin of the
-    /// safety factor.
+    /// Checks that the number does not exceed the size that the runs predict for it.
+    /// A part that does not vanish with the step is found if it exceeds a multiple of the vanishing part.
+    /// This multiple is the margin of the safety factor.
     fn check(self, problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
         let (case, resolution) = (problem.case, engine.settings().resolution);
         let noise = |engine: &dyn Engine| self.noise * engine.noise(case, self.kind);

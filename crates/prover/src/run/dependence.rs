@@ -26,7 +26,7 @@ impl Dependence {
         let upstream = case.structure.upstream(&case.mechanism);
         let mut found = Dependence { sets: Vec::new(), of: Vec::with_capacity(channels.len()), tops: Vec::new() };
         let seats = case.seats();
-        // Last groups for which a set was already found. Each set is found only once.
+        // Maps the last groups of a set to the index of the set, so that each set is determined only once.
         let mut known: BTreeMap<Vec<GroupId>, usize> = BTreeMap::new();
         for channel in channels {
             // Of the groups that a link depends on, its own group is the last.

@@ -1,4 +1,5 @@
-//! Instants at which channels jump. An engine's value there depends on the smallest error of its motion.
+//! Finds the instants at which channels jump. At these instants an engine's value depends on the smallest error of its
+//! motion.
 //!
 //! A load may jump when its link reverses. A load that vanishes at the reversal does not jump, so no instant is left
 //! out.
@@ -18,10 +19,10 @@ use super::runs::Runs;
 /// Within this number of steps on either side of a jump, an engine's values are doubtful. The steps are those of the
 /// coarsest judged run.
 const STEPS: f64 = 8.0;
-/// The same for impulses of a free motion. They are read from six steps, one step late.
+/// As `STEPS`, for impulses of a free motion. Impulses are read from six steps, one step late.
 const IMPULSES: f64 = 5.0;
-/// The same for a prescribed motion with combined impulses: within this fraction of a step, a load jumps at different
-/// instants in the different runs.
+/// As `STEPS`, for a prescribed motion with combined impulses.
+/// Within this fraction of a step, a load jumps at different instants in the different runs.
 /// The velocities of these runs differ by about a twelfth of the square of the step.
 const APART: f64 = 0.25;
 
@@ -198,7 +199,7 @@ mod tests {
     /// A pendulum with friction, released from rest, reverses twice in three seconds.
     /// Impulses are read from six steps, one step late. So five of the longest steps (11 ms) are doubtful on either
     /// side.
-    /// For second differences it is 17.6 ms.
+    /// For second differences, 17.6 ms are doubtful on either side.
     #[test]
     fn only_forces_beside_a_reversal_of_free_motion_are_left_out() {
         let text = text("scenarios/pendulum.toml").replace("step_s = 0.01", "step_s = 0.001");

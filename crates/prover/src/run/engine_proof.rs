@@ -86,7 +86,8 @@ pub struct SettingsSearch {
 /// Why a search of settings ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchEnd {
-    /// Every channel has the target accuracy. Or every channel is conclusive and the work for more is spent.
+    /// Every channel has the target accuracy. Alternatively, every channel is conclusive and the work allowed for
+    /// further refinement is spent.
     Decided,
     /// A finer step would add more rounding error than it removes.
     Rounding,

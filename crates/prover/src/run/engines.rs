@@ -30,7 +30,7 @@ pub(super) fn prove(
 ) -> Result<EngineProof> {
     let (engine, asked) = (chosen.engine.as_ref(), judge.asked);
     let mut bank = Bank::new(case, engine, Watch::Engine);
-    // The engine itself rejects an impossible step.
+    // No search begins with an impossible step, because the engine itself rejects such a step.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
     let given = chosen.given.clone().of_motion();
     let searches = given.leaves_a_choice() && !engine.controls_error() && is_step;
@@ -102,8 +102,8 @@ pub(super) fn prove(
 /// A judged engine, or the reason why it stopped.
 type Outcome = std::result::Result<Judged, Stopped>;
 
-/// The engine at its own settings, none of which is free.
-/// Their work is limited by the usual budget, or by the budget of a search if that is larger.
+/// Judges the engine at its given settings, without a search.
+/// The work is limited by the usual budget or, if that is larger, by the budget of a search.
 fn at_given(
     judge: &Judge,
     bank: &mut Bank,

@@ -34,7 +34,7 @@ const MOST_WORK: u64 = 100_000_000;
 /// An analytic side: its solver, and the same solver with a tighter tolerance of integration.
 #[derive(Clone, Copy)]
 pub struct Entrant<'a> {
-    /// The side. It has the name of one of [`analytic::all`].
+    /// Solver of the side. Its name is that of one of the solvers in [`analytic::all`].
     pub solver: &'a dyn Solver,
     /// The side with a tighter tolerance.
     pub tight: &'a dyn Solver,
@@ -137,7 +137,8 @@ impl ObservedSides {
             None => ledger.skipped("formulas", sentences::NONE_CLAIMS_A_WANTED_CHANNEL),
             Some(_) => {
                 let judged = ledger.done("formulas", sentences::BY_VALUE_AND_BY_DERIVATIVE, || {
-                    // As for published figures: means over a revolution belong to the nominal motion.
+                    // Means over a revolution belong to the nominal motion, so figures are computed in it. The same
+                    // holds for published figures.
                     let solvers = EachSide::of(|side| entrants[side].solver);
                     own.figures = figures::claimed(own_formulas, &whole.nominal(), solvers)?;
                     own.judged(case, own_formulas)
@@ -159,7 +160,7 @@ impl ObservedSides {
         let (mut unsought, mut work) = (BTreeSet::new(), 0);
         let is_wrong = |all: &&Vec<JudgedFormula>| all.iter().any(|judged| judged.outcome() == FormulaOutcome::Wrong);
         for index in 0..sides[Reference::Assur].len() {
-            // The first side that the formula contradicts.
+            // Selects the first side that the formula contradicts.
             let all = EachSide::of(|side| &sides[side][index]);
             let Some((side, wrong)) = all.iter().find(|(_, own)| is_wrong(own)) else { continue };
             let name = &wrong[0].name;
@@ -201,7 +202,7 @@ impl ObservedSides {
     ) -> Result<T> {
         let trajectory = &self.observed[side].trajectory;
         let error = |column: usize, row: usize| {
-            // Both sides have the same channels in the same order.
+            // The column index is valid for either side, because both sides have the same channels in the same order.
             self.known.at(side, trajectory.channels()[column].kind.stage, column, row)
         };
         then(&KnownTrajectory::new(case, trajectory, &error).with_figures(&self.figures[side]))

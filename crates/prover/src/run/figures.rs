@@ -60,7 +60,7 @@ impl<'a> Measured<'a> {
     ///
     /// # Errors
     /// Those of the means over a revolution.
-    /// Also if the motor cannot balance the resistance at any speed.
+    /// An error if the motor cannot balance the resistance at any speed.
     pub(super) fn value(&mut self, figure: MechanismFigure) -> Result<f64> {
         Ok(match figure {
             MechanismFigure::ReducedInertiaMean => self.means()?.inertia,

@@ -108,7 +108,8 @@ mod tests {
     use crate::run::solved::judge;
     use scenario::{Claim, of_repository};
 
-    /// The formula is undefined below 0.5 rad. Its derivatives have values there, which are wrong for another reason.
+    /// The formula is undefined below 0.5 rad. Below this angle its derivatives have values, which are wrong for
+    /// another reason.
     #[test]
     fn only_the_value_is_reported_as_undefined() {
         let mut scenario = of_repository("scenarios/crank_rocker.toml");

@@ -27,7 +27,7 @@ const MOST_ROUNDING: f64 = 0.1;
 
 /// Number of values of one run that are copied at a time for a comparison.
 const COPIED: usize = 1_000_000;
-/// Number of channels compared at a time. Each channel is looked up in such a batch.
+/// Number of channels compared at a time as one batch. The look-up of a channel searches one batch.
 const AT_A_TIME: usize = 256;
 
 /// If a difference between runs with other sweeps is below this fraction of the widest conclusive bound, it is ignored.
@@ -88,7 +88,7 @@ struct Stand<'a> {
     ladder: Ladder<'a>,
     reference: &'a Trajectory,
     left_out: usize,
-    /// Rounding of the single and of the finest run, by kind of channel.
+    /// Rounding errors of the single and of the finest run, by kind of channel.
     noise: Vec<(&'static ChannelKind, [f64; 2])>,
 }
 
@@ -111,12 +111,12 @@ impl<'a> Judge<'a> {
         Judge { problem, reference, scales, known, asked, asks: Asks::All }
     }
 
-    /// The same for a search that begins with other settings.
+    /// The same judge for a search that begins with other settings.
     pub(super) fn asking(&self, asked: Settings) -> Self {
         Judge { asked, scales: self.scales.clone(), ..*self }
     }
 
-    /// The same for the forces that an engine itself exerts.
+    /// The same judge for the forces that an engine itself exerts.
     pub(super) fn of_own_forces(self) -> Self {
         Judge { asks: Asks::OwnForces, ..self }
     }
@@ -230,7 +230,8 @@ impl<'a> Judge<'a> {
     }
 
     /// For every row, whether the channels of a stage are judged.
-    /// They are judged if nothing jumps there and the row is not before the first instant of `case`.
+    /// A row is judged if no channel of the stage jumps at this row and the row is not before the first instant of
+    /// `case`.
     fn kept(&self, doubt: &Doubt, stage: Stage, case: &Case) -> Vec<bool> {
         let first = case.grid.times.iter().copied().fold(f64::INFINITY, f64::smaller);
         doubt

@@ -48,8 +48,8 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
     ULPS * f64::EPSILON * condition.powi(power(stage))
 }
 
-/// Factor on rounding errors due to distant mass centres.
-/// It is the ratio of two distances, at least 1: from a link's mass centre to its joints, and between these joints.
+/// Factor on rounding errors due to distant mass centres, at least 1.
+/// It is the distance from a link's mass centre to its joints, divided by the distance between these joints.
 /// Side 2 calculates with the positions of mass centres.
 /// So a joint is as uncertain as the last digit of its distance from the mass centre.
 /// For angles, this uncertainty is divided by the distance between the joints.
@@ -86,7 +86,7 @@ fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
         for &link in &group.links {
             let pins: Vec<_> = joints().filter(|joint| joint.is_pin()).filter_map(|joint| joint.on(link)).collect();
             let apart = pins.iter().flat_map(|a| pins.iter().map(move |b| (a - b).norm())).fold(0.0, f64::larger);
-            // A link with one pin gets its angle from other links.
+            // A link with one pin is left out, because it gets its angle from other links.
             arm = if apart > 0.0 { arm.smaller(apart) } else { arm };
         }
     }
@@ -135,8 +135,8 @@ impl Known {
         Known::beside(case, Reference::Assur, &analytic::AssurSolver, sides)
     }
 
-    /// The same for any reference. Each trajectory comes with the solver of its tighter run; `solver` is the reference
-    /// itself.
+    /// Known errors of both sides' trajectories, for any reference.
+    /// Each trajectory comes with the solver of its tighter run. `solver` is the solver of the reference.
     ///
     /// # Errors
     /// Those of the tighter runs.
@@ -171,7 +171,7 @@ impl Known {
         let all = own.channels().iter().zip(&dependence.of).zip(&magnitudes);
         let lever_of = |((channel, &set), &magnitude): ((&Channel, &usize), &f64)| {
             let (lever, [places, arm]) = of_sets[set];
-            // The numbers of coordinates already include the distance from the origin.
+            // The distance from the origin is not counted for coordinates, because their numbers already include it.
             let over = if channel.kind.unit == Unit::Metre { arm.larger(magnitude) } else { arm };
             lever.larger(places / over)
         };
@@ -194,12 +194,12 @@ impl Known {
             let own = conditions(&case.mechanism, &case.structure.groups, &pose);
             for (set, worst) in sets.iter().zip(&mut worst) {
                 let own: f64 = match state.passing.filter(|_| !set.is_empty()) {
-                    // At a change point the condition number of the pose is unbounded, but no side calculates at that
-                    // pose.
+                    // At a change point the condition number of the passage counts. That of the pose is unbounded, but
+                    // no side calculates at that pose.
                     Some(passing) => passing,
                     None => set.iter().map(|&group| own[group]).product(),
                 };
-                // A motion under forces does not regain lost accuracy.
+                // A motion under forces does not regain lost accuracy, so the largest condition number so far counts.
                 *worst = if case.is_free() { worst.larger(own) } else { own };
             }
             all[row].clone_from(&worst);

@@ -18,7 +18,7 @@ const ELSE: f64 = 2e7;
 /// Number of trajectories of a proof at its peak: two sides, the three judged runs, one with other sweeps, the best one
 /// so far, and one in progress.
 const TRAJECTORIES: f64 = 8.0;
-/// Number of kept runs of an engine at the peak: steps that are halved a few times, and other sweeps for some of them.
+/// Number of runs of an engine in memory at the peak: one run for each halving of the step, and further runs with other sweeps at some steps.
 const RUNS: f64 = 12.0;
 /// Number of values stored per instant besides the channels: time, crank angle, order, openings, powers.
 const BESIDE: usize = 6;
@@ -66,7 +66,8 @@ pub fn check_input(what: &str, needed: f64, most: Option<f64>) -> Result<()> {
     allowed(needed, most, || sentences::needs_about_of_memory(&what, &gigabytes(needed)), fewer)
 }
 
-/// Checks that `needed` (bytes) is allowed. `what` is the beginning of the error, `fewer` the advice to need less.
+/// Checks that `needed` (bytes) is allowed.
+/// `what` is the beginning of the error message; `fewer` is advice on how to need less memory.
 fn allowed(needed: f64, most: Option<f64>, what: impl FnOnce() -> String, fewer: Advice) -> Result<()> {
     let most = most.unwrap_or(MOST);
     if needed <= most {

@@ -14,7 +14,7 @@ use linkage::math::{KeepNan, cross};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-/// Largest difference attributed to rounding / the largest value of the quantity.
+/// A difference of at most this fraction of the quantity's largest value counts as rounding.
 /// It equals the bound on forces between the two analytic sides, which solve as many linear equations.
 const BOUND: f64 = 1e-10;
 
@@ -130,7 +130,8 @@ impl Watch {
             }
             rates(worst, found.rates(drive.rate, drive.acceleration));
         }
-        // At the first instant, loads already oppose a motion that the state does not show yet.
+        // Forces are not compared at the start of a free motion: loads already oppose a motion that the state does not
+        // show yet.
         let setting_off = case.is_free() && drive.rate == 0.0;
         if deepest >= Stage::Reactions && !setting_off {
             let known = self.triad.known(case, state);

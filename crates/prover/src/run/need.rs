@@ -11,7 +11,7 @@ use crate::tolerance::BoundPart;
 
 /// Limit of the fraction of instants that may be left out because they are too close to a reversal for the step.
 pub(super) const MOST_LEFT_OUT: f64 = 0.03;
-/// Ratio to the requested bound that is assigned to a step that leaves out too many instants.
+/// A step that leaves out too many instants is treated like a bound that is this many times the requested bound.
 const LEFT_OUT: f64 = 2.0;
 
 /// The item that is farthest from being conclusive.
@@ -78,7 +78,7 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
         let (parts, convergence) = check.estimate.as_ref()?;
         Some((*parts, 1.0, convergence, &check.verdict))
     });
-    // A step that leaves out many instants proves nothing about them.
+    // If a step leaves out too many instants, it proves nothing about them. The need is then at least `LEFT_OUT`.
     let (least, of) = if judged.too_coarse > MOST_LEFT_OUT { (LEFT_OUT, Of::Instants) } else { (0.0, Of::Bound) };
     let none = Blame { part: BoundPart::Discretisation, is_shared: false };
     let mut worst = (Need { is_vague: false, share: least, of }, none);
@@ -210,7 +210,7 @@ impl Stall {
 mod tests {
     use super::*;
 
-    /// Whether a search is given up in its last round. Each round is its work and its need.
+    /// Whether a search is given up in its last round. Each round is given as its work and its need.
     fn given_up(rounds: &[(f64, f64)], budget: f64) -> bool {
         let mut pace = Pace::default();
         let told = rounds
@@ -224,7 +224,7 @@ mod tests {
 
     #[test]
     fn impulses_without_progress_are_given_up_in_round_four() {
-        // The first rounds of a parallelogram that swings through its change points.
+        // Work and need in the first rounds for a parallelogram that swings through its change points.
         let flat = [(3.4e3, 1942.0), (7.4e3, 1893.0), (1.7e4, 1885.0), (2.5e4, 1917.0)];
         assert!(given_up(&flat, 1e6) && !given_up(&flat[..3], 1e6));
     }

@@ -38,7 +38,7 @@ pub(super) struct Observed {
     /// In a motion under forces, the largest speed of a driving link replaces the top speed if it is larger.
     pub(super) power: Vec<f64>,
     /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant. They are multiplied by the
-    /// same ratio.
+    /// same ratio as `power`.
     pub(super) torque: Vec<f64>,
     /// The larger of two ratios over the run.
     /// The first compares the shaking forces from reactions and from momentum: their largest difference divided by the
@@ -149,8 +149,8 @@ pub(super) fn observe(
             (*opening, reach) = (own, reach.larger(far));
         }
         if with_power {
-            // A crank at rest has no power. So if the crank's speed changes, powers are compared. They are divided by
-            // the top speed below.
+            // A crank at rest has no power. So if the crank's speed changes, powers are compared. The powers are
+            // divided by the top speed after the run.
             (power[row], torque[row]) = match steady {
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
                 false => (-power::of_known_forces(case, state), power_of_drives(case, state)),
@@ -175,7 +175,8 @@ pub(super) fn observe(
         return Err(Stopped { error, kept, spent: None });
     }
     if !steady {
-        // A free motion may be much faster than the nominal speed of its case. An engine's speed may be only rounding.
+        // In a free motion, powers are divided by the largest speed or, if that is larger, by the nominal speed.
+        // The motion may be much faster than the nominal speed of its case. An engine's speed may be only rounding.
         let nominal = case.crank().top_speed();
         let top = if case.is_free() { fastest.larger(nominal.abs()) } else { nominal };
         power.iter_mut().chain(&mut torque).for_each(|power| *power = share(*power, top));

@@ -53,7 +53,7 @@ pub struct Options {
     pub memory: Option<f64>,
 }
 
-/// An engine, its given settings, and the work allowed to find the others.
+/// An engine, its given settings, and the work allowed to find the other settings.
 pub struct Chosen {
     pub(crate) engine: Box<dyn Engine>,
     /// Given settings. If the route is given, only this route is judged. If the route is free, the engine's own forces
@@ -63,12 +63,12 @@ pub struct Chosen {
 }
 
 impl Chosen {
-    /// The same with the engine wrapped by `around`.
+    /// The same choice with the engine wrapped by `around`.
     pub(crate) fn with_engine(self, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>) -> Self {
         Chosen { engine: around(self.engine), ..self }
     }
 
-    /// The same without the forces that the engine itself exerts.
+    /// The same choice without the forces that the engine itself exerts.
     pub(crate) fn by_motion_alone(mut self) -> Self {
         self.given.route = EngineSetting::of(self.engine.settings().route);
         self
@@ -117,7 +117,7 @@ impl Options {
         substeps: usize,
         /// Sets the route by which reactions and balancing moment are computed.
         route: Route,
-        /// Sets the number of extrapolations of the engine's state to step zero.
+        /// Sets how many times the engine's state is extrapolated to a step size of zero.
         extrapolated: usize,
     }
 

@@ -34,7 +34,7 @@ pub(super) fn checks(
     Ok(checks)
 }
 
-/// Rounding error of an analytic side's number, in units in the last place of the largest number of its quantity.
+/// Rounding error of a number from an analytic side. The unit is one ulp of the largest number of the same quantity.
 /// A printed number may have more digits than the side knows.
 const ULPS: f64 = 16.0;
 
@@ -77,8 +77,8 @@ impl<'a> Answers<'a> {
             }
             instants.sort_unstable_by(f64::total_cmp);
             instants.dedup();
-            // If the instants are many, the requested channels are solved at all of them, but their scales only at
-            // some.
+            // If there are many instants, the requested channels are solved at all of them. The scales are then
+            // determined at only some of them.
             let step = instants.len().div_ceil(MOST);
             let few = instants.iter().copied().step_by(step).collect();
             let whole = case.on(along.grid(case.crank(), few))?.wanting(Wanted::of(&stages));
@@ -145,7 +145,7 @@ struct Found {
 }
 
 impl Found {
-    /// Fraction of the bound that the deviation uses. NaN uses all of it.
+    /// Ratio of the deviation to its bound. NaN counts as infinite.
     fn used(&self) -> f64 {
         let used = share(self.deviation, self.bound);
         if used.is_nan() { f64::INFINITY } else { used }
@@ -216,7 +216,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
         let printed = against(&wrong, &cell.point, origin(oracle));
         against(&wrong, &cell.right, BoundOrigin::Recomputed).expected(&cell.finding, &printed)
     };
-    // Each number has its own bound. The worst number uses the largest fraction of its bound; NaN is the worst.
+    // Each number has its own bound. The worst number has the largest ratio of deviation to bound; NaN is the worst.
     let (mut worst, mut open): (Option<(f64, &OraclePoint)>, Option<&OraclePoint>) = (None, None);
     for point in &series.points {
         let found = found(point);
@@ -254,8 +254,8 @@ fn shortly(at: When) -> String {
 }
 
 /// The worst check of a series whose printed numbers are all known to be wrong.
-/// It is the first check with an unexpected result. Otherwise it is the check that uses the largest fraction of its
-/// bound.
+/// It is the first check with an unexpected result.
+/// If there is no such check, it is the check with the largest ratio of deviation to bound.
 fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     let rank = |check: &Check| (!matches!(check.verdict, Verdict::Expected { .. }), check.used());
     checks.reduce(|worst, check| {

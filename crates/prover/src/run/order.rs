@@ -32,7 +32,7 @@ const NEGLIGIBLE: f64 = 0.01;
 /// Returns whether there are such channels.
 ///
 /// # Errors
-/// Those of a run, except numeric errors.
+/// Those of a run. A numeric error is not returned: it shows nothing.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> Result<bool, Stopped> {
     let wanted = judge.problem.engine_rel;
     // Across a knot of a law of motion the third derivative jumps, so second differences have order 1 there.

@@ -23,7 +23,7 @@ use scenario::EngineSetting;
 
 /// Limit of the number of sweeps at the start of the search, even if the motion has needed more.
 const ENOUGH: usize = 32;
-/// Additional work allowed for own forces / the work allowed for an engine's settings.
+/// Own forces may use this fraction of the work allowed for an engine's settings, as additional work.
 const SHARE: f64 = 0.05;
 
 /// Whether own forces are judged.
@@ -33,7 +33,7 @@ pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
     chosen.given.route.is_free() && judge.asking(judge.asked).of_own_forces().has_channels()
 }
 
-/// Judges the forces that the engine exerts, in addition to its `motion`, if [asked](are_asked) to.
+/// Judges the forces that the engine exerts, in addition to its `motion`, if they are [requested](are_asked).
 /// `None` if the engine has no route for these forces. The first conclusive route counts.
 pub(super) fn judged(
     judge: &Judge,
@@ -43,13 +43,14 @@ pub(super) fn judged(
     progress: &mut dyn FnMut(f64),
 ) -> Option<EngineProof> {
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
+    // If the motion has needed more work than is allowed for own forces, they are not judged.
     // Impulses are of a lower order than the motion. They need as many sweeps as the motion, with the true masses.
     if effort > SHARE * chosen.budget {
         let told = sentences::the_motion_has_taken_the_work(&error(effort), &error(SHARE * chosen.budget));
         let failure = Error::new(ErrorKind::Unsupported, told);
         return Some(failed(chosen.engine.as_ref(), failure, Some(effort)));
     }
-    // Only the forces of these runs are needed.
+    // Only forces are requested, because the other channels of these runs are not needed.
     let mut forces = case.channels();
     forces.retain(|channel| channel.kind.stage >= Stage::Reactions);
     let case = &case.wanting_only(&forces);
@@ -90,7 +91,7 @@ fn by_route(
     progress: &mut dyn FnMut(f64),
 ) -> EngineProof {
     let given = chosen.engine.settings();
-    // A given number of extrapolations belongs to the given step.
+    // If the step and the number of extrapolations are given, the step is kept: both settings belong together.
     let (step, finest) = match (chosen.given.step.is_free(), chosen.given.extrapolated.is_free()) {
         (true, _) => (coarse_step(case), 0.0),
         (false, true) => (coarser(given.resolution, coarse_step(case)), 0.5 * given.resolution),
@@ -121,8 +122,8 @@ fn by_route(
     }
 }
 
-/// The largest of `step`, 2 `step`, 4 `step`, ... that does not exceed `most`. If `step` itself exceeds `most`, it is
-/// `step`.
+/// Returns the largest of `step`, 2 `step`, 4 `step`, ... that does not exceed `most`.
+/// Returns `step` if `step` itself exceeds `most`.
 fn coarser(step: f64, most: f64) -> f64 {
     let times = (most / step).log2().floor();
     if times > 0.0 { step * 2f64.powf(times) } else { step }

@@ -9,7 +9,7 @@ use linkage::trajectory::{Channel, Trajectory};
 pub struct Dispute {
     /// The channel.
     pub channel: String,
-    /// Pairs that differ by more than the bounds of both.
+    /// Pairs of sides whose difference exceeds the sum of their bounds.
     pub pairs: Vec<[&'static str; 2]>,
     /// The side without which all others agree. `None` if no side or more than one has this property, or if there are
     /// only two sides.

@@ -143,7 +143,7 @@ fn side_checks_find_three_times_their_bound_and_pass_a_fifth() {
 
 /// Symptom: 1e-9 deg from a dead centre the crank pin's acceleration was wrong by 176 %, but the check between the
 /// sides did not find it.
-/// Its scale was the largest acceleration of the mechanism, and its condition number was that of the worst group.
+/// The check's scale was the largest acceleration of the mechanism. Its condition number was that of the worst group.
 /// Now the check uses the numbers from which the channel itself is computed.
 #[test]
 fn regress_a_driving_link_has_its_own_bound_near_a_dead_point() {
@@ -236,7 +236,7 @@ fn every_class_three_method_is_in_the_proof_and_finds_faults() {
             }
         }
     }
-    // The methods' equations are singular at a change point, so they are not used there.
+    // The methods are not used at a change point, because their equations are singular at such a point.
     let passing: Fault = |state, size| {
         state.passing = Some(1.0);
         state.motions.iter_mut().for_each(|motion| (motion.omega, motion.alpha) = (size, size));
@@ -279,8 +279,8 @@ fn engine_proven(scenario: &Scenario, hook: Everywhere, search: Search) -> Engin
     engines::prove(&judge, &scenario.case, &chosen, &mut Ledger::default(), &mut |_| {}).unwrap()
 }
 
-/// An opening that does not vanish with the step, and a moment that disagrees with its powers. Both are far below 1 %
-/// of the size.
+/// Two faults are planted: an opening that does not vanish with the step, and a moment that disagrees with its powers.
+/// Both faults are far below 1 % of the size.
 #[test]
 fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
     let scenario = parsed("crank_rocker", &text("crank_rocker"));
@@ -324,7 +324,7 @@ fn regress_late_readings_converge_with_order_one_and_disagree() {
         }
     };
     let accelerations: Fault = |state, late| {
-        // A term of the size of a jerk.
+        // The fault adds a term of the size of a jerk.
         state.motions.iter_mut().for_each(|motion| motion.alpha -= late * motion.omega.powi(3));
     };
     // Five steps up to 8e-3 s still show the order for the crank-rocker, but not for the faster machine.
@@ -471,7 +471,7 @@ fn integration_error_widens_the_bound_of_numbers_at_a_time() {
 /// channel still comes from its runs.
 /// For the acceleration of a crank at constant speed, a fault of a millionth of the quantity is found.
 /// For a rocker that rotates with the crank through change points, only a fault of a hundredth is found. A smaller
-/// difference proves nothing there.
+/// difference in the rocker's channels proves nothing.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     let cranks = include_str!("../../../../tests/suite/exact_zeros/parallel_cranks.toml");

@@ -13,7 +13,7 @@ pub struct Problem<'a> {
     /// Published numbers.
     pub(crate) oracles: &'a [Oracle],
     pub(crate) formulas: &'a Formulas,
-    /// Widest conclusive bound on an engine's error / a channel's scale. With a wider bound, agreement proves nothing.
+    /// If the bound on an engine's error exceeds this fraction of a channel's scale, agreement proves nothing.
     pub(crate) engine_rel: f64,
 }
 

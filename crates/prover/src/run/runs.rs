@@ -115,7 +115,7 @@ impl<'a> Bank<'a> {
         }
     }
 
-    /// Whether the case has so many instants that its trajectories are a matter of memory.
+    /// Whether the case has so many instants that not all trajectories can be kept in memory.
     fn is_large(&self) -> bool {
         self.case.grid.len() * self.case.channels().len() > FEW
     }

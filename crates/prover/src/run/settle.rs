@@ -22,11 +22,12 @@ use scenario::EngineSettings;
 pub const BUDGET: f64 = 2e7;
 /// Up to this fraction of the allowed work, a conclusive result is refined further, to the target accuracy.
 const THRIFT: f64 = 0.0015;
-/// Target of a bound / the widest conclusive bound. With extrapolation, a bound a hundred times narrower costs little.
+/// The search aims at bounds of this fraction of the widest conclusive bound.
+/// With extrapolation, a bound a hundred times narrower costs little.
 const AIM: f64 = 0.01;
 /// Limit of extrapolations. With more, the weights add more rounding error than the truncation error that they cancel.
 const MOST_TIMES: usize = 4;
-/// Upper limit of the coarsest step / the first step. Coarser steps are tried if rounding dominates.
+/// The coarsest step is at most this multiple of the first step. Coarser steps are tried if rounding dominates.
 const COARSEST: f64 = 16.0;
 /// Work that the first runs may always do. It takes some hundredths of a second. Without the first runs there is no
 /// result.
@@ -46,7 +47,7 @@ const NEAR: f64 = 8.0;
 
 /// Returns an error if the first runs of an engine, at the settings `rungs`, need more work than `most`.
 /// The error names the requested `budget`.
-/// If the step is so small that no budget would suffice, it is a mistake. The engine itself rejects this step.
+/// A step so small that no budget would suffice counts as a mistake of the user. It gives no error here, because the engine itself rejects it.
 pub(super) fn too_much(
     bank: &Bank,
     settings: Settings,
@@ -213,7 +214,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     if better {
                         best = Some(trial);
                     }
-                    // A disagreement counts if the next refinement confirms it.
+                    // A disagreement counts only if the next refinement confirms it.
                     if decided && (sharp || thrift) && (!disagrees || !borne_out.is_empty()) {
                         break SearchEnd::Decided;
                     }

@@ -17,7 +17,8 @@ const EXACT: f64 = 4.0;
 /// The case is solved at shifted instants. These shifts are fractions of the instant's rounding error.
 /// The two ends suffice if the values between them form a parabola, wherever its vertex is.
 const ENDS: [f64; 2] = [-1.0, 1.0];
-/// If the crank rotates by more than this in between (rad), the case is also solved at `BETWEEN`.
+/// If the crank rotates by more than `FAR` (rad) between an instant and an end of its rounding interval, the case is
+/// also solved at `BETWEEN`.
 const FAR: f64 = 0.01;
 const BETWEEN: [f64; 2] = [-0.5, 0.5];
 
@@ -117,7 +118,8 @@ pub(super) struct RoundedInstants {
 
 impl RoundedInstants {
     /// Rounded instants of some points of a case.
-    /// If the case cannot be solved at both ends of an instant, the course from row to row is used.
+    /// If the case cannot be solved at both ends of an instant's rounding interval, changes are estimated from
+    /// neighbouring rows.
     ///
     /// # Errors
     /// Those of the solver at the instants themselves.
@@ -163,7 +165,7 @@ impl RoundedInstants {
     }
 }
 
-/// The same changes, estimated from neighbouring rows.
+/// Changes within the rounding of the instants, estimated from neighbouring rows.
 fn from_row_to_row(own: &Trajectory, instants: &[f64], slack: &[f64]) -> Vec<Vec<f64>> {
     let order: Vec<usize> = (0..instants.len()).collect();
     let of = |(channel, values): (&Channel, &[f64])| {

@@ -26,7 +26,7 @@ pub fn known_at_least(trajectory: &Trajectory) -> Vec<f64> {
     sizes.map(|(size, channel)| usual(channel.kind.stage) * size).collect()
 }
 
-/// The same for a trajectory of all channels of a case.
+/// Smallest errors of an analytic side's trajectory that has all channels of a case.
 /// The error of a channel follows from the numbers of the groups on which the channel depends.
 #[must_use]
 pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
@@ -86,7 +86,8 @@ impl Solved {
         Ok(Solved { case, sides, least })
     }
 
-    /// The same, with smallest errors `of` the channels, determined from all channels of the mechanism.
+    /// These results with lower limits of the channels' errors. `of` returns the limits, which are determined from all
+    /// channels of the mechanism.
     /// If the few solved channels are zero except for rounding, their rounding error comes from other channels.
     #[must_use]
     pub fn known_at_least(mut self, of: &dyn Fn(&Channel) -> f64) -> Self {
@@ -149,7 +150,7 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
             })
     };
     if let Some(own) = sides.judgement.as_mut().filter(|own| is_open(own)) {
-        // The error may be a missing term of the mechanism whose channel was not requested.
+        // The search is repeated with more channels: the error may be a missing term whose channel was not requested.
         asked.extend(telling(&scenario.case, scenario.formulas.claims().map(|(_, claim)| claim)));
         let (_, all) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
         if let Some(again) = all.judgement {

@@ -122,7 +122,7 @@ impl Held {
         Held { at, columns, is_analytic: false, unused: Vec::new(), places }
     }
 
-    /// The same data from an analytic side.
+    /// The same data, marked as results of an analytic side.
     #[must_use]
     pub fn analytic(self) -> Held {
         Held { is_analytic: true, ..self }
@@ -143,7 +143,7 @@ impl Held {
             let printed = reader.column(mapped)?;
             let chosen = if mapped.name == "crank_deg" { columns::degrees_chosen } else { columns::chosen };
             let is_chosen = chosen(&printed);
-            // A factor to SI units causes a rounding error.
+            // Instants that were chosen as printed get only the rounding error of the conversion to SI units.
             let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
             if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {

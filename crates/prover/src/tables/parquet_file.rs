@@ -42,7 +42,7 @@ pub(super) fn read(path: &Path, size: u64, may: May) -> Result<TextTable> {
 /// Reads the columns of numbers. Other columns, such as names, are skipped.
 fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextTable>, ParquetError> {
     let file = File::open(path)?;
-    // The usual conversion would label an error of the file system as external.
+    // Errors are converted here, because the usual conversion would label an error of the file system as external.
     let wrong = |error: std::io::Error| ParquetError::General(error.to_string());
     announced::check_description(&file).map_err(wrong)?;
     let reader = SerializedFileReader::new(file.try_clone()?)?;
@@ -63,7 +63,7 @@ fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextT
     }
     let wanted = described.schema_descr().columns().iter().enumerate().filter(|(_, column)| is_number(column));
     let wanted: Vec<(usize, String)> = wanted.map(|(index, column)| (index, column.name().to_string())).collect();
-    // Each group states its number of rows, and the file states the total.
+    // Each group states its number of rows. The sum of these numbers must equal the total that the file states.
     let rows = groups.iter().try_fold(0_u64, |sum, group| sum.checked_add(u64::try_from(group.num_rows()).ok()?));
     let Some(rows) = rows.filter(|&rows| i64::try_from(rows) == Ok(described.num_rows())) else {
         return Err(ParquetError::General(sentences::ITS_GROUPS_HAVE_OTHER_ROWS.into()));
@@ -72,7 +72,7 @@ fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextT
     if values > MOST {
         return refused(sentences::it_has_values_more_than(&values, &MOST), sentences::GIVE_FEWER_ROWS_OR_FEWER);
     }
-    // Compressed data is unpacked part by part.
+    // The estimate does not include unpacked data, because compressed data is unpacked part by part.
     if let Err(error) = may(size as f64 + values as f64 * size_of::<Rounded>() as f64, rows as usize) {
         return Ok(Err(error));
     }
@@ -149,7 +149,8 @@ fn values_of(
     }
 }
 
-/// The same for one type of value. If the level of a row is not `full`, the row has no value.
+/// Adds the values of a part of a column that has one type of value. If the level of a row is not `full`, the row has
+/// no value.
 fn taken<T: DataType>(
     mut part: ColumnReaderImpl<T>,
     full: i16,
@@ -172,7 +173,7 @@ where
         let mut values = values.iter().map(|&value| number(value));
         let mut next =
             || values.next().ok_or_else(|| ParquetError::General(sentences::A_COLUMN_HAS_FEWER_VALUES.into()));
-        // A column in which every row must have a value has no levels.
+        // A column in which every row must have a value has no levels. Every row then counts as `full`.
         for level in levels.iter().copied().chain(std::iter::repeat(full)).take(read) {
             to.push(if level == full { next()? } else { MISSING });
         }

@@ -39,7 +39,7 @@ pub(super) fn floating(link: &Link) -> GenericJoint {
     free().local_anchor2(vector(link.mass_centre)).build()
 }
 
-/// A joint between the joint's points on `links` that locks the given axes.
+/// A Rapier joint that connects the joint's points on `links` and locks the given axes.
 fn holding(axes: JointAxesMask, joint: &Joint, links: [LinkId; 2]) -> GenericJointBuilder {
     let [first, second] = links.map(|link| vector(joint.on(link).expect("the joint is on the link")));
     locking(axes).local_anchor1(first).local_anchor2(second)
@@ -88,7 +88,8 @@ pub(super) fn body(link: &Link, [mass, inertia]: [f64; 2]) -> RigidBodyBuilder {
 
 /// Integration parameters of a run.
 pub(super) fn parameters(settings: &Settings) -> IntegrationParameters {
-    // The route to reactions affects only the readings, and extrapolation combines several runs.
+    // Route and extrapolation are ignored: the route affects only the readings, and extrapolation combines several
+    // runs.
     let &Settings { resolution, sweeps, substeps, route: _, extrapolated: _ } = settings;
     IntegrationParameters {
         dt: real(resolution),

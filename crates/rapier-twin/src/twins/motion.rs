@@ -129,7 +129,7 @@ impl World for Twin {
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
         joint.data.set_motor_velocity(motor.axis, real(target * motor.sense), real(damping));
         if damping == 0.0 {
-            // Rapier treats a motor without stiffness and damping as rigid.
+            // Rapier would treat a motor without stiffness and damping as rigid, so the motor is switched off.
             joint.data.motor_axes = JointAxesMask::empty();
         }
     }

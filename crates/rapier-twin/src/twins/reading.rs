@@ -65,7 +65,8 @@ impl Twin {
                 (axis * rows[0] + across * rows[1], 0.0)
             }
         };
-        // The impulse is that of the last substep. It acts on Rapier's first body.
+        // The impulse is that of the last substep, and acts on Rapier's first body.
+        // The reaction is the force on the joint's second link, so the sign depends on the order of the bodies.
         let swapped = cut.steered.is_some_and(|(link, _)| link != cut.joint.first.link);
         let duration = if swapped { self.substep() } else { -self.substep() };
         Some((force / duration, moment / duration))

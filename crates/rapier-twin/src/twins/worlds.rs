@@ -29,8 +29,9 @@ use linkage::mechanism::{GROUND, Joint, JointId, LinkId, LinkPose};
 ///
 /// Smaller trees stay in one multibody, and so do prescribed motions, which have the drives' flywheels.
 /// With a multibody for every link on the ground, forces on `ov7_base` at 1.4 ms had errors 60 times as large.
-/// The likely cause: Rapier compares the energy of a multibody with Coriolis forces from the end of a step.
-/// As soon as they would add a hundredth to the energy, it uses those from the start of the step.
+/// The likely cause is a test in Rapier.
+/// Rapier takes the Coriolis forces of a multibody from the end of a step.
+/// If these forces would add a hundredth to the multibody's energy, Rapier takes them from the start of the step.
 const LARGE: usize = 16;
 
 /// A joint that closes a loop.
@@ -82,15 +83,15 @@ pub(crate) struct Twin {
     /// Position of every branch's link in the multibodies.
     /// The sign of its coordinate is that of the child relative to its parent.
     places: Vec<Place>,
-    /// Position, in the multibodies, of every floating link; it has three coordinates.
+    /// Position of every floating link in the multibodies. Each floating link has three coordinates.
     floating: Vec<Place>,
     cuts: Vec<Cut>,
-    /// One for each drive, in the case's order.
+    /// The motors, one for each drive, in the case's order.
     motors: Vec<Motor>,
     /// Mass centre of every link, and the inverses of its mass and moment of inertia in this world.
     centres: Vec<Vec2>,
     inverse: Vec<[f64; 2]>,
-    /// For every branch whose joint keeps it constant: angle of the child minus that of its parent (rad).
+    /// Angle of the child minus that of its parent (rad), for every branch whose joint keeps this angle constant.
     twists: Vec<Option<f64>>,
     /// Frames of all links after the last step or placement.
     frames: Vec<LinkFrame>,

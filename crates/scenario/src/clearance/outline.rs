@@ -191,8 +191,8 @@ fn check_simple(corners: &[Vec2]) -> Result<(), Flaw> {
         for j in i + 1..count {
             let is_next = j == i + 1 || (i == 0 && j == count - 1);
             let touch = if is_next {
-                // Neighbouring sides share a corner. If a side folds back onto its neighbour, the end of one lies on
-                // the other.
+                // Neighbouring sides share a corner. They touch elsewhere if one side folds back onto the other.
+                // The free end of one side then lies on the other side.
                 let (one, two) = if j == i + 1 { (side(i), side(j)) } else { (side(j), side(i)) };
                 [(one, two[1]), (two, one[0])].iter().any(|&(own, end)| (end - nearest(end, own)).norm() <= near)
             } else {
@@ -279,7 +279,7 @@ fn triangles(corners: &[Vec2]) -> Option<Vec<[u32; 3]>> {
                 found.push(around(ear).map(|corner| corner as u32));
                 left.remove(ear);
             }
-            // A corner on the line between its neighbours does not change the outline.
+            // A corner on the line between its neighbours is removed, because it does not change the outline.
             None => {
                 left.remove(flat()?);
             }

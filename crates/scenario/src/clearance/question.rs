@@ -48,7 +48,7 @@ impl ClearanceQuestion {
 }
 
 /// All pairs of bodies that can meet, except those in `ignored`.
-/// They are links that are not joined, and every link with the housing.
+/// These are all pairs of links that are not joined, and all pairs of a link and the housing.
 #[must_use]
 pub fn pairs(mechanism: &Mechanism, bodies: &[ClearanceBody], ignored: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();

@@ -81,7 +81,9 @@ fn every_key_of_the_table_is_read() {
     let names = |section: &Section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>();
     let mut never = Vec::new();
     for section in sections() {
-        // Positions and printed numbers occur in several sections, but a single reader reads each of them.
+        // The same keys occur in several sections, for example positions and printed numbers. A single reader reads all
+        // of them.
+        // It suffices that the key is requested in one of these sections.
         let alike = || sections().filter(|other| names(other) == names(section));
         for spelling in section.keys.iter().flat_map(super::FileKey::spellings) {
             if !alike().any(|own| asked.get(own.path).is_some_and(|keys| keys.contains(&spelling))) {

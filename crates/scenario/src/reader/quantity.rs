@@ -76,7 +76,7 @@ impl<'a> TomlTable<'a> {
         let (family, at, unit) = match self.spelled(base, families) {
             Ok(None) => return Ok(None),
             Ok(Some(found)) => found,
-            // With several families, it is unknown which family was intended.
+            // With several families, it is unknown which family was intended, so no value can replace the wrong one.
             Err(error) if families.len() > 1 => return Err(self.noted(error)),
             Err(error) => return self.instead(Some((families[0], sign.stand_in())), error),
         };
@@ -112,7 +112,7 @@ impl<'a> TomlTable<'a> {
         let si = |(index, element): (usize, &Spanned<DeValue>)| {
             let number =
                 self.finite(key, element).and_then(|number| self.in_range(key, element, unit.to_si(number), family));
-            // Values that replace wrong values must differ from each other.
+            // Values that replace wrong values must differ from each other, so the index is used.
             number.or_else(|error| self.instead(index as f64, error))
         };
         array.iter().enumerate().map(si).collect::<Result<_>>().map(Some)

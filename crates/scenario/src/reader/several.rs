@@ -48,7 +48,7 @@ impl Faults {
         value.map_err(|error| self.all.push(error)).ok()
     }
 
-    /// Whether there are none.
+    /// Whether no mistake has been noted.
     pub fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
@@ -95,6 +95,7 @@ impl<'a> TomlTable<'a> {
     ) -> (std::result::Result<T, Option<Error>>, Option<Error>) {
         self.goes_on = true;
         let found = read(self);
+        // The missing keys are noted here, but unknown keys are not.
         // If the reading has stopped early, a key that was not requested yet may still be correct.
         self.pair_missing();
         let unknown = std::mem::take(&mut self.unknown_names);
@@ -168,7 +169,7 @@ impl<'a> TomlTable<'a> {
     /// The error for a missing key, and the entry whose key is a misspelling of it.
     fn missing_by(&self, spellings: &[String], help: Option<&'static str>) -> (Error, Option<&'a str>) {
         let wanted = choice(spellings.iter().map(String::as_str), "`");
-        // The top level has no table name.
+        // The error states the key itself, because the top level has no table name.
         let error = self.fault(sentences::is_missing(&wanted)).key(spellings[0].clone());
         let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
         let unread = self.entries.iter().filter(|entry| self.is_unknown(entry));

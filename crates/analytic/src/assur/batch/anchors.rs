@@ -18,7 +18,7 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 
-/// Numbers stored per link and interval: those of a start, without the fraction of the interval.
+/// Number of values stored per link and interval: all values of a start except the fraction of the interval.
 const KEPT: usize = OF_START - 1;
 /// Distance between two anchors (rad). It is slightly smaller than a step of [`PoseSolver`], so that rounding cannot
 /// make it larger.
@@ -104,7 +104,7 @@ impl Way<'_> {
         }
         while self.is_open && self.count <= interval {
             let next = start + self.step * (self.count + 1) as f64;
-            // The pose that needs this interval reports the error.
+            // An error is not reported here: the solution of the pose that needs this interval reports it.
             self.is_open = self.poses.solve(next, 1.0, 0.0, Stage::Accelerations).is_ok();
             if self.is_open {
                 self.add();
@@ -126,8 +126,8 @@ impl Way<'_> {
             let turn = cross(*from, *to).atan2(from.dot(to));
             let (h, h2) = (self.step, self.step * self.step);
             let (first, second) = (h * omega, 0.5 * h2 * alpha);
-            // What the first two terms leave at the end of the interval: of the angle, of its rate and of its second
-            // derivative.
+            // Remainders at the end of the interval after subtraction of the first two terms: of the angle, its rate
+            // and its second derivative.
             let angle = turn - first - second;
             let rate = h * omega_to - first - 2.0 * second;
             let bend = h2 * alpha_to - 2.0 * second;

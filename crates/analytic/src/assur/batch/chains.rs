@@ -1,7 +1,7 @@
-//! Higher groups on pins for several poses at once: their constants.
+//! Constants of higher groups on pins, for several poses at once.
 //!
-//! The equations (`motion`, `forces`) are those of [`crate::assur::groups::Chain`] for the motion and of the module
-//! `assur::forces` for the forces.
+//! The motion uses the equations of [`crate::assur::groups::Chain`]. The forces use those of the module
+//! `assur::forces`.
 
 mod forces;
 mod motion;
@@ -38,7 +38,7 @@ struct Arrow {
 struct Closing {
     ends: [(usize, f64); 2],
     ways: Vec<(usize, f64)>,
-    /// Column of its reaction, and the nodes of its first and second link.
+    /// Column of the joint's reaction, and the nodes of the joint's first and second link.
     force: usize,
     nodes: [Option<usize>; 2],
 }
@@ -92,8 +92,9 @@ impl Chain {
     }
 
     /// Number of columns in the working memory.
-    /// They hold the starts of the links, the joints of the tree, the arrows, and the factors of the Jacobian.
-    /// Each joint has the vector from its link's origin and the quantity needed at the present stage.
+    /// The columns contain the starts of the links, the joints of the tree, the arrows, and the factors of the
+    /// Jacobian.
+    /// For each joint they contain the vector from its link's origin and the quantity needed at the present stage.
     pub(super) fn columns(&self) -> usize {
         self.first_factor(0) + elimination::columns(self.nodes.len())
     }

@@ -17,7 +17,7 @@ pub(super) struct Factors<S: Simd, const N: usize> {
     pub(super) determinant: Lanes<S>,
 }
 
-/// Columns of the factors of a system of order `n` in the working memory.
+/// Number of columns in the working memory for the factors of a system of order `n`.
 pub(super) const fn columns(n: usize) -> usize {
     n * n + n + n * (n - 1) / 2
 }

@@ -1,7 +1,7 @@
 //! The equations of driving links and RRR dyads for several poses at once.
 //!
-//! They are those of [`crate::assur::groups::Rrr`] for the motion and of the module `assur::forces` for the forces;
-//! both name their sources.
+//! The motion uses the equations of [`crate::assur::groups::Rrr`]. The forces use those of the module `assur::forces`.
+//! Both modules name their sources.
 //! Arms of forces start at the pole, in the link's frame, so that no world positions are needed.
 
 use pulp::Simd;

@@ -1,4 +1,4 @@
-//! Constants of a case of driving links, RRR dyads and higher groups on pins, derived once.
+//! Constants of a case of driving links, RRR dyads and higher groups on pins, computed once.
 
 use super::bodies::{Action, Body, Reader};
 use super::chains::Chain;
@@ -9,7 +9,7 @@ use linkage::drive::Load;
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, JointId, LinkId};
 
-/// Columns of a dyad in the working memory: two for its span r1, two for r2, and one for 1 / (r1 x r2).
+/// Number of columns of a dyad in the working memory: two for its span r1, two for r2, and one for 1 / (r1 x r2).
 const OF_DYAD: usize = 5;
 
 /// A driving link. Its pole is the joint about which it turns on the ground.

@@ -6,10 +6,10 @@ use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::State;
 
-/// Columns of one link's motion: origin (2), direction (2), velocity (2), acceleration (2), angular velocity (1),
-/// angular acceleration (1), in this order.
+/// Number of columns for one link's motion: origin (2), direction (2), velocity (2), acceleration (2), angular velocity
+/// (1), angular acceleration (1), in this order.
 const OF_LINK: usize = 10;
-/// Offset of each of these quantities from the link's first column.
+/// Offsets of these six quantities from the link's first column.
 pub(super) const ORIGIN: usize = 0;
 pub(super) const DIRECTION: usize = 2;
 pub(super) const VELOCITY: usize = 4;

@@ -1,7 +1,7 @@
 //! Joint reactions of any higher group.
 //!
-//! The closing joints are cut. The principle of virtual work for the unknowns of the contours gives their forces (J^T
-//! lambda = -Q).
+//! The closing joints are cut. The principle of virtual work for the unknowns of the contours gives the forces in the
+//! closing joints (J^T lambda = -Q).
 //! The forces in the remaining joints follow, from the outermost link inwards.
 
 use super::body::{Action, Body, Reactions};
@@ -16,12 +16,12 @@ pub(super) struct Higher {
     /// Index of the group's [`Chain`] in the plan.
     step: GroupId,
     bodies: Vec<Body>,
-    /// For each node: the action on its link of the joint to its parent.
+    /// For each node: the action on the node's link from the joint to the parent.
     hung: Vec<Action>,
     /// For each node: the known force on its link and on all links attached to it (N), and the moment of this force
     /// about the joint to the node's parent (N m).
     carried: Vec<(Vec2, f64)>,
-    /// For each node: force and moment of the closing joints on the same links.
+    /// For each node: force and moment of the closing joints on its link and on all links attached to it.
     cut: Vec<(Vec2, f64)>,
     multipliers: Vec<f64>,
     /// The transfer of load from each node to its parent, in order from the outermost node inwards.
@@ -63,7 +63,7 @@ impl Higher {
         }
     }
 
-    /// Solves a group with guides (`SLIDING`) or without.
+    /// Solves a group. `SLIDING` states whether the group has guides.
     fn solve_as<const SLIDING: bool>(
         &mut self,
         case: &Case,

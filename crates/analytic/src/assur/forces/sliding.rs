@@ -7,9 +7,9 @@
 //! RPR, with R on the second link of the prismatic joint: e . (R + F_b) = 0 for the second link, and d x R = -M about
 //! the first pin for the whole dyad.
 //! RPP: b . (R + F_a) = 0 for the pinned link, e . (R + F) = 0 for the whole dyad.
-//! PRP: the inner force I on link a has e . (I + F_a) = 0 and b . (I - F_b) = 0.
+//! PRP: the inner force I on link a satisfies e . (I + F_a) = 0 and b . (I - F_b) = 0.
 //! The moments of the guides follow from the moments on their links.
-//! Derived here from the equilibrium of the links and of the whole dyad.
+//! These equations are derived here from the equilibrium of the links and of the whole dyad.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::body::{Action, Body, Reactions};

@@ -45,8 +45,8 @@ const SAME_POSE: f64 = 4e-14;
 /// Largest correction of a predicted pose (rad). Near a dead point predictions are poor, and the corrected pose may be
 /// on another branch.
 const MAX_CORRECTION: f64 = 0.01;
-/// The squared determinant must not fall below this fraction of its value during a step. The fall is extrapolated from
-/// the last steps.
+/// If the squared determinant would fall below this fraction of its value during a step, the step is refused. The fall
+/// is extrapolated from the last steps.
 const LEAST_LEFT: f64 = 0.25;
 /// If the driving angles change by no more than this (rad), a jump to another branch is impossible.
 const SMALLEST_STEP: f64 = 1e-6;
@@ -57,16 +57,16 @@ const SMALLEST_STEP: f64 = 1e-6;
 /// At a dead point the determinant falls with the square root of the distance, and its sign distinguishes the branches.
 const SINGULAR: f64 = 1e-6;
 
-/// Returns `direction` turned by a small angle (rad), accurate to the seventh order of the angle and of unit length to
-/// rounding.
+/// Returns `direction` rotated by a small angle (rad).
+/// The result is accurate to the seventh order of the angle, and its length is 1 within rounding error.
 #[inline]
 fn slightly_turned(direction: Vec2, angle: f64) -> Vec2 {
     let square = angle * angle;
     let sine = angle * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
     let cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)));
     let turned = rotated(direction, Vec2::new(cosine, sine));
-    // The length differs from 1 by at most 1e-8. The error of this approximate inverse root is of the order of the
-    // square of that difference.
+    // Restores unit length with an approximate inverse root. The length before this correction differs from 1 by at
+    // most 1e-8. The remaining error is of the order of the square of that difference.
     turned * (1.5 - 0.5 * turned.norm_squared())
 }
 
@@ -203,7 +203,7 @@ impl Chain {
     /// turns.
     pub(super) fn skip(&mut self, way: f64) {
         self.at[0] += way;
-        // Rounding of the whole turns makes the next step differ from the last.
+        // Discard the remembered steps: rounding of the whole turns makes the next step differ from the last.
         self.memory.start_anew();
     }
 
@@ -216,7 +216,7 @@ impl Chain {
         }
     }
 
-    /// Solves a group with guides (`SLIDING`) or without.
+    /// Solves a group. `SLIDING` states whether the group has guides.
     fn positions_as<const SLIDING: bool>(&mut self, angles: &[f64], motions: &mut [Motion]) -> bool {
         if self.slides[0].is_nan() {
             self.read_slides(motions);
@@ -278,7 +278,7 @@ impl Chain {
         self.read_slides(like);
         self.branch = 0.0;
         self.find_roots(motions);
-        // Rarely called: the version with guides serves every group.
+        // This function is rarely called, so it uses the version with guides for every group.
         if !self.follow::<true>(MAX_CORRECTION, motions) {
             return false;
         }
@@ -386,7 +386,7 @@ impl Chain {
             let is_last = within(&self.unknown, LAST_CHANGE);
             for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
                 if is_last && !(SLIDING && node.is_guided()) {
-                    // The square of this turn is below rounding.
+                    // A first-order rotation is enough: the square of this angle is below rounding error.
                     let direction = &mut motions[node.link].direction;
                     *direction -= turned(*direction) * change;
                 } else {
@@ -428,7 +428,7 @@ impl Chain {
             }
             let motion = &mut motions[node.link];
             if node.at_origin {
-                // The vector from the origin to the joint is zero and remains zero.
+                // The joint is the frame's origin: `arm` is zero and needs no update.
                 motion.origin = place;
             } else {
                 let arm = motion.arm(node.own);
@@ -477,7 +477,7 @@ impl Chain {
 
     /// Whether this step might lead over a dead point, near which the squared determinant is linear in the driving
     /// angles.
-    /// If the step would reduce the square to a small fraction, it must be smaller.
+    /// Such a step would reduce the squared determinant to a small fraction, and must be shortened.
     /// Otherwise it might end on the other side of a gap between two branches.
     fn is_bold(&self) -> bool {
         let goes = self.step.iter().any(|step| step.abs() > SMALLEST_STEP);

@@ -2,9 +2,9 @@
 //!
 //! The outer pin is P, the inner joint C, r = C - P; the guide has the axis e and its normal n.
 //! C lies on a line along e, so that h = n . r is known and e . r = +-sqrt(l^2 - h^2).
-//! From v_P + omega x r = v_E + s' e, where E is the point of the guide's link at C: omega = n . (v_E - v_P) / (e . r).
+//! E is the point of the guide's link at C. v_P + omega x r = v_E + s' e gives omega = n . (v_E - v_P) / (e . r).
 //! With the Coriolis part 2 omega_E s' n: alpha = (n . (a_E - a_P + omega^2 r) + 2 omega_E s') / (e . r).
-//! Derived here from the closure of the vector contour.
+//! These equations are derived here from the closure of the vector contour.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::bounds::{Bound, Bounds, Limit, least_product};

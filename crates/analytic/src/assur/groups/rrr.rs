@@ -1,10 +1,11 @@
 //! Dyad with three revolute pairs (class II, order 2): closed form of position, velocity and acceleration.
 //!
-//! With the outer joints P1, P2, the inner joint P3, r1 = P3 - P1, r2 = P3 - P2 and D = r1 x r2:
-//! r1 = d f + (z x d) h with d = P2 - P1, f = (l1^2 - l2^2 + d^2) / 2 d^2, 4 D^2 = 4 d^4 h^2 = ((l1 + l2)^2 - d^2) (d^2 - (l1 - l2)^2);
-//! omega1 = (v2 - v1) . r2 / D, omega2 = (v2 - v1) . r1 / D from v1 + omega1 x r1 = v2 + omega2 x r2.
+//! The outer joints are P1 and P2, the inner joint is P3. r1 = P3 - P1, r2 = P3 - P2, D = r1 x r2 and d = P2 - P1.
+//! Position: r1 = d f + (z x d) h with f = (l1^2 - l2^2 + d^2) / 2 d^2 and 4 D^2 = 4 d^4 h^2 = ((l1 + l2)^2 - d^2) (d^2
+//! - (l1 - l2)^2).
+//! Velocity: v1 + omega1 x r1 = v2 + omega2 x r2 gives omega1 = (v2 - v1) . r2 / D and omega2 = (v2 - v1) . r1 / D.
 //! The same equations hold for the accelerations minus their centripetal parts.
-//! Derived here from the closure of the vector contour.
+//! They are derived here from the closure of the vector contour.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::bounds::{Bound, Bounds, Limit, least_product, of_square};
@@ -126,7 +127,7 @@ impl Rrr {
         if !(square >= 0.0) {
             return Err(self.too_far(d_squared));
         }
-        // The sine of the transmission angle is D / (l1 l2).
+        // Refuses a singular pose: the sine of the transmission angle, D / (l1 l2), is too small.
         if square <= self.least {
             return Err(Misfit::Singular);
         }
@@ -151,8 +152,8 @@ impl Rrr {
         for (k, (pivot, r)) in pivots.into_iter().zip(self.spans).enumerate() {
             let Arm { link, outer, inverse_span, .. } = self.arms[k];
             let motion = &mut motions[link];
-            // Quotient of the world vector and the vector in the link's frame, as complex numbers: the direction of the
-            // frame.
+            // The direction of the frame is the quotient of the world vector and the vector in the link's frame, as
+            // complex numbers.
             motion.direction = Vec2::new(inverse_span.dot(&r), cross(inverse_span, r));
             self.outers[k] = motion.arm(outer);
             motion.origin = pivot - self.outers[k];
@@ -179,7 +180,7 @@ impl Rrr {
             (motion.omega, motion.alpha) = (omega, alpha);
             motion.direction = Vec2::new(arm.inverse_span.dot(&r), cross(arm.inverse_span, r));
             if arm.at_origin {
-                // The vector from the origin to the joint is zero and remains zero.
+                // The outer joint is the frame's origin: the vector between them is zero and needs no update.
                 (motion.origin, motion.velocity, motion.acceleration) = (p, v, a);
                 return;
             }

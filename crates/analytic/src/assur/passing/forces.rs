@@ -1,8 +1,8 @@
 //! Reactions near a change point.
 //!
-//! The motion and the power of the drives are smooth there, but reactions need not be smooth.
-//! In the singular pose a group is movable. It carries only loads that do no work along the other branch.
-//! The reactions to all other loads grow with the inverse of the distance.
+//! Near a change point, the motion and the power of the drives are smooth, but reactions need not be smooth.
+//! In the singular pose a group is movable. The group carries only loads that do no work along the other branch.
+//! The reactions to all other loads grow with the inverse of the distance from the change point.
 //! A reaction is therefore the sum of a first-order pole and a smooth part.
 //! The residue of the pole follows from the products of reaction and distance, which are smooth.
 
@@ -13,9 +13,9 @@ use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Motion, Vec2, angle, cross};
 use linkage::solver::State;
 
-/// Residues below a threshold count as zero. The threshold has two terms.
-/// The first is this multiple of the residue's change when the innermost nodes are left out.
-/// The second is a fraction of the largest product of a reaction and its distance.
+/// If the residue of a reaction is below a threshold, it counts as zero. The threshold is the sum of two terms.
+/// The first term is this multiple of the residue's change when the innermost nodes are left out.
+/// The second term is a fraction of the largest product of a reaction and its distance.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
@@ -34,8 +34,8 @@ impl Window {
     /// Writes the reactions and balancing moments to `state`. Its motions and angles must be known.
     /// The driving link is at the angle `place` and has the given angular velocity and acceleration.
     /// `loads` finds the loads from the motions and angles of the links.
-    /// In free motion, `shaft` holds the moment on the driving link and the moment of inertia that turns with it.
-    /// Each neighbouring pose then has the acceleration that balances its driving link at the same speed.
+    /// In free motion, `shaft` contains the moment on the driving link and the moment of inertia that turns with it.
+    /// Each neighbouring pose then has the same speed, and the acceleration that balances its driving link.
     /// A residue is then a property of the motion.
     pub(in crate::assur) fn reactions(
         &self,
@@ -66,7 +66,8 @@ impl Window {
             };
             let mut own = at(alpha);
             if let Some([moment, inertia]) = shaft {
-                // Reactions are linear in the acceleration.
+                // Reactions are linear in the acceleration: interpolate to the acceleration that balances the driving
+                // link.
                 let more = at(other);
                 let slope = (more[drive] - own[drive]) / (other - alpha) + inertia;
                 let share = (moment - inertia * alpha - own[drive]) / slope / (other - alpha);

@@ -20,7 +20,8 @@ const MET: f64 = 1e-6;
 /// Below this sine, the search stores the slope of the sine, for comparison with the slope at `MET`.
 /// At a dead point the slope grows with the inverse of the sine.
 const LINEAR: f64 = 1e-3;
-/// Limits `MET` and `LINEAR` for a higher group, divided by its determinant at the start of the search.
+/// For a higher group, these limits replace `MET` and `LINEAR`.
+/// They apply to the determinant divided by its value at the start of the search.
 /// The start may already be near the change point.
 const HIGHER: [f64; 2] = [1e-4, 3e-2];
 const MOST_STEPS: usize = 200;
@@ -33,7 +34,8 @@ pub(super) struct Start<'a> {
 }
 
 /// Searches for a change point of a group, at a distance of about `ahead` (rad) from a pose.
-/// Returns its angle of the driving link. The error is the angle up to which the group has no change point.
+/// Returns the angle of the driving link at the change point.
+/// If the search fails, the error is the angle up to which the group has no change point.
 pub(super) fn change_point(start: &Start, group: GroupId, ahead: f64) -> Result<f64, f64> {
     let (mut plan, mut motions) = (start.plan.clone(), start.motions.to_vec());
     let (way, mut angle) = (ahead.signum(), start.angle);

@@ -24,19 +24,20 @@ const SIDE: usize = 10;
 const CORE: f64 = 0.1;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.012];
-/// If the mechanism cannot be followed with one half width, the next half width is at most this fraction of it.
+/// If the mechanism cannot be followed through a window, the next half width is at most this fraction of the failing
+/// one.
 /// The failing window contains another singular pose, towards which reactions may grow without bound.
 const CLEAR: f64 = 0.5;
 /// A change point is passed only if the error of the second transfer functions, divided by the largest of them, is
 /// below this value.
 const WORST: f64 = 1e-6;
-/// Upper limit of the distance between two change points, divided by the distance between the innermost nodes.
-/// Up to this limit, the distance counts as an effect of rounding or curvature.
+/// If the distance between two change points, divided by the distance between the innermost nodes, is at most this
+/// value, it counts as an effect of rounding or curvature.
 const APART: f64 = 0.2;
 /// Number of secant steps that improve the position of the change point.
 const POLISHING: usize = 4;
-/// Cube root of the sum of the weights' magnitudes. The sum is about four. It is the factor by which the rounding error
-/// of the poses is amplified.
+/// Cube root of the sum of the weights' magnitudes. This sum is about four. The polynomials amplify the rounding error
+/// of the poses by this sum.
 const WEIGHTS: f64 = 1.6;
 /// Ratio of the rounding error of accelerations to the unit roundoff times the cube of the condition number.
 const ULPS: f64 = 16.0;
@@ -102,7 +103,8 @@ impl Window {
                 let sines: Vec<f64> = window.nodes.iter_mut().map(sine).collect();
                 let (least, most) =
                     sines.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &sine| (a.smaller(sine), b.larger(sine)));
-                // The first value is about the inverse of the sine of the innermost pose.
+                // The larger of two values is stored. The first value is about the inverse of the sine of the innermost
+                // pose.
                 window.condition =
                     (WEIGHTS * most / least / window.reach).larger((error / (ULPS * f64::EPSILON)).cbrt());
                 Ok(window)
@@ -148,7 +150,8 @@ impl Window {
             }
             from = at + offset;
             let (node, sine) = put(offset, &mut plan, &motions);
-            // The determinant of a higher group has a sign, the sine of a dyad has none.
+            // The determinant of a higher group already has a sign. The sine of a dyad has no sign, so it is negated on
+            // this side.
             sines.push(if node.plan.determinant(group).is_some() { sine } else { -sine });
             nodes.push(node);
         }
@@ -175,7 +178,7 @@ impl Window {
             if let (Some(a), Some(b)) = (a, b) {
                 return a * b < 0.0 && is_apart(low + (high - low) * a / (a - b));
             }
-            // Extrapolation from either side must lead to a change point away from the middle.
+            // A dyad counts only if extrapolation from both sides leads to a change point away from the middle.
             let places = inner.map(|index| {
                 let node = &mut self.nodes[index];
                 let own = clearance(&mut node.plan, &mut node.motions.clone(), group);

@@ -1,6 +1,6 @@
 //! Multipliers near a change point.
 //!
-//! The Jacobian is singular at the change point, and multipliers generally grow with the inverse of the distance.
+//! The Jacobian is singular at the change point. Multipliers generally grow with the inverse of the distance from it.
 //! The reason is that no constraint resists a load that does work along the other branch.
 //! The product of multiplier and distance is always smooth.
 
@@ -14,8 +14,8 @@ use linkage::math::{KeepNan, Motion};
 
 /// At the change point, products of multiplier and distance below a threshold count as zero. The threshold has two
 /// terms.
-/// The first is this multiple of the product's change when the innermost poses are left out.
-/// The second is a fraction of the largest product.
+/// The first term is this multiple of the product's change when the innermost poses are left out.
+/// The second term is a fraction of the largest product.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
@@ -30,7 +30,7 @@ impl Window {
     /// Writes the multipliers to the system, for the crank angle `angle` (rad) and the crank's angular velocity and
     /// acceleration.
     /// `loads` finds the loads on all links.
-    /// In free motion, `shaft` holds the moment on the crank and the moment of inertia that turns with it.
+    /// In free motion, `shaft` contains the moment on the crank and the moment of inertia that turns with it.
     /// Every pose then has the acceleration that balances its crank at this speed.
     pub(in crate::newton) fn multipliers(
         &self,

@@ -41,7 +41,7 @@ impl Passing {
     }
 
     /// Computes the multipliers after [`Passing::go_to`] and [`Passing::rates`]; `loads` finds the loads on all links.
-    /// In free motion, `shaft` holds the moment on the crank and the moment of inertia that turns with it.
+    /// In free motion, `shaft` contains the moment on the crank and the moment of inertia that turns with it.
     pub(in crate::newton) fn multipliers(
         &self,
         system: &mut System,
@@ -77,7 +77,7 @@ impl Passing {
     }
 }
 
-/// Gives the crank its exact pose. No polynomial is needed for it.
+/// Sets the crank to its exact pose, which needs no polynomial.
 fn turn_crank(system: &mut System, spot: &mut Spot) {
     let crank = system.case.crank();
     let joint = &system.case.mechanism.joints()[crank.joint];

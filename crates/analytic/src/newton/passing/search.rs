@@ -7,22 +7,22 @@ use linkage::math::KeepNan;
 
 /// Ratio of a search step to the estimated distance of the change point.
 const STEP: f64 = 0.4;
-/// If the ratio of a block's determinant to the largest possible one falls linearly below this value, it counts as
-/// zero.
-/// For a dyad the ratio is about a tenth of the sine of its transmission angle.
+/// The determinant of a block, divided by its largest possible value, counts as zero if it falls linearly below this
+/// limit.
+/// For a dyad this ratio is about a tenth of the sine of its transmission angle.
 const MET: f64 = 1e-7;
 /// Below this ratio, the search stores the slope of the determinant, for comparison with the slope at `MET`.
 /// At a dead point the determinant falls with the square root of the distance, and its slope grows without bound.
 const LINEAR: f64 = 1e-4;
 const MOST_STEPS: usize = 200;
 
-/// Newton's method ends at changes below this value if it searches for a change point, near which rounding errors are
-/// amplified.
+/// During a search for a change point, Newton's method ends at changes below this value. Near a change point, rounding
+/// errors are amplified.
 const COARSE: f64 = 1e-7;
 
 /// Searches for the angle (rad) at which the determinant of a block passes through zero, about `ahead` (rad) from a
 /// spot.
-/// The error is the angle up to which the determinant has no zero.
+/// If the search fails, the error is the angle up to which the determinant has no zero.
 pub(super) fn change_point(system: &mut System, start: &Spot, block: usize, ahead: f64) -> Result<f64, f64> {
     let settled = std::mem::replace(&mut system.settled, COARSE);
     let found = approached(system, start, block, ahead);

@@ -4,8 +4,8 @@
 //! through sixteen poses.
 //! Among the half widths tried, the chosen one has the smallest difference between two polynomials for the second
 //! derivatives.
-//! The first is the second derivative of the osculating polynomial. The second passes through the second derivatives at
-//! all sixteen poses.
+//! One is the osculating polynomial, differentiated twice. The other passes through the second derivatives at all
+//! sixteen poses.
 //! The two polynomials have different degrees and different data.
 //! At the distance x, the rounding error of second derivatives grows as 1 / x^3. The error of the polynomials grows
 //! with the width.
@@ -21,14 +21,15 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkId};
 
-/// Number of poses on each side, and indices of the poses used for coordinates, from the outermost inwards.
+/// Number of poses on each side. The next constant contains the indices of the poses used for coordinates, from the
+/// outermost inwards.
 const SIDE: usize = 8;
 const CHOSEN: [usize; 3] = [0, 3, 6];
 /// Distance of the innermost pose, divided by the half width.
 const CORE: f64 = 0.2;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025, 0.017, 0.01];
-/// If the path is lost with one half width, the next half width is at most this fraction of it.
+/// If the path is lost in a window, the next half width is at most this fraction of the failing one.
 /// The reason is another singular pose nearby, towards which multipliers may grow without bound.
 const CLEAR: f64 = 0.5;
 /// A change point is passed only if the error of the second derivatives, divided by the largest derivative, is below
@@ -36,13 +37,13 @@ const CLEAR: f64 = 0.5;
 const WORST: f64 = 1e-6;
 /// Number of secant steps that improve the position of a change point.
 const SECANTS: usize = 4;
-/// Upper limit of the distance between two change points, divided by the distance of the innermost pose.
-/// Up to this limit, the distance counts as an effect of rounding.
+/// If the distance between two change points, divided by the distance of the innermost pose, is at most this value, it
+/// counts as an effect of rounding.
 const APART: f64 = 0.01;
 /// Positions at which the two polynomials are compared, divided by the half width.
 const COMPARED: [f64; 3] = [-0.1, 0.0, 0.1];
-/// Cube root of the sum of the weights' magnitudes. The sum is about four. It is the factor by which the rounding error
-/// of the poses is amplified.
+/// Cube root of the sum of the weights' magnitudes. This sum is about four. The polynomials amplify the rounding error
+/// of the poses by this sum.
 const WEIGHTS: f64 = 1.6;
 /// Ratio of the rounding error of accelerations to the unit roundoff times the cube of the condition number.
 const ULPS: f64 = 16.0;
@@ -109,7 +110,8 @@ impl Window {
                 window.turns = turns;
                 let shares = window.spots.iter().map(|spot| spot.shares[block].abs());
                 let (least, most) = shares.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.smaller(s), b.larger(s)));
-                // The first value is about the inverse of the sine of the innermost pose.
+                // The larger of two values is stored. The first value is about the inverse of the sine of the innermost
+                // pose.
                 // The rounding errors of all blocks that are singular together add up.
                 let inner = [&window.spots[SIDE - 1].shares, &window.spots[SIDE].shares];
                 let singular = inner[0].iter().zip(inner[1]).filter(|(a, b)| *a * *b < 0.0).count().max(1);

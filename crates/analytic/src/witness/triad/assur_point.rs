@@ -4,11 +4,11 @@
 //! The moments on the lead about its head give the component across the lead, `N_n = -M_head / l`.
 //! The forces along two leads pass through the intersection S of their lines, the singular Assur point.
 //! The moments about S on the base link and these two leads contain one unknown: the force along the third lead.
-//! The equilibrium of the same three links gives the forces along the other two leads.
+//! The equilibrium of the same three links gives the forces along the first two leads.
 //! The equilibrium of each lead gives the reaction at its head.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
-//! Of the three Assur points, that of the two leads nearest to a right angle is used. The Assur point of parallel leads
-//! is at infinity.
+//! There are three Assur points, one for each pair of leads. The method uses the pair whose angle is nearest to a right
+//! angle. The Assur point of parallel leads is at infinity.
 
 use super::{KnownResultant, Places, Reactions, singular};
 use crate::sentences;

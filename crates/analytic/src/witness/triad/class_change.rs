@@ -1,10 +1,11 @@
 //! The class III group by exchange of the driving link.
 //!
-//! If one of its ground leads is taken as conditional driver, the mechanism is a chain of class II dyads.
-//! The first dyad is the base link and the other ground lead, the second is lead 3 and the crank.
+//! If one ground lead of the group is taken as conditional driver, the mechanism is a chain of class II dyads.
+//! The first dyad consists of the base link and the other ground lead. The second dyad consists of lead 3 and the
+//! crank.
 //! The first dyad is placed in closed form.
-//! For the second, the distance from the head F of lead 3 to the crank pin C must be the length of lead 3.
-//! The crank angle alpha is therefore a function of the lead's angle theta, and the true motion is the inverse
+//! The second dyad requires that the distance from the head F of lead 3 to the crank pin C equals the length of lead 3.
+//! The crank angle alpha is therefore a function of the driving lead's angle theta. The true motion is the inverse
 //! function.
 //! For a given alpha, the second dyad closes at the theta with `|F(theta) - C(alpha)| = l_3`.
 //! Newton's method with bisection finds this theta between bounds. With q = F - C
@@ -15,9 +16,8 @@
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 //! No system of equations is solved.
 //!
-//! Dead points. At the limit positions of a ground lead d alpha / d theta is infinite: the conditional driver cannot
-//! drive there.
-//! There are two kinds.
+//! Dead points. At the limit positions of a ground lead d alpha / d theta is infinite: this lead cannot be the driver.
+//! There are two kinds of such positions.
 //! If the base link and the *other* lead are in line, the first dyad is at its limit.
 //! The ground lead whose first dyad is farther from its limit is therefore chosen as the driver.
 //! If the crank and lead 3 are in line, both ground leads stand still, and neither is the better driver.

@@ -2,10 +2,10 @@
 //!
 //! Leads and base link have the two vector contours A_1 B_1 B_k A_k, k = 2, 3:
 //! `l_1 e(alpha_1) + b_k e(alpha_4 + beta_k) = A_1 A_k + l_k e(alpha_k)`.
-//! The derivatives by the crank angle (or by time) give four linear equations for alpha_1' .. alpha_4'. The velocities
-//! of the feet are on the right.
-//! The second derivatives give equations with the same determinant. The accelerations of the feet and the centripetal
-//! parts of the links are on the right.
+//! The derivatives by the crank angle (or by time) give four linear equations for alpha_1' .. alpha_4'. The right-hand
+//! side contains the velocities of the feet.
+//! The second derivatives give equations with the same determinant. The right-hand side contains the accelerations of
+//! the feet and the centripetal parts of the links.
 //! Each unknown is a quotient of two 4 x 4 determinants (method of the transfer functions).
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
@@ -49,7 +49,7 @@ impl Contours {
     }
 
     /// Angular velocities of the three leads and the base link (rad/s) from the velocities of the three feet (m/s).
-    /// If `feet` holds the feet's derivatives by the crank angle (m), the results are the first transfer functions
+    /// If `feet` contains the feet's derivatives by the crank angle (m), the results are the first transfer functions
     /// alpha_i'.
     ///
     /// # Errors

@@ -37,10 +37,10 @@ fn squares_are_covered_or_free_including_their_corners() {
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }
 
-/// If a side of the outline passes, every point of the disc moves from the left to the right of its line, or vice
+/// If a side passes over a disc, every point of the disc changes from the left of the side's line to the right, or vice
 /// versa.
-/// The point stays between the two ends of the line throughout.
-/// This holds for all positions of the ends within their errors.
+/// At every instant the point lies between the two ends of the side.
+/// This is true for all positions of the ends within their errors.
 #[test]
 fn a_side_that_passes_a_disc_passes_all_its_points() {
     // Knuth's MMIX generator: repeatable random numbers.

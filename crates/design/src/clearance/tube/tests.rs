@@ -6,7 +6,7 @@ use linkage::mechanism::{JointKind, JointSide, LinkId};
 
 use super::*;
 
-/// Number of random joints. The second constant is the number of poses that are tried for each joint.
+/// Number of random joints. `POSES` is the number of poses that are tried for each joint.
 const JOINTS: usize = 4_000;
 const POSES: usize = 30;
 
@@ -64,8 +64,8 @@ fn tube(random: &mut Random, half: f64) -> Tube {
     }
 }
 
-/// Random joint of two links, which nearly closes at the middle.
-/// Also the tubes of both links, and which of the links belong to the group.
+/// Random joint of two links, which nearly closes at the middle, and the tubes of both links.
+/// It also states which of the two links belong to the group.
 struct Sample {
     joint: Joint,
     tubes: [Tube; 2],
@@ -108,7 +108,8 @@ impl Sample {
     }
 
     /// Residuals of the joint's two equations.
-    /// Revolute: the points coincide. Prismatic: the second point lies on the first's line and both axes are parallel.
+    /// Revolute: the two links' points coincide.
+    /// Prismatic: the second link's point lies on the first link's line, and the axes of both links are parallel.
     fn open(&self, places: [Place; 2]) -> [f64; 2] {
         let sides = [self.joint.first, self.joint.second];
         let [first, second] = [0, 1].map(|k| point(&self.tubes[k], places[k], sides[k].local));
@@ -174,6 +175,7 @@ fn points_stay_within_the_error_of_their_tracks() {
     }
 }
 
+/// Tests the bound on the residuals of a joint.
 /// Links of the group move uniformly. Other links have random poses in their tubes.
 #[test]
 fn closure_errors_are_within_their_bound() {

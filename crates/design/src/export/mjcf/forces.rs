@@ -72,7 +72,7 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
             for &(link, sign) in links {
                 sum.extend(model.hinges(link).into_iter().map(|branch| (branch, sign)));
             }
-            // If a hinge turns both links, its angle has no effect on the twist between them.
+            // A hinge that turns both links has no effect on the twist between them, so it is left out of the sum.
             let both: Vec<usize> = sum.iter().filter(|(_, sign)| *sign < 0.0).map(|(branch, _)| *branch).collect();
             let is_common = |branch: usize| both.contains(&branch) && sum.contains(&(branch, 1.0));
             sum.iter().copied().filter(|&(branch, _)| !is_common(branch)).collect::<Vec<_>>()

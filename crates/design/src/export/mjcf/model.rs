@@ -20,7 +20,7 @@ const ROTOR: f64 = 1e9;
 /// docs/mjcf.md has the figures.
 const LIGHT: f64 = 1e-5;
 /// Radius of gyration of a link without inertia, divided by the link's size.
-/// The second constant is the lower limit of the size in this ratio, divided by the mechanism's size.
+/// If the link's size is below the fraction `SHORTEST` of the mechanism's size, this fraction replaces the link's size.
 const GYRATION: f64 = 0.3;
 const SHORTEST: f64 = 0.1;
 
@@ -53,7 +53,7 @@ impl<'a> MjcfModel<'a> {
     /// The model of a case whose state at t = 0 is `start`; see [`mjcf`](super::mjcf).
     ///
     /// # Errors
-    /// Those of [`mjcf`](super::mjcf), without the solver's.
+    /// Those of [`mjcf`](super::mjcf) that do not come from the solver.
     pub fn new(case: &'a Case, start: &State, name: &'a str, step: f64) -> Result<Self> {
         if !(step > 0.0 && step.is_finite()) {
             return Err(Error::new(ErrorKind::Input, sentences::the_time_step_is_but_must(&step))
@@ -132,7 +132,8 @@ impl<'a> MjcfModel<'a> {
         self.tree.branches.iter().filter(|branch| branch.parent == parent).map(|branch| branch.link).collect()
     }
 
-    /// Bodies in the order of MuJoCo's coordinates: each before its children, and these before its next sibling.
+    /// Bodies in the order of MuJoCo's coordinates.
+    /// Each body precedes its children, and the children precede the body's next sibling.
     pub(super) fn in_order(&self) -> Vec<&Body> {
         let mut order = Vec::new();
         let mut waiting = self.children(GROUND);

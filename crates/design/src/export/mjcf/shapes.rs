@@ -5,7 +5,7 @@ use super::xml::{Xml, about_z, flat, number, numbers};
 use linkage::math::{Vec2, rotated, unit};
 use linkage::mechanism::{GROUND, JointSide, LinkId};
 
-/// Thickness of the shapes as a share of the mechanism's size.
+/// Thickness of the shapes, divided by the mechanism's size.
 const THICKNESS: f64 = 0.012;
 
 /// Shapes of a link: rods between its joints, and a block or a guide where it slides.

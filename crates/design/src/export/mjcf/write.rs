@@ -50,8 +50,9 @@ pub(super) fn document(model: &MjcfModel, forces: &Forces) -> String {
 
 fn options(xml: &mut Xml, model: &MjcfModel) {
     xml.leaf(r#"compiler angle="radian" autolimits="false" inertiafromgeom="false""#);
-    // MuJoCo scales its tolerance with the trace of the inertia matrix, which contains the rotor: only zero is small enough.
-    // Newton's method needs two iterations; 20 are a limit in case rounding keeps it going.
+    // MuJoCo scales its tolerance with the trace of the inertia matrix. The rotor makes this trace so large that only a
+    // tolerance of zero is small enough.
+    // Newton's method needs two iterations. The limit of 20 ends the iteration if rounding errors would prolong it.
     let solver = r#"integrator="implicitfast" solver="Newton" iterations="20" tolerance="0" ls_tolerance="1e-6""#;
     let (step, gravity) = (number(model.step), flat(model.case.gravity));
     xml.nest(format_args!(r#"option timestep="{step}" gravity="{gravity}" {solver}"#), |xml| {

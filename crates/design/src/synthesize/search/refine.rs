@@ -19,7 +19,7 @@ const BROKEN: f64 = 100.0;
 /// Fraction of the evaluations that the evolution strategy takes.
 const EVOLUTION: f64 = 0.5;
 /// First step size of the evolution strategy, as a fraction of the bounds.
-/// If the step size falls below the second constant, the strategy restarts with the first step size.
+/// If the step size falls below `LAST`, the strategy restarts with the first step size.
 const FIRST: f64 = 0.05;
 const LAST: f64 = 1e-5;
 /// Factor by which the step grows after a success.
@@ -92,7 +92,8 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
         child.copy_from_slice(&bench.best);
         for (index, share) in child.iter_mut().enumerate() {
             if even(&mut rng) < CHANGED {
-                // Approximately normal: four uniform numbers, of variance 1 / 3 in total.
+                // The sum of four uniform numbers is approximately normal and has the variance 1 / 3. The factor makes
+                // it 1.
                 let normal = (0..4).map(|_| even(&mut rng) - 0.5).sum::<f64>() * 3f64.sqrt();
                 *share += step * normal;
                 if zero != Some(index) {
@@ -111,7 +112,7 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
 /// Runs COBYLA from the best candidate so far, with decreasing initial steps.
 fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
     let each = evaluations / RADII.len();
-    // COBYLA would treat zero evaluations as no limit.
+    // COBYLA would treat zero evaluations as no limit, so it is not called.
     if each == 0 {
         return;
     }

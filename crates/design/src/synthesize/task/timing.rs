@@ -46,7 +46,7 @@ pub struct Phase {
     /// Required position at the end, as a fraction of the stroke from the rearmost position: 0 to 1.
     /// `None` if the search may choose the position.
     pub level: Option<f64>,
-    /// Least displacement of a moving phase, as a share of the stroke.
+    /// Least displacement of a moving phase, as a fraction of the stroke.
     pub least: f64,
 }
 
@@ -141,7 +141,8 @@ impl Timing {
         self.levels.as_ref().map(|levels| levels[phase]).or(self.phases[phase].level)
     }
 
-    /// Share of the stroke (0 rearmost, 1 foremost) at the crank angle `crank` (rad, 0 to a full turn).
+    /// Required output at the crank angle `crank` (rad, 0 to a full turn) as a fraction of the stroke (0 rearmost, 1
+    /// foremost).
     /// It is on the smooth curve through all levels.
     /// The curve is cycloidal, without jumps of the acceleration: u - sin(2 pi u) / 2 pi.
     /// `None` if not all levels are known.

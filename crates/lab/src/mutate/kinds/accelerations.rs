@@ -23,7 +23,7 @@ kinds! { Acceleration, Answer:
         |at, state, _| state.motions[turner(at.case)].alpha *= -1.0;
     "alpha-missing": "the angular acceleration of the last rotating link is zero",
         |at, state, _| state.motions[turner(at.case)].alpha = 0.0;
-    "alpha-degrees": "the angular acceleration of the last rotating link is in deg/s^2", |at, state, _| {
+    "alpha-degrees": "the angular acceleration of the last rotating link is in deg/s²", |at, state, _| {
         let alpha = &mut state.motions[turner(at.case)].alpha;
         *alpha = alpha.to_degrees();
     };

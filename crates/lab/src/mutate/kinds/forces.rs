@@ -115,7 +115,8 @@ fn crank_arm(case: &Case, state: &State, place: Vec2) -> Option<Vec2> {
     Some(motion.arm(place) - motion.arm(pivot))
 }
 
-/// Component along the next link of the force in the crank's pin. The sign is that of the force on the crank.
+/// Vector component of the crank pin's force in the direction of the next link.
+/// The sign is that of the force on the crank.
 fn dropped(case: &Case, state: &State) -> Option<Vec2> {
     let (pin, own) = (crank_pin(case), case.crank().joint);
     (pin != own && has_moment(case)).then_some(())?;

@@ -60,7 +60,8 @@ fn pivot(case: &Case, to: impl Fn(Vec2, f64) -> Vec2) -> Option<Case> {
     placed(case, |links, joints| move_places(links, joints, GROUND, |place| moved(place, new)))
 }
 
-/// Gives a prismatic joint another axis on its first link, and moves its point there across the axis (m).
+/// Replaces a prismatic joint's axis on the joint's first link by the result of `axis`.
+/// Moves the joint's point on this link by `across` (m), perpendicular to the old axis.
 fn guided(case: &Case, joint: JointId, axis: impl Fn(Vec2) -> Vec2, across: f64) -> Option<Case> {
     placed(case, |_, joints| {
         let own = &mut joints[joint];

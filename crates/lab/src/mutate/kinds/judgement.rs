@@ -1,4 +1,4 @@
-//! Faults that only one comparison can find: each escapes if that part of the judgement is left out.
+//! Faults that only one comparison can find. Without this comparison, the fault escapes.
 
 use super::kind::kinds;
 use super::touch::turner;

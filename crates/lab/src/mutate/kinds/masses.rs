@@ -105,7 +105,8 @@ fn steiner(case: &Case, link: LinkId) -> f64 {
     place.map_or(0.0, |place| own.mass * (place - own.mass_centre).norm_squared())
 }
 
-/// The mass centre if it is measured from the link's other end; `None` if this does not change its position.
+/// The wrong mass centre that results if its offset is measured from the link's other end, in the opposite direction.
+/// `None` if the position does not change.
 fn measured(case: &Case, link: LinkId) -> Option<Vec2> {
     let [first, last] = ends(case, link)?;
     let own = &case.mechanism.links()[link];

@@ -82,8 +82,9 @@ pub(super) const TRANSMISSION: StressFamily = StressFamily {
     quick: &[0.01, 1.0, 30.0],
     samples: 1,
     setup: |degrees, _, _| {
-        // Coupler and rocker are equal.
-        // If the crank lies on the base line, they are the legs of a triangle whose base is the remaining length.
+        // Coupler and rocker have equal lengths.
+        // If the crank lies on the base line, coupler and rocker are the legs of an isosceles triangle.
+        // The base of the triangle is the distance from the crank's end to the rocker's pivot.
         let (crank, rod) = (0.1, 0.3);
         let lengths = [crank + 2.0 * rod * (0.5 * degrees.to_radians()).sin(), crank, rod, rod];
         // The revolution begins at the smallest transmission angle, so that one instant has exactly this angle.

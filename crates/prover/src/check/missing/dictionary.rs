@@ -37,8 +37,9 @@ pub(super) struct Dictionary {
     pub(super) constants: Vec<(String, f64)>,
 }
 
-/// Possibly missing expressions, each with its weight: of a step `a`; of two steps `a` and `b`; of two angles `x` and
-/// `y`; of a step and an angle; of an angle.
+/// Expressions that may be missing, each with its weight.
+/// The constants below list expressions of a step `a`, of two steps `a` and `b`, of two angles `x` and `y`, of a step
+/// and an angle, and of one angle.
 const OF_STEP: &str = "a: 1; a^2: 2; 1/a: 2; 1/a^2: 3";
 const OF_STEPS: &str = "a*b: 2; a/b: 3; b/a: 3; a^2*b: 4; a*b^2: 4";
 const OF_ANGLES: &str = "cos(x)*tan(y): 0; sin(x)*tan(y): 0";
@@ -116,7 +117,7 @@ fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
             arguments[0].names().iter().for_each(|(name, _)| put(name));
         });
     }
-    // Steps that are angles, although the derivation uses no function of them.
+    // Adds the steps that are angles, even if the derivation uses no function of them.
     known.iter().rev().filter(|own| is_angle(&own.tree)).for_each(|own| put(&own.name));
     let multiple =
         |factor: f64| FormulaTree::pair(Operator::Times, FormulaTree::number(factor), FormulaTree::name("phi"));

@@ -99,7 +99,7 @@ fn calls(formulas: &Formulas, formula: usize) -> Vec<(FormulaTree, f64)> {
     };
     for own in &formulas.list[..=formula] {
         crate::check::slips::at_every_place(&own.tree, &mut |_, part| {
-            // A long argument is not an angle of a drawing.
+            // Only a name is accepted as argument, because a longer argument is not an angle of a drawing.
             if let NodeShape::Call(Function::Sin | Function::Cos, arguments) = &part.shape
                 && matches!(arguments[0].shape, NodeShape::Name(_))
             {
@@ -107,7 +107,7 @@ fn calls(formulas: &Formulas, formula: usize) -> Vec<(FormulaTree, f64)> {
             }
         });
     }
-    // Angles of the file, including those of which no formula uses the cosine.
+    // Adds the sines and cosines of all angles in the file, even if no formula uses them.
     for own in formulas.parameters.iter().filter(|own| own.is_angle()) {
         put(&FormulaTree::call(Function::Cos, vec![FormulaTree::name(own.quantity())]));
         put(&FormulaTree::call(Function::Sin, vec![FormulaTree::name(own.quantity())]));

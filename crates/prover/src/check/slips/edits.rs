@@ -36,7 +36,7 @@ fn is_unit(value: f64) -> bool {
     GRAVITY.contains(&value) || [1e3, 1e6, 1e-3, 1e-6, 30.0, 60.0, 90.0, 180.0, 270.0, 360.0, 3600.0].contains(&value)
 }
 
-/// The quantity of which a name denotes the plain number, without its unit.
+/// If a name denotes the plain number of a quantity without its unit, returns this quantity.
 fn quantity<'a>(part: &FormulaTree, parameters: &'a [Parameter]) -> Option<&'a str> {
     let NodeShape::Name(own) = &part.shape else { return None };
     parameters.iter().find(|parameter| parameter.key == *own).and_then(Parameter::short)

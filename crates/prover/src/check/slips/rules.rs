@@ -25,7 +25,7 @@ const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Branch, "atan(a) => atan(a) + pi"),
     (SlipKind::Branch, "atan(a/b) => atan2(a, b)"),
     (SlipKind::Branch, "atan2(a, b) => atan2(a, b) + pi"),
-    // Degrees, revolutions per minute, seconds per minute, turns, and powers of ten.
+    // Wrong unit conversions: degrees, revolutions per minute, seconds per minute, revolutions, and powers of ten.
     (SlipKind::Unit, sentences::PI_PI),
     (SlipKind::Unit, sentences::PI_PI_PI_PI_PI_PI),
     (SlipKind::Unit, "r => r*1e3; r/1e3; r*1e6; r/1e6"),
@@ -47,7 +47,7 @@ const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Function, "acos(a) => asin(a); atan(a); cos(a)"),
     (SlipKind::Function, "atan(a) => asin(a); acos(a); tan(a)"),
     (SlipKind::Function, "atan2(a, b) => atan2(b, a)"),
-    // For example a small angle used in place of its sine.
+    // An example is a small angle used in place of its sine.
     (SlipKind::Function, "u => sin(u); cos(u); tan(u); asin(u); atan(u)"),
     (SlipKind::Power, "a^b => a; a^2; a^3; a^4; a^0.5"),
     (SlipKind::Power, "sqrt(a) => a"),

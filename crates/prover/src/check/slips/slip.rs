@@ -27,15 +27,16 @@ linkage::words! {
         Sign = "a sign",
         /// Another branch of a square root or of an inverse function.
         Branch = "another branch",
-        /// Degrees for radians, revolutions per minute, millimetres, and the like.
+        /// A wrong unit, such as degrees in place of radians, revolutions per minute, or millimetres.
         Unit = "a unit",
-        /// Sine for cosine, and the like.
+        /// A wrong function, such as a sine in place of a cosine.
         Function = "another function",
-        /// A square or a root in excess, or missing.
+        /// A square or a root that is missing or superfluous.
         Power = "a power",
-        /// A derivative by the crank angle for one by time.
+        /// A derivative with respect to the crank angle in place of one with respect to time.
         PerRadian = "per radian of the crank in place of per second",
-        /// A derivative by time in place of one by the crank angle, or a power in place of a moment.
+        /// A derivative with respect to time in place of one with respect to the crank angle, or a power in place of a
+        /// moment.
         PerSecond = "per second in place of per radian of the crank",
         /// Another of the names.
         Name = "another quantity",
@@ -43,13 +44,13 @@ linkage::words! {
         Exchanged = "two quantities exchanged",
         /// A term too many.
         Term = "a term too many",
-        /// A reference angle that is a quarter or half a turn off.
+        /// A reference angle that is wrong by a quarter or half a revolution.
         Reference = "another reference angle",
         /// A factor or divisor that is a small number.
         Factor = "a factor",
         /// A product in place of a quotient or of a power.
         Operator = "a product for a quotient",
-        /// Parentheses that are missing, or in another place.
+        /// Parentheses that are missing or at a wrong position.
         Parentheses = "parentheses",
         /// A wrong number, or a wrong value of a parameter.
         Value = "a value",
@@ -76,7 +77,8 @@ pub(in crate::check) struct Mended {
 pub(in crate::check) struct Tried {
     /// Corrections that make the formula right, the simplest first.
     pub(in crate::check) right: Vec<Mended>,
-    /// Among the other corrections, the one with the smallest remainder, if this remainder is small.
+    /// The correction with the smallest remainder among those that do not make the formula right. `None` if no
+    /// remainder is small.
     pub(in crate::check) nearest: Option<Mended>,
     /// How many were tried.
     pub(in crate::check) count: usize,
@@ -95,7 +97,8 @@ impl Tried {
         }
     }
 
-    /// The same if another part has `replaced` a part of the first changed formula, provided that the units allow this.
+    /// As `put`, for a slip in which another part has `replaced` a part of the first changed formula.
+    /// The slip is judged only if the units allow this.
     pub(super) fn put_standing(
         &mut self,
         trial: &mut Trial,

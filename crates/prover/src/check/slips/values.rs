@@ -3,7 +3,7 @@
 //! The right number is calculated instant by instant.
 //! It must be the same at all instants, and must have few digits, like numbers that people write.
 //! If the formula is wrong by a factor or is constant, any of its numbers could be wrong.
-//! Then only a number with confused digits is reported.
+//! A number is then reported only if its digits are confused: exchanged, lost, added or doubled.
 
 use std::collections::BTreeSet;
 
@@ -29,7 +29,7 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
         used.iter().flat_map(|&index| formulas.list[index].tree.names()).map(|(name, _)| name).collect();
     for own in &formulas.parameters {
         let names: Vec<(String, f64)> = own.names().map(|(name, number)| (name.to_string(), number.value)).collect();
-        // If the formula uses both names, the two numbers would have to change together.
+        // A parameter with two names in the formula is skipped, because the two numbers would have to change together.
         let names: Vec<&(String, f64)> = names.iter().filter(|(name, _)| known.contains(name.as_str())).collect();
         let &[(name, number)] = names.as_slice() else { continue };
         let Some(place) = trial.sheet.named(name) else { continue };
@@ -132,7 +132,7 @@ fn is_confused(wrong: f64, right: f64) -> bool {
             && short.len() >= 3
             && (0..long.len()).any(|at| [&long[..at], &long[at + 1..]].concat() == short)
     };
-    // Trailing zeros count as digits here: 106 for 160.
+    // Trailing zeros count as digits, so 106 and 160 have the same digits.
     let length = one.len().max(other.len());
     let padded =
         |digits: &[u8]| -> Vec<u8> { digits.iter().copied().chain(std::iter::repeat(b'0')).take(length).collect() };

@@ -52,12 +52,12 @@ pub struct Explanation<'a> {
 
 /// Smallest number of instants from which terms are sought.
 const FEWEST: usize = 8;
-/// Assumed error of a quantity's values / its largest value.
+/// The values of a quantity are assumed to have an error of this fraction of their largest value.
 const KNOWN: f64 = 1e-10;
 /// If an explanation leaves less than this fraction of the difference at `few`, it is tried at all instants.
 const PROMISING: f64 = 1e-6;
 
-/// Calls `whole` with every explanation by one or two quantities that leaves nothing.
+/// Calls `whole` with every explanation by one or two quantities that leaves no difference.
 /// Ends at the first explanation by a single quantity.
 /// Returns the explanation with the smallest remainder, if any explanation was found.
 pub fn explanations<'a>(
@@ -161,13 +161,13 @@ pub fn bases(course: &KnownTrajectory, wrong: &Wrong) -> Vec<TermBasis> {
     for (channel, values) in course.points() {
         put(&channel.to_string(), channel.kind.unit.symbol(), &|row| values[row]);
     }
-    // A quantity that does not change is equivalent to the constant.
+    // Constant quantities are dropped, because they are equivalent to the constant.
     let changes = |own: &TermBasis| {
         let largest = own.values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()));
         own.text.is_empty() || own.values.iter().any(|value| (value - own.values[0]).abs() > 1e-6 * largest)
     };
     all.retain(changes);
-    // The claim itself and its multiples explain nothing.
+    // The claim itself and its multiples are dropped, because they explain nothing.
     let claimed = ColumnVector::from_column_slice(&wrong.right);
     let is_claim = |own: &TermBasis| {
         let values = ColumnVector::from_column_slice(&own.values);

@@ -63,7 +63,7 @@ impl Chain {
         for (node, change) in self.nodes.iter().zip(changes) {
             let direction = tile.vector(node.body.link + DIRECTION);
             tile.put_vector(node.body.link + DIRECTION, direction - direction.turned() * change);
-            // A sum, not a maximum, so that NaN is kept.
+            // The sum of all changes is tested, not the maximum, because a sum keeps NaN.
             largest = largest + change.abs();
         }
         let (jacobian, _) = self.assembled::<S, N>(tile, work, first);

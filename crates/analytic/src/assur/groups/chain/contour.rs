@@ -28,7 +28,7 @@ pub struct Node {
     /// Index of the parent among the nodes; `None` for a link outside the group.
     pub parent_node: Option<usize>,
     /// Index of the node whose unknown is this link's angle.
-    /// If the link's joint is revolute, it is the node itself; otherwise it is the node of its parent.
+    /// If the link's joint is revolute, this is the link's node; if prismatic, it is the index stored for its parent.
     /// `None` if the rotation of a link outside the group determines the angle.
     pub spin: Option<usize>,
     /// Position of the joint to the parent, on the parent's side.
@@ -205,12 +205,12 @@ impl Contours {
         })
     }
 
-    /// Returns the closing joint with the paths to it over both of its links.
+    /// Returns the closing joint with two paths to it, one through each of its links.
     fn closing(&mut self, found: &Joint, joint: JointId) -> ClosingJoint {
         let mut ways = Vec::new();
         let mut way = |side: JointSide, sign: f64| {
-            // If sliders carry all links, an outer pin also closes a contour. The path to this pin through the link
-            // outside the group is empty.
+            // If prismatic joints already connect all links to the tree, an outer pin also closes a contour. The path
+            // to this pin through the link outside the group is empty.
             let node = self.nodes.iter().position(|node| node.link == side.link);
             let (mut next, mut to) = (node, side);
             while let Some(index) = next {

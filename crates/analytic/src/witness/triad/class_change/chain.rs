@@ -28,13 +28,13 @@ pub(super) struct Chain {
 /// A pose of the chain (m, world axes).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
-    /// Driving lead, foot to head.
+    /// Vector of the driving lead, from foot to head.
     pub(super) driver: Vec2,
-    /// Base link, driver's head to the other head.
+    /// Vector on the base link from the driver's head to the other head.
     pub(super) base: Vec2,
-    /// The other ground lead, foot to head.
+    /// Vector of the other ground lead, from foot to head.
     pub(super) other: Vec2,
-    /// Base link, driver's head to the head of lead 3.
+    /// Vector on the base link from the driver's head to the head of lead 3.
     pub(super) arm: Vec2,
     /// World position of the head of lead 3.
     pub(super) third: Vec2,
@@ -45,14 +45,15 @@ pub(super) struct Place {
 pub(super) struct Slopes {
     pub(super) base: [f64; 2],
     pub(super) other: [f64; 2],
-    /// Head of lead 3 (m).
+    /// First and second derivatives of the position of the head of lead 3 (m).
     pub(super) third: [Vec2; 2],
 }
 
 impl Chain {
     /// Places the first dyad. D is the driver's head, E the other head and G the other foot.
-    /// With d = |DG|, b = |DE| on the base link and the length l of the other lead, the cosine rule gives, as complex
-    /// numbers, E = D + DG (b^2 - l^2 + d^2 +- i sqrt((b + l + d)(b + l - d)(d + b - l)(d - b + l))) / 2 d^2.
+    /// Let d = |DG|, b = |DE| on the base link, and l the length of the other lead.
+    /// The cosine rule gives, as complex numbers, E = D + DG (b^2 - l^2 + d^2 +- i sqrt((b + l + d)(b + l - d)(d + b -
+    /// l)(d - b + l))) / 2 d^2.
     /// The root is four times the area of the triangle by Heron's formula. `None` if the dyad cannot be assembled.
     pub(super) fn place(&self, driver: Vec2) -> Option<Place> {
         let [lead, other] = self.leads;
