@@ -1,4 +1,4 @@
-//! Compiles the shim and links Simbody, which a package of the system provides.
+//! Compiles the shim and links the Simbody library. Simbody comes from a package of the operating system.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -9,12 +9,12 @@ fn main() {
     for file in ["src/shim.cpp", "src/shim.h"] {
         println!("cargo::rerun-if-changed={file}");
     }
-    // docs.rs has no Simbody, and the documentation does not need the library.
+    // On docs.rs Simbody is not installed. The documentation is built without the library, so nothing is compiled here.
     if env::var_os("DOCS_RS").is_some() {
         return;
     }
-    // The first candidate is the variable that Simbody's build files read. The others are the prefixes of Debian and of
-    // a build from source.
+    // If `SIMBODY_HOME` is set, it is the only candidate. Simbody's build files read the same variable.
+    // Otherwise the candidates are the prefixes of Debian and of a build from source.
     let home = env::var_os("SIMBODY_HOME").map(PathBuf::from);
     let prefixes: Vec<PathBuf> = match &home {
         Some(home) => vec![home.clone()],
@@ -34,12 +34,13 @@ fn main() {
         .cpp(true)
         .std("c++11")
         .file("src/shim.cpp")
-        // Simbody's headers cause compiler warnings. Included as system headers, they cause none.
+        // Simbody's headers are included as system headers, because they would otherwise cause compiler warnings.
         .flag("-isystem")
         .flag(headers(prefix))
         .warnings_into_errors(false)
         .extra_warnings(true)
-        // Simbody's library was built with this definition. Its headers contain assertions, so this build must match.
+        // Simbody's headers contain assertions that depend on `NDEBUG`. Simbody's library was built with `NDEBUG`, so
+        // this build must match.
         .define("NDEBUG", None)
         .compile("linkproof_simbody_shim");
     if home.is_some() {

@@ -1,4 +1,4 @@
-//! Accuracy of a column from its printed digits: the distance of its numbers from the numbers before printing.
+//! Uncertainty of the numbers in a column. It is estimated from the printed digits, because printing rounds numbers.
 
 use crate::instants::chosen;
 use formula::Rounded;
@@ -13,7 +13,8 @@ pub struct TableCell {
     decimals: i32,
     /// Number of digits, counted from the first nonzero digit.
     significant: u16,
-    /// The same, but without the trailing zeros of a whole number. These zeros may replace digits lost in rounding.
+    /// The same number of digits, but without the trailing zeros of a whole number.
+    /// These zeros may replace digits lost in rounding.
     telling: u16,
     is_missing: bool,
 }
@@ -21,7 +22,7 @@ pub struct TableCell {
 /// Value of an empty cell. Nothing was measured, so the cell states no number.
 pub const MISSING: Rounded = Rounded::exact(f64::NAN);
 
-/// Value of a cell in which a program wrote NaN or infinity.
+/// Value of an empty cell, in which nothing was measured.
 pub const UNDEFINED: Rounded = Rounded { value: f64::NAN, error: f64::INFINITY };
 
 /// Words that mean an empty cell.
@@ -41,7 +42,8 @@ impl TableCell {
     #[must_use]
     pub fn parse(text: &str) -> Option<TableCell> {
         let Some(decimal) = TableCell::decimal(text) else { return TableCell::word(text) };
-        // Python appends `.0` to whole numbers, regardless of their number of digits.
+        // A final `.0` is removed before the digits are counted. Python appends it to whole numbers, regardless of
+        // their number of digits.
         Some(text.strip_suffix(".0").and_then(TableCell::decimal).unwrap_or(decimal))
     }
 
@@ -99,7 +101,7 @@ impl TableCell {
     }
 
     /// The same number with the trailing zeros that its format left out.
-    /// Zeros are added up to `decimals` decimals, but to at most `significant` significant digits.
+    /// Zeros are added until the cell has `decimals` decimals or `significant` significant digits.
     pub(crate) fn with_zeros(mut self, decimals: i32, significant: u16) -> TableCell {
         let mut zeros = decimals.saturating_sub(self.decimals).max(0);
         if self.has_digits() {
@@ -121,16 +123,18 @@ impl TableCell {
 ///
 /// A column is printed with a fixed number of decimals or of significant digits, and programs omit trailing zeros.
 /// The cell with the most decimals or digits shows that fixed number.
-/// Both formats are tried, and the larger half unit of the last place counts. It is that of the actual format:
-/// with fixed decimals the largest number has most significant digits, with fixed significant digits the smallest
-/// number has most decimals.
+/// The uncertainty is half a unit of the last printed place. It is computed for both formats, and the larger value
+/// counts.
+/// The larger value is always that of the actual format:
+/// With fixed decimals, the largest number has most significant digits.
+/// With fixed significant digits, the smallest number has most decimals.
 ///
 /// Several whole numbers may have more digits than all other cells only because of trailing zeros.
-/// These zeros then count as rounded-off digits, unless all numbers are multiples of a chosen step.
+/// These zeros then count as digits lost in rounding, unless all numbers are multiples of a chosen step.
 ///
 /// Numbers in single precision are printed with up to nine digits but have fewer significant ones.
 /// The shortest text for such a number may lie half way to the neighbouring number.
-/// It is therefore converted to single precision again.
+/// Such a number is therefore converted to single precision again.
 #[must_use]
 pub fn numbers(cells: &[TableCell]) -> Vec<Rounded> {
     numbers_as(cells, Precision::of(cells))
@@ -152,7 +156,7 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
                 0 => -decimals,
                 _ => (-decimals).max(cell.first_place() + 1 - significant),
             };
-            // Converting the decimal to binary rounds once more. The margin covers only that rounding error.
+            // Converting the decimal to binary rounds the number once more. The margin 1e-9 covers this small error.
             let half = 0.5 * 10f64.powi(place) * (1.0 + 1e-9);
             let value = if is_single { f64::from(cell.value as f32) } else { cell.value };
             Rounded { value, error: half.larger(binary * value.abs()) }
@@ -164,12 +168,12 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
     if are_rounded && !chosen(&found) { with(telling) } else { found }
 }
 
-/// If at least this many whole numbers have trailing zeros, chance is an unlikely cause. One whole number in ten ends
-/// with zero.
+/// If trailing zeros occur in at least this many whole numbers, chance is an unlikely cause.
+/// By chance, one whole number in ten ends with zero.
 const FEW: usize = 2;
 
-/// Single precision is considered only if at least this many cells have eight or more digits.
-/// Each cell must be the shortest text of a number in single precision.
+/// A column counts as single precision only if at least this many cells have eight or more digits.
+/// In addition, each cell must be the shortest text of a number in single precision.
 /// By chance, about one in eight decimal numbers with eight digits is such a text.
 const TELLING: usize = 8;
 
@@ -206,7 +210,7 @@ mod tests {
     fn a_number_has_the_digits_of_its_column() {
         for (cells, halves) in [
             (["1", "1.25"], [0.005, 0.005]),
-            // 2 may have only one significant digit, as .5 has.
+            // The number 2 may have only one significant digit, because .5 has only one.
             ([".5", "2."], [0.05, 0.5]),
             // Printed by %g with an exponent: a fixed number of significant digits.
             (["1e3", "1.25e3"], [5.0, 5.0]),
@@ -221,7 +225,8 @@ mod tests {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);
             }
         }
-        // Three significant digits, as Python prints rounded numbers and as other programs print them.
+        // Three significant digits. Python prints these rounded numbers with `.0`, other programs print them without
+        // it.
         for cells in [["-2450.0", "1260.0", "301.0", "0.354"], ["2450", "1260", "301", "0.354"]] {
             for (error, half) in errors(&cells).iter().zip([5.0, 5.0, 0.5, 0.0005]) {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);

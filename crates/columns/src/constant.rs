@@ -8,17 +8,17 @@ use formula::Rounded;
 const SINGLE: u16 = 7;
 
 /// The numbers of a column of a file, each with the uncertainty left by its printed digits.
-/// The result is that of [`numbers`], except for a column of zeros. For zeros the `others`, the other columns of the
-/// file, also count.
+/// The result is that of [`numbers`], except for a column of zeros.
+/// For a column of zeros, `others` gives the other columns of the file, which also count.
 ///
 /// A constant column does not show its format.
 /// `0` printed by `%g`, Python and similar formats is an exact zero. Printed by `%.0f` it may be anything below a half.
-/// A file usually has one format. If the format omits trailing zeros, the cells of other columns differ in decimals and
-/// in significant digits.
-/// If all other columns differ in this way, the constant has at least the decimals and digits of the coarsest of them.
-/// A column with a fixed number of decimals, as from `%.6f`, shows that each column may have a separate format.
-/// So does a column of whole numbers that are not steps.
-/// A constant may then be rounded to its format.
+/// A file usually has one format. If the format omits trailing zeros, the cells of another column differ in their
+/// decimals and in their significant digits.
+/// If the cells of all other columns differ in this way, the constant has at least the decimals and digits of the
+/// coarsest of these columns.
+/// Two kinds of columns show that each column may have a separate format. A constant may then be rounded to its format.
+/// One kind has a fixed number of decimals, as from `%.6f`. The other kind contains whole numbers that are not steps.
 #[must_use]
 pub fn numbers_beside<Others>(cells: &[TableCell], others: impl FnOnce() -> Others) -> Vec<Rounded>
 where
@@ -33,7 +33,8 @@ where
     }
 }
 
-/// Evidence from other columns: their smallest numbers of decimals and digits, and their coarsest precision.
+/// Evidence from other columns: the smallest number of decimals, the smallest number of digits, and the coarsest
+/// precision of any of them.
 #[derive(Clone, Copy)]
 struct Vouched {
     decimals: i32,
@@ -70,8 +71,8 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouche
     coarsest
 }
 
-/// Whether all numbers of a column are zero.
-/// In a format with significant digits a zero is exact, even with few digits.
+/// Whether all numbers of a column are zero. Only for zeros do the other columns count.
+/// The reason is that, in a format with significant digits, a zero is exact even with few digits.
 /// Any other constant may have been rounded to fewer digits than the other columns have.
 fn is_zero(cells: &[TableCell]) -> bool {
     is_constant(cells) && cells.iter().any(|cell| cell.value() == 0.0)
@@ -116,8 +117,8 @@ mod tests {
         for zero in [["0", "0", "-0"], ["0.0", "0.0", "0"]] {
             approx::assert_relative_eq!(error(&zero, &[STEPS, GENERAL, FORCES]), 5e-6, max_relative = 1e-6);
         }
-        // A constant other than zero may have had more digits: with three digits, 13.6 and 1.36e1 may both have been
-        // 13.63.
+        // For a constant other than zero the other columns do not count.
+        // With three digits, 13.6 and 1.36e1 may both have been 13.63.
         approx::assert_relative_eq!(error(&["13.6", "13.6", ""], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
         approx::assert_relative_eq!(error(&["1.36e1", "1.36e1"], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
         let three: &[&str] = &["0.123", "1.5", "12.3"];
@@ -126,7 +127,8 @@ mod tests {
 
     #[test]
     fn a_constant_in_a_different_format_may_be_rounded() {
-        // Columns with fixed decimals, with an exponent, and with neither. Steps and other constants give no evidence.
+        // Columns with fixed decimals, columns with an exponent, and columns of whole numbers.
+        // Steps and other constants give no evidence.
         for fixed in [["0.125000", "1.500000", "12.345679"], ["1.25e-1", "1.50e0", "1.23e1"], ["2450", "-13", "301"]] {
             approx::assert_relative_eq!(error(&["0", "0", "0"], &[GENERAL, &fixed]), 0.5, max_relative = 1e-6);
         }
@@ -135,7 +137,7 @@ mod tests {
             0.5,
             max_relative = 1e-6
         );
-        // A column with different numbers shows its digits itself.
+        // A column whose numbers differ shows its format without the other columns.
         approx::assert_relative_eq!(error(&["0", "1", "0"], &[GENERAL, FORCES]), 0.5, max_relative = 1e-6);
     }
 }

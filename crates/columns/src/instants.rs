@@ -3,22 +3,24 @@
 use formula::Rounded;
 use linkage::math::KeepNan;
 
-/// Instants count as exact if the probability of their pattern by chance is at most one in this number.
+/// If a pattern of instants has by chance at most a probability of one in this number, the instants count as exact.
 /// A step that was not chosen looks constant over n steps with the probability 2 / n.
-/// Each trailing zero of a step has the probability 1 / 10.
+/// A step ends with a zero by chance with the probability 1 / 10, for each zero.
 const EVIDENCE: f64 = 50.0;
 
 /// Whether instants were chosen as printed, not rounded.
-/// They must be multiples of one step. There must be so many multiples, or so round a step, that no other step would
-/// give the same printed instants.
+/// They must be multiples of one step.
+/// In addition, the number of multiples or the roundness of the step must show that no other step gives the same
+/// printed instants.
 #[must_use]
 pub fn chosen(values: &[Rounded]) -> bool {
     chosen_as(values, Sort::Any)
 }
 
-/// The same for instants in degrees.
+/// Whether instants in degrees were chosen as printed, not rounded.
 /// Whole degrees at equal steps always count as chosen.
-/// At unequal steps they must have a common divisor that whole numbers rarely share, as 0, 30, 45, 60, 90 have.
+/// At unequal steps they must have a common divisor that whole numbers rarely have by chance. An example is 0, 30, 45,
+/// 60, 90.
 #[must_use]
 pub fn degrees_chosen(values: &[Rounded]) -> bool {
     let are_whole = values.iter().all(|at| at.value.fract() == 0.0);
@@ -50,8 +52,8 @@ fn is_multiple(value: f64, of: f64) -> bool {
     (value / of - (value / of).round()).abs() <= 1e-6 * (value / of).abs()
 }
 
-/// Evidence from multiples of a step of `round` units. It is their number, multiplied by every factor two or five of
-/// the step.
+/// Evidence that a step was chosen, for a step of `round` units.
+/// It is the number of multiples, multiplied by every factor two or five of the step.
 fn evidence(multiples: f64, mut round: f64) -> f64 {
     let mut evidence = if multiples < 1.0 { 1.0 } else { multiples };
     // Larger doubles are no longer reliable whole numbers.
@@ -66,12 +68,13 @@ fn evidence(multiples: f64, mut round: f64) -> f64 {
     evidence
 }
 
-/// Upper limit of the number of rows that count as independent for a common divisor.
-/// Rows of one hidden step depend on each other.
+/// Upper limit of the number of rows that count as independent in the search for a common divisor.
+/// The limit is needed because rows with one hidden step are not independent.
 const INDEPENDENT: i32 = 3;
 
-/// The same for unequal steps. A round common divisor, such as trailing zeros in all rows, is evidence.
-/// n independent whole degrees share a divisor d only with the probability 1 / d^n.
+/// Whether instants at unequal steps are multiples of a chosen step.
+/// A round common divisor, such as trailing zeros in all rows, is evidence.
+/// n independent whole degrees have a common divisor d by chance only with the probability 1 / d^n.
 fn are_multiples(values: &[Rounded], unit: f64, sort: Sort) -> bool {
     let (mut divisor, mut count) = (0u64, 0i32);
     for at in values.iter().filter(|at| at.value != 0.0) {
@@ -99,12 +102,13 @@ fn common(mut one: u64, mut other: u64) -> u64 {
     one
 }
 
-/// Margin for the slope. Near an inflection a curve is steeper than both secants: by a ninth with eight rows per
-/// period.
+/// Safety factor for the slope. Near an inflection a curve is steeper than the two secants next to a row.
+/// With eight rows per period it is steeper by a ninth.
 const STEEPER: f64 = 1.2;
 
 /// Uncertainty that rounded instants cause in a column, from the slope of the column.
-/// For each row it is the slope of the steeper neighbouring secant times `slack`, the uncertainty of the row's instant.
+/// For each row it is the slope of the steeper of the two neighbouring secants times the uncertainty of the row's
+/// instant, `slack`.
 /// `order` lists the rows in ascending order of the instants `at`. Angles may jump by a `turn`.
 #[must_use]
 pub fn drift(values: &[Rounded], at: &[f64], slack: &[f64], order: &[usize], turn: Option<f64>) -> Vec<f64> {
@@ -137,7 +141,8 @@ mod tests {
             (361, &(|row: f64| format!("{}", (row * 10.0).round() / 1e3)) as &dyn Fn(f64) -> String, true),
             (4, &|row| format!("{:.6}", 0.01 * row), true),
             (100, &|row| format!("{row}"), true),
-            // A step of 2.777... ms: the rounded instants of three rows look equally spaced.
+            // The step is 2.777... ms. After rounding, the instants of three rows look equally spaced although they
+            // were not chosen.
             (3, &|row| format!("{:.0}", 2.7777 * row), false),
             (9, &|row| format!("{:.6}", row / 780.0), false),
             (73, &|row| format!("{:.6}", row / 780.0), false),
@@ -152,26 +157,27 @@ mod tests {
         assert!(degrees_chosen(&of(&["70".into()])));
         assert!(degrees_chosen(&of(&list(4, &|row| format!("{}", 15.0 * row)))));
         assert!(!degrees_chosen(&of(&["0".into(), "2".into(), "3".into(), "5".into()])));
-        // Fractions of degrees are no more evidence than fractions of seconds.
+        // The rule for whole degrees does not apply to fractions of degrees.
         assert!(!degrees_chosen(&of(&["0".into(), "2.7".into(), "5.4".into()])));
         let (degrees, any) = (degrees_chosen as fn(&[Rounded]) -> bool, chosen as fn(&[Rounded]) -> bool);
         for (texts, chosen, expected) in [
-            // Degrees as in printed tables. A program may also have rounded them.
+            // Whole degrees as in printed tables count as chosen. The same numbers in another unit may be rounded.
             (["0", "30", "45", "60", "90"], degrees, true),
             (["0", "30", "45", "60", "90"], any, false),
             (["0", "3", "5", "8", "10"], degrees, false),
-            // Degrees with trailing zeros, which are evidence.
+            // The trailing zeros of these degrees show that they were chosen.
             (["0.000", "17.000", "46.000", "63.000", "90.000"], degrees, true),
             (["0.000", "0.200", "0.500", "0.600", "1.000"], any, true),
             (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], any, false),
-            // The hidden step looks even by chance.
+            // These instants have a hidden step that was not chosen. By chance they look equally spaced.
             (["2.068378", "9.362942", "16.657506", "23.952070", "31.246634"], degrees, false),
         ] {
             assert_eq!(chosen(&of(&texts.map(Into::into))), expected, "{texts:?}");
         }
     }
 
-    /// Rows in descending order. At the jump by a turn, the angle actually changes by 0.2.
+    /// Rows in descending order of their instants. The value jumps by a whole turn of 6.2, so its actual change is only
+    /// 0.2.
     #[test]
     fn drift_follows_the_slope_of_the_column() {
         let values: Vec<Rounded> = [0.5, 0.3, 6.3, 6.1].map(Rounded::exact).to_vec();

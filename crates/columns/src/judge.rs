@@ -33,7 +33,7 @@ impl RowPair {
     }
 }
 
-/// A difference that is allowed in addition to the known part of the bound. The larger of two values counts.
+/// A difference that is allowed in addition to the known part of the bound. The larger of the two fields counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Allowance {
     /// Allowance that is the same in every row, in the unit of the columns.
@@ -51,7 +51,7 @@ pub struct Beside<'a> {
     pub places: [&'a [f64]; 2],
     /// Uncertainty caused by the digits of the instants, row by row; empty if there is none.
     pub drift: &'a [f64],
-    /// Difference between values that mean the same, such as a whole turn.
+    /// Period of a quantity for which values that differ by a multiple of it mean the same, such as a whole turn.
     pub turn: Option<f64>,
     /// What is allowed.
     pub allowance: Allowance,
@@ -84,22 +84,22 @@ pub struct JudgedColumns {
     pub judged: usize,
     /// Number of rows without a measurement, or in which no number is expected.
     pub missing: usize,
-    /// Root mean square of the differences between numbers.
+    /// Root mean square of the differences, over all rows in which both values are numbers.
     pub rms: f64,
     /// The largest known part of a bound.
     pub widest: f64,
     /// The widest bound.
     pub loosest: f64,
-    /// The largest difference between numbers.
+    /// The row with the largest difference, among rows in which both values are numbers.
     pub largest: Option<RowPair>,
     /// The row whose difference is the largest fraction of its bound.
     pub worst: Option<RowPair>,
-    /// The row with the earliest instant of those beyond their bounds.
+    /// Of all rows whose difference exceeds its bound, the row with the earliest instant.
     pub since: Option<RowPair>,
 }
 
 /// Compares the columns row by row.
-/// If one value is a number and the other a computed NaN, they differ. Such a NaN exceeds every bound.
+/// If one value is a number and the other is a computed NaN, the row exceeds its bound.
 #[must_use]
 pub fn judge(both: &Beside) -> JudgedColumns {
     let Beside { values, places, drift, turn, allowance, measure } = *both;
@@ -172,7 +172,7 @@ mod tests {
             assert_eq!((largest.row, largest.difference, largest.bound), (2, -4.0, 3.0));
             // The NaN is the worst row. It has the earliest instant, so it is also the first row beyond its bound.
             assert_eq!([found.worst, found.since].map(|own| own.unwrap().row), [4, 4]);
-            // The second party is the reference; its numbers differ from those of the first.
+            // The second party is now the reference. The bound therefore depends on its number, 26.
             let by_other = judge(&Beside { measure: ScaleColumn { party: 1, is_analytic: false }, ..both });
             assert_eq!(by_other.largest.unwrap().bound, 0.1 * 26.0);
             // With a turn of 5, a difference of 4 becomes -1.
@@ -192,7 +192,7 @@ mod tests {
         let found = of(UNDEFINED);
         assert_eq!((found.judged, found.missing, found.since.map(|at| at.row)), (4, 0, Some(1)));
         assert!(found.largest.unwrap().difference == 0.0 && found.worst.unwrap().used().is_infinite());
-        // If the analytic side has no number, no number is expected.
+        // The analytic side has no number in this row. A number of the other side is then not an error.
         let found = judged(&[right[0], UNDEFINED], &right[..2], [true, false]);
         assert_eq!((found.judged, found.missing, found.since), (1, 1, None));
         // Neither column is analytic, and only one of them has a number.

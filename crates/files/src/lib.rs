@@ -1,7 +1,8 @@
 //! Writes files completely or not at all.
 //! An existing file is replaced only if the caller named it or this program wrote it.
 //!
-//! The content goes to a new, locked temporary file in the same directory, which then replaces the file.
+//! The content is first written to a new, locked temporary file in the same directory.
+//! When it is complete, the temporary file replaces the target.
 //! A run that fails or is killed therefore leaves an older file unchanged.
 //! If two runs write to one path, their contents do not mix.
 
@@ -26,8 +27,8 @@ use temporary::{clear, create, directory_of};
 /// `/dev/stdout`. The content is then written to that path directly.
 ///
 /// # Errors
-/// Those of `fill` and of the file system; [`io::ErrorKind::AlreadyExists`] if an existing file may not be replaced.
-/// The existing file is then unchanged.
+/// The errors of `fill` and of the file system.
+/// [`io::ErrorKind::AlreadyExists`] if an existing file may not be replaced. This file then stays unchanged.
 pub fn replace<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&File) -> Result<(), E>) -> Result<(), E> {
     let (place, old) = match target.place()? {
         Place::Open(path) => return fill(&File::options().write(true).open(path)?),
@@ -41,7 +42,7 @@ pub fn replace<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&Fil
     }
     fill(temporary.as_file())?;
     temporary.as_file().sync_all()?;
-    // The same rule applies to a file that has appeared since the first check.
+    // The rule is checked again, because the file may have appeared since the first check.
     target.place()?;
     temporary.persist(&place).map_err(|error| error.error)?;
     Ok(())

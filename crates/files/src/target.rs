@@ -1,4 +1,5 @@
-//! Paths to which files may be written, files that may be replaced, and the errors if this is not allowed.
+//! Decides to which paths files may be written and which files may be replaced. Describes the errors if this is not
+//! allowed.
 
 use crate::sentences;
 use std::fs::{self, File};
@@ -10,7 +11,7 @@ use linkage::error::{Error, ErrorKind};
 
 /// Upper limit of the number of symbolic links followed from a name to its file.
 const LINKS: usize = 40;
-/// Number of bytes of an older file that are read at most.
+/// Upper limit of the number of bytes that are read from an older file.
 const SEEN: u64 = 64 << 20;
 
 /// A file to be written, with the rule for replacing an existing file. Only this type implements the rule.
@@ -36,7 +37,8 @@ impl OutputTarget<'_> {
     /// Returns the destination of the content.
     ///
     /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`] if an existing file may not be replaced, and those of the file system.
+    /// [`io::ErrorKind::AlreadyExists`] if an existing file may not be replaced.
+    /// The errors of the file system are passed on.
     pub(super) fn place(&self) -> io::Result<Place> {
         match *self {
             OutputTarget::Named(path) => {
@@ -69,7 +71,7 @@ impl OutputTarget<'_> {
         }
     }
 
-    /// The reason why the target may not be written, if an existing file may not be replaced.
+    /// If an existing file may not be replaced, the reason in words; otherwise `None`.
     pub fn in_the_way(&self) -> Option<String> {
         self.place().err().filter(|error| error.kind() == io::ErrorKind::AlreadyExists).map(|error| error.to_string())
     }
@@ -87,7 +89,7 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
     for _ in 0..LINKS {
         match fs::read_link(&place) {
             Ok(next) => place = directory_of(&place).join(next),
-            // The first path that is not a symbolic link is the result.
+            // `place` is not a symbolic link, so it is the result.
             Err(_) => return Ok(place),
         }
     }
@@ -120,7 +122,7 @@ pub fn may_write(path: &Path) -> Result<(), String> {
     }
 }
 
-/// The same test for a directory that is created together with its parents.
+/// Tests whether files can be written in a directory. The directory and its parents need not exist yet.
 ///
 /// # Errors
 /// The obstacle, in words.
@@ -156,8 +158,8 @@ fn why(error: &io::Error) -> String {
 
 /// The error of an output that could not be written.
 /// `what` names the output. `needs` is its size in bytes, if known.
-/// `usual` is the remedy, except for three causes with special remedies: missing space, an existing file and a size
-/// limit.
+/// The remedy is `usual`, except for three causes: missing space, an existing file and a size limit.
+/// These causes have special remedies.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
 pub fn unwritten(what: &str, error: &io::Error, needs: Option<u64>, usual: &str) -> Error {
     let way_out = match error.kind() {

@@ -30,7 +30,7 @@ pub(super) fn directory_of(path: &Path) -> &Path {
     path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."))
 }
 
-/// Creates a temporary file that is locked as long as it is open.
+/// Creates a temporary file. It stays locked until it is closed.
 pub(super) fn create(directory: &Path) -> io::Result<NamedTempFile> {
     loop {
         let own = name();
@@ -39,21 +39,23 @@ pub(super) fn create(directory: &Path) -> io::Result<NamedTempFile> {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let temporary = builder.tempfile_in(directory)?;
-        // On a file system without locks, locking fails, but stale files are not removed either.
+        // On a file system without locks this call fails. The failure is harmless, because `clear` then removes no
+        // files.
         let _ = temporary.as_file().lock();
-        // Before the lock, another run may have taken the file for a stale one and removed it.
+        // Another run may have removed the file before it was locked, because it looked stale. A new file is then
+        // created.
         if temporary.path().exists() {
             return Ok(temporary);
         }
     }
 }
 
-/// Removes the temporary files of killed runs, recognised by their free locks.
+/// Removes the temporary files of killed runs. Nobody holds the lock of such a file.
 pub(super) fn clear(directory: &Path) {
     let Ok(entries) = fs::read_dir(directory) else { return };
     let is_temporary = |path: &PathBuf| path.file_name().and_then(|name| name.to_str()).is_some_and(is_own);
     for path in entries.flatten().map(|entry| entry.path()).filter(is_temporary) {
-        // A symbolic link is not a temporary file, and it is not followed.
+        // A symbolic link is skipped and not followed, because it cannot be a temporary file of this program.
         if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_file()) {
             continue;
         }

@@ -65,7 +65,7 @@ pub fn text_from(from: impl Read) -> io::Result<String> {
 /// The file must be regular, because reading any other kind, such as a terminal, might never end.
 ///
 /// # Errors
-/// Those of [`read_text`]; also if the file is not regular.
+/// The errors of [`read_text`], or an error if the file is not regular.
 pub fn read_named(path: &Path) -> io::Result<String> {
     if fs::metadata(path)?.is_file() {
         read_text(path)
@@ -115,7 +115,8 @@ fn decoded(bytes: Vec<u8>) -> Result<String, Encoding> {
     match bytes.as_slice() {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => return Err(other("UTF-32")),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return Err(other("UTF-16")),
-        // There is no byte order mark: every other byte of ASCII text in this encoding is zero.
+        // UTF-16 without byte order mark is recognised by its zeros: every other byte of ASCII text is zero in this
+        // encoding.
         [first, 0, second, 0, ..] if *first != 0 && *second != 0 => return Err(other("UTF-16LE")),
         [0, first, 0, second, ..] if *first != 0 && *second != 0 => return Err(other("UTF-16BE")),
         _ => {}

@@ -7,8 +7,8 @@ use crate::tree::Operator::{Minus, Over, Plus, Power, Times};
 impl FormulaGraph {
     /// The derivative of a node with respect to an input.
     pub fn derivative(&mut self, of: NodeId, input: usize) -> NodeId {
-        // Arguments precede the nodes that use them, so the derivatives of arguments exist before that of the node
-        // itself.
+        // The nodes are visited in an order in which arguments precede the nodes that use them.
+        // The derivatives of the arguments therefore exist before that of the node itself.
         for id in self.needed_but(&[of], &|id| self.derivatives.contains_key(&(id, input))) {
             let found = self.rule(id, input);
             self.derivatives.insert((id, input), found);
@@ -46,7 +46,7 @@ impl FormulaGraph {
                         let (first, second) = (self.pair(Times, a, right), self.pair(Times, left, b));
                         self.pair(Plus, first, second)
                     }
-                    // (a - q b) / r: the quotient q = l / r is the node itself and already exists.
+                    // The derivative is (a - q b) / r. The quotient q = l / r is the node itself, so it already exists.
                     Over => {
                         let taken = self.pair(Times, id, b);
                         let above = self.pair(Minus, a, taken);
@@ -138,7 +138,8 @@ impl FormulaGraph {
         }
     }
 
-    /// Zero, but undefined if `x` is zero, because the function has no derivative at a kink or a jump.
+    /// A node that is zero, but undefined if `x` is zero.
+    /// It makes a derivative undefined at a kink or a jump at `x` = 0.
     fn but_at_zero(&mut self, x: NodeId) -> NodeId {
         let zero = self.whole(0.0);
         self.put(Node::Pair(Over, zero, x))

@@ -11,7 +11,7 @@ use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub(crate) u32);
 
-/// Operation of a node. Its arguments precede it. `P` is the type of their positions.
+/// Operation of a node. Its arguments are stored before it. `P` is the type that refers to an argument.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Node<P = NodeId> {
     Input(usize),
@@ -22,7 +22,7 @@ pub(crate) enum Node<P = NodeId> {
 }
 
 impl<P: Copy> Node<P> {
-    /// The same operation with its positions changed by `to`.
+    /// The same operation, with each reference to an argument changed by `to`.
     pub(crate) fn map<Q>(self, to: impl Fn(P) -> Q) -> Node<Q> {
         match self {
             Node::Input(input) => Node::Input(input),
@@ -33,7 +33,7 @@ impl<P: Copy> Node<P> {
         }
     }
 
-    /// Positions of the arguments; a single argument is given twice.
+    /// References to the arguments. If there is only one argument, it is given twice.
     pub(crate) fn parts(self) -> Option<[P; 2]> {
         match self {
             Node::Input(_) | Node::Number(_) => None,
@@ -147,7 +147,8 @@ impl FormulaGraph {
     /// The same as [`FormulaGraph::add`], for a formula that must have a value.
     ///
     /// # Errors
-    /// Those of [`FormulaGraph::add`], and an operation on constants outside its domain, with its position.
+    /// The errors of [`FormulaGraph::add`].
+    /// Also an operation on constants outside its domain, with the position of the operation.
     pub fn add_defined(&mut self, tree: &FormulaTree) -> Result<NodeId, FormulaFault> {
         self.added(tree, true)
     }
@@ -169,7 +170,7 @@ impl FormulaGraph {
         Ok(lower.expect("a tree is one of its parts"))
     }
 
-    /// The nodes of the arguments of a part other than a pair.
+    /// The nodes of the arguments of a tree. If there is only one argument, its node is given twice.
     fn parts(&mut self, tree: &FormulaTree, must_be_defined: bool) -> Result<[Option<NodeId>; 2], FormulaFault> {
         let mut part = |index: usize| tree.parts().get(index).map(|part| self.added(part, must_be_defined)).transpose();
         let first = part(0)?;
@@ -183,12 +184,15 @@ impl FormulaGraph {
             (NodeShape::Negative(_), [Some(part), _]) => self.negative(part),
             (NodeShape::Pair(operator, _), [Some(left), Some(right)]) => {
                 match (operator, self.exact(left), self.exact(right)) {
-                    // A node minus itself is exactly zero even if the node has an error, unless the node is undefined.
+                    // A node minus itself is exactly zero, even if the node has an error. If the node is undefined, so
+                    // is the result.
+                    // The difference is therefore stored as 0 times the node.
                     (Operator::Minus, ..) if left == right => {
                         let zero = self.whole(0.0);
                         self.put(Node::Pair(Operator::Times, zero, left))
                     }
-                    // The zero factor stays in the graph, because the other part may be outside a domain.
+                    // The operation with zero stays in the graph unsimplified. The other part may be outside a domain,
+                    // which would be lost.
                     (Operator::Times | Operator::Over, Some(0.0), _)
                     | (Operator::Times | Operator::Power, _, Some(0.0)) => self.put(Node::Pair(*operator, left, right)),
                     _ => self.pair(*operator, left, right),
@@ -223,7 +227,7 @@ impl FormulaGraph {
         self.needed_but(nodes, &|_| false)
     }
 
-    /// The same, but without the nodes that are done, and without nodes that only done nodes need.
+    /// All nodes on which these nodes depend, except the nodes that are done and the nodes that only done nodes need.
     /// Common parts of formulas are then visited once.
     pub(crate) fn needed_but(&self, nodes: &[NodeId], is_done: &dyn Fn(NodeId) -> bool) -> Vec<NodeId> {
         let mut needed: BTreeSet<NodeId> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();
@@ -232,7 +236,7 @@ impl FormulaGraph {
             let Some(parts) = self.node(id).parts() else { continue };
             next.extend(parts.into_iter().filter(|part| !is_done(*part) && needed.insert(*part)));
         }
-        // Arguments precede the nodes that use them.
+        // The set is sorted by number, so arguments precede the nodes that use them.
         needed.into_iter().collect()
     }
 
@@ -292,8 +296,9 @@ impl FormulaGraph {
         }
     }
 
-    /// A pair, simplified for the zeros and ones that derivatives produce.
-    /// A dropped factor already exists as a node, and its domain is checked at that node.
+    /// A pair of operands, simplified for the zeros and ones that derivatives produce.
+    /// If a factor is dropped, no domain error is lost: the factor's node exists elsewhere, where its domain is
+    /// checked.
     pub(crate) fn pair(&mut self, operator: Operator, left: NodeId, right: NodeId) -> NodeId {
         let (a, b) = (self.exact(left), self.exact(right));
         match (operator, a, b) {

@@ -154,7 +154,7 @@ fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMod
 }
 
 fn negative(part: FormulaTree) -> FormulaTree {
-    // The minus is directly before the part, apart from spaces.
+    // The minus is directly before the part, except for spaces between the two.
     let at = part.at.start.saturating_sub(1)..part.at.end;
     FormulaTree { shape: NodeShape::Negative(Box::new(part)), at }
 }
@@ -207,7 +207,7 @@ fn operand(input: &mut Input<'_>) -> Read<FormulaTree> {
         None => {
             refused(sentences::THE_FORMULA_ENDS_WHERE_A_PART, start..start, sentences::ADD_A_NUMBER_A_NAME_OR_A_CALL)
         }
-        // A minus or plus sign before a part.
+        // No operand begins here. The parser then tries the alternative of a minus or plus sign before a part.
         Some('-' | '+') => none(),
         Some(sign @ (')' | ',' | '=' | '*' | '/' | '^')) => refused(
             sentences::a_part_is_missing_before(&sign),

@@ -16,7 +16,7 @@ pub struct Product {
     pub value: f64,
     /// Whether it is negative.
     pub is_negative: bool,
-    /// Complexity: a quantity counts 2, the square of a quantity 3.
+    /// Complexity of the product. A quantity adds 2, the square of a quantity adds 3.
     pub weight: usize,
     /// The number.
     pub number: f64,
@@ -82,7 +82,7 @@ fn put(quantities: &[(f64, Dimension)], next: usize, chosen: &mut Vec<(u8, i8)>,
         let own = quantities[usize::from(index)].1?;
         Some([0, 1, 2].map(|axis: usize| sum[axis] + f64::from(power) * own[axis]))
     });
-    // The square of one quantity is simpler than a product of two.
+    // The square of one quantity has a smaller weight than a product of two quantities.
     let weight: usize = chosen.iter().map(|(_, power)| 1 + usize::from(power.unsigned_abs())).sum();
     for (number, more) in NUMBERS {
         let (value, is_negative) = (number * value.abs(), value < 0.0);
@@ -100,8 +100,8 @@ fn put(quantities: &[(f64, Dimension)], next: usize, chosen: &mut Vec<(u8, i8)>,
     }
 }
 
-/// Bits of information in a number that is known to a relative accuracy, such as 3 for a sixtieth and 13 for 1.4715.
-/// If a number is not round and not a simple fraction, not even of pi, it has as many bits as the accuracy.
+/// Information (bits) in a number that is known to a relative accuracy. Examples: 3 for a sixtieth, 13 for 1.4715.
+/// A round number or a simple fraction, also of pi, has few bits. Any other number has as many bits as the accuracy.
 /// A number with few bits is easily matched by chance.
 #[must_use]
 pub fn information(value: f64, accuracy: f64) -> f64 {

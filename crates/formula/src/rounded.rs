@@ -7,7 +7,7 @@ use crate::tree::{Function, Operator};
 ///
 /// An operation outside its domain gives [`Rounded::UNDEFINED`], and so does every operation on that result.
 /// Unlike in IEEE 754, `1/(1/0)`, `(0/0)^0` and `atan(1/0)` have no value.
-/// If an argument is outside the domain by less than its error, it is moved to the end of the domain.
+/// If an argument is outside the domain by less than its error, the end of the domain is used instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded {
     /// The number; NaN if it is undefined.
@@ -123,7 +123,8 @@ impl Rounded {
             }
             Function::Tan => {
                 let value = x.value.tan();
-                // The slope at that end of the interval which is nearer to a pole.
+                // The slope is taken at the end of the argument's interval that is nearer to a pole, where it is
+                // steepest.
                 let steepest = value.abs() + x.error * (1.0 + value * value) * 2.0;
                 let is_near = !(x.error * (1.0 + value.abs()) < 0.1);
                 let error = if is_near { f64::INFINITY } else { x.error * (1.0 + steepest * steepest) };
@@ -134,7 +135,8 @@ impl Rounded {
                 let of = |value: f64| if function == Function::Asin { value.asin() } else { value.acos() };
                 let end = x.value.abs() + x.error;
                 if end < 1.0 {
-                    // The slope is steepest at that end of the interval which is nearer to the end of the domain.
+                    // The slope is taken at the end of the argument's interval that is nearer to the end of the domain,
+                    // where it is steepest.
                     return Rounded::of(of(x.value), x.error / ((1.0 - end) * (1.0 + end)).sqrt(), WHOLE);
                 }
                 growing(of, x, [-1.0, 1.0])
@@ -176,7 +178,7 @@ impl Rounded {
     }
 }
 
-/// Error of a sine or cosine whose slope is `slope`.
+/// Error of a sine or cosine at `x`. `slope` is the slope of the function at `x`.
 fn swing(x: Rounded, slope: f64) -> f64 {
     let least = |bound: f64, other: f64| if other < bound { other } else { bound };
     least(least(slope.abs() * x.error + x.error * x.error / 2.0, x.error), 2.0)
@@ -197,8 +199,8 @@ fn larger(one: f64, other: f64) -> f64 {
 }
 
 /// Value of a function that is monotonic from `domain[0]` to `domain[1]`.
-/// Its largest change is at one end of the interval of the argument.
-/// If the argument is beyond the domain by less than its error, it is moved to the end of the domain.
+/// Over the interval of the argument, the value changes most at one of the ends.
+/// If the argument is outside the domain by less than its error, the end of the domain is used instead.
 fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Rounded {
     let at = |value: f64| function(value.clamp(domain[0], domain[1]));
     let value = at(x.value);
@@ -209,7 +211,7 @@ fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Round
     Rounded::of(value, larger(below, above), WHOLE)
 }
 
-/// Largest exponent for which a power is computed as a product. Its rounding error grows with every factor.
+/// If a whole exponent is at most this, the power is computed as a product. Its rounding error grows with every factor.
 const FACTORS: f64 = 1024.0;
 
 fn power(a: Rounded, b: Rounded) -> Rounded {
@@ -246,8 +248,8 @@ fn power(a: Rounded, b: Rounded) -> Rounded {
     if a.error == 0.0 && b.error == 0.0 {
         return Rounded::of(value, 0.0, 4.0 * WHOLE).or_tiny(base == 0.0);
     }
-    // The absolute value of the power is monotonic in that of the base and in the exponent.
-    // The largest change is therefore at a corner.
+    // The absolute value of the power is monotonic in the base's absolute value and in the exponent.
+    // The largest change is therefore at one of the four corners of the two intervals.
     let sign = if value < 0.0 { -1.0 } else { 1.0 };
     let mut error = 0.0;
     for base in [a.value - a.error, a.value + a.error] {

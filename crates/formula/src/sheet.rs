@@ -7,10 +7,10 @@ use crate::graph::Node;
 use crate::rounded::Rounded;
 use crate::tree::{FormulaTree, NodeShape, Operator};
 
-/// A part of the sheet. Its arguments have smaller indices.
+/// A part of the sheet. Its arguments are earlier parts, so their indices are smaller.
 #[derive(Clone, Copy, Debug)]
 enum Part {
-    /// A name, given as the position of the part that it stands for.
+    /// A reference by name to another part, given as the position of that part.
     Named(usize),
     Own(Node<usize>),
 }
@@ -34,9 +34,9 @@ pub struct DerivationSheet {
 
 /// Prefix of names such as `#12`. In a tree made for a change, such a name stands for part 12.
 const PLACE: char = '#';
-/// Upper limit of the number of steps in the search for the missing amount at an instant.
+/// Upper limit of the number of Newton steps in the search for the correction of a part at an instant.
 const STEPS: usize = 30;
-/// Change of an amount, relative to its size, that is used to measure a slope.
+/// To measure a slope, an amount is changed by this fraction of its size.
 const DIFFERENCE: f64 = 1e-6;
 
 /// Correct value of a formula at an instant.
@@ -156,7 +156,7 @@ impl DerivationSheet {
         }
     }
 
-    /// A tree that stands for the unchanged part at a position.
+    /// A tree that refers to the unchanged part at a position.
     #[must_use]
     pub fn placeholder(place: usize) -> FormulaTree {
         FormulaTree::name(format!("{PLACE}{place}"))
@@ -188,7 +188,7 @@ impl DerivationSheet {
     /// These positions and all positions that depend on them, in the order of evaluation, up to the last formula.
     pub fn depending(&mut self, places: &[usize]) -> Vec<usize> {
         let Some(&first) = places.iter().min() else { return Vec::new() };
-        // Nothing is evaluated here. Visiting a part costs a small fraction of an operation.
+        // This loop evaluates nothing. Visiting a part counts as a sixteenth of an operation.
         self.operations += (self.parts.len() - first) as u64 / 16;
         self.change += 1;
         let mut found = Vec::new();
@@ -223,7 +223,7 @@ impl DerivationSheet {
         self.current(self.parts.len() - 1, instant)
     }
 
-    /// The same, but with a number at one position.
+    /// The value of the last formula at an instant, with a number in place of the first part of `depending`.
     fn with_number(&mut self, number: Rounded, depending: &[usize], instant: usize) -> Rounded {
         self.change += 1;
         let Some((&first, rest)) = depending.split_first() else { return Rounded::exact(f64::NAN) };
@@ -267,8 +267,8 @@ impl DerivationSheet {
         }
     }
 
-    /// The correction of a part that makes the last formula correct at an instant, with the uncertainty of that
-    /// correction.
+    /// The correction of a part that makes the last formula correct at an instant. The second number is its
+    /// uncertainty.
     /// The correction is the amount to add to the part (`Plus`) or the missing factor (`Times`).
     /// Newton's method starts at the amount `from`. `None` if it finds no correction.
     /// `depending` is the result of [`DerivationSheet::depending`] for the part.

@@ -15,7 +15,7 @@ fn value(text: &str) -> f64 {
     at(text, Rounded::exact(0.3), Rounded::exact(-1.7)).value
 }
 
-/// If both arguments may be zero, any direction is possible.
+/// If both arguments of atan2 may be zero, the angle may have any value.
 #[test]
 fn atan2_of_two_possible_zeros_is_known_to_half_a_turn() {
     let near = Rounded { value: 1e-12, error: 1e-9 };
@@ -174,7 +174,7 @@ fn limit_of_differences(function: &dyn Fn(f64) -> Rounded) -> Option<(f64, f64)>
     for level in 0..9 {
         let step = 0.02 * 0.6f64.powi(level);
         let [above, below] = [function(step), function(-step)];
-        // The arguments x + step are rounded too. Their error contributes in proportion to the slope.
+        // The arguments x + step are rounded too. This changes the values by the slope times the rounding error.
         let slope = (above.value - below.value).abs() / (2.0 * step);
         let rounding = (above.error + below.error + 4.0 * f64::EPSILON * (1.0 + slope)) / (2.0 * step);
         let mut row = vec![(above.value - below.value) / (2.0 * step)];
@@ -327,7 +327,7 @@ fn common_parts_are_evaluated_once() {
     assert_eq!(Program::of(&graph, &[one, other]).len(), alone + 1);
 }
 
-/// The second rate of x(phi(t), t): w and a are the first and second derivative of phi.
+/// The second rate of change of x(phi(t), t). The inputs w and a are the first and the second derivative of phi.
 #[test]
 fn rates_follow_the_chain_rule_over_all_inputs() {
     let mut graph = FormulaGraph::new(&["phi", "t"], 2);
@@ -388,8 +388,8 @@ fn temporary_derivatives_are_removed() {
     assert_eq!(Program::of(&graph, &[slope]).run(&[Rounded::exact(0.0)])[0].value, 1.0);
 }
 
-/// Every operator and every function, with both arguments varying, against the rules of calculus.
-/// The random test skips cases that it cannot decide. This test skips none.
+/// The derivatives of every operator and every function, with both arguments varying, agree with the rules of calculus.
+/// The random test skips cases that it cannot decide. This test skips no case.
 #[test]
 fn derivatives_follow_the_rules_of_calculus() {
     let (x, y) = (0.7f64, 1.3f64);
@@ -430,7 +430,7 @@ fn derivatives_follow_the_rules_of_calculus() {
 }
 
 /// A function has no derivative at a kink or a jump.
-/// Zero, the mean of the two one-sided slopes, would be wrong: it is neither of them.
+/// The two one-sided slopes differ. Their mean is zero, which would be a wrong derivative.
 #[test]
 fn a_kink_has_no_derivative() {
     for text in ["abs(x)", "x*sign(x)", "abs(x)*abs(x)"] {
@@ -443,10 +443,10 @@ fn a_kink_has_no_derivative() {
     assert!(slope.value == -1.0 && slope.error < 1e-15, "{slope:?}");
 }
 
-/// Every operation outside its domain, in every context where IEEE 754 or algebra would hide it.
+/// Every operation outside its domain must be reported, even in a context where IEEE 754 or algebra would hide it.
 #[test]
 fn undefined_values_stay_undefined_in_every_context() {
-    // Operations with constants, each with the same operation in x = 1.
+    // Pairs of an operation on constants and the same operation written with x = 1.
     let outside = [
         ("ln(-1)", "ln(-x)"),
         ("ln(0)", "ln(x - 1)"),
@@ -515,7 +515,7 @@ fn undefined_values_stay_undefined_in_every_context() {
     }
 }
 
-/// A result too large or too small for a double is not undefined: it is unknown, or known to be tiny.
+/// A result too large for a double is unknown, not undefined. A result too small for a double is known to be tiny.
 #[test]
 fn overflow_and_underflow_are_not_undefined() {
     let one = Rounded::exact(1.0);

@@ -1,4 +1,4 @@
-//! A formula as written, the only table of functions, and faults in the text of a formula with their positions.
+//! A formula as written, the only table of functions, and the faults in a formula's text with their positions.
 
 use std::fmt;
 use std::ops::Range;
@@ -197,8 +197,8 @@ impl fmt::Display for FormulaTree {
             }
             NodeShape::Pair(operator, parts) => {
                 let rank = operator.rank();
-                // After a minus or a division sign, and before a power sign, a part of the same precedence needs
-                // parentheses.
+                // A part of the same precedence needs parentheses in three positions: after a minus sign, after a
+                // division sign, and before a power sign.
                 let [left, right] = match operator {
                     Operator::Plus | Operator::Minus | Operator::Times | Operator::Over => [rank, rank + 1],
                     Operator::Power => [rank + 1, NEGATION],
@@ -236,7 +236,7 @@ pub enum Function {
     Acos,
     /// Angle (rad) from -pi/2 to pi/2 with this tangent.
     Atan,
-    /// Angle (rad) from -pi to pi of the vector with the second argument as x and the first as y.
+    /// Angle (rad) from -pi to pi of a vector. The first argument is y, the second is x.
     Atan2,
     /// Square root.
     Sqrt,

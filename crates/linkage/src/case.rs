@@ -26,7 +26,8 @@ pub use parts::{CaseParts, Wanted};
 pub use scene::{LeftOut, Scene};
 pub use seats::{Seat, Seats};
 
-/// An angular velocity below this fraction of the fastest link's is rounding error and has no sense of rotation.
+/// If the angular velocity of a link is below this fraction of the fastest link's, it counts as rounding error.
+/// The link then has no sense of rotation.
 const STANDSTILL: f64 = 1e-12;
 
 /// A complete, checked problem that any solver accepts.
@@ -55,12 +56,14 @@ impl Case {
     /// # Errors
     /// Every error names the faulty part by its key.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) if drives, loads, start pose or modes do not belong to the
-    /// mechanism, if one of their numbers is NaN or infinite, or if the structure does not match mechanism and drives.
+    /// mechanism.
+    /// The same kind if one of their numbers is NaN or infinite, or if the structure does not match mechanism and
+    /// drives.
     /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose or a driving link is
     /// not at its start angle.
     /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a combination of drives that this version does not
     /// solve.
-    /// Also the errors of [`Structure::of`](crate::mechanism::Structure::of) and [`Grid::check`].
+    /// The errors of [`Structure::of`](crate::mechanism::Structure::of) and [`Grid::check`] are passed on.
     pub fn new(parts: CaseParts) -> Result<Case> {
         check::all(&parts)?;
         let turning = turning::turning(&parts);
@@ -77,7 +80,8 @@ impl Case {
         Case { parts, turning }
     }
 
-    /// Returns the case of changed parts. The change must not affect which links can turn.
+    /// Returns the case of changed parts. The set of links that can turn is copied from this case, so `parts` must not
+    /// change it.
     fn of_parts(&self, parts: CaseParts) -> Case {
         Case { parts, turning: self.turning.clone() }
     }
@@ -130,7 +134,7 @@ impl Case {
     /// Returns this case with another motor of the crank, or without a motor.
     ///
     /// # Errors
-    /// Those of [`Case::new`], for a motor with a NaN or infinite number.
+    /// The errors of [`Case::new`] if a number of the motor is NaN or infinite.
     pub fn with_motor(&self, motor: Option<Motor>) -> Result<Case> {
         self.with(|parts| *parts.drives.crank_mut() = self.crank().with_motor(motor))
     }
@@ -189,15 +193,16 @@ impl Case {
         self.crank().told(value)
     }
 
-    /// Value of the input in a state of the mechanism, in the scenario's convention. Arguments as in
-    /// [`Case::each_load`].
+    /// Value of the input in a state of the mechanism, in the scenario's convention.
+    /// The arguments are the same as in [`Case::each_load`].
     #[inline]
     #[must_use]
     pub fn input_in(&self, motions: &[Motion], angles: &[f64]) -> f64 {
         self.state_in(motions, angles).value
     }
 
-    /// Value, rate and acceleration of the input in a state of the mechanism. Arguments as in [`Case::each_load`].
+    /// Value, rate and acceleration of the input in a state of the mechanism.
+    /// The arguments are the same as in [`Case::each_load`].
     #[inline]
     #[must_use]
     pub fn state_in(&self, motions: &[Motion], angles: &[f64]) -> InputState {
@@ -221,8 +226,9 @@ impl Case {
         }
     }
 
-    /// Whether the motion of a driving link is free, that is, decided by forces.
-    /// Crank angles are then known only from a solved trajectory; those of the grid belong to the nominal motion.
+    /// Whether forces determine the motion of a driving link (a free motion).
+    /// Crank angles are then known only from a solved trajectory. The crank angles of the grid belong to the nominal
+    /// motion.
     #[must_use]
     pub fn is_free(&self) -> bool {
         self.drives.iter().any(Drive::is_free)
@@ -235,8 +241,8 @@ impl Case {
     }
 
     /// Lever arm of the balancing moments (m): the extent of the largest driving link.
-    /// For a driving link with a slider it is at least the size of the mechanism, because the slider's force acts at
-    /// the position of the slider.
+    /// If a driving link has a slider, the lever arm is at least the size of the mechanism.
+    /// The reason is that the slider's force acts at the position of the slider.
     #[must_use]
     pub fn drive_arm(&self) -> f64 {
         let links = self.mechanism.links();
@@ -284,17 +290,18 @@ impl Case {
 
     /// Angular velocity of a link (rad/s), for loads that depend on its sense of rotation.
     /// It is zero for a link that cannot turn.
-    /// It is also zero if it is within the rounding error of the fastest link's angular velocity.
+    /// It is also set to zero if it is so small that it may be a rounding error of the fastest link's angular velocity.
     #[inline]
     #[must_use]
     pub fn spin(&self, motions: &[Motion], link: LinkId) -> f64 {
         let omega = motions[link].omega;
-        // False if the angular velocity of any link is NaN.
+        // The result is false if the angular velocity of any link is NaN.
         let is_seen = || motions.iter().all(|motion| omega.abs() > STANDSTILL * motion.omega.abs());
         if self.can_turn(link) && is_seen() { omega } else { 0.0 }
     }
 
-    /// Whether a point of a link moves faster than the rounding error of the mechanism's speeds.
+    /// Whether a point of a link moves. A speed that may be a rounding error of the mechanism's speeds counts as
+    /// standstill.
     #[must_use]
     pub fn moves(&self, motions: &[Motion], at: JointSide) -> bool {
         let speed = motions[at.link].point_velocity(at.local).norm();
@@ -315,8 +322,9 @@ impl Case {
         self.loads_with(motions, angles, |_, load, link, crank| load.moment_in(self.spin(motions, link), crank), out);
     }
 
-    /// The same as [`Case::loads_on`], but `sensed` gives the moment (N m) of every load that depends on the sense of
-    /// rotation of a link.
+    /// The same as [`Case::loads_on`], except that the caller computes the loads that depend on a link's sense of
+    /// rotation.
+    /// `sensed` returns the moment (N m) of such a load.
     /// `sensed` receives the number of the load, the load, the link and the crank angle (rad).
     /// It is not called for links that cannot turn, because these loads do not act on them.
     #[inline]
@@ -330,11 +338,11 @@ impl Case {
         self.loads_along(motions, angles, sensed, |_, velocity| sense_of(velocity), out);
     }
 
-    /// The same as [`Case::loads_with`], but `way` gives the direction of motion (unit vector, or zero) of the loaded
-    /// point.
-    /// The direction applies to every load that depends on it.
-    /// `way` receives the number of the load and the point's velocity (m/s). The velocity is set to zero if it is
-    /// rounding error.
+    /// The same as [`Case::loads_with`], except that the caller also determines the direction of motion of loaded
+    /// points.
+    /// `way` returns this direction (unit vector, or zero) for each load that depends on it.
+    /// `way` receives the number of the load and the point's velocity (m/s).
+    /// If the velocity is only rounding error, `way` receives zero.
     #[inline]
     pub fn loads_along(
         &self,

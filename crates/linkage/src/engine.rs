@@ -23,7 +23,7 @@ use crate::solver::{Progress, Solver, State};
 use crate::trajectory::ChannelKind;
 
 /// Computes the forces that belong to a state's motion and writes them into the state.
-/// The number is the row of the grid.
+/// The second argument is the number of the state's row in the grid.
 pub type Statics = Box<dyn FnMut(&Case, usize, &mut State) -> Result<()>>;
 
 /// An engine: a solver that integrates numerically and whose settings determine its accuracy.
@@ -37,7 +37,7 @@ pub trait Engine: Solver {
     fn settings(&self) -> Settings;
 
     /// Returns this engine with other settings.
-    /// Settings that the engine does not use are ignored: see [`Engine::told`].
+    /// Settings that the engine does not use are ignored. [`Engine::told`] lists the settings in use.
     fn with(&self, settings: Settings) -> Box<dyn Engine>;
 
     /// Returns this engine at another resolution, otherwise unchanged.
@@ -46,8 +46,8 @@ pub trait Engine: Solver {
     }
 
     /// Whether the engine controls its error.
-    /// If so, [`Settings::resolution`] is an accuracy for which the engine chooses its steps; otherwise it is a time
-    /// step.
+    /// If so, [`Settings::resolution`] is an accuracy, and the engine chooses its time steps accordingly.
+    /// Otherwise it is the time step.
     fn controls_error(&self) -> bool;
 
     /// Methods for joint reactions and balancing moment, the cheapest first.
@@ -61,9 +61,9 @@ pub trait Engine: Solver {
     /// Both numbers are 1 if one sweep already solves the case.
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]>;
 
-    /// Function that computes reactions and balancing moments of a motion by the engine's method, if the motion alone
-    /// determines them; `None` if the engine itself reports them.
-    /// It gives an extrapolated motion the forces that belong to it.
+    /// Returns a function that computes reactions and balancing moments from a motion, by the engine's method.
+    /// Returns `None` if the motion alone does not determine the forces, so that the engine must report them.
+    /// Extrapolation calls this function to compute the forces of the extrapolated motion.
     fn statics(&self, case: &Case) -> Option<Statics>;
 
     /// Runs the whole case and returns its states.
@@ -75,7 +75,8 @@ pub trait Engine: Solver {
         Rows::of_solver(self, case, progress)
     }
 
-    /// Number of steps by which a run of a prescribed motion extends beyond each end of its grid.
+    /// Number of time steps that a run of a prescribed motion adds before the first and after the last instant of its
+    /// grid.
     fn overrun(&self) -> f64;
 
     /// Expected order of convergence of a channel, with the engine's present method and extrapolation.
@@ -84,9 +85,9 @@ pub trait Engine: Solver {
     /// Bound on the rounding error of a channel on the grid of a case, in the channel's unit.
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;
 
-    /// Whether the factors in [`Engine::noise`] were measured. Otherwise they were chosen.
+    /// Whether the factors in [`Engine::noise`] are measured values. If not, they are assumed values.
     fn is_noise_measured(&self) -> bool;
 
-    /// Settings that influence the result, by name, for display.
+    /// Names and values of the settings that influence the result, for display.
     fn told(&self) -> Vec<(&'static str, String)>;
 }

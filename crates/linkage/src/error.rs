@@ -242,7 +242,7 @@ impl Error {
         self
     }
 
-    /// Removes the out-of-reach mark, once the error is explained.
+    /// Removes the out-of-reach mark. Callers use it after they have explained the error.
     #[must_use]
     pub fn explained(mut self) -> Self {
         self.0.out_of_reach = false;
@@ -324,7 +324,7 @@ impl Error {
         self.0.reached
     }
 
-    /// Whether the requested pose is out of reach on the case's branch, as long as no caller has explained the error.
+    /// Whether the error is marked as a pose out of reach on the case's branch, and the mark has not been removed.
     #[must_use]
     pub fn is_out_of_reach(&self) -> bool {
         self.0.out_of_reach
@@ -336,7 +336,7 @@ impl Error {
         &self.0.advice
     }
 
-    /// The remedy in words, if known. The text names no option of any program.
+    /// The remedy in words, if known. The text does not mention command-line options.
     #[must_use]
     pub fn way_out(&self) -> Option<String> {
         self.way_out_by(Advice::to_string)

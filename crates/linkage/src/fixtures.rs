@@ -53,9 +53,9 @@ pub fn four_bar() -> Mechanism {
     mechanism(links, &pins).unwrap()
 }
 
-/// Reference 7: crank 1 = OA, triangles 2 = A-C-B and 5 = K-E-D, links 3 = BD and 4 = CE.
+/// Mechanism of reference 7: crank 1 = OA, triangles 2 = A-C-B and 5 = K-E-D, links 3 = BD and 4 = CE.
 /// Point B is C rotated about A by +60 deg (`side_b` = 1) or -60 deg (-1).
-/// Point D is E rotated about K in the same way.
+/// Point D is E rotated about K by +60 deg (`side_d` = 1) or -60 deg (-1).
 pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
     let (x, y) = (15e-3, 30e-3 * 0.75f64.sqrt());
     let links = vec![
@@ -85,8 +85,8 @@ pub fn turning(mechanism: Mechanism) -> Case {
     turning_from(mechanism, 0.0, &left)
 }
 
-/// The same case for a mechanism with Assur groups of any kind.
-/// It starts at this crank angle (rad), with `group` for every group.
+/// A case like that of `turning`, for a mechanism with Assur groups of any kind.
+/// It starts at the crank angle `crank` (rad). `group` gives the required start configuration of every group.
 pub fn turning_from(mechanism: Mechanism, crank: f64, group: &StartGroup) -> Case {
     let drives = Drives::from(Drive::prescribed(JointId(0), LinkId(1), 0.0, crank, MotionLaw::ConstantSpeed(1.0)));
     let structure = Structure::of(&mechanism, &drives.joints()).unwrap();

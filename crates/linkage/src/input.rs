@@ -94,7 +94,7 @@ pub struct InputValue {
 }
 
 impl fmt::Display for InputValue {
-    /// Uses the requested number of decimals; the default is four.
+    /// Prints the value with the requested number of decimals; the default is four.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (decimals, shown) = (f.precision().unwrap_or(4), self.input.shown(self.value));
         write!(f, "{} {shown:.decimals$} {}", self.input.noun(), self.input.shown_in().0)

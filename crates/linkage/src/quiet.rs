@@ -1,6 +1,6 @@
 //! Catches panics inside an engine or a file reader and turns them into the message of an error.
-//! The panic hook belongs to the process, so this library does not set it.
-//! A program can ask here which panics are already reported as errors.
+//! The panic hook is global to the process, so this library does not set one.
+//! The program's panic hook can call `is_guarded` to find out whether a panic will become an error.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -11,10 +11,11 @@ thread_local! {
     static GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether the current thread is inside a call whose panic is caught and becomes an error, such as a step of the
-/// engine.
+/// Whether the current thread is inside a call whose panic is caught and becomes an error.
+/// An example of such a call is a step of the engine.
 ///
-/// A program may ask this in its panic hook and then print nothing: the error contains the panic's message.
+/// A program may call this function in its panic hook and then print nothing, because the error contains the panic's
+/// message.
 /// The hook runs on the thread that panics, before the panic is caught.
 /// This crate sets no hook.
 #[must_use]
@@ -43,7 +44,7 @@ mod tests {
     const ALONE: &str = "LINKPROOF_TEST_OF_THE_PANIC_HOOK";
     const NAME: &str = "quiet::tests::the_panic_hook_is_unchanged_and_recognises_caught_panics";
 
-    /// Panic hooks belong to the process, so the test runs again in a separate process.
+    /// Panic hooks are global to the process. The test therefore starts itself again in a separate process.
     #[test]
     fn the_panic_hook_is_unchanged_and_recognises_caught_panics() {
         static HEARD: AtomicUsize = AtomicUsize::new(0);
@@ -63,9 +64,9 @@ mod tests {
         assert_eq!(cause.downcast_ref(), Some(&"inside"));
         assert!(!is_guarded());
         assert!(guarded(is_guarded).unwrap());
-        // The hook is unchanged: it sees every panic and knows which panics are caught.
+        // The hook set by this test is still active. It saw one panic and recognised it as caught.
         assert_eq!((HEARD.load(Ordering::SeqCst), CAUGHT.load(Ordering::SeqCst)), (1, 1));
-        // The guard does not extend to another thread: a panic there counts as unguarded.
+        // The guard applies to one thread only, so the panic of a spawned thread counts as not caught.
         let outside = guarded(|| thread::spawn(|| panic!("outside")).join()).unwrap();
         outside.unwrap_err();
         catch_unwind(|| panic!("outside")).unwrap_err();

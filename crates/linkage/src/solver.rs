@@ -38,7 +38,8 @@ pub trait Solver: Send + Sync {
     /// Only the parts of the state that the requested channels need are computed; the other parts are undefined.
     ///
     /// # Errors
-    /// An error with the crank angle if the solution cannot stay on the requested branch; also the errors of `visit`.
+    /// An error with the crank angle if the solution cannot stay on the requested branch.
+    /// An error of `visit` is passed on.
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()>;
 
     /// The same as [`Solver::sweep`], without progress reports.
@@ -52,7 +53,7 @@ pub trait Solver: Send + Sync {
     /// Solves the case: computes all requested channels on the case's grid.
     ///
     /// # Errors
-    /// Those of [`Solver::sweep`]; also an error if a result is NaN or infinite.
+    /// The errors of [`Solver::sweep`], or an error if a result is NaN or infinite.
     fn solve(&self, case: &Case) -> Result<Trajectory> {
         self.solve_with(case, &mut |_| {})
     }

@@ -17,9 +17,9 @@ pub fn cores() -> usize {
 /// Calls `work` for every index below `count`, on at most `threads` threads. Each thread takes the next free index.
 /// `work` may send any number of messages.
 /// The calling thread passes each message with its index to `hear`. If `hear` breaks, no further index is started.
-/// [Counts](work) of the work are added to those of the calling thread.
+/// The [counts](work) of the work done on the threads are added to the counts of the calling thread.
 ///
-/// With one thread, or if the system cannot start a thread, the calling thread does the work.
+/// If `threads` is 1, or if the system cannot start a thread, the calling thread does the work.
 ///
 /// # Panics
 /// If `work` panics. All started work is finished first.
@@ -67,8 +67,8 @@ pub fn side_by_side<M: Send>(
     });
 }
 
-/// Results of `work` for all items, in the order of the items, on at most `threads` threads.
-/// `done` receives the number of finished items.
+/// Calls `work` for all items on at most `threads` threads and returns the results in the order of the items.
+/// `done` is called after each item, with the number of items finished so far.
 ///
 /// # Panics
 /// If `work` panics.

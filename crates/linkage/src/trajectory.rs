@@ -93,8 +93,8 @@ impl Trajectory {
         Some(&self.columns[index])
     }
 
-    /// The same as [`Trajectory::column`], but looks first at position `index`.
-    /// In all trajectories of one case the channel is at the same position.
+    /// The same as [`Trajectory::column`], but it looks first at position `index`.
+    /// This saves a search, because a channel has the same position in all trajectories of one case.
     #[must_use]
     pub fn column_near(&self, channel: &Channel, index: usize) -> Option<&[f64]> {
         if self.channels.get(index) == Some(channel) { Some(&self.columns[index]) } else { self.column(channel) }
@@ -135,7 +135,7 @@ impl Trajectory {
 }
 
 /// Whether all numbers are finite.
-/// Zero times a non-finite number is NaN, so the sum of such products tests several numbers at once.
+/// A non-finite number times zero is NaN, so one sum of such products tests several numbers at once.
 fn all_finite(values: &[f64]) -> bool {
     let (chunks, rest) = values.as_chunks::<8>();
     let mut sums = [0.0; 8];

@@ -13,7 +13,7 @@ use crate::error::{Advice, Error, ErrorKind, Result};
 pub enum Count {
     /// Computed poses of the whole mechanism, including intermediate poses between requested poses.
     Poses,
-    /// Assur groups placed to compute these poses.
+    /// Assur groups placed while the counted poses were computed.
     Groups,
     /// Iterations of Newton's method.
     Iterations,
@@ -78,7 +78,7 @@ impl Count {
     }
 }
 
-/// A number for every kind of count.
+/// One number for every variant of `Count`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work([u64; Count::ALL.len()]);
 
@@ -109,9 +109,9 @@ thread_local! {
     static DONE: Cell<Work> = const { Cell::new(Work::NONE) };
 }
 
-/// Runs `run` and returns its result with the work that this thread did during the call.
-/// This work includes that of other threads passed to [`add`].
-/// A tally is added when it is dropped, so no tally of `run` should outlive the call.
+/// Runs `run` and returns its result together with the work counted on this thread during the call.
+/// This includes work of other threads that was passed to [`add`] during the call.
+/// A `WorkTally` is counted only when it is dropped, so every tally created in `run` must be dropped in `run`.
 pub fn counted<T>(run: impl FnOnce() -> T) -> (T, Work) {
     let before = DONE.replace(Work::NONE);
     let answer = run();
@@ -125,13 +125,13 @@ pub fn add(work: &Work) {
     DONE.set(DONE.get().and(work));
 }
 
-/// Work of placing one Assur group. It is also the work for one link in a step of Newton's method over all constraints.
-/// The unit is that of budgets: one time step of an engine on a four-bar, without sweeps.
-/// Measured on chains of 1 to 1000 four-bars.
+/// Work of placing one Assur group. A step of Newton's method over all constraints costs this much per link.
+/// The unit is the unit of budgets: one time step of an engine on a four-bar, without sweeps.
+/// The value was measured on chains of 1 to 1000 four-bars.
 pub const PLACED: f64 = 0.2;
 
 thread_local! {
-    /// Remaining work and total allowed work.
+    /// Remaining work, and total allowed work, of the [limit](limited) in force on this thread.
     static ALLOWED: Cell<[f64; 2]> = const { Cell::new([f64::INFINITY; 2]) };
 }
 
@@ -147,11 +147,11 @@ pub fn limited<T>(limit: f64, run: impl FnOnce() -> T) -> (T, bool) {
     (answer, still < 0.0)
 }
 
-/// Subtracts work (in the unit of budgets) from the [allowed](limited) work.
-/// Loops over successive poses call this function, so that every loop ends.
+/// Subtracts work (in the unit of budgets) from the [allowed](limited) work of this thread.
+/// Every loop over successive poses calls this function. The limit therefore ends the loop.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] if the allowed work is used up, with a larger budget as the remedy.
+/// [`ErrorKind::Unsupported`] if the allowed work is used up. The remedy is a larger budget.
 #[inline]
 pub fn spend(work: f64) -> Result<()> {
     let [left, allowed] = ALLOWED.get();

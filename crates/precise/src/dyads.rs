@@ -1,8 +1,8 @@
 //! Dyads of three revolute pairs in closed form, one dyad after the other. Forces are computed in reverse order.
 //!
 //! The inner joint is an intersection of two circles, on the same side as in the start pose.
-//! Projections of the joints' velocities on the two links give the rates.
-//! Moments about the inner joint give the forces.
+//! The angular velocities follow from the relative velocity of the outer joints, projected on the two links.
+//! Equations of moments about the inner joint give the forces.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -32,7 +32,7 @@ struct Dyad {
 /// The same as [`solve`](super::solve), for a mechanism of dyads with three revolute pairs.
 ///
 /// # Errors
-/// Those of [`solve`](super::solve); also [`ErrorKind::Unsupported`] for other groups.
+/// The errors of [`solve`](super::solve), and [`ErrorKind::Unsupported`] for other groups.
 pub fn solve(case: &Case) -> Result<Trajectory> {
     let task = Task::of(case)?;
     let start = at_start(case);
@@ -75,7 +75,8 @@ impl Dyad {
         let rods = self.locals.map(|[outer, inner]| Vector::of(inner) - Vector::of(outer));
         let (base, half) = (b - a, Long::of(0.5));
         let square = base.dot(base);
-        // Position of the inner joint along and perpendicular to the base, as fractions of the base.
+        // `along` and `across` give the inner joint's position along the base and perpendicular to it, as fractions of
+        // the base.
         let along = (square + rods[0].dot(rods[0]) - rods[1].dot(rods[1])) * half / square;
         let across = rods[0].dot(rods[0]) / square - along * along;
         if !(across > Long::ZERO) {
@@ -94,8 +95,8 @@ impl Dyad {
         });
         let alphas = projected(carried[1] - carried[0]);
         for k in 0..2 {
-            // Direction of the frame: the direction of the rod in the world, rotated back by its direction in the
-            // frame.
+            // The world direction of the rod, rotated back by the direction of the rod in the link's frame, is that of
+            // the frame.
             let direction = arms[k].rotated_back(rods[k]);
             let direction = direction * (Long::ONE / direction.norm());
             let to_origin = -Vector::of(self.locals[k][0]).rotated(direction);
@@ -115,7 +116,7 @@ impl Dyad {
 
 /// Reactions and torque from the equilibrium of every dyad, starting with the last.
 fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
-    // Force and moment about the world's origin on every link: from its weight, its inertia, and later groups.
+    // The force on every link and its moment about the world's origin, from weight, inertia and later groups.
     let mut acting: Vec<(Vector, Long)> =
         case.mechanism.links().ids().map(|link| instant.inertia(case, link)).collect();
     let joints = case.mechanism.joints();

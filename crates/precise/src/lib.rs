@@ -32,8 +32,8 @@ pub fn method(case: &Case) -> &'static str {
 /// # Errors
 /// [`Unsupported`](linkage::ErrorKind::Unsupported) for a case with several drives, loads, instants before t = 0, or
 /// a law other than constant speed.
-/// [`Geometry`](linkage::ErrorKind::Geometry) with the crank angle, if the mechanism cannot be assembled or is
-/// singular.
+/// [`Geometry`](linkage::ErrorKind::Geometry) if the mechanism cannot be assembled or is singular. The error contains
+/// the crank angle.
 pub fn solve(case: &Case) -> Result<Trajectory> {
     if are_all_rrr(case) { dyads::solve(case) } else { whole::solve(case) }
 }

@@ -1,9 +1,10 @@
-//! Any mechanism of revolute and prismatic pairs: all constraint equations at once, and all equations of equilibrium.
+//! Any mechanism of revolute and prismatic pairs. All constraint equations are solved at once, and so are all equations
+//! of equilibrium.
 //!
 //! The unknowns are the frames of all moving links.
 //! The start pose is followed in steps of at most one degree of the crank.
 //! At the requested instants Newton's method continues until the change is at the level of rounding errors.
-//! The elimination is dense, for some tens of links.
+//! The elimination is dense, which is suitable for some tens of links.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -21,11 +22,12 @@ use super::vector::Vector;
 const STEP: f64 = std::f64::consts::PI / 180.0;
 /// Upper limit of the number of iterations at one pose. Convergence is quadratic.
 const MOST: usize = 30;
-/// A change of a pose counts as rounding error if it is at most this, relative to the mechanism's size.
+/// If the change of a pose, relative to the mechanism's size, is at most this, the iteration ends.
+/// Such a change is rounding error.
 const SETTLED: f64 = 1e-28;
-/// The same limit if further iterations no longer reduce the change.
+/// If a further iteration does not halve the change, this larger limit applies instead of `SETTLED`.
 const ROUNDING: f64 = 1e-20;
-/// The same limit in steps between requested instants.
+/// Limit of the change that is used instead of `SETTLED` in steps between requested instants.
 const NEAR: f64 = 1e-10;
 
 /// The same as [`solve`](super::solve), for any mechanism of some tens of links.
@@ -130,9 +132,9 @@ impl Whole<'_> {
         }
     }
 
-    /// All equations in a pose: those of the joints, then that of the drive.
-    /// The right-hand side depends on `what`: the gaps of the pose, the speeds, or the quadratic velocity terms of the
-    /// accelerations.
+    /// All equations in a pose: first those of the joints, then that of the drive.
+    /// The right-hand side depends on `what`. It contains the gaps of the pose, the speeds, or the terms of the
+    /// accelerations that are quadratic in the velocities.
     fn system(&self, frames: &[Frame], what: What) -> System {
         let mut system = self.empty();
         for (index, joint) in self.case.mechanism.joints().entries() {
@@ -209,7 +211,8 @@ impl Whole<'_> {
             if !largest.is_finite() {
                 return None;
             }
-            // In ill-conditioned poses rounding errors are larger: the change no longer decreases.
+            // In ill-conditioned poses rounding errors are larger. The iteration then also ends if the change no longer
+            // decreases.
             if largest <= settled || (largest <= ROUNDING && largest > 0.5 * before) {
                 return Some(());
             }
@@ -234,7 +237,8 @@ impl Whole<'_> {
         Some(instant)
     }
 
-    /// For each of a joint's two unknowns: force, moment about the world's origin, and joint moment on the second link.
+    /// For each of a joint's two unknowns, its action on the second link.
+    /// It consists of force, moment about the world's origin, and moment of the joint.
     fn reactions(joint: &Joint, frames: &[Frame]) -> [(Vector, Long, Long); 2] {
         let place = frames[joint.second.link].point(joint.second.local);
         let along = |force: Vector| (force, place.cross(force), Long::ZERO);

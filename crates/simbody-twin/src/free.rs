@@ -1,4 +1,4 @@
-//! A free motion: motor and loads act as forces. Simbody requests them at every evaluation.
+//! A free motion. Motor and loads act as forces, which Simbody requests at every evaluation of the equations of motion.
 //! See docs/numerics/twins.md.
 
 use std::cell::RefCell;
@@ -39,8 +39,8 @@ pub(super) fn start(case: &Case, settings: IntegrationSettings) -> Result<(Linka
     if !case.loads.iter().any(|load| load.sensed_link().is_some()) {
         return Ok((linkage, run));
     }
-    // A link at rest starts in the direction of its acceleration without the loads that depend on its sense of
-    // rotation.
+    // A link at rest starts in the direction of its acceleration.
+    // This acceleration is computed without the loads that depend on the link's sense of rotation.
     let mut state = State::at_rest(case);
     let found = run.read(false).map_err(|failure| linkage.stopped(case, &failure))?;
     linkage.motion(&found.bodies, &mut state);

@@ -19,10 +19,11 @@ use linkage::trajectory::{Channel, ChannelKind, Stage};
 use linkage::work::{Count, WorkTally};
 use model::Linkage;
 
-/// Upper limit of the opening of a joint in the start pose, as a fraction of the mechanism's size.
-/// It is far above rounding error and too small to matter.
+/// If a joint's opening in the start pose exceeds this fraction of the mechanism's size, the case is rejected.
+/// The limit is far above rounding error, and a smaller opening does not affect the results.
 const LARGEST_GAP: f64 = 1e-9;
-/// Number of internal steps allowed at the default accuracy per radian of crank angle. Two instants less than a radian apart are also allowed this number.
+/// Number of internal steps allowed per radian of crank angle at the default accuracy.
+/// If two instants are less than a radian apart, the same number is allowed between them.
 /// `ov7_base` takes 200 steps, and 14 000 at an accuracy of 1e-14.
 /// Without a limit the integrator would take hours in tiny steps near a dead point.
 const MAX_STEPS: f64 = 2000.0;
@@ -39,8 +40,8 @@ impl Simbody {
     pub const ACCURACY: f64 = 1e-8;
     /// Constraint tolerance as a fraction of the mechanism's extent from the origin.
     /// Under prescribed motion the pose follows from the constraints alone, so a looser tolerance has no benefit.
-    /// Projections aim at a tenth of the tolerance, and rounding errors prevent a smaller value.
-    /// On `fourth_class` projections fail at 1e-14.
+    /// Projections aim at a tenth of the tolerance. Rounding errors prevent a smaller tolerance.
+    /// With a tolerance of 1e-14, projections fail on `fourth_class`.
     pub const TOLERANCE: f64 = 1e-12;
 
     /// The engine with the given accuracy of its integrator, relative to a coordinate of 1 rad or 1 m.
@@ -73,7 +74,7 @@ impl Simbody {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
             time_scale: 1.0 / case.drives.top_speed(),
-            // The local error is of fourth order in the step.
+            // The local error is of fourth order in the step, so the number of steps grows with accuracy^(-1/4).
             steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).larger(1.0).powf(0.25)) as usize,
         }
     }
@@ -104,7 +105,7 @@ impl Engine for Simbody {
     }
 
     fn own_routes(&self, _: &Case) -> &'static [Route] {
-        // The only method already reports the forces that the engine applies.
+        // The list is empty, because the only method already reports the forces that the engine applies.
         &[]
     }
 
@@ -121,7 +122,7 @@ impl Engine for Simbody {
     }
 
     fn formal_order(&self, _: &Case, _: &ChannelKind) -> f64 {
-        // Errors are proportional to the accuracy.
+        // The order is 1, because errors are proportional to the accuracy.
         1.0
     }
 
@@ -188,7 +189,7 @@ impl Solver for Simbody {
                     run.load(&loads).map_err(stopped)?;
                 }
                 let found = run.read(reactions).map_err(stopped)?;
-                // This form also stops the run for NaN.
+                // The condition is negated, so that a NaN gap also stops the run.
                 if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
                     let gaps: Vec<f64> = found.loops.iter().map(|closed| closed.gap).collect();
                     let widest = gaps.iter().copied().fold(0.0, f64::larger);
@@ -216,7 +217,7 @@ impl Solver for Simbody {
 /// Loads that are not forces inside Simbody.
 fn other_loads(case: &Case) -> Vec<Load> {
     match case.is_free() {
-        // In a free motion all loads act inside Simbody all the time.
+        // In a free motion all loads already act inside Simbody, so no loads remain.
         true => Vec::new(),
         false => case.loads.iter().filter(|load| load.resistance().is_none()).cloned().collect(),
     }

@@ -35,8 +35,8 @@ impl Linkage {
     /// If `sense` is -1, time runs backwards.
     /// Drives then turn in the opposite direction and resistance acts with the motion; everything else is the same.
     ///
-    /// In a free motion, `rates` are those of all bodies' coordinates at t = 0.
-    /// Without `rates`, free links turn with their initial speeds, like prescribed links.
+    /// In a free motion, `rates` gives the rates of all bodies' coordinates at t = 0.
+    /// If `rates` is `None`, the initial speeds of free links are prescribed, so they turn like driven links.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a number that Simbody cannot use.
@@ -63,7 +63,7 @@ impl Linkage {
                 resistance: if case.is_free() { 0.0 } else { sense * resistance(case, branch.link) },
                 coordinate: coordinate(found, branch, &case.start.0),
                 rate: rates.map_or(0.0, |rates| rates[index]),
-                // Other laws were rejected before.
+                // Only laws of constant speed occur here. Other laws were rejected earlier.
                 law: drive
                     .and_then(|drive| law(case, branch, drive, rates.is_some()))
                     .map(|rate| Law { rate: sense * rate }),
@@ -83,7 +83,8 @@ impl Linkage {
         Ok(Linkage { model, tree, sense, twists })
     }
 
-    /// Fills a state with the motion that Simbody reports. Velocities refer to the direction of the case's time.
+    /// Fills a state with the motion that Simbody reports.
+    /// If Simbody's time runs backwards, velocities are reversed to refer to the case's time.
     pub(super) fn motion(&self, bodies: &[BodyState], state: &mut State) {
         for ((branch, body), twist) in self.tree.branches.iter().zip(bodies).zip(&self.twists) {
             let motion = &mut state.motions[branch.link];
@@ -137,7 +138,7 @@ impl Linkage {
     pub(super) fn stopped(&self, case: &Case, failure: &Failure) -> Error {
         let t = failure.time.unwrap_or(0.0) * self.sense;
         let at = case.told(case.crank().at(t).value);
-        // In this form NaN counts as the largest gap.
+        // The comparison is written so that a NaN gap counts as the largest gap.
         let widest = failure.gaps.iter().zip(&self.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
         let gap = widest.map_or(String::new(), |(gap, &joint)| {
             sentences::joint_open_by(&case.mechanism.joints()[joint].name, &format_args!("{gap:.3e}"))
@@ -156,7 +157,8 @@ fn law(case: &Case, branch: &TreeBranch, drive: &Drive, moving: bool) -> Option<
     if moving && drive.is_free() {
         return None;
     }
-    // A drive prescribes the rotation in the world, a coordinate the rotation relative to the parent.
+    // A drive prescribes the rotation in the world, but a coordinate is relative to the parent. The parent's rate is
+    // therefore subtracted.
     let parent = case.drives.iter().find(|other| other.link == branch.parent);
     Some(drive.initial_speed() - parent.map_or(0.0, Drive::initial_speed))
 }

@@ -22,8 +22,9 @@ const ULPS: f64 = 20.0;
 /// Every output time ends a step. With dense output times a smaller accuracy therefore hardly reduces the errors.
 /// On the shipped run-ups the errors are 5e-9 to 5e-7 of the scale at an accuracy of 1e-8.
 ///
-/// A constraint error rotates a link by that error divided by the link's length, so the shortest link is the worst.
-/// The pose amplifies an error of the angles once more in the velocities, and again in accelerations and forces.
+/// A constraint error rotates a link by an angle equal to that error divided by the link's length.
+/// The rotation is largest for the shortest link.
+/// The pose amplifies an error of the angles again in the velocities, and once more in accelerations and forces.
 /// Rates of constraints are kept below the tolerance times the drive's speed. Accelerations follow from positions and
 /// velocities.
 pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &ChannelKind) -> f64 {
@@ -42,7 +43,7 @@ pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &Chan
     let place = POSE * tolerance + ULPS * f64::EPSILON * reach;
     let integrated = if case.is_free() { accuracy * case.grid.len() as f64 } else { 0.0 };
     let closed = place / shortest + f64::EPSILON * turned;
-    // Errors of an angle, of a position, and of their derivatives of order `k`.
+    // `angle` and `linear` give the errors of the derivatives of order `k` of an angle and of a position.
     let angle = |k: i32| (POSE.powi(k) * closed + integrated) * speed.powi(k);
     let linear = |k: i32| POSE.powi(k) * place * speed.powi(k) + angle(k) * size;
     let force = mass * (linear(2) + (POSE * closed + integrated) * case.gravity.norm());

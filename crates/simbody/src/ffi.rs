@@ -1,4 +1,4 @@
-//! The boundary to C++, with the only unsafe code. Every declaration repeats a declaration of `shim.h`.
+//! The boundary to C++. Only this file contains unsafe code. Every declaration repeats a declaration of `shim.h`.
 
 use crate::sentences;
 use std::ffi::{c_char, c_int, c_void};
@@ -66,7 +66,7 @@ impl RawBody {
     }
 }
 
-/// `linkproof_run`, whose contents only C++ uses.
+/// The type `linkproof_run` of the shim. Only C++ uses its contents.
 #[repr(C)]
 struct RawRun {
     private: [u8; 0],
@@ -142,11 +142,11 @@ fn plain(words: &str) -> String {
     parts.fold(first, |told, part| told + part.split_once(": ").map_or(part, |(_, rest)| rest))
 }
 
-/// Gives the forces and moments on the bodies besides gravity during the run.
-/// The first argument has positions and velocities of all bodies; accelerations and forces are 0.
-/// The second argument receives the force at the mass centre (N, world axes) and the moment about it (N m) of every
-/// body.
-/// Forces and moments are 0 on entry.
+/// Computes the forces and moments that act on the bodies in addition to gravity.
+/// The first argument has positions and velocities of all bodies. Its accelerations and forces are 0.
+/// The second argument receives three numbers for every body: the force at the mass centre (N, world axes) and the
+/// moment about it (N m).
+/// These numbers are 0 on entry.
 pub type Act = Box<dyn FnMut(&[BodyState], &mut [[f64; 3]])>;
 
 /// The data for Simbody's callback.
@@ -155,7 +155,7 @@ struct Acting {
     count: usize,
 }
 
-/// Passes a call from Simbody on to Rust. A panic becomes NaN loads, which end the run.
+/// Passes a call from Simbody on to Rust. If the Rust code panics, the loads are set to NaN, which ends the run.
 unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: *mut f64) {
     // SAFETY: `user` is the box that the run keeps as long as it exists, and Simbody calls from one thread at a time.
     // The numbers of bodies and of loads (three per body) are those with which the run was built.
@@ -173,7 +173,7 @@ unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: 
 /// A run of a linkage, forwards in time.
 pub struct LinkageRun {
     raw: NonNull<RawRun>,
-    /// Stays at a fixed address, because Simbody points to it.
+    /// The callback's data. It is boxed so that its address stays fixed, because Simbody has a pointer to it.
     _acting: Option<Box<Acting>>,
     state: SimbodyState,
     time: f64,
@@ -223,7 +223,8 @@ impl LinkageRun {
             loops: vec![LoopState::default(); loops.len()],
         };
         let mut run = LinkageRun { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
-        // Simbody accepts a free mobilizer without inertia, but its acceleration is not finite.
+        // Reading the state detects a free mobilizer without inertia. Simbody accepts it, but its acceleration is not
+        // finite.
         run.read(false)?;
         Ok(run)
     }
@@ -238,7 +239,7 @@ impl LinkageRun {
             return Err(Failure::of(sentences::is_asked_for_after(&time, &self.time)));
         }
         let (raw, (steps, time_scale)) = (self.raw.as_ptr(), self.pace);
-        // The cast saturates: a number that is too large gives the largest integer.
+        // If the number is too large for an integer, the cast gives the largest integer.
         let intervals = (time - self.time) / time_scale;
         let steps = (steps as f64 * if intervals < 1.0 { 1.0 } else { intervals }) as usize;
         // SAFETY: the run is alive and has no other user. The shim writes at most `size` bytes of text.
@@ -249,12 +250,12 @@ impl LinkageRun {
     }
 
     /// Sets the loads on every body. The next readings of reactions include these loads.
-    /// A load is the force at the mass centre (N, world axes) and the moment about it (N m). All loads are zero at
-    /// first.
+    /// A load is the force at the mass centre (N, world axes) and the moment about it (N m). Initially all loads are
+    /// zero.
     /// Loads do not affect the motion, because every degree of freedom is prescribed.
     ///
     /// # Errors
-    /// A number of loads that differs from that of the bodies, or a number that is not finite.
+    /// An error if the number of loads differs from the number of bodies, or if a number is not finite.
     pub fn load(&mut self, loads: &[[f64; 3]]) -> Result<(), Failure> {
         if loads.len() != self.state.bodies.len() {
             return Err(Failure::of(sentences::loads_are_given_for_bodies(&loads.len(), &self.state.bodies.len())));
@@ -271,8 +272,8 @@ impl LinkageRun {
     /// Reads the state. Without `reactions`, forces are not read.
     ///
     /// # Errors
-    /// Those of Simbody, as in [`LinkageRun::advance`]; loops that cannot transmit any force; a number that is not
-    /// finite.
+    /// The errors of Simbody, as in [`LinkageRun::advance`].
+    /// Also an error if loops cannot transmit any force, or if a number is not finite.
     pub fn read(&mut self, reactions: bool) -> Result<&SimbodyState, Failure> {
         let SimbodyState { bodies, loops } = &mut self.state;
         let raw = self.raw.as_ptr();

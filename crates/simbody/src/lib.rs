@@ -1,11 +1,11 @@
 #![doc = include_str!("../README.md")]
-//!
-//! Planar linkages in Simbody: bodies on pins and sliders, loops closed by constraints, coordinates prescribed in time,
-//! Simbody's own error-controlled integrator, and its reactions.
+//! Planar linkages in Simbody.
+//! Bodies are connected by pins and sliders, constraints close the loops, and coordinates are prescribed in time.
+//! Simbody's error-controlled integrator computes the motion, and Simbody computes the reactions.
 //!
 //! All data are plain numbers in SI units, in the plane x-y; angles are in rad, counter-clockwise positive.
 //! Simbody works in three dimensions.
-//! The mobilizers permit no motion out of the plane, and the constraints add no equation there.
+//! The mobilizers permit no motion out of the plane, and the constraints add no equation out of the plane.
 
 mod ffi;
 mod model;

@@ -38,12 +38,12 @@ pub struct Inertia {
     pub centre: [f64; 2],
     /// Moment of inertia about the mass centre (kg m^2).
     pub inertia: f64,
-    /// Mass at the same centre that the body carries only for the integrator (kg).
+    /// Additional mass at the mass centre, only for the integrator (kg).
     /// Gravity does not act on this mass. When reactions are read, applied forces balance its inertia.
     /// This is exact if every degree of freedom is prescribed, because accelerations then do not depend on masses.
-    /// Simbody cannot move a free mobilizer that carries no inertia.
+    /// The mass is needed because Simbody cannot move a free mobilizer without inertia.
     pub extra_mass: f64,
-    /// Moment of inertia that the body carries only for the integrator, as for the mass (kg m^2).
+    /// Additional moment of inertia, only for the integrator (kg m^2). It is treated like the additional mass.
     pub extra_inertia: f64,
 }
 
@@ -67,8 +67,8 @@ pub struct SimbodyBody {
     pub resistance: f64,
     /// Coordinate of the body's joint at time 0 (rad or m).
     pub coordinate: f64,
-    /// Rate of the coordinate at time 0, if the coordinate is not prescribed (rad/s or m/s).
-    /// Inconsistent rates are projected onto the loops.
+    /// Rate of the coordinate at time 0 (rad/s or m/s). It is used only if the coordinate is not prescribed.
+    /// Rates that violate the loop constraints are projected onto them.
     pub rate: f64,
     /// Prescribed motion of the coordinate, if any.
     pub law: Option<Law>,
@@ -89,11 +89,12 @@ pub struct LoopClosure {
 pub struct IntegrationSettings {
     /// Accuracy of the integrator: bound on its weighted local error.
     pub accuracy: f64,
-    /// Largest constraint error that projections leave (m).
+    /// Largest constraint error that may remain after a projection (m).
     pub tolerance: f64,
     /// Characteristic time of the motion (s). Rates of constraint errors are kept below `tolerance` / `time_scale`.
     pub time_scale: f64,
-    /// Number of internal steps allowed per time scale, or between two instants that are closer together.
+    /// Number of internal steps allowed per time scale. If two instants are closer together, it is allowed between
+    /// them.
     /// Without a limit the integrator would take hours in tiny steps near a dead point.
     pub steps: usize,
 }

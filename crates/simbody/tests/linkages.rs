@@ -42,9 +42,9 @@ fn the_library_is_a_simbody_3() {
 
 #[test]
 fn forces_in_a_parallelogram_are_those_of_statics() {
-    // The coupler of 3 kg only translates, on a circle of radius 1 at 4 rad/s: a = -16 e.
-    // Its joints together carry m (a - g).
-    // The part of each joint follows from the moments about the coupler's middle and about the second pivot.
+    // The coupler of 3 kg only translates, on a circle of radius 1 at 4 rad/s. Its acceleration is a = -16 e.
+    // The forces of its two joints add up to m (a - g).
+    // The force of each joint follows from the moments about the coupler's middle and about the second pivot.
     // The second crank turns uniformly, and its weight acts at half its length.
     let (start, rate, t) = (0.7, 4.0, 0.2);
     let mut run = parallelogram(rod(3.0, 2.0), start, rate, 1e-4).run(IntegrationSettings::default()).unwrap();
@@ -53,14 +53,15 @@ fn forces_in_a_parallelogram_are_those_of_statics() {
     let angle = start + rate * t;
     let (cos, sin) = (angle.cos(), angle.sin());
     let total = [3.0 * -16.0 * cos, 3.0 * (-16.0 * sin + G)];
-    // Equal y components keep the coupler from turning.
-    // The x component on the second crank balances the moment of its weight.
+    // The coupler does not turn, so the y components in its two joints are equal.
+    // The x component on the second crank balances the moment of the crank's weight.
     let half = total[1] / 2.0;
     let on_second = [(-half * cos - 1.0 * G * cos / 2.0) / sin, -half];
     close_to(state.loops[0].force, on_second, 1e-9);
     close_to(state.bodies[1].force, [total[0] + on_second[0], half], 1e-9);
     assert!(state.bodies[1].moment.abs() < 1e-9 && state.bodies[2].moment.abs() < 1e-9);
-    // Power of the drive: only the weights contribute, because the kinetic energy is constant.
+    // The moment of the drive follows from its power. Only the weights contribute, because the kinetic energy is
+    // constant.
     let drive = G * cos * (0.5 + 3.0 + 0.5);
     assert!((state.bodies[0].drive - drive).abs() < 1e-9, "{} instead of {drive}", state.bodies[0].drive);
     assert!((state.bodies[0].moment - drive).abs() < 1e-9, "the drive is part of the moment in its pin");
@@ -99,7 +100,8 @@ fn all_links_may_be_massless() {
     let mut run = model.run(IntegrationSettings::default()).unwrap();
     run.advance(0.1).unwrap();
     let state = run.read(true).unwrap();
-    // The loaded crank needs 6 N m, which the coupler's axial force exerts. The drive bears the same moment.
+    // The loaded crank needs 6 N m. The coupler's axial force exerts this moment, and the drive supplies the same
+    // moment.
     close_to(state.loops[0].force, [-6.0 / 1.1_f64.sin(), 0.0], 1e-11);
     assert!((state.bodies[0].drive - 6.0).abs() < 1e-11);
 }
@@ -151,7 +153,8 @@ fn a_linkage_that_cannot_be_closed_is_refused() {
 #[test]
 fn the_run_ends_at_the_dead_point() {
     // Crank 1, coupler 1.5, rocker 1, base 3.
-    // The linkage cannot be assembled if crank pin and pivot are more than 2.5 apart, at cos = 0.625.
+    // The linkage can be assembled only if the distance between crank pin and rocker pivot is at most 2.5.
+    // This limit is reached at the crank angle whose cosine is 0.625.
     let start = 0.2_f64;
     let crank_pin = [start.cos(), start.sin()];
     let reach: f64 = (3.0 - crank_pin[0]).hypot(crank_pin[1]);

@@ -182,7 +182,9 @@ impl CaseBuilder {
         self
     }
 
-    /// Adds a load. Its links are numbered from 1 in the order of [`CaseBuilder::link`]; the ground is 0.
+    /// Adds a load. In the load, moving links have the numbers 1, 2, ... in the order of the calls to
+    /// [`CaseBuilder::link`].
+    /// The ground has the number 0.
     #[must_use]
     pub fn load(mut self, load: Load) -> Self {
         self.loads.push(load);
@@ -214,9 +216,9 @@ impl CaseBuilder {
     /// Checks the input and returns the case.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for an unknown link, point or joint, with a list of the known names, and for a mechanism
-    /// without ground or crank.
-    /// Also the errors of [`Mechanism::new`], [`Structure::of`], [`first_pose`] and [`Case::new`].
+    /// [`ErrorKind::Input`] for an unknown link, point or joint, with a list of the known names.
+    /// The same kind for a mechanism without ground or crank.
+    /// The errors of [`Mechanism::new`], [`Structure::of`], [`first_pose`] and [`Case::new`] are passed on.
     pub fn build(mut self) -> Result<Case> {
         if self.links.first().is_none_or(|link| link.name != "ground") {
             return Err(missing(
@@ -296,7 +298,8 @@ impl CaseBuilder {
             let carries = |link: LinkId| link == GROUND || all.iter().any(|before| before.link == link);
             let link = if carries(first.link) { second.link } else { first.link };
             all.push(Drive {
-                // The structural analysis rejects a driven joint that no drive can move.
+                // A joint that no drive can move has no kind of input. The default is used, because the structural
+                // analysis rejects such a drive later.
                 input: kind.input().unwrap_or_default(),
                 joint,
                 link,
@@ -407,8 +410,8 @@ mod tests {
         assert!((case.start.0[LinkId(3)].origin.x - 0.5).abs() < 1e-15, "{:?}", case.start);
     }
 
-    /// Regression: the instants of a free motion were chosen by crank angle.
-    /// The time at which a free crank reaches an angle depends on the forces.
+    /// Regression: the builder chose the instants of a free motion by crank angle.
+    /// This is impossible, because the time at which a free crank reaches an angle depends on the forces.
     #[test]
     fn the_instants_of_a_free_motion_are_times() {
         let left = |builder: CaseBuilder| builder.mode(&["coupler", "rocker"], AssemblyMode::Left);
@@ -417,7 +420,7 @@ mod tests {
         assert_eq!(case.grid, Grid::of_times(case.crank(), (0..=8).map(|k| TAU / 4.0 * f64::from(k) / 8.0).collect()));
         let case = left(four_bar().free("O", 0.0, 4.0)).times(&[0.0, 0.3, 0.1]).build().unwrap();
         assert_eq!(case.grid.times, [0.0, 0.3, 0.1]);
-        // A grid by crank angle is rejected, however it was made.
+        // A grid of crank angles is rejected for a free crank, also if it was not made by the builder.
         let angles = Grid::of_inputs(case.crank(), vec![0.0, 1.0]);
         assert!(case.on(angles.clone()).unwrap_err().to_string().contains("the motion is free"));
         assert!(case.with(|parts| parts.grid = angles).unwrap_err().to_string().contains("the motion is free"));

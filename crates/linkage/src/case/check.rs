@@ -10,8 +10,9 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::math::{KeepNan, unit};
 use crate::mechanism::{AssemblyMode, GROUND, GroupKind, LinkPose, Mechanism, Structure};
 
-/// Upper limit of the opening of a joint in a start pose, relative to the joint's largest coordinate.
-/// In the first poses of all shipped scenarios the opening is less than 1e-15 (`tests/suite/start.rs`).
+/// If the opening of a joint in a start pose exceeds this fraction of the joint's largest coordinate, the case is
+/// rejected.
+/// In the first poses of all shipped scenarios the ratio is less than 1e-15 (`tests/suite/start.rs`).
 /// In the pose of a different mechanism it is far larger.
 const LARGEST_OPENING: f64 = 1e-9;
 

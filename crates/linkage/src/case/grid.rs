@@ -46,16 +46,16 @@ impl Grid {
         self.times.is_empty()
     }
 
-    /// Upper limit of the distance of a grid from the crank's zero, in turns.
-    /// Solvers follow the branch over the whole distance, and a larger angle loses its last digits to rounding.
+    /// Upper limit of the absolute input values of a grid, in turns.
+    /// Solvers follow the branch from zero to every value, and a larger angle loses its last digits to rounding.
     pub const MOST_TURNS: f64 = 1e5;
 
-    /// Checks that all times and angles are finite and within [`Grid::MOST_TURNS`], and that the drive's law is defined
-    /// at all of them.
+    /// Checks that all times and angles are finite and that all angles are within [`Grid::MOST_TURNS`].
+    /// Also checks that the drive's law is defined at all times.
     ///
     /// # Errors
-    /// A message that says how far the grid reaches, where the law ends, or that a grid by crank angle does not suit a
-    /// free crank.
+    /// A message that names one of three faults: the grid reaches too far, the law ends too early, or the crank is free
+    /// and the grid consists of crank angles.
     pub fn check(&self, drive: &Drive) -> std::result::Result<(), String> {
         let has_angles_alone =
             self.times.iter().all(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite());

@@ -67,7 +67,7 @@ impl Case {
     }
 }
 
-/// The needed parts of a case.
+/// Marks the parts of a case that the requested channels need.
 struct Needs<'a> {
     case: &'a Case,
     /// For every link, the groups on which its motion depends. The last of them is the group of the link itself.
@@ -173,7 +173,7 @@ impl<'a> Needs<'a> {
         self.moves[joint.first.link] && self.moves[joint.second.link]
     }
 
-    /// Whether the part keeps a load: some forces are needed, and the part contains all links of the load.
+    /// Whether the reduced case keeps a load. It does if it needs any forces and contains all links of the load.
     fn has_load(&self, load: &Load) -> bool {
         self.carries.contains(&true) && load.links().iter().all(|&link| self.moves[link])
     }
@@ -227,9 +227,9 @@ impl<'a> Needs<'a> {
         Ok(scene.wanting_only(case.only.as_deref().unwrap_or_default()))
     }
 
-    /// The links of the part.
-    /// Two links may share a point's name while the joint that kept the points together is left out.
-    /// The link that depends on fewer groups then keeps the name. On the other link the point gets a number.
+    /// The links of the reduced case.
+    /// Two links may share a point's name although the joint that connects them at this point is left out.
+    /// The link that depends on fewer groups then keeps the name. On the other link a number is added to the name.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
         let stays = |index: &LinkId| self.moves[*index];
@@ -282,7 +282,7 @@ impl<'a> Needs<'a> {
     }
 }
 
-/// New numbers of the items that stay, in order. The entries of removed items are not used.
+/// New numbers of the items that stay, in order. Entries of removed items are placeholders.
 fn numbers<I: Ordinal>(stays: impl Iterator<Item = bool>) -> Vec<I> {
     let mut next = 0;
     stays

@@ -8,16 +8,16 @@ use crate::trajectory::{Channel, ChannelSubject, Stage};
 
 /// Location of a channel's subject in the mechanism.
 /// It determines what the channel's values depend on and what they describe.
-/// A new kind of subject uses one of these locations: see [`Case::seats`].
+/// If you add a kind of subject, give it one of these locations in [`Case::seats`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Seat {
-    /// On the link with this number.
+    /// The link with this number.
     Link(LinkId),
-    /// At a point of a link. If several links carry the point, the first of them.
+    /// A point of a link. If several links carry the point, this is the first of them.
     Point(JointSide),
-    /// In the joint with this number.
+    /// The joint with this number.
     Joint(JointId),
-    /// At the drive with this number.
+    /// The drive with this number.
     Drive(usize),
     /// On the whole frame.
     Frame,

@@ -1,17 +1,18 @@
-//! Which links can turn, derived from the joints and the start pose.
+//! Determines which links can turn, from the joints and the start pose.
 //!
 //! Links connected by a prismatic joint have the same angle up to a constant.
-//! So do opposite links of a parallelogram, and all links in a chain of such pairs.
-//! A link connected with the ground in this way only translates: its angular velocity is zero.
-//! If a solver computes a nonzero angular velocity for such a link, that value is rounding error.
-//! Loads must not take a sense of rotation from it.
+//! Opposite links of a parallelogram also have the same angle up to a constant, and so do all links in a chain of such
+//! pairs.
+//! A link connected with the ground by such pairs only translates: its angular velocity is zero.
+//! A solver may compute a nonzero angular velocity for it, which is only rounding error.
+//! Loads must not derive a sense of rotation from this error.
 
 use super::CaseParts;
 use crate::math::Vec2;
 use crate::mechanism::{GROUND, Joint, LinkId};
 
-/// Two opposite sides of a quadrilateral count as equal if they differ by less than this fraction of the mechanism's
-/// size. The quadrilateral is then a parallelogram.
+/// If opposite sides of a quadrilateral differ by less than this fraction of the mechanism's size, they count as equal.
+/// The quadrilateral is then a parallelogram.
 const EQUAL: f64 = 1e-12;
 
 /// A link that connects two other links by revolute joints.
@@ -39,7 +40,7 @@ pub(super) fn turning(parts: &CaseParts) -> Vec<bool> {
     for same in bridges.chunk_by(|one, other| one.ends == other.ends) {
         for (index, one) in same.iter().enumerate() {
             for other in same[index + 1..].iter().filter(|other| other.link != one.link) {
-                // Two opposite sides of the quadrilateral. Each lies on one of the two connected links.
+                // Two opposite sides of the quadrilateral: one on each of the two links that `one` and `other` connect.
                 let sides = [0, 1].map(|end| other.places[end] - one.places[end]);
                 if (sides[0] - sides[1]).norm() <= equal && sides[0].norm() > equal {
                     unite(one.ends[0], one.ends[1]);

@@ -64,7 +64,8 @@ impl Curve {
 pub struct MotorBranch {
     curve: Curve,
     ratio: f64,
-    /// Fraction of the static torque that reaches the crank. If power flows back to the motor, its inverse.
+    /// Ratio of the torque on the crank to the motor's static torque: the efficiency if power flows to the crank.
+    /// If power flows back to the motor, the reciprocal of the efficiency.
     factor: f64,
     /// Speeds of the crank (rad/s) between which the piece is valid. Outside this interval the piece continues
     /// smoothly.

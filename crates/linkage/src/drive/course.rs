@@ -21,8 +21,8 @@ pub enum Course {
 
 impl Course {
     /// Returns a table through points of crank angle (rad) and value.
-    /// There must be at least one point. The crank angles ascend and lie within `turns` revolutions, after which the
-    /// table repeats.
+    /// There must be at least one point. The crank angles ascend and lie within `turns` revolutions.
+    /// After `turns` revolutions the table repeats.
     /// If `smooth` is true, the function is a periodic cubic spline with continuous second derivatives.
     /// Otherwise straight lines join the points.
     #[must_use]

@@ -11,8 +11,8 @@ pub enum DriveMotion {
     Prescribed {
         /// The motion law.
         law: MotionLaw,
-        /// Motor for which the speed under load is requested. The link follows the law even if the motor could not move
-        /// it so.
+        /// Motor for which the speed under load is to be computed.
+        /// It does not affect the motion: the link follows the law even if the motor is too weak for it.
         motor: Option<Motor>,
     },
     /// Free motion: from t = 0 on, it follows from the loads, weights, inertia and the motor, if any.
@@ -56,7 +56,7 @@ impl Drive {
         Drive { input: Input::Angle, joint, link, zero, start, motion, through: false }
     }
 
-    /// Applies `read` to the law: the law that prescribes the motion, or that of the nominal motion.
+    /// Applies `read` to the law of the motion. For a free link this is the law of its nominal motion.
     #[inline]
     fn by_law<T>(&self, read: impl FnOnce(&MotionLaw) -> T) -> T {
         match &self.motion {
@@ -65,7 +65,8 @@ impl Drive {
         }
     }
 
-    /// State of the driving link at time `t` (s), as in [`MotionLaw::at`]. For a free link: in the nominal motion.
+    /// State of the driving link at time `t` (s), as in [`MotionLaw::at`]. For a free link, the state in its nominal
+    /// motion.
     #[inline]
     #[must_use]
     pub fn at(&self, t: f64) -> InputState {
@@ -73,15 +74,15 @@ impl Drive {
     }
 
     /// Time (s) at which the crank angle is `angle` (rad, in the scenario's convention), as in [`MotionLaw::time_of`].
-    /// For a free link: in the nominal motion.
+    /// For a free link, the time in its nominal motion.
     #[inline]
     #[must_use]
     pub fn time_of(&self, angle: f64) -> f64 {
         self.by_law(|law| law.time_of(angle - self.start))
     }
 
-    /// Constant speed (rad/s) of an integration step between the law's angles at the times `from` and `to` (s).
-    /// The step takes the absolute difference of the two times.
+    /// Constant speed (rad/s) that moves the link from its angle at time `from` to its angle at time `to` (s).
+    /// The motion takes the absolute difference of the two times.
     /// If `to` is before `from`, the speed is opposite to the law's sense.
     #[inline]
     #[must_use]
@@ -151,14 +152,15 @@ impl Drive {
     }
 
     /// Whether the mechanism continues through change points, on the branch with continuous velocities.
-    /// In free motion it always does, by momentum. Under a law it does if [`Drive::through`] is set.
+    /// A free motion always continues, because of its momentum. A motion under a law continues if [`Drive::through`] is
+    /// set.
     #[inline]
     #[must_use]
     pub fn passes(&self) -> bool {
         self.through || self.is_free()
     }
 
-    /// Whether the drive exerts a moment on the link. Only a free link without a motor has no such moment.
+    /// Whether the drive exerts a moment on the link. Only the drive of a free link without a motor exerts no moment.
     #[must_use]
     pub fn has_moment(&self) -> bool {
         match &self.motion {
@@ -167,7 +169,8 @@ impl Drive {
         }
     }
 
-    /// The motor. It drives the link, or only its speed under load is requested.
+    /// The motor of the link. On a free link it drives the link. Under a law only its speed under load is to be
+    /// computed.
     #[must_use]
     pub fn motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -234,14 +237,14 @@ impl Drive {
         self.zero + angle
     }
 
-    /// Input in the scenario's convention, for the coordinate of [`Drive::world_angle`] (rad).
+    /// Converts the coordinate measured as in [`Drive::world_angle`] (rad) to the input in the scenario's convention.
     #[inline]
     #[must_use]
     pub fn from_world(&self, coordinate: f64) -> f64 {
         coordinate - self.zero
     }
 
-    /// Angle of the driving link's frame (rad, unwrapped) at the coordinate of [`Drive::world_angle`].
+    /// Angle of the driving link's frame (rad, unwrapped) for a coordinate measured as in [`Drive::world_angle`].
     /// `None` if the drive does not turn the link.
     #[inline]
     #[must_use]

@@ -1,8 +1,9 @@
 //! Loads on links other than gravity and inertia.
 //!
-//! Only this file defines a kind of load: its variant, its action on the links ([`Load::act`]), its dependencies
-//! ([`Load::nature`]) and its numbers ([`Load::parts`]).
-//! All other code calls these methods. The scenario reader defines the syntax in files.
+//! This file alone defines each kind of load.
+//! The definition consists of its variant, its action on the links ([`Load::act`]), its dependencies ([`Load::nature`])
+//! and its numbers ([`Load::parts`]).
+//! All other code calls these methods. The syntax in files is defined by the scenario reader.
 
 mod change;
 mod parts;
@@ -50,7 +51,7 @@ pub enum Load {
         /// Size of the force (N), not negative.
         force: f64,
     },
-    /// Spring between two points. It pulls them together with stiffness times (length - free length).
+    /// Spring between two points. It pulls the points together with the force stiffness times (length - free length).
     /// If the points coincide, the direction is undefined and the force is zero.
     Spring {
         /// End points.
@@ -60,7 +61,7 @@ pub enum Load {
         /// Unloaded length (m).
         free_length: f64,
     },
-    /// Damper between two points. It pulls them together with damping times the rate of their distance.
+    /// Damper between two points. It pulls the points together with the force damping times the rate of their distance.
     /// If the points coincide, the force is zero.
     Damper {
         /// End points.
@@ -68,8 +69,8 @@ pub enum Load {
         /// Damping (N s/m).
         damping: f64,
     },
-    /// Torsion spring between two links: stiffness times (twist - free twist) on the first link, the opposite moment on
-    /// the second.
+    /// Torsion spring between two links.
+    /// The moment on the first link is stiffness times (twist - free twist). The moment on the second link is opposite.
     /// The twist is the angle of the second link's frame minus that of the first.
     /// At t = 0 it is in (-pi, pi]; after that it counts whole turns.
     TorsionSpring {
@@ -80,8 +81,8 @@ pub enum Load {
         /// Unloaded twist (rad).
         free_angle: f64,
     },
-    /// Torsion damper between two links: damping times the rate of the twist on the first link, the opposite moment on
-    /// the second.
+    /// Torsion damper between two links.
+    /// The moment on the first link is damping times the rate of the twist. The moment on the second link is opposite.
     TorsionDamper {
         /// The links.
         links: [LinkId; 2],
@@ -235,8 +236,8 @@ impl Load {
     }
 
     /// Moment (N m) of a load with a [sensed link](Load::sensed_link).
-    /// The link turns in the sense of `omega`, and the crank angle is `crank` (rad).
-    /// Zero at standstill, and for all other loads.
+    /// `omega` gives the link's sense of rotation, `crank` the crank angle (rad).
+    /// The moment is zero at standstill. It is also zero for a load without a sensed link.
     #[inline]
     #[must_use]
     pub fn moment_in(&self, omega: f64, crank: f64) -> f64 {
@@ -255,8 +256,8 @@ impl Load {
     }
 
     /// Force (N) of a load with a [sensed point](Load::sensed_point).
-    /// The point moves in the direction `way`: a unit vector in world axes, or zero for standstill.
-    /// Zero for all other loads.
+    /// `way` is the point's direction of motion: a unit vector in world axes, or zero for standstill.
+    /// The force is zero for a load without a sensed point.
     #[inline]
     #[must_use]
     pub fn force_in(&self, way: Vec2) -> Vec2 {
@@ -264,9 +265,9 @@ impl Load {
     }
 
     /// Jump of the load when the sensed motion reverses at the crank angle `crank` (rad).
-    /// Its unit is N m, or N for a force. It is not negative.
+    /// The jump is in N m, or in N for a force. It is not negative.
     /// It is zero for a load that senses no motion, or that vanishes with the speed or at that crank angle.
-    /// Such a load has at most a kink.
+    /// In these cases the load has at most a kink.
     #[must_use]
     pub fn jump(&self, crank: f64) -> f64 {
         match self.nature().senses {
@@ -315,7 +316,7 @@ impl Load {
 }
 
 /// Direction of a velocity: a unit vector, or zero at standstill.
-/// The computation avoids underflow of the squares of very small speeds.
+/// Squares of very small speeds would underflow; the computation avoids this.
 #[inline]
 #[must_use]
 pub fn sense_of(velocity: Vec2) -> Vec2 {

@@ -20,7 +20,8 @@ pub struct InputState {
     pub acceleration: f64,
 }
 
-/// An input as a function of time, from t = 0. The units given are those of an angle; for a length they are m and m/s.
+/// An input as a function of time, from t = 0.
+/// The units in this type are those of an angle. For a length, read m for rad and m/s for rad/s.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s, not zero), counter-clockwise positive.
@@ -43,7 +44,7 @@ pub enum MotionLaw {
         time: f64,
     },
     /// Angle from the start (rad) as a function of time (s), with two continuous derivatives.
-    /// It is defined from its first knot, 0, to its last.
+    /// The function is defined from its first knot, which is 0, to its last knot.
     Table(Arc<Piecewise>),
 }
 
@@ -118,7 +119,8 @@ impl MotionLaw {
         }
     }
 
-    /// The reached speed with the largest absolute value (rad/s), counter-clockwise positive. Not zero.
+    /// The speed with the largest absolute value that the law reaches (rad/s), counter-clockwise positive. It is not
+    /// zero.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
         match self {
@@ -132,7 +134,8 @@ impl MotionLaw {
     }
 
     /// First time (s) at which the driving link has turned by the angle `gone` (rad).
-    /// NaN if the law never reaches the angle. Also NaN for tables, because they may reach the angle more than once.
+    /// NaN if the law never reaches the angle.
+    /// NaN also for every table, because a table may reach the angle more than once.
     #[inline]
     #[must_use]
     pub fn time_of(&self, gone: f64) -> f64 {
@@ -149,13 +152,13 @@ impl MotionLaw {
     }
 }
 
-/// Number of bisections of the whole duration. They reach rounding error.
+/// Number of bisections of the law's whole duration. After this number the error is at the level of rounding errors.
 const HALVINGS: usize = 60;
 
 /// Fraction s of the duration at which s - sin(2 pi s) / 2 pi equals `gone`.
 /// It is found by bisection, because the function has zero slope at both ends.
 fn cycloid(gone: f64) -> f64 {
-    // The angle may exceed the last angle by a rounding error.
+    // Because of rounding errors the angle may lie slightly outside the law's range.
     if !(-1e-15..=1.0 + 1e-15).contains(&gone) {
         return f64::NAN;
     }

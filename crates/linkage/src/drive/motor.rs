@@ -2,7 +2,7 @@
 
 use super::branch::{Curve, MotorBranch};
 
-/// Torque of a motor as a function of its speed. Both are positive in the motor's driving sense.
+/// Torque of a motor as a function of its speed. Torque and speed are positive in the motor's driving sense.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotorLaw {
     /// Constant torque at all speeds.
@@ -10,8 +10,8 @@ pub enum MotorLaw {
         /// Torque (N m).
         torque: f64,
     },
-    /// M = `at_rest` + `slope` omega: the stable branch of an induction motor's characteristic, or a direct-current
-    /// motor.
+    /// M = `at_rest` + `slope` omega.
+    /// This is the characteristic of a direct-current motor, or the stable branch of that of an induction motor.
     Linear {
         /// Torque of the straight line at standstill (N m).
         at_rest: f64,
@@ -30,8 +30,8 @@ pub enum MotorLaw {
         /// Synchronous speed, the speed without load (rad/s), above 0.
         synchronous_speed: f64,
     },
-    /// Straight lines between measured points; beyond the table, the first and the last line continue.
-    /// Straight lines cannot overshoot, so a decreasing table gives a decreasing law.
+    /// Straight lines between measured points. Beyond the table, the first and the last line continue.
+    /// Straight lines are used because they cannot overshoot: a decreasing table gives a decreasing law.
     Table {
         /// Speeds (rad/s), ascending, at least two.
         speeds: Vec<f64>,
@@ -115,7 +115,7 @@ pub struct Motor {
     /// Ratio of the motor's speed to that of the crank, above 0.
     pub ratio: f64,
     /// Efficiency of the reducer, above 0 and at most 1. It is the same in both directions of power flow.
-    /// It reduces the motor's static torque. Losses of the moments that accelerate the shafts are neglected.
+    /// It applies to the motor's static torque, not to the moments that accelerate the shafts.
     pub efficiency: f64,
     /// Moments of inertia of rotor and reducer.
     pub inertia: ShaftInertia,
@@ -146,8 +146,8 @@ impl Motor {
     }
 
     /// The smooth piece of the moment on the crank that is valid at the crank's speed `omega` (rad/s).
-    /// If `omega` is where two pieces meet: the piece at higher speeds if `towards` is positive, otherwise the piece at
-    /// lower speeds.
+    /// Two pieces may meet at `omega`.
+    /// Then the piece at higher speeds is returned if `towards` is positive, otherwise the piece at lower speeds.
     #[must_use]
     pub fn branch(&self, omega: f64, towards: f64) -> MotorBranch {
         let holds = |branch: &&MotorBranch| match towards > 0.0 {
@@ -162,7 +162,8 @@ impl Motor {
     fn branches(&self) -> Vec<MotorBranch> {
         let mut found = Vec::new();
         for ([from, to], curve) in self.law.curves() {
-            // The losses change sign with the power. The power changes sign with the speed or the torque.
+            // The losses change sign with the power, and the power changes sign with the speed or the torque.
+            // A piece therefore ends at zero speed and at zero torque.
             let mut ends = vec![from, to];
             if self.efficiency < 1.0 {
                 let turns = [Some(0.0), curve.root()].into_iter().flatten();
@@ -179,7 +180,7 @@ impl Motor {
 
     /// Speed of the crank (rad/s) at stable equilibrium: the motor's moment equals `resistance` (N m) and decreases
     /// with increasing speed.
-    /// If there are several such speeds, the largest; `None` if there is no such speed.
+    /// If there are several equilibrium speeds, the largest is returned; if there is none, `None`.
     #[must_use]
     pub fn steady_speed(&self, resistance: f64) -> Option<f64> {
         self.branches().iter().rev().find_map(|branch| branch.steady_speed(resistance))
@@ -205,7 +206,7 @@ mod tests {
             let steady = kloss.steady_speed(resistance).unwrap();
             assert!((kloss.moment_on_crank(steady) - resistance).abs() < 1e-10, "{resistance}");
         }
-        // The breakdown torque on the crank is 10 * 0.9 * 5 N m.
+        // The breakdown torque on the crank is 10 * 0.9 * 5 = 45 N m, so there is no equilibrium at 45.1 N m.
         assert_eq!(kloss.steady_speed(45.1), None);
         assert_eq!(Motor::ideal(MotorLaw::Constant { torque: 3.0 }, 1.0).steady_speed(2.0), None);
     }

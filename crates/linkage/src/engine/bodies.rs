@@ -1,4 +1,5 @@
-//! Substitute masses and moments of inertia. Engines integrate bodies and need them.
+//! Substitute masses and moments of inertia for links that have none. Engines integrate bodies and need both
+//! quantities.
 
 use crate::case::Case;
 use crate::error::{Advice, Error, ErrorKind, Result};

@@ -1,5 +1,6 @@
-//! Richardson extrapolation of an engine with a fixed time step to a step of zero (Richardson 1911).
-//! The engine solves at h, h / 2, h / 4, ...; their states are combined so that the leading errors cancel.
+//! Richardson extrapolation of an engine with a fixed time step to the limit of a vanishing step (Richardson 1911).
+//! The engine solves at the steps h, h / 2, h / 4, .... The resulting states are combined so that the leading errors
+//! cancel.
 //! See docs/numerics/twins.md.
 
 use super::{Engine, Settings, StandIn};
@@ -36,9 +37,10 @@ impl Extrapolated {
 }
 
 /// Weights of the runs at h, h / 2, ....
-/// The error has the powers `order`, `order` + 1, ... of the step; each run after the first cancels one power.
-/// Neville's scheme: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) / (2^p - 1), where p is the power that
-/// cancels.
+/// The terms of the error are powers `order`, `order` + 1, ... of the step.
+/// Each run after the first cancels one of these terms.
+/// Neville's scheme: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) / (2^p - 1).
+/// In this step of the scheme the term with the power p cancels.
 fn weights(order: f64, runs: usize) -> Vec<f64> {
     let mut rows: Vec<Vec<f64>> =
         (0..runs).map(|run| (0..runs).map(|k| f64::from(u8::from(k == run))).collect()).collect();
@@ -324,7 +326,7 @@ mod tests {
         assert_eq!(alone[0].len(), 3);
         let once = [(0.1, 8), (0.05, 8), (0.025, 8), (0.2, 8), (0.1, 4), (0.05, 4)];
         assert_eq!(engine.taken(), once);
-        // A stored run is not repeated until it is dropped.
+        // A run that is stored is not repeated. After it was dropped from the store, it runs again.
         assert_eq!(run(kept.with(ASKED).as_ref(), &case).0, alone[0]);
         assert_eq!(engine.taken(), []);
         kept.retain(|settings| settings.resolution != 0.1);

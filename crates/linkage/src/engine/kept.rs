@@ -11,9 +11,9 @@ use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::threads::{cores, side_by_side};
 use crate::trajectory::Channel;
 
-/// An engine that performs every run once and returns the stored states if the run is requested again.
-/// Engines made from it by [`Engine::with`] share the stored runs, including extrapolated engines.
-/// Stored runs belong to one case; a run of another case empties the store.
+/// An engine that stores its runs. If a stored run is requested again, the stored states are returned.
+/// Engines made from it by [`Engine::with`] share the stored runs. Extrapolated engines share them too.
+/// The store holds the runs of one case. A run of another case empties the store.
 pub struct CachedEngine {
     inner: Box<dyn Engine>,
     store: Arc<Store>,
@@ -37,7 +37,7 @@ struct Run {
 }
 
 impl Store {
-    /// Locks the store. A poisoned lock is usable, because the store holds complete runs only.
+    /// Locks the store. A lock poisoned by a panic is still usable, because the store contains only complete runs.
     fn lock(&self) -> MutexGuard<'_, Runs> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -52,7 +52,7 @@ impl Store {
 }
 
 impl CachedEngine {
-    /// Wraps an engine and stores its runs at all settings.
+    /// Wraps an engine in a store. Runs at all settings are stored.
     #[must_use]
     pub fn new(engine: &dyn Engine) -> Self {
         let plain = Settings { extrapolated: 0, ..engine.settings() };
@@ -75,7 +75,7 @@ impl CachedEngine {
     /// Their results do not depend on the number of threads. A failed run is stored with its error.
     /// `progress` receives the completed fraction of all these runs.
     pub fn prepare(&self, case: &Case, mut missing: Vec<Settings>, progress: Progress) {
-        // The longest run starts first, so that the other cores do not wait for it at the end.
+        // The run with the most work starts first. If it started last, the other cores would have to wait for it.
         missing.sort_by(|a, b| b.work().total_cmp(&a.work()));
         let whole: f64 = missing.iter().map(Settings::work).sum();
         let mut parts = vec![0.0f64; missing.len()];

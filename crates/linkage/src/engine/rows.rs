@@ -1,7 +1,7 @@
 //! The states of a whole run in one block of memory, reduced to the numbers that the requested channels need.
 //!
-//! A [`State`] has five separate lists, each with memory for every stage.
-//! For a run of many instants these lists would take more memory than the numbers.
+//! A [`State`] has five separate lists, and each list has memory for every stage.
+//! For a run of many instants, separate states would take more memory than the numbers themselves.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -80,7 +80,7 @@ impl Rows {
         Layout::of(case).width() * size_of::<f64>() + size_of::<bool>()
     }
 
-    /// Whether the run has reached a row.
+    /// Whether the run has reached the row with this index.
     #[must_use]
     pub fn has(&self, row: usize) -> bool {
         self.reached[row]

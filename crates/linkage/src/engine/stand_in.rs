@@ -1,5 +1,5 @@
 //! Solvers that replace an engine.
-//! Only this module forwards to the original engine the methods that the replacement does not change.
+//! Only this module forwards calls to the replaced engine, for all methods that the replacement does not change.
 
 use std::sync::Arc;
 
@@ -10,8 +10,8 @@ use crate::solver::{Progress, Solver};
 use crate::trajectory::ChannelKind;
 
 /// A solver that replaces an engine and therefore is an engine itself.
-/// It overrides only what it changes.
-/// A new method of [`Engine`] is forwarded in one place; without that, the code does not compile.
+/// It overrides only the methods that it changes.
+/// If you add a method to [`Engine`], forward it in this module; otherwise the code does not compile.
 pub trait StandIn: Solver {
     /// The engine that the stand-in replaces.
     fn original(&self) -> &dyn Engine;
@@ -24,7 +24,7 @@ pub trait StandIn: Solver {
         self.original().settings()
     }
 
-    /// [`Engine::rows`] of the stand-in. Default: collected by [`Solver::sweep`].
+    /// [`Engine::rows`] of the stand-in. By default, [`Solver::sweep`] of the stand-in supplies the states.
     ///
     /// # Errors
     /// Those of [`Solver::sweep`].

@@ -11,7 +11,7 @@ pub trait Hook: Clone + Send + Sync + 'static {
     /// The case to solve instead of `case`; `None` to solve `case` itself.
     ///
     /// # Errors
-    /// If there is no case to solve. Nothing is solved then.
+    /// If no case can be solved. The solver is then not called.
     fn case(&self, case: &Case) -> Result<Option<Case>> {
         let _ = case;
         Ok(None)
@@ -72,7 +72,8 @@ impl<H: Hook> StandIn for Wrapped<H, dyn Engine> {
         let mut inner = self.inner.statics(changed.as_ref().unwrap_or(case))?;
         Some(Box::new(move |case, row, state| {
             inner(changed.as_ref().unwrap_or(case), row, state)?;
-            // The motion has already been changed, so only the change of the forces applies here.
+            // The hook changes motion and forces, but it has already changed the motion of this state.
+            // The motion is therefore restored, and only the change of the forces remains.
             let motion = (state.motions.clone(), state.angles.clone());
             hook.answer(case, row, state);
             (state.motions, state.angles) = motion;

@@ -1,5 +1,5 @@
 //! The remedy for an error, as data.
-//! Its text does not name an option of any program. A program with options adds them.
+//! The text of a remedy does not mention command-line options. A program that has options adds their names.
 
 use crate::sentences;
 use std::fmt;
@@ -40,7 +40,7 @@ pub enum Advice {
     FreeSettings,
     /// More work for the search of settings.
     MoreWork {
-        /// Work to allow. The unit is a step without sweeps.
+        /// Amount of work to allow. The unit is one step of an engine without sweeps.
         to: f64,
     },
     /// Fewer instants, or fewer channels.
@@ -92,8 +92,8 @@ pub enum Advice {
 }
 
 impl Advice {
-    /// The same advice with a number to try.
-    /// The number follows from the engine's present settings: `resolution` and number of `sweeps`.
+    /// The same kind of advice, completed with a number to try.
+    /// The number is computed from the engine's present settings: its `resolution` and its number of `sweeps`.
     /// `resolution` is a time step (s), or a relative accuracy if the engine `controls_error`.
     #[must_use]
     pub fn from_settings(self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
@@ -106,7 +106,7 @@ impl Advice {
             _ if matches!(self, Advice::SmallerStep { .. }) => Advice::SmallerStep { to: Some(half) },
             _ if matches!(self, Advice::LargerStep { .. }) => Advice::LargerStep { to: Some(double) },
             _ if matches!(self, Advice::MoreSweeps { .. }) => Advice::MoreSweeps { to: Some(2 * sweeps) },
-            // The other variants do not contain a number from an engine's settings.
+            // The other variants do not depend on an engine's settings and stay unchanged.
             _ => self,
         }
     }

@@ -4,7 +4,7 @@ use super::{Advice, Error};
 use crate::sentences;
 use std::collections::BTreeSet;
 
-/// Upper limit of the number of causes whose errors are kept. Errors of further causes are only counted.
+/// Upper limit of the number of different causes. Errors of further causes are counted but not kept.
 const MOST: usize = 20;
 
 /// Upper limit of the number of errors that are kept.
@@ -71,7 +71,7 @@ impl Error {
         self.0.left_out
     }
 
-    /// Sentence about the errors that were only counted; `None` if all errors are kept.
+    /// Sentence that says how many errors were only counted; `None` if all errors are kept.
     #[must_use]
     pub fn rest(&self) -> Option<String> {
         match self.0.left_out {

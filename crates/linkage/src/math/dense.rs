@@ -11,7 +11,7 @@ pub struct Lu {
     n: usize,
     a: Vec<f64>,
     /// For the general elimination: the row with which each row was exchanged.
-    /// For the fixed orders 4 and 6: the original row at each position.
+    /// For matrices of order 4 and 6: for each row of the factored matrix, its original index.
     pivot: Vec<usize>,
     /// Reciprocals of the diagonal entries of the factored matrix.
     inverse: Vec<f64>,
@@ -170,8 +170,8 @@ fn solve_transposed(a: &[f64], pivots: &[usize], inverse: &[f64], y: &mut [f64])
 
 /// Solves two equations A x = b by elimination with partial pivoting.
 /// Returns `None` if A is singular to working precision, or not finite.
-/// The method is that of [`Lu`], but without loops.
-/// Systems of two equations are solved so often that loops would cost more than the arithmetic.
+/// The method is that of [`Lu`], but written without loops.
+/// This function is called so often that loops would cost more than the arithmetic.
 #[inline]
 #[must_use]
 pub fn solve_pair(a: [[f64; 2]; 2], b: [f64; 2]) -> Option<[f64; 2]> {
@@ -219,7 +219,7 @@ mod tests {
     }
 
     proptest! {
-        /// The cases include singular and non-finite matrices.
+        /// The tested matrices include singular and non-finite ones.
         #[test]
         fn fixed_and_variable_sizes_give_the_same_bits(
             values in prop::collection::vec(-4i8..5, 36),
@@ -249,8 +249,8 @@ mod tests {
             }
             compare::<4>(&values)?;
             compare::<6>(&values)?;
-            // The general elimination misses a NaN that is multiplied by zero. The fixed-order elimination always
-            // rejects NaN.
+            // A NaN must be rejected by the elimination of fixed order.
+            // The general elimination is not tested, because it misses a NaN that is multiplied by zero.
             values[7] = f64::NAN;
             let (mut own, mut pivots, mut inverse) = (values[..16].to_vec(), [0; 4], [0.0; 4]);
             prop_assert!(fixed::factor::<4>(&mut own, &mut pivots, &mut inverse).is_none());

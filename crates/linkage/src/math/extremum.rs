@@ -1,14 +1,14 @@
 //! Extremes of a function of one variable between bounds. All searches for extremes in the project use this module.
 
-/// Number of golden section steps of [`greatest`]. They shrink the interval to 1e-9 of the distance between two
+/// Number of golden section steps of [`greatest`]. They shrink the search interval to 1e-9 of the distance between two
 /// samples.
-/// In an interval this small the value is exact up to rounding error.
+/// The largest value is then exact up to rounding error.
 const REFINEMENTS: usize = 44;
 
 /// Encloses the largest value between `low` and `high` by `steps` steps of golden section (Kiefer 1953).
 /// Each step reduces the interval to 0.618 of its length. Returns both ends of the remaining interval.
 /// If the function has several extremes in the interval, the result encloses one of them.
-/// About 40 steps reach the square root of the rounding error; more steps gain nothing.
+/// After about 40 steps the relative length is at the square root of the rounding error. More steps gain nothing.
 /// NaN counts as less than any number.
 ///
 /// # Errors
@@ -36,10 +36,10 @@ pub fn golden<E>(
 }
 
 /// Position and value of the largest value found.
-/// The search starts from the largest sample and uses golden section between the two neighbouring samples.
-/// `places` are ascending positions, `samples` the values there.
+/// The search starts from the largest sample. It uses golden section between the two samples next to it.
+/// `places` are ascending positions, `samples` the values at these positions.
 /// `value` may fail, for example at a pose that cannot be reached.
-/// If a sample or a computed value is NaN, the result is NaN, because the largest value is then unknown.
+/// If a sample or a computed value is NaN, the largest value is unknown and the result is NaN.
 ///
 /// # Errors
 /// The first error of `value`.
@@ -94,7 +94,7 @@ mod tests {
             let found = greatest(&[0.0, 1.0, 2.0], &[0.0, unknown, 2.0], &mut value).unwrap();
             assert!(found.0 == 1.0 && found.1.is_nan(), "{found:?}");
         }
-        // Only the second value is NaN. The later values must not hide it.
+        // Only the second computed value is NaN. The result must be NaN although the later values are numbers.
         let mut count = 0;
         let mut gap = |x: f64| {
             count += 1;
@@ -114,7 +114,8 @@ mod tests {
             prop_assert!(b - a < 2e-6 * width, "{}", b - a);
         }
 
-        /// The result is at least as large as every sample. It reaches the true largest value up to a bound.
+        /// The result is at least as large as every sample. It is below the true largest value by at most a known
+        /// bound.
         #[test]
         fn the_maximum_is_not_below_any_sample(c in prop::collection::vec(-1.0f64..1.0, 6), count in 40usize..80) {
             let f = |x: f64| (0..3).map(|k| c[2 * k] * (k as f64 * x + c[2 * k + 1]).sin()).sum::<f64>();

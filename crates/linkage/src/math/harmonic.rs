@@ -1,10 +1,10 @@
 //! All zeros of trigonometric polynomials.
 //!
-//! Between two neighbouring extrema a function has one zero if its signs at the extrema differ, otherwise none.
+//! If a function has different signs at two neighbouring extrema, it has one zero between them. Otherwise it has none.
 //! The extrema are the zeros of the derivative, which are computed from eigenvalues.
 //! If two zeros nearly coincide, rounding errors move them by the square root of the rounding error.
-//! The extremum between them remains a simple zero of the derivative.
-//! The sign at that extremum distinguishes a close pair of zeros from a near miss.
+//! The extremum between them is still a simple zero of the derivative and therefore accurate.
+//! The sign at this extremum distinguishes a close pair of zeros from a near miss.
 
 use crate::math::KeepNan;
 use nalgebra::{Complex, DMatrix, linalg::Schur};
@@ -15,15 +15,16 @@ use super::root;
 
 type Coefficients = Vec<Complex<f64>>;
 
-/// If a root of the derivative is farther from the unit circle than this, it does not count as an angle.
-/// A rounding error moves a simple root only by its own size.
-/// It moves a nearly double root by its square root, 1e-8, times the condition number of the root.
-/// Superfluous roots do no harm: each adds only one more candidate.
+/// If the distance of a root of the derivative from the unit circle exceeds this limit, the root is not used.
+/// A rounding error moves a simple root only by an amount of its own size.
+/// It moves a nearly double root farther: by its square root, 1e-8, times the condition number of the root.
+/// The limit may be generous, because a superfluous root only adds one more candidate.
 const ON_CIRCLE: f64 = 1e-3;
-/// A value counts as zero if it is below this fraction of the scale.
+/// If a value divided by the scale is below this limit, it counts as zero.
 /// The limit is the rounding error of the coefficients with a margin of two digits.
 const ZERO: f64 = 1e-14;
-/// Zeros closer together than this (rad) count as a single touching zero. A parabola of height `ZERO` has this width.
+/// If two zeros are closer together than this (rad), they count as a single touching zero.
+/// A parabola of height `ZERO` has this width.
 const APART: f64 = 1e-7;
 
 /// Real zeros in [0, 2 pi), in ascending order, of the trigonometric polynomial that equals `f`.
@@ -35,7 +36,7 @@ const APART: f64 = 1e-7;
 pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f64>> {
     let coefficients = coefficients(degree, f);
     let largest = coefficients.iter().map(|c| c.norm()).fold(0.0, f64::larger);
-    // A NaN value makes every coefficient NaN, but `max` ignores it.
+    // If `f` returns NaN, every coefficient is NaN. All coefficients are tested, because `max` ignores NaN.
     if !(coefficients.iter().all(|c| c.norm().is_finite()) && largest > ZERO * scale) {
         return None;
     }
@@ -74,7 +75,8 @@ fn coefficients(degree: usize, f: impl Fn(f64) -> f64) -> Coefficients {
     let values: Vec<f64> = (0..count).map(|j| f(TAU * j as f64 / count as f64)).collect();
     let coefficient = |k: i64| {
         let term = |(j, &value): (usize, &f64)| {
-            // The product is reduced before it is converted to an angle, so that no digits are lost.
+            // The product k j is reduced modulo one period before it is converted to an angle, so that no digits are
+            // lost.
             let turn = (k * j as i64).rem_euclid(count as i64) as f64 / count as f64;
             Complex::from_polar(value / count as f64, -TAU * turn)
         };
@@ -95,7 +97,7 @@ fn evaluate(coefficients: &[Complex<f64>], x: f64) -> (f64, f64) {
     (value, slope)
 }
 
-/// Positions of the extrema in [0, 2 pi); an empty list for a constant.
+/// Positions of the extrema in [0, 2 pi). The list is empty for a constant function.
 fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     let degree = (coefficients.len() / 2) as f64;
     let slope = |(index, c): (usize, &Complex<f64>)| c * Complex::new(0.0, index as f64 - degree);
@@ -107,7 +109,7 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     let polished = near.map(|found| {
         let (mut best, mut least) = (found.arg(), f64::INFINITY);
         // Near a multiple root Newton's method may diverge.
-        // Of all iterates, including the fifth, the one with the smallest slope is kept.
+        // Therefore the iterate with the smallest slope of the function is kept, whichever of the five iterates it is.
         let Ok(_) = root::polished(found.arg(), 5, f64::INFINITY, |x| {
             let (value, slope) = evaluate(&derivative, x);
             if value.abs() < least && (x - found.arg()).abs() < ON_CIRCLE {
@@ -121,7 +123,7 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
 }
 
 /// The single zero between two positions with different signs.
-/// It uses Newton's method, and bisection if a step would leave the interval.
+/// Newton's method finds it. If a step would leave the interval, bisection replaces the step.
 fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
     let rises = evaluate(coefficients, to).0 > 0.0;
     let middle = f64::midpoint(from, to);
@@ -135,8 +137,8 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
 ///
 /// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.
 /// It moves roots at infinity, which correspond to zero leading coefficients, to -1 / conj(a).
-/// The leading coefficient of the mapped polynomial has the size of the polynomial's value at a.
-/// So a is chosen to make this value large; the companion matrix is then well scaled.
+/// The leading coefficient of the mapped polynomial has the size of the original polynomial's value at a.
+/// So a is chosen to make this value large, which scales the companion matrix well.
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
     let n = polynomial.len() - 1;
     let value = |a: Complex<f64>| polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * a + c).norm();
@@ -232,7 +234,8 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
         #[test]
         fn finds_as_many_zeros_as_a_dense_scan(c in prop::collection::vec(-1.0f64..1.0, 7), small in 0..3usize) {
-            // Degrees from 3 down to 1: the leading coefficients are rounding errors, or only small.
+            // The higher coefficients may be normal, small (1e-8) or of the size of a rounding error (1e-15).
+            // The effective degree is then 3, 2 or 1.
             let size = [1.0, 1e-15, 1e-8];
             let (two, three) = (if c[0] > 0.5 { size[small] } else { 1.0 }, size[small]);
             let f = |x: f64| c[0] + c[1] * x.cos() + c[2] * x.sin() + two * (c[3] * (2.0 * x).cos() + c[4] * (2.0 * x).sin())
@@ -244,8 +247,8 @@ mod tests {
             let n = 20_000;
             let value = |k: usize| f(TAU * k as f64 / n as f64);
             let changes = (0..n).filter(|&k| value(k) * value(k + 1) < 0.0).count();
-            // If two sign changes are closer together than the spacing of the scan, a difference is a fault of the
-            // scan.
+            // The scan misses two sign changes that are closer together than its spacing. A difference of two zeros is
+            // then a fault of the scan.
             let close = found.windows(2).any(|pair| pair[1] - pair[0] < TAU / n as f64);
             prop_assert!(found.len() == changes || close && found.len() == changes + 2, "{found:?} against {changes}");
         }

@@ -5,8 +5,8 @@ pub const POINTS: usize = 6;
 
 /// Lagrange weights of six equally spaced samples at the position `s`, counted in spacings from the first sample.
 ///
-/// Between the two middle samples (2 <= s <= 3) the error is below 0.005 h^6 times the sixth derivative.
-/// At a sample the weights are exactly zero and one.
+/// Between the two middle samples (2 <= s <= 3) the interpolation error is below 0.005 h^6 times the sixth derivative.
+/// At the position of a sample, the weight of this sample is exactly one and all other weights are exactly zero.
 /// Berrut and Trefethen, "Barycentric Lagrange interpolation", SIAM Review 2004.
 #[must_use]
 pub fn lagrange_weights(s: f64) -> [f64; POINTS] {

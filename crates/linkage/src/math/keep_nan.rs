@@ -1,7 +1,7 @@
 //! The larger and the smaller of two numbers, with NaN kept.
 //!
-//! `f64::max` and `f64::min` drop NaN: for NaN and 1 they return 1, so a check of the result cannot fail.
-//! `clippy.toml` forbids them.
+//! `f64::max` and `f64::min` drop NaN: for NaN and 1 they return 1, so a later check cannot detect the NaN.
+//! `clippy.toml` therefore forbids these two functions.
 
 /// The larger and the smaller of two numbers.
 pub trait KeepNan: Copy {

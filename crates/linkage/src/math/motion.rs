@@ -31,8 +31,8 @@ impl Motion {
     };
 
     /// The motion of a body, computed from the motion of one of its points and from its rotation.
-    /// Arguments for the point: body coordinates `local` (m), position, velocity and acceleration.
-    /// Arguments for the body: direction, angular velocity and angular acceleration.
+    /// The point is given by its body coordinates `local` (m) and its position, velocity and acceleration.
+    /// The rotation is given by direction, angular velocity and angular acceleration.
     #[inline]
     #[must_use]
     pub fn of_point(

@@ -1,4 +1,5 @@
-//! A function through given points, with a cubic polynomial between neighbours: straight lines, or a cubic spline.
+//! A function through given points. A cubic polynomial joins neighbouring points: a straight line or a piece of a
+//! spline.
 
 use crate::math::KeepNan;
 
@@ -7,7 +8,7 @@ use crate::math::KeepNan;
 pub struct Piecewise {
     /// Knots. There is one more knot than there are pieces.
     knots: Vec<f64>,
-    /// For each piece: coefficients of the powers 0 to 3 of the distance from its first knot.
+    /// For each piece: coefficients of the powers 0 to 3 of (x - first knot of the piece).
     pieces: Vec<[f64; 4]>,
     periodic: bool,
 }
@@ -41,7 +42,7 @@ impl Piecewise {
     }
 
     /// The cubic spline through `(x, y)` with given slopes at its ends. Its first two derivatives are continuous.
-    /// De Boor, as above.
+    /// De Boor, chapter IV, as for the periodic spline.
     /// The x ascend. At least two points are needed. The outer pieces continue beyond the ends.
     #[must_use]
     pub fn clamped_spline(points: &[(f64, f64)], [first, last]: [f64; 2]) -> Self {
@@ -99,7 +100,7 @@ impl Piecewise {
     }
 }
 
-/// Knots and values, extended by the first point one period later.
+/// Knots and values of one period. The first point is repeated at the end, one period later.
 fn closed(points: &[(f64, f64)], period: f64) -> (Vec<f64>, Vec<f64>) {
     let (x, y) = points[0];
     points.iter().copied().chain([(x + period, y)]).unzip()
@@ -134,7 +135,7 @@ fn solve_tridiagonal(rows: &[[f64; 4]]) -> Vec<f64> {
     found
 }
 
-/// Solves a cyclic system with rows of the same form, by the Sherman-Morrison formula.
+/// Solves a cyclic system by the Sherman-Morrison formula. The rows have the same form as in `solve_tridiagonal`.
 /// The first row's `below` belongs to the last column, the last row's `above` to the first column.
 fn solve_cyclic(mut rows: Vec<[f64; 4]>) -> Vec<f64> {
     let n = rows.len();

@@ -9,9 +9,10 @@ use super::root;
 /// Nodes in one panel.
 pub const NODES: usize = 8;
 
-/// Nodes in -1 to 1 and weights of Gauss-Legendre quadrature with [`NODES`] nodes, exact for polynomials of degree 15.
+/// Nodes (between -1 and 1) and weights of Gauss-Legendre quadrature with [`NODES`] nodes.
+/// The rule is exact for polynomials of degree 15.
 ///
-/// Newton's method on the Legendre polynomial gives the nodes, starting from its asymptotic roots.
+/// The nodes are the zeros of the Legendre polynomial, found by Newton's method from their asymptotic approximations.
 /// The weights are 2 / ((1 - x^2) P'(x)^2). Abramowitz and Stegun 25.4.29.
 #[must_use]
 pub fn gauss_legendre() -> [(f64, f64); NODES] {
@@ -19,7 +20,8 @@ pub fn gauss_legendre() -> [(f64, f64); NODES] {
     std::array::from_fn(|k| {
         let guess = -(PI * (k as f64 + 0.75) / (n + 0.5)).cos();
         let mut slope = 1.0;
-        // The initial guess has three digits and convergence is quadratic, so five steps reach rounding error.
+        // The initial guess is accurate to three digits and convergence is quadratic.
+        // After five steps the error is at the level of rounding errors.
         let Ok(x) = root::polished(guess, 6, f64::INFINITY, |x| {
             let (mut before, mut here) = (1.0, x);
             for degree in 2..=NODES {
@@ -33,8 +35,8 @@ pub fn gauss_legendre() -> [(f64, f64); NODES] {
     })
 }
 
-/// Nodes and weights over the intervals between ascending `breaks`, each divided into equal panels no longer than
-/// `panel`.
+/// Nodes and weights over the intervals between ascending `breaks`.
+/// Each interval is divided into equal panels no longer than `panel`.
 /// The function may have kinks at the breaks, and must be smooth between them.
 #[must_use]
 pub fn composite(breaks: &[f64], panel: f64) -> Vec<(f64, f64)> {

@@ -1,6 +1,6 @@
 //! Zeros of a function of one variable, with or without bounds. All searches for zeros in the project use this module.
 //!
-//! Each search documents what it requires of the function, and its stopping criterion.
+//! The documentation of each search says what the search requires of the function and when it stops.
 //! The function may fail (`E`): the first error ends a search. NaN never counts as a zero.
 
 use super::KeepNan;
@@ -15,7 +15,7 @@ pub fn changes(a: f64, b: f64) -> bool {
 /// Bisects the interval from `low` to `high` `halvings` times, to find the point up to which `before` is true.
 /// Returns both ends of the remaining interval.
 /// If `before` is never true, the lower end stays; if it is always true, the upper end stays.
-/// About 52 halvings reach rounding error.
+/// After about 52 halvings the interval is as small as a rounding error.
 ///
 /// # Errors
 /// The first error of `before`.
@@ -72,16 +72,16 @@ pub fn widened<E>(
 /// Stopping criterion of a regula falsi. The search ends as soon as one of the two conditions holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Close {
-    /// A value counts as zero if its size is at most this.
+    /// If the absolute value of the function is at most this, it counts as zero.
     pub value: f64,
-    /// The bounds count as equal if their distance is below this width.
-    /// The search uses at least four rounding errors of the larger bound.
+    /// If the distance between the bounds is below this width, they count as equal.
+    /// The width is at least four rounding errors of the larger bound, even if a smaller one is requested.
     pub width: f64,
 }
 
 /// The zero between two positions with different signs, by regula falsi in the Illinois form.
-/// The value at a bound that does not move is halved in every step (Dowell and Jarratt, BIT 11, 1971, 168-174; order
-/// 1.44).
+/// In every step, if one bound does not move, the value at this bound is halved.
+/// Source: Dowell and Jarratt, BIT 11, 1971, 168-174; order 1.44.
 /// `None` if the signs are the same, a value is NaN, or `steps` are not enough.
 ///
 /// # Errors
@@ -99,7 +99,7 @@ pub fn regula_falsi<E>(
         return Ok(Some(end.0));
     }
     for _ in 0..steps {
-        // A weighted mean with positive weights lies between the bounds and loses no digits.
+        // The new position is a mean of the bounds with positive weights. It lies between them and loses no digits.
         let at = (held.0 * last.1 - last.0 * held.1) / (last.1 - held.1);
         let found = value(at)?;
         let rounding = 4.0 * f64::EPSILON * held.0.abs().larger(last.0.abs());
@@ -120,9 +120,9 @@ pub fn regula_falsi<E>(
 }
 
 /// The zero between `bounds` (either may be the larger) of a function that returns its value and slope.
-/// Uses Newton's method from `start`, and bisection if a step leaves the bounds.
-/// `rises`: whether the value is positive at the second bound.
-/// A Newton step of at most `settled` is still taken and ends the search.
+/// The search uses Newton's method from `start`. If a step leaves the bounds, bisection replaces it.
+/// `rises` says whether the value is positive at the second bound.
+/// The search takes a Newton step of at most `settled` and then ends.
 /// Convergence is quadratic, so the remaining error is of the order of the square of that step.
 /// `None` if a value is NaN.
 ///
@@ -161,8 +161,8 @@ pub fn newton<E>(
     Ok(Some(at))
 }
 
-/// `steps` steps of Newton's method from a point near the zero.
-/// Steps that are NaN, or not shorter than `longest`, are skipped.
+/// Makes `steps` steps of Newton's method from a point near the zero.
+/// A step is skipped if it is NaN or not shorter than `longest`.
 /// The function returns its value and slope.
 ///
 /// # Errors
@@ -186,9 +186,10 @@ pub fn polished<E>(
 
 /// A length at which the value is zero, by at most `steps` secant steps.
 /// The first secant goes through `known` and a `guess`, both positive.
-/// The search ends if a secant would change the length by no more than four rounding errors.
-/// It also ends before a change larger than the length itself.
-/// Returns the length whose value is nearest to zero, because near rounding error the last secant is arbitrary.
+/// The search ends if the next change would be at most four rounding errors of the length.
+/// It also ends if the next change would be as large as the length itself.
+/// Returns the length whose value was nearest to zero. Near rounding error the last secant is arbitrary, so the last
+/// length may be worse.
 ///
 /// # Errors
 /// The first error of `value`.

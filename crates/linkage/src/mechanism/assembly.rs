@@ -1,10 +1,10 @@
-//! The pose at t = 0: the crank at its angle, then group after group in its assembly mode.
+//! The pose at t = 0: first the crank at its angle, then each group in its assembly mode, in order of solution.
 //!
 //! Dyads are placed in closed form.
 //! Groups of four links are placed by the zeros of a trigonometric polynomial, which finds all their configurations.
 //! All other groups are placed by Newton's method from a rough drawing.
 //! These formulas are independent of those of the two analytic solvers.
-//! A difference between the three therefore shows an error in any of them.
+//! A difference between this module and a solver therefore shows an error in one of them.
 
 mod blame;
 mod choice;
@@ -43,12 +43,13 @@ pub fn first_pose(
 /// The same as [`first_pose`], with details of the choice for each group.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a group's links do not reach each other, or if approximate
-/// positions fit two configurations, contradict the required mode, or lead to no configuration.
-/// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a group without approximate positions whose
-/// configurations are not all known.
-/// [`ErrorKind::Input`](crate::ErrorKind::Input) if the input requires no configuration of a group, or a number that
-/// does not exist.
+/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a group's links do not reach each other.
+/// The same kind if approximate positions fit two configurations, contradict the required mode, or lead to no
+/// configuration.
+/// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) if the configurations of a group are not all known and no
+/// approximate positions are given.
+/// [`ErrorKind::Input`](crate::ErrorKind::Input) if the input does not say which configuration of a group is required,
+/// or gives a number that does not exist.
 pub fn first_choices(
     mechanism: &Mechanism,
     structure: &Structure,

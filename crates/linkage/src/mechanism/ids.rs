@@ -14,7 +14,7 @@ pub trait Ordinal: Copy {
     fn index(self) -> usize;
 }
 
-/// Declares types of numbers that index slices and vectors in the same way as a `usize`.
+/// Declares types of numbers. Slices and vectors can be indexed with such a number in the same way as with a `usize`.
 macro_rules! ids {
     ($($(#[$about:meta])* $name:ident,)*) => {$(
         $(#[$about])*
@@ -97,8 +97,8 @@ ids! {
     GroupId,
 }
 
-/// One value for each link, joint or group, in their order.
-/// Only the numbers of these items index it. In everything else it behaves as a slice.
+/// One value for each link, joint or group, in the order of their numbers.
+/// It can be indexed only with the numbers of these items. Otherwise it behaves like a slice.
 ///
 /// ```
 /// use linkproof_linkage::mechanism::{LinkId, PerLink};
@@ -165,7 +165,7 @@ impl<I, T: Clone> Clone for Per<I, T> {
         Per(self.0.clone(), PhantomData)
     }
 
-    /// Reuses the memory of `self`. A derived implementation would not.
+    /// Reuses the memory of `self`. The default implementation would allocate new memory.
     fn clone_from(&mut self, source: &Self) {
         self.0.clone_from(&source.0);
     }

@@ -4,9 +4,8 @@
 pub const LONGEST_NAME: usize = 100;
 
 /// Whether a character changes a text without being visible.
-/// Such characters are:
-/// control characters including line breaks, marks and overrides of the writing direction, line and paragraph
-/// separators, and zero-width characters.
+/// Such characters are control characters (line breaks included), marks and overrides of the writing direction, line
+/// and paragraph separators, and zero-width characters.
 #[must_use]
 pub fn is_unseen(letter: char) -> bool {
     letter.is_control()

@@ -2,14 +2,15 @@
 
 use crate::math::{KeepNan, Vec2, cross};
 
-/// A point counts as collinear with others, or as coincident with another point, if its distance is below this fraction
-/// of the link's size.
+/// The points are collinear if all of them are near the line through the mean point and the farthest point.
+/// The limit of their distance from the line is this fraction of the distance between these two points.
 const ON_ONE_LINE: f64 = 1e-6;
 
 /// The outline through all points, and whether it is closed.
 /// It is a polygon without crossings, or a bar if all points are collinear.
 ///
-/// A polygon orders its points by their bearing from the mean point. A bar goes from one end to the other.
+/// The points of a polygon are sorted by their direction from the mean point, the points of a bar by their position
+/// along it.
 #[must_use]
 pub fn ring(places: &[Vec2]) -> (Vec<Vec2>, bool) {
     let mut sorted = places.to_vec();

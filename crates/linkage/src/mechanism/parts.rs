@@ -69,7 +69,7 @@ pub enum JointKind {
 }
 
 /// Properties of the kinds of pair, for all crates.
-/// A new kind is added here, and wherever code writes equations for each kind.
+/// If you add a kind, extend these methods and all code that writes equations for each kind.
 impl JointKind {
     /// Direction of the line through the joint's point on the first link.
     /// The joint's point on the second link must lie on this line. This condition is one equation.
@@ -137,8 +137,8 @@ impl JointKind {
         }
     }
 
-    /// Quantity that the joint's coordinate measures if a drive prescribes it; `None` for a kind that no drive can
-    /// move.
+    /// Quantity that a drive prescribes at this kind of joint: the joint's coordinate.
+    /// `None` if no drive can move this kind of joint.
     #[must_use]
     pub fn input(self) -> Option<Input> {
         match self {
@@ -219,8 +219,8 @@ impl Joint {
     }
 
     /// Point at which the joint's reaction acts on `link`.
-    /// For a pin, the point on `link`, because the points on both links coincide. For other joints, the point on the
-    /// second link.
+    /// For a pin, it is the joint's point on `link`; the points on both links coincide.
+    /// For other joints, it is the joint's point on the second link.
     #[must_use]
     pub fn acts_at(&self, link: LinkId) -> JointSide {
         match self.kind {
@@ -272,7 +272,8 @@ impl Joint {
             JointKind::Revolute => (gap.norm(), 0.0),
             JointKind::Prismatic { axes } => {
                 let [first, second] = [0, 1].map(|k| rotated(directions[k], axes[k]));
-                // For opposite axes the opening is the largest possible.
+                // If the axes point in opposite directions, the sine would be small. The largest possible opening is
+                // returned instead.
                 let turn = if first.dot(&second) > 0.0 { cross(first, second).abs() } else { 1.0 };
                 (cross(first, gap).abs(), turn)
             }

@@ -17,7 +17,8 @@ pub struct Handle {
 
 impl Mechanism {
     /// The point with index `point` of the link `link`, and the joints at this point.
-    /// `None` if another point of the link has the same position, because the joints could then belong to either point.
+    /// `None` if another point of the link has the same position, because a joint at this position could then belong to
+    /// either point.
     #[must_use]
     pub fn handle(&self, link: LinkId, point: usize) -> Option<Handle> {
         let points = &self.links[link].points;

@@ -39,8 +39,8 @@ impl LinkPose {
 }
 
 impl Joint {
-    /// Pose of `link`, one of the joint's links, that the drive prescribes.
-    /// The other link has the pose `base`.
+    /// Pose of `link` that follows from the drive at this joint.
+    /// `link` is one of the joint's links, and the other one has the pose `base`.
     /// `coordinate` is the joint's coordinate, measured as in [`Drive::world_angle`](crate::drive::Drive::world_angle).
     #[must_use]
     pub fn driven(&self, link: LinkId, base: &LinkPose, coordinate: f64) -> LinkPose {
@@ -55,7 +55,8 @@ impl Joint {
 pub struct Pose(pub PerLink<LinkPose>);
 
 impl Pose {
-    /// Largest opening of any joint (m): see [`Joint::opening`]. Angles are multiplied by the mechanism's size.
+    /// Largest opening of any joint (m): see [`Joint::opening`]. An opening angle is multiplied by the mechanism's
+    /// size.
     #[must_use]
     pub fn closure(&self, mechanism: &Mechanism) -> f64 {
         let opening = |joint: &Joint| {

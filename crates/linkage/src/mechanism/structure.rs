@@ -1,11 +1,11 @@
 //! Structural analysis: mobility, and the decomposition into driving links and Assur groups.
 //!
 //! Every link has three degrees of freedom. Every revolute or prismatic pair removes two, every drive one.
-//! Each equation concerns two links, and one of them becomes its owner; a link owns three equations (a matching).
+//! Each equation concerns two links, and one of them becomes its owner. A link owns three equations (a matching).
 //! A link then depends on the other link of every equation that it owns.
-//! The strongly connected components of this dependence are the driving links and the Assur groups. They come in the
-//! order in which they can be solved.
-//! The components do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
+//! These dependences form a graph. Its strongly connected components are the driving links and the Assur groups.
+//! The components are listed in the order in which they can be solved.
+//! They do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
 
 mod contour;
 mod group;
@@ -39,7 +39,7 @@ impl Structure {
     /// # Errors
     /// [`ErrorKind::Input`] if links have no connection to the ground, or if the mobility differs from the number of
     /// drives.
-    /// Also if one part is over-constrained while another is free to move.
+    /// The same kind if one part is over-constrained while another is free to move.
     /// [`ErrorKind::Unsupported`] if a drive does not act on a link hinged to the ground.
     pub fn of(mechanism: &Mechanism, drives: &[JointId]) -> Result<Self> {
         check_connected(mechanism)?;
@@ -93,7 +93,8 @@ impl Structure {
     }
 
     /// For every link: the groups on which its motion depends if all drives are prescribed.
-    /// They are the link's group and all earlier groups on which that group depends, as indices in ascending order.
+    /// These are the group of the link and all earlier groups on which this group depends, as indices in ascending
+    /// order.
     /// The list is empty for the ground and for driving links.
     #[must_use]
     pub fn upstream(&self, mechanism: &Mechanism) -> PerLink<Vec<GroupId>> {
@@ -228,7 +229,7 @@ fn kind(mechanism: &Mechanism, links: &[LinkId], inner: &[JointId], outer: &[Joi
         (0, 1) => GroupKind::Rrp,
         (0, _) => GroupKind::Prp,
         (_, 0) => GroupKind::Rpr,
-        // A dyad with three prismatic pairs was rejected before.
+        // Only RPP remains, because a dyad with three prismatic pairs was rejected earlier.
         (_, _) => GroupKind::Rpp,
     }
 }

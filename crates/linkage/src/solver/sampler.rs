@@ -14,11 +14,11 @@ use crate::trajectory::{
 };
 
 /// Number of rows that are collected before they are written to their columns.
-/// Each column is a separate block of memory. A whole block of rows needs only one access to each column.
+/// Each column is a separate block of memory. With this buffer each column is accessed only once per eight rows.
 const BLOCK: usize = 8;
 
 /// Collects states into the columns of a trajectory, row by row in any order.
-/// It reads only subjects with requested channels.
+/// It reads only the links, points, joints and drives that have requested channels.
 #[derive(Debug)]
 pub struct Sampler {
     links: Vec<(LinkId, Mask)>,
@@ -34,11 +34,11 @@ pub struct Sampler {
     /// Buffer of the latest rows. The first `kept` rows are already in the columns.
     block: Vec<f64>,
     kept: usize,
-    /// The input in the scenario's convention: that of the grid or, for a free motion, that of the states.
+    /// The input in the scenario's convention. It is taken from the grid or, for a free motion, from the states.
     inputs: Vec<f64>,
 }
 
-/// The requested channels of one subject, as rows of the table of channels.
+/// The requested channels of one subject, given by their rows in the table of channels.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mask {
     /// One bit a row.
@@ -58,7 +58,7 @@ impl Mask {
     }
 }
 
-/// The requested rows of every subject with requested channels, by kind and name of the subject.
+/// The requested rows of the table, for every subject that has any. The key is kind and name of the subject.
 fn masks(channels: &[Channel]) -> BTreeMap<(ChannelSubject, &str), Mask> {
     let mut masks: BTreeMap<(ChannelSubject, &str), Mask> = BTreeMap::new();
     for channel in channels {
@@ -145,7 +145,7 @@ impl Sampler {
             });
         }
         if !self.frame.is_empty() {
-            // Computed only once, and only if a requested row uses it.
+            // The shaking force is computed only once, and only if a requested row uses it.
             let shaking = LazyCell::new(|| state.shaking(case));
             out.put(&rows::FRAME, self.frame, |of| match of {
                 OfFrame::ForceX => shaking.0.x,
@@ -203,7 +203,7 @@ impl Sampler {
     }
 }
 
-/// The part of a row that is not yet filled. Values are filled in the order of channels.
+/// The remaining part of a row of values. Values are filled in the order of channels.
 struct Row<'a> {
     values: &'a mut [f64],
 }
@@ -213,7 +213,7 @@ impl Row<'_> {
     #[inline(always)]
     fn put<Of: Copy, const N: usize>(&mut self, rows: &[(Of, Stage); N], mask: Mask, read: impl Fn(Of) -> f64) {
         let mut put = 0;
-        // The loop is unrolled: every quantity is then a constant, and the compiler removes the match on it.
+        // The loop over quantities is unrolled. Every quantity is then a constant, so the compiler removes the match.
         macro_rules! each {
             ($condition:ident: $($row:literal)*) => {{
                 const { assert!(N <= [$($row),*].len(), "every row of a subject is put") };

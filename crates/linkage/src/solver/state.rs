@@ -20,8 +20,8 @@ pub struct State {
     /// [`CaseParts::drives`](crate::case::CaseParts::drives).
     pub torques: Vec<f64>,
     /// Condition number for the bound on rounding errors while the mechanism passes a change point; `None` elsewhere.
-    /// At a change point the condition number of the pose itself grows without bound, but the solver does not compute
-    /// at that point.
+    /// The condition number of the pose itself grows without bound near a change point.
+    /// The solver does not compute at the change point itself, so this number is used instead.
     pub passing: Option<f64>,
 }
 
@@ -40,7 +40,7 @@ impl State {
     }
 
     /// Slide of a prismatic joint (m) with its first and second derivative; `None` for a revolute joint.
-    /// s = e . (p2 - p1) along the axis e of the first link.
+    /// The slide is s = e . (p2 - p1) along the axis e of the first link.
     /// With p2 - p1 = s e: e . (v2 - v1) = s' and e . (a2 - a1) = s'' - s omega^2.
     #[inline]
     #[must_use]
@@ -59,7 +59,7 @@ impl State {
     /// fastened to the ground.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
-        // Drives are mounted on the frame, so their reactions there are opposite to the balancing moments.
+        // Drives are mounted on the frame. The moment of a drive on the frame is opposite to its balancing moment.
         let (mut force, mut moment) = (Vec2::zeros(), -self.torques.iter().sum::<f64>());
         for (index, joint) in case.mechanism.joints().entries() {
             let sign = match (joint.first.link, joint.second.link) {
@@ -82,7 +82,7 @@ impl State {
 
     /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
     /// In a prismatic joint the opening is measured perpendicular to the guide.
-    /// The angle between its axes (rad) is multiplied by `size` (m) and also counts.
+    /// The angle between the joint's two axes (rad) also counts. It is multiplied by `size` (m).
     #[must_use]
     pub fn opening(&self, case: &Case, size: f64) -> [f64; 2] {
         let mut largest = [0.0; 2];

@@ -6,7 +6,7 @@ use std::fmt;
 use super::reading::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
 use super::unit::Unit;
 
-/// The stage to which a solver must compute for a channel. Each stage needs the previous ones.
+/// The last stage that a solver must compute to obtain a channel. Each stage needs the previous ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Positions and angles.
@@ -76,7 +76,8 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 /// The slide of a prismatic joint is the distance along its axis, from its point on the first link to that on the
 /// second.
 /// The moment of a prismatic joint acts from the first link on the second, about the joint's point on the second.
-/// The force on the frame is the sum over its joints and the drive; its moment is about the origin.
+/// The force on the frame is the sum of the forces of its joints and of the drive. The moment on the frame is about the
+/// origin.
 /// The torque of the drive acts on the driving link.
 pub static CHANNELS: [ChannelKind; 26] = TABLE;
 
@@ -147,7 +148,8 @@ const fn count(subject: ChannelSubject) -> usize {
     rows
 }
 
-/// The readings of one subject with their stages, in the order of columns. `$any` only initialises the array.
+/// The readings of one subject with their stages, in the order of columns.
+/// `$any` is any reading; it only fills the array before the readings are written.
 macro_rules! rows_of {
     ($subject:ident, $of:ty, $any:expr) => {{
         let mut rows: [($of, Stage); count(ChannelSubject::$subject)] =
@@ -164,8 +166,8 @@ macro_rules! rows_of {
     }};
 }
 
-/// The same table, sorted by subjects. Its rows are constants, so code that reads a whole subject needs no look-up at
-/// run time.
+/// The same table, sorted by subjects. Its rows are constants.
+/// Code that reads all rows of a subject therefore needs no look-up at run time.
 pub(crate) mod rows {
     use super::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Stage, TABLE, count};
 

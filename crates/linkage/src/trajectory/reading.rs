@@ -9,7 +9,7 @@ pub enum ChannelSubject {
     Point,
     /// A joint.
     Joint,
-    /// A prismatic joint. Its rows come in addition to those of any joint.
+    /// A prismatic joint. Its rows are additional: a prismatic joint also has the rows of every joint.
     Slider,
     /// The frame. All joints with the ground and the drive act on it.
     Frame,
@@ -60,7 +60,8 @@ impl ChannelSubject {
 }
 
 /// The quantity that a row of the table reads, one variant per subject.
-/// The [sampler](crate::solver::Sampler) matches on the variants, so that a row without a reader does not compile.
+/// The [sampler](crate::solver::Sampler) matches on the variants. If it does not read a variant, the code does not
+/// compile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reading {
     /// A quantity of a link.

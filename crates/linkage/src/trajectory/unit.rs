@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// SI unit of a channel. Code that depends on the unit matches on it, so that a new unit is a compile error there.
+/// SI unit of a channel.
+/// Code that depends on the unit matches on this enum. A new unit is a compile error in this code until it is handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unit {
     /// Angles (rad).
@@ -50,7 +51,7 @@ impl Unit {
         }
     }
 
-    /// Ending of names in this unit, for example `rad_s2`.
+    /// Suffix of names of quantities in this unit, for example `rad_s2`.
     #[must_use]
     pub const fn suffix(self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! The smallest fault in each part of a case, and the resulting error.
+//! Each test makes the smallest fault in one part of a case and checks the resulting error.
 
 use crate::case::{Case, CaseParts, Grid};
 use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor, MotorLaw};

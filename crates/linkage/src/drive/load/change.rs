@@ -64,7 +64,7 @@ impl Load {
         })
     }
 
-    /// Whether all numbers are finite, and those that must not be negative are not.
+    /// Whether all numbers are finite, and whether the numbers that must not be negative are zero or positive.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         self.clone().parts().into_iter().all(|part| match part {
@@ -75,17 +75,17 @@ impl Load {
         })
     }
 
-    /// Loads that together equal this load multiplied by `factor`. The list is empty for 0; a negative factor reverses
-    /// the load.
+    /// Loads that together equal this load multiplied by `factor`.
+    /// For the factor 0 the list is empty. A negative factor reverses the load.
     /// In a spring or damper the factor multiplies the stiffness or damping, but not the free length or angle.
-    /// `None` if no combination of loads has this effect: a resisting force cannot drive.
+    /// `None` if no combination of loads has this effect. An example is a reversed resisting force, which would drive.
     #[must_use]
     pub fn times(&self, factor: f64) -> Option<Vec<Load>> {
         if factor == 0.0 {
             return Some(Vec::new());
         }
         if let (&Load::Resistance { link, moment }, true) = (self, factor < 0.0) {
-            // A reversed resistance drives. It consists of one moment for each sense of rotation.
+            // A reversed resistance drives its link. It is replaced by two moments, one for each sense of rotation.
             let acting = |acts, moment| Load::Moment { link, moment: Course::Constant(moment), acts };
             let size = -factor * moment;
             return Some(vec![acting(Acts::CounterClockwise, size), acting(Acts::Clockwise, -size)]);

@@ -6,17 +6,17 @@ use crate::mechanism::{JointSide, LinkId};
 /// The sense of rotation of the link for which a moment acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acts {
-    /// For any motion of the link, and at standstill.
+    /// The moment acts for any motion of the link, and at standstill.
     Always,
-    /// While the link turns counter-clockwise, not at standstill.
+    /// The moment acts while the link turns counter-clockwise, but not at standstill.
     CounterClockwise,
-    /// While the link turns clockwise, not at standstill.
+    /// The moment acts while the link turns clockwise, but not at standstill.
     Clockwise,
 }
 
 /// The motion whose sense a load depends on.
-/// The law of the load changes when this motion reverses, so integration stops at that instant.
-/// The load does not always jump at that instant: see [`Load::jump`](super::Load::jump).
+/// The law of the load changes when this motion reverses, so integration stops at the instant of reversal.
+/// The load need not jump at this instant: see [`Load::jump`](super::Load::jump).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Senses {
     /// The load does not depend on a sense of motion.

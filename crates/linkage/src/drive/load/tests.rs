@@ -61,7 +61,7 @@ fn a_force_keeps_its_direction_or_follows_its_link() {
 
 #[test]
 fn a_resisting_force_opposes_the_velocity_of_its_point() {
-    // The loaded point is one metre along the link's x axis, which lies above the link's origin.
+    // The loaded point lies on the link's x axis, 1 m from the link's origin. This axis points along world +y.
     // The point moves with (-1, 2) m/s when the link turns with 1 rad/s.
     let load = Load::ResistingForce { at: side(LinkId(1), 1.0, 0.0), force: 10.0 };
     let found = act(&load, &motions(1.0), &[], 0.0)[0];
@@ -107,7 +107,8 @@ fn a_damper_resists_the_rate_of_its_length() {
 #[test]
 fn a_torsion_spring_counts_turns_from_the_start() {
     // At the start the link's angle is 90 degrees.
-    // Two revolutions later the spring is wound up by two revolutions, whatever angle the pose reports.
+    // Two revolutions later the twist is larger by two revolutions, although the pose may report the angle of the
+    // start.
     let load = Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.5 };
     let still = motions(0.0);
     for turns in [0.0, 2.0, -1.0] {
@@ -162,7 +163,8 @@ fn scaled_loads_act_in_proportion() {
     ];
     for load in &loads {
         for omega in [2.0, -1.5] {
-            // The ground is left out, because its moment would cancel that of the other end.
+            // Only the moment on the link is compared. The opposite moment on the ground is left out, because the sum
+            // would be zero.
             let one = moments(std::slice::from_ref(load), omega);
             for factor in [0.0, 0.5, 3.0, -2.0] {
                 match load.times(factor) {

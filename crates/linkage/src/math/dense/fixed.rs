@@ -1,9 +1,9 @@
-//! The same elimination for orders known to the compiler. Its loops become straight-line code.
+//! The elimination of the parent module for orders known at compile time. The compiler unrolls its loops.
 //!
 //! The operations and their order are those of the general elimination, so the results agree bit for bit.
-//! NaN is rejected in any position.
-//! For a group of four links it takes a third of the time of the general loops.
-//! It stores the resulting order of rows instead of the single exchanges.
+//! In contrast to the general elimination, NaN is rejected in any position.
+//! For a group of four links it takes a third of the time of the general elimination.
+//! It stores the resulting order of rows, where the general elimination stores each exchange.
 
 /// The first `N` numbers of a slice with at least `N` numbers.
 #[inline(always)]
@@ -64,7 +64,7 @@ pub(super) fn factor<const N: usize>(a: &mut [f64], order: &mut [usize], inverse
     let (order, inverse): (&mut [usize; N], &mut [f64; N]) = (first_mut(order), first_mut(inverse));
     *order = std::array::from_fn(|row| row);
     let mut signs = [1.0; 2];
-    // The loop is unrolled, because only then are the bounds of the inner loops constants.
+    // The loop over columns is unrolled. Only then are the bounds of the inner loops known to the compiler.
     macro_rules! each {
         ($($column:literal)*) => {
             $(if $column < N && !eliminate::<N, $column>(rows, order, inverse, &mut signs) {

@@ -55,7 +55,7 @@ fn regula_falsi_needs_a_sign_change() {
     assert_eq!(regula_falsi([(0.0, -0.3), (2.0, 1.7)], EXACT, 60, |_| Err("fails")), Err("fails"));
 }
 
-/// If one bound never moved, regula falsi would converge linearly, here in 1000 steps or more.
+/// This example checks the halving. Plain regula falsi would never move one bound and take 1000 steps or more.
 #[test]
 fn regula_falsi_moves_both_ends_of_the_bracket() {
     let mut steps = 0;
@@ -100,7 +100,7 @@ fn the_secant_method_keeps_lengths_positive() {
         Ok::<f64, Infallible>(x.exp() - 3.0)
     });
     assert!((sure(found) - 3f64.ln()).abs() < 1e-15 && asked < 9, "{found:?} {asked}");
-    // The line through both values crosses zero at -1.
+    // The line through (2, 3) and (1, 2) crosses zero at the length -1, so the search must keep the guess 1.
     assert_eq!(sure(secants((2.0, 3.0), 1.0, 6, |_| Ok(2.0))), 1.0);
     assert_eq!(sure(secants((2.0, 3.0), 1.0, 6, |_| Ok(f64::NAN))), 1.0);
     assert_eq!(secants((2.0, 3.0), 1.0, 6, |_| Err("fails")), Err("fails"));

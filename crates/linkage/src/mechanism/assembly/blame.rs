@@ -1,5 +1,5 @@
-//! Finds the group to blame if a group cannot be placed.
-//! It may be an earlier group in the wrong configuration.
+//! If a group cannot be placed, finds the group that is the cause.
+//! The cause may be an earlier group that has the wrong configuration.
 
 use super::{StartGroup, configurations, first_choices};
 use crate::error::{Advice, Error, ErrorKind, ErrorSubject};
@@ -29,7 +29,7 @@ pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> 
 /// The earlier group that must change its configuration so that the group of `error` can be placed.
 /// The other arguments must be those of the call to [`first_choices`] that returned the error.
 ///
-/// A group is not blamed if its own approximate positions confirm its configuration.
+/// If the input gives approximate positions for an earlier group, that group is not blamed.
 #[must_use]
 pub fn blame(
     mechanism: &Mechanism,
@@ -46,8 +46,9 @@ pub fn blame(
     let part = before(failed.index() + 1);
     let mut own = wanted.to_vec();
     own[failed].near.clear();
-    // Without its approximate positions the group may fit the present pose.
-    // In that case the positions must clearly favour the change.
+    // Without its approximate positions the failed group may fit the present pose.
+    // In that case an earlier group is blamed only if its change clearly brings the failed group nearer to these
+    // positions.
     let stands = first_choices(mechanism, &part, drive_angles, &own).is_ok();
     let earlier = part.groups.entries().rev().filter(|(index, _)| *index < failed && wanted[*index].near.is_empty());
     for (index, group) in earlier {
@@ -67,8 +68,8 @@ pub fn blame(
 }
 
 /// Whether another configuration of an earlier group clearly improves the fit of the last group.
-/// `found` is the distance (m) of the last group from its approximate positions after the change.
-/// It must be less than half of the smallest distance without the change.
+/// `found` is the distance (m) of the last group from its approximate positions after this change.
+/// The change is a clear improvement if `found` is less than half of the smallest distance without the change.
 fn clearly_nearer(
     mechanism: &Mechanism,
     part: &Structure,
@@ -88,8 +89,8 @@ fn clearly_nearer(
     matches!((found, least), (Some(found), Ok(least)) if 2.0 * found < least)
 }
 
-/// Rewrites `error` so that it names the group to blame. The message stays, and the configuration that allows the later
-/// group to be placed is added.
+/// Rewrites `error` so that it names the group to blame.
+/// The old message stays. The configuration with which the later group can be placed is added.
 #[must_use]
 pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error: &Error) -> Error {
     let names = |group: &Group| group.names(mechanism);

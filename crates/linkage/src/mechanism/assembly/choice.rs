@@ -1,4 +1,4 @@
-//! Chooses the configuration of a group at the start: by required mode, number or approximate positions.
+//! Chooses the configuration of a group at the start. The input specifies it by mode, number or approximate positions.
 
 use super::configurations::configurations;
 use super::mode::{AssemblyMode, Configuration, ConfigurationChoice, StartGroup};
@@ -8,7 +8,7 @@ use crate::math::KeepNan;
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 use crate::sentences;
 
-/// Poses the links of a group as required.
+/// Places the links of a group in the required configuration.
 pub(super) fn place(
     mechanism: &Mechanism,
     group: &Group,
@@ -100,8 +100,9 @@ pub(super) fn distance(group: &Group, wanted: &StartGroup, one: &Configuration) 
     distances.fold(0.0, f64::larger)
 }
 
-/// The configuration nearest to the approximate positions, its largest distance from them (m), and the largest distance
-/// of the second nearest configuration.
+/// The configuration nearest to the approximate positions, and its distance from them (m).
+/// The third value is the distance of the second nearest configuration (m).
+/// Both distances are those of the configuration's point that is farthest from its approximate position.
 fn nearest<'a>(
     mechanism: &Mechanism,
     group: &Group,
@@ -110,8 +111,9 @@ fn nearest<'a>(
 ) -> Result<(&'a Configuration, f64, Option<f64>)> {
     let mut order: Vec<(f64, &Configuration)> = all.iter().map(|one| (distance(group, wanted, one), one)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Two conditions. The nearest configuration must be at least twice as near as the next one.
-    // Its distance must also not exceed the size of the mechanism.
+    // The nearest configuration must satisfy two conditions.
+    // The distance of the second nearest one must be at least twice as large.
+    // Its own distance must not exceed the size of the mechanism.
     if let [(first, a), (second, b), ..] = order[..]
         && 2.0 * first > second
     {
@@ -139,7 +141,7 @@ fn nearest<'a>(
     }
 }
 
-/// The name of a dyad's mode. Configurations of higher groups have no names; for them, `rank`.
+/// The name of a dyad's mode. For higher groups, whose configurations have no names, `rank` is returned.
 fn named(mode: AssemblyMode, rank: &'static str) -> &'static str {
     if mode == AssemblyMode::Followed { rank } else { mode.name() }
 }

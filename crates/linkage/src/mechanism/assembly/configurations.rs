@@ -5,7 +5,7 @@ use super::{dyads, four_link};
 use crate::error::Result;
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 
-/// All real configurations of a group. The links of earlier groups have their places in `pose`.
+/// All real configurations of a group. `pose` contains the poses of the links of earlier groups.
 /// A dyad has up to two configurations, a group of four links up to six.
 ///
 /// # Errors
@@ -24,14 +24,14 @@ pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Resu
 /// Sine of a dyad's transmission angle in the given pose; `None` for higher groups. It is zero at a dead point.
 ///
 /// - RRR: signed area of its triangle (first outer, second outer, inner joint) divided by half the product of its two
-///   link lengths, positive in the mode [`AssemblyMode::Left`](super::AssemblyMode::Left).
-/// - RRP: component of the rod along the guide as a fraction of its length, e . r / |r| with r from the outer pin to
-///   the inner joint. It is the sine of the angle between the rod and the normal to the guide, positive in the mode
+///   link lengths. It is positive in the mode [`AssemblyMode::Left`](super::AssemblyMode::Left).
+/// - RRP: e . r / |r| with the direction e of the guide and r from the outer pin to the inner joint.
+///   It is the sine of the angle between the rod and the normal to the guide, positive in the mode
 ///   [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
-/// - RPR: component of the distance of the outer pins along the guide as a fraction of that distance, e . d / |d| with
-///   d from the outer pin of the pair's first link to that of its second, positive in the mode
-///   [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
-/// - RPP: e1 x e2 of the inner and the outer axis; PRP: of the outer axes, in the order of the group's links.
+/// - RPR: e . d / |d| with the direction e of the guide and d from the outer pin of the pair's first link to that of
+/// its second link. It is positive in the mode [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
+/// - RPP: e1 x e2 with the direction e1 of the inner axis and e2 of the outer axis.
+/// - PRP: e1 x e2 with the directions of both outer axes, in the order of the group's links.
 #[must_use]
 pub fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<f64> {
     (group.kind != GroupKind::Higher).then(|| dyads::transmission_sine(mechanism, group, pose).clamp(-1.0, 1.0))

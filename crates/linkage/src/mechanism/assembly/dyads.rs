@@ -1,8 +1,9 @@
 //! All configurations of the five dyads, and their transmission angles.
 //!
 //! A dyad has one outer joint on each link and the inner joint between the links. One scalar equation closes it.
-//! It is the equation of two circles (RRR), a circle and a line (RRP, and RPR seen from the guide), or two lines (RPP,
-//! PRP).
+//! RRR: the equation is the intersection of two circles.
+//! RRP, and RPR seen from the guide: it is the intersection of a circle and a line.
+//! RPP and PRP: it is the intersection of two lines.
 //! A prismatic pair fixes the angle between its two links.
 //! It keeps the joint's point on the second link on a line through its point on the first link, parallel to the axis.
 
@@ -15,9 +16,9 @@ use crate::math::{Vec2, cross, rotated, turned, unit};
 use crate::mechanism::{Group, GroupKind, Joint, LinkId, LinkPose, Mechanism, Pose};
 use crate::sentences;
 
-/// Two axes count as parallel if the sine of the angle between them is below this.
+/// If the sine of the angle between two axes is below this, they count as parallel.
 /// At this angle, rounding errors of the axes' directions move the links by more than a ten-thousandth of the
-/// mechanism.
+/// mechanism's size.
 const PARALLEL: f64 = 1e-12;
 
 /// Angle (rad) that rotates `from` into the direction of `to`.
@@ -58,12 +59,12 @@ impl<'a> Member<'a> {
         self.inner_place() - self.outer_place()
     }
 
-    /// World position of the outer joint on the base (m).
+    /// World position of the outer joint's point on the link to which the dyad is attached (m).
     fn hook(&self) -> Vec2 {
         self.base.point(self.outer.other(self.link).local)
     }
 
-    /// World direction of an outer prismatic pair's axis.
+    /// World direction of the axis of the link's outer joint, a prismatic pair.
     fn guide(&self) -> Vec2 {
         let axis = self.outer.axis_on(self.outer.other(self.link).link).expect("the outer pair is prismatic");
         rotated(unit(self.base.angle), axis)
@@ -126,17 +127,17 @@ pub(super) fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pos
     }
 }
 
-/// The link with the outer revolute pair, then the link with the outer prismatic pair.
+/// Both links, sorted: first the link with the outer revolute pair, then the link with the outer prismatic pair.
 fn prismatic_last<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
     if a.outer.slides() { [b, a] } else { [a, b] }
 }
 
-/// The first, then the second link of the inner joint.
+/// Both links, sorted in the order of the inner joint: first its first link, then its second link.
 fn in_pair_order<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
     if a.inner.first.link == a.link { [a, b] } else { [b, a] }
 }
 
-/// A configuration with the poses of both links in the group's order; the given poses may be in either order.
+/// A configuration with the poses of both links in the group's order. The argument `poses` may be in either order.
 fn configuration(members: &[Member; 2], mode: AssemblyMode, poses: [(LinkId, LinkPose); 2]) -> Configuration {
     let pose = |member: &Member| poses.iter().find(|(link, _)| *link == member.link).expect("both links are posed").1;
     Configuration { mode, links: members.iter().map(pose).collect() }
@@ -201,9 +202,9 @@ fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
 }
 
-/// Perpendicular to the axis e, the offsets of both links give the distance of the outer pins: e x d = h.
-/// Along the axis the distance is +sqrt(d^2 - h^2) or -sqrt(d^2 - h^2).
-/// The direction e follows from d and these components.
+/// The offsets of both links give the distance of the outer pins perpendicular to the axis e: e x d = h.
+/// Along the axis, the distance of the outer pins is +sqrt(d^2 - h^2) or -sqrt(d^2 - h^2).
+/// The direction e follows from d and these two components.
 fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [first, second] = in_pair_order(members);
     let offset = |member: &Member| cross(member.axis_of(member.inner), member.span());
@@ -226,8 +227,8 @@ fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
 }
 
-/// The guides give the angles of both links. The slider moves along the outer axis until the points of the inner joint
-/// are in line.
+/// The guides give the angles of both links.
+/// The slider is then moved along the outer axis until the inner joint's two points are in line with the inner axis.
 fn rpp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [swivel, slider] = prismatic_last(members);
     let outer = slider.guide();

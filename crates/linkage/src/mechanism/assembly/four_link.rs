@@ -1,9 +1,9 @@
 //! All real configurations of an Assur group of four links, with any revolute and prismatic pairs.
 //!
-//! There are two such groups. The class III group of order 3 is a base link on three leads.
+//! There are two kinds of such groups. The class III group of order 3 is a base link on three leads.
 //! The class IV group of order 2 is a movable quadrilateral of two ternary and two binary links.
-//! Relative to one of its ternary links, the class IV group has the form of the class III group.
-//! That ternary link is then the frame, and the other ternary link the base.
+//! Seen from one of its ternary links, the class IV group also is a base on three leads.
+//! That ternary link is then the frame, and the other ternary link is the base.
 //! The three leads are the two binary links and the world (all links before the group, taken as one body).
 
 use super::mode::{AssemblyMode, Configuration};
@@ -89,8 +89,8 @@ impl Layout {
             in_frame.push((*body, lead.near.lead.place, lead.pose(base)?));
         }
         let frame = match in_frame.iter().find(|(body, ..)| *body == Body::World) {
-            // Relative to the frame, the world is a lead. One point of the world gives the frame's position in the
-            // world.
+            // Relative to the frame, the world moves as a lead. The position of the frame in the world is computed from
+            // one point of the world.
             Some((_, place, world)) => LinkPose::through(world.point(*place), *place, -world.angle),
             None => LinkPose::GROUND,
         };
@@ -112,12 +112,12 @@ pub(super) fn is_handled(mechanism: &Mechanism, group: &Group, pose: &Pose) -> b
     Layout::of(mechanism, group, pose).is_some()
 }
 
-/// All real configurations of the group, in the order of the angle of its base or, in class IV, of its last ternary
-/// link.
+/// All real configurations of the group, sorted by the angle of its base.
+/// In class IV the base is the last ternary link.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] if there is no configuration, [`ErrorKind::Unsupported`] if the group has neither of the two
-/// forms.
+/// [`ErrorKind::Geometry`] if there is no configuration, [`ErrorKind::Unsupported`] if the group is neither of the two
+/// kinds.
 pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     let layout = Layout::of(mechanism, group, pose).ok_or_else(|| {
         let (links, class) = (group.links.len(), group.class);
@@ -138,8 +138,8 @@ pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) 
             .help(sentences::CHECK_THE_LENGTHS_AND_THE_GROUND));
     }
     let index = group.links.iter().position(|&link| link == layout.base).expect("the base is a link of the group");
-    // Angles are counted from just below zero.
-    // An angle that is zero up to rounding error then has a unique position in the order.
+    // Angles are sorted in the interval from just below zero to just below one turn.
+    // A rounding error of an angle near zero then does not change the order.
     let rank = |one: &Configuration| (one.links[index].angle + 1e-9).rem_euclid(TAU);
     all.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
     Ok(all)

@@ -7,15 +7,17 @@ use crate::mechanism::pose::SidePoint;
 /// The assembly mode of a group: which real configuration it has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AssemblyMode {
-    /// Dyad: the inner joint lies to the left of the line from the first link's outer joint to the second link's.
+    /// Dyad: the inner joint lies to the left of the directed line between the outer joints, from the first link's to
+    /// the second link's.
     Left,
-    /// Dyad: the inner joint lies to the right of that line.
+    /// Dyad: the inner joint lies to the right of the line from the first link's outer joint to the second link's.
     Right,
     /// RRP dyad: along the axis of its prismatic pair, the inner joint lies ahead of the outer pin.
     /// RPR dyad: along that axis, the outer pin of the pair's second link lies ahead of the outer pin of its first
     /// link.
     Ahead,
-    /// RRP or RPR dyad: the same joint or pin lies behind the outer pin.
+    /// RRP dyad: along the axis of its prismatic pair, the inner joint lies behind the outer pin.
+    /// RPR dyad: along that axis, the outer pin of the pair's second link lies behind the outer pin of its first link.
     Behind,
     /// RPP or PRP dyad, which has only one configuration.
     Only,
@@ -68,14 +70,14 @@ pub struct StartGroup {
     pub near: Vec<(SidePoint, Vec2)>,
 }
 
-/// The configuration of a group at the start, and how distinct the choice was.
+/// The configuration chosen for a group at the start, and how clearly it was the nearest one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfigurationChoice {
     /// Its assembly mode.
     pub mode: AssemblyMode,
     /// Largest distance of the configuration's points from their approximate positions (m), if any were given.
     pub nearest_m: Option<f64>,
-    /// The same distance for the second nearest configuration (m). `None` if there is no other configuration, or if not
-    /// all configurations are known.
+    /// Largest distance of the second nearest configuration's points from their approximate positions (m).
+    /// `None` if there is no other configuration, or if not all configurations are known.
     pub next_m: Option<f64>,
 }

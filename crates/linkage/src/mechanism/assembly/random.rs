@@ -90,8 +90,8 @@ pub fn group(mechanism: &Mechanism, links: &[LinkId], kind: GroupKind) -> Group 
     Group { links: links.into(), inner: all.filter(|&joint| inside(joint) == 2).collect(), outer, class: 2, kind }
 }
 
-/// Reference length for errors (m): the mechanism's size or, if larger, the largest distance of a link's origin from
-/// the world's origin.
+/// Reference length for errors (m): the mechanism's size or the largest distance of a link's origin from the world's
+/// origin, whichever is larger.
 pub fn size(mechanism: &Mechanism, pose: &Pose) -> f64 {
     let bases = pose.0.iter().map(|link| link.origin.norm()).fold(0.0, f64::larger);
     mechanism.size().larger(bases)

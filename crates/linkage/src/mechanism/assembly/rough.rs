@@ -1,7 +1,6 @@
 //! First pose of a group whose configurations are not all known, from a rough drawing.
 //!
-//! The approximate positions of a link's points place the link, together with its joints with links already placed and
-//! the axes of these joints.
+//! Each link is first placed by the approximate positions of its points, and by its joints with links already placed.
 //! Then a Newton method with Levenberg-Marquardt damping closes all joints of the group at once:
 //! (J^T J + lambda) dx = -J^T f. The vector f contains the gaps of all joints; there are as many gaps as unknowns.
 
@@ -20,8 +19,8 @@ mod tests;
 
 type Near = [(SidePoint, Vec2)];
 
-/// A joint counts as closed if its gap is at most this fraction of the mechanism's size. It is at the level of rounding
-/// errors.
+/// If the gap of a joint is at most this fraction of the mechanism's size, the joint counts as closed.
+/// The limit is at the level of rounding errors.
 const CLOSED: f64 = 1e-13;
 /// Largest number of steps of the damped iteration.
 /// If the drawing has errors of a tenth of a link, about ten steps are enough.
@@ -62,7 +61,7 @@ fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     0.5 * if least.is_finite() { least } else { mechanism.size() }
 }
 
-/// Places every link of the group as well as its approximate positions and the links already placed allow.
+/// Gives every link of the group an approximate pose, from its approximate positions and the links already placed.
 fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<()> {
     let mut left = group.links.clone();
     while !left.is_empty() {
@@ -152,7 +151,8 @@ impl System<'_> {
             let places = sides.map(|side| pose.0[side.link].point(side.local));
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
                 let Some(at) = self.group.links.iter().position(|&link| link == sides[k].link) else { continue };
-                // The displacement of the point is (dx, dy) plus that from the rotation of its arm.
+                // The displacement of the joint's point is (dx, dy), plus the rotation of the vector from the link's
+                // origin to the point.
                 let arm = turned(places[k] - pose.0[sides[k].link].origin) / self.size;
                 let moves = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), arm];
                 for (column, by) in moves.into_iter().enumerate() {
@@ -167,7 +167,7 @@ impl System<'_> {
                     if column % 3 != 2 {
                         continue;
                     }
-                    // The line rotates with the first link.
+                    // The direction of the line rotates with the first link, so this rotation also changes the gap.
                     if k == 0 {
                         rows[row][column] -= e.dot(&(places[1] - places[0])) / self.size;
                     }
@@ -232,7 +232,7 @@ impl System<'_> {
         self.polish(pose)
     }
 
-    /// A few undamped Newton steps. They recover the digits that the normal equations lose.
+    /// Makes a few undamped Newton steps. The normal equations lose digits, and these steps recover them.
     fn polish(&self, pose: &mut Pose) -> Option<()> {
         let n = self.unknowns();
         for _ in 0..4 {
@@ -247,7 +247,7 @@ impl System<'_> {
             jacobian.solve(&mut step);
             *pose = self.moved(pose, &step);
         }
-        // The same measure as elsewhere: opposite axes count as open.
+        // The opening is measured as in the rest of the crate, so that opposite axes count as open.
         let open = |joint: &Joint| {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| pose.0[side.link].point(side.local));

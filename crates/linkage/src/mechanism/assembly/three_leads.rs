@@ -1,6 +1,6 @@
-//! A base link on three leads: all its poses.
+//! All poses of a base link on three leads.
 //!
-//! Each lead has a pair with the frame (near) and a pair with the base (far). It imposes one condition on the base.
+//! Each lead has one pair with the frame (near) and one pair with the base (far). It imposes one condition on the base.
 //! O is the position of the base's reference point, b = e^(i beta) its direction, and w the far joint on the base:
 //! - both pairs revolute: O + b w lies on a circle, |O + b w - a| = l;
 //! - near prismatic, far revolute: O + b w lies on a line of the frame, e x (O + b w - a) = h;
@@ -11,9 +11,10 @@
 //! Let X = O - c, measured from the centre c of one circle of radius l.
 //! The other two conditions are then linear, p1 + q1 . X = p2 + q2 . X = 0 (two circles by their radical line).
 //! With |X| = l this leaves |q2 p1 - q1 p2|^2 = l^2 (q1 x q2)^2.
-//! In e^(i beta), p has the powers -1 to 1, and q has 0 to 1 (circle), 0 (line of the frame) or 1 (line of the base).
-//! So the vector on the left has the powers -1 to 2, and its square -3 to 3.
-//! This is a trigonometric polynomial of degree 3 with at most six zeros, and all six can be found.
+//! As a polynomial in e^(i beta), p has the powers -1 to 1.
+//! The powers of q are 0 to 1 for a circle, 0 for a line of the frame and 1 for a line of the base.
+//! So the vector q2 p1 - q1 p2 has the powers -1 to 2, and its square has the powers -3 to 3.
+//! The square is a trigonometric polynomial of degree 3. It has at most six zeros, and all of them can be found.
 //! If all conditions are lines, they meet in one point if a determinant of degree 2 is zero.
 
 mod condition;
@@ -59,7 +60,7 @@ impl Conditions {
             [] if self.all.iter().any(|one| matches!(one, Condition::Circle { .. })) => self.by_circle()?,
             [] => self.by_lines()?,
             [beta] => self.at_angle(beta)?,
-            // Two leads fix the base's angle, so the base can slide.
+            // Both pairs of two leads are prismatic, so both fix the base's angle. The base can then slide.
             _ => return None,
         };
         if found.iter().any(|&one| self.is_loose(one)) {
@@ -68,8 +69,8 @@ impl Conditions {
         Some(found.into_iter().map(|(o, beta)| LinkPose::through(self.base, self.frame + o, beta)).collect())
     }
 
-    /// p and q of the other two conditions, measured from the centre of the longest lead's circle.
-    /// Also returns that centre and the radius.
+    /// p and q of two conditions, measured from the centre of the circle of the third condition.
+    /// The third condition is that of the longest lead. Also returns that centre and the radius.
     fn reduced(&self, b: Vec2) -> ([(f64, Vec2); 2], Vec2, f64) {
         let length = |one: &Condition| if let Condition::Circle { length, .. } = one { *length } else { -1.0 };
         let pivot = (0..3).max_by(|&i, &j| length(&self.all[i]).total_cmp(&length(&self.all[j]))).unwrap_or(0);
@@ -79,7 +80,7 @@ impl Conditions {
         let linear = |index: usize| match self.all[index].locus(b) {
             Some(Locus::Circle { centre: other, radius: length }) => {
                 let apart = centre - other;
-                // The equation is divided by the size, so that lines and circles have the same weight.
+                // The equation of a radical line is divided by the size. Lines and circles then have the same weight.
                 let p = apart.norm_squared() + (radius - length) * (radius + length);
                 (p / self.size, apart * (2.0 / self.size))
             }
@@ -103,8 +104,8 @@ impl Conditions {
             let ([(p1, q1), (p2, q2)], centre, radius) = self.reduced(unit(beta));
             let met = turned(q2 * p1 - q1 * p2) / cross(q1, q2);
             // If the two lines coincide, the solutions are the intersections of that line with the circle.
-            // They are always computed, because they cost little. A candidate counts only if it satisfies all
-            // conditions.
+            // These intersections are always computed, because they cost little.
+            // A candidate counts only if it satisfies all conditions.
             let (p, q) = if q1.norm() > q2.norm() { (p1, q1) } else { (p2, q2) };
             let foot = -q * (p / q.norm_squared());
             let along = turned(q) * (((radius - foot.norm()) * (radius + foot.norm())).larger(0.0).sqrt() / q.norm());
@@ -138,7 +139,7 @@ impl Conditions {
         Some(found)
     }
 
-    /// Solutions for a given angle of the base. Two conditions remain to be satisfied.
+    /// Solutions for a given angle of the base. The remaining two conditions determine its position.
     fn at_angle(&self, beta: f64) -> Option<Vec<Found>> {
         let mut loci = self.all.iter().filter_map(|one| one.locus(unit(beta)));
         let (first, second) = (loci.next()?, loci.next()?);
@@ -204,9 +205,8 @@ impl Conditions {
     }
 
     /// Whether the base can move from a pose while all conditions hold.
-    /// The test makes one step each way along the free direction of the Jacobian.
-    /// Damped steps then bring the base back to the conditions. If both results differ from the pose, the base can
-    /// move.
+    /// The test makes one step along the free direction of the Jacobian, and one step in the opposite direction.
+    /// After each step, damped steps return to the conditions. If both results differ from the pose, the base can move.
     /// At a double root the base cannot move.
     fn is_loose(&self, at: Found) -> bool {
         let rows = self.rows(at).map(|(row, _)| row);
@@ -217,7 +217,9 @@ impl Conditions {
         let products = [0, 1, 2].map(|k: usize| product(rows[(k + 1) % 3], rows[(k + 2) % 3]));
         let free = products.into_iter().fold([0.0; 3], |best, one| if norm(one) > norm(best) { one } else { best });
         let volume: f64 = (0..3).map(|k| rows[0][k] * products[0][k]).sum();
-        // A double root is accurate to half the digits, 1e-7 of the size. The volume tends to zero at such a root.
+        // The determinant of the normalised rows tends to zero at a double root.
+        // A double root is accurate to half the digits, 1e-7 of the size, so the limit of the determinant is larger
+        // than that.
         if volume.abs() > 1e-5 * rows.map(norm).iter().product::<f64>() {
             return false;
         }
@@ -229,7 +231,7 @@ impl Conditions {
         })
     }
 
-    /// Pose after damped steps from a given pose, if all conditions hold there.
+    /// Pose after damped steps from a given pose. `None` if not all conditions hold after the steps.
     /// Unlike Newton steps, damped steps do not move along free directions.
     fn settled(&self, mut pose: Found) -> Option<Found> {
         for _ in 0..30 {
@@ -250,12 +252,13 @@ impl Conditions {
         self.rows(pose).iter().all(|(_, gap)| gap.abs() <= 1e-11 * self.size).then_some(pose)
     }
 
-    /// Newton's method. Returns the best iterate if it satisfies all conditions and lies nearby.
+    /// Newton's method. Returns the best iterate if it satisfies all conditions and is near the start.
     fn polish(&self, start: Found) -> Option<Found> {
         let (mut at, mut best, mut least) = (start, start, f64::INFINITY);
         let mut worse = 0;
-        // Near a double root the first steps may increase the residual. At the level of rounding errors, further steps
-        // give no improvement.
+        // Near a double root the first steps may increase the residual, so the search does not stop at the first such
+        // step.
+        // At the level of rounding errors, further steps give no improvement.
         while worse < 4 {
             let rows = self.rows(at);
             let worst = rows.iter().map(|(_, gap)| gap.abs()).fold(0.0, f64::larger);
@@ -281,6 +284,6 @@ impl Conditions {
     }
 }
 
-/// Upper limit of the residual of a condition in a valid pose, as a fraction of the size.
-/// It is rounding error with a margin for double roots, for which Newton's method finds only half the digits.
+/// If the residual of a condition exceeds this fraction of the size, the pose is not valid.
+/// The limit is rounding error with a margin for double roots, for which Newton's method finds only half the digits.
 const CLOSED: f64 = 1e-13;

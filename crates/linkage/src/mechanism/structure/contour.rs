@@ -4,7 +4,7 @@ use super::group::Group;
 use crate::mechanism::{JointId, LinkId, Mechanism};
 
 /// Number of sides of the closed contour with the most sides.
-/// A link with three or more inner pairs is a contour with as many sides as inner pairs.
+/// A link with three or more inner pairs is a contour. The number of its sides is the number of its inner pairs.
 /// Every shortest loop of inner joints is a contour too.
 pub(super) fn highest_contour(mechanism: &Mechanism, group: &Group) -> usize {
     let joint = |&index: &JointId| &mechanism.joints()[index];

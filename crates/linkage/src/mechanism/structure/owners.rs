@@ -1,5 +1,4 @@
-//! Ownership of equations. One of the two links that an equation concerns owns the equation; a link owns three
-//! equations.
+//! Ownership of equations. Each equation concerns two links and is owned by one of them. A link owns three equations.
 
 use crate::sentences;
 use petgraph::algo::tarjan_scc;
@@ -10,9 +9,10 @@ use crate::mechanism::{GROUND, JointId, LinkId, Mechanism};
 
 /// Checks Laman's condition for plane bodies: the joints among k links, the ground included, have at most 3 k - 3
 /// equations.
-/// The function tests an equivalent condition, for each joint in turn. Three copies of one of its equations are added.
-/// All equations must still find owners, with at most three equations per link, the ground included (Lee and Streinu,
-/// "Pebble game algorithms and sparse graphs", 2008).
+/// The function tests an equivalent condition for each joint in turn. It adds three copies of one of the joint's
+/// equations.
+/// All equations must still find owners. No link, the ground included, may own more than three equations.
+/// Source: Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008.
 pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[JointId]) -> Result<()> {
     let mut owners = Owners::unassigned(mechanism, drives, OWNED);
     owners.assign_all(mechanism)?;
@@ -21,8 +21,8 @@ pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[JointId]) -> Result<
         let ends = [joint.first.link, joint.second.link];
         owners.add((0..3).map(|_| Equation { joint: index, of_drive: false, ends }));
         owners.assign_from(count, mechanism)?;
-        // The copies may have moved other equations to other links. These equations stay there, so all equations except
-        // the copies still have owners.
+        // The search may have given other equations to other links. They keep these owners when the copies are removed.
+        // All equations except the copies therefore still have owners.
         owners.keep(count);
     }
     Ok(())
@@ -126,7 +126,8 @@ impl Owners {
         self.owner[index]
     }
 
-    /// The strongly connected components, each sorted, in the order in which they can be solved.
+    /// The strongly connected components, in the order in which they can be solved. The links of each component are
+    /// sorted.
     pub(super) fn parts(&self, mechanism: &Mechanism) -> Vec<Vec<LinkId>> {
         let mut graph = DiGraph::<(), ()>::new();
         for _ in mechanism.links() {

@@ -101,8 +101,8 @@ fn two_links_with_two_common_pins_are_over_constrained() {
 
 #[test]
 fn an_over_constrained_floating_part_is_found() {
-    // Four links in a ring, two of which share a fifth joint: 10 equations, although 3*4 - 3 are enough.
-    // An additional loose link keeps the mobility correct.
+    // Four links in a ring, and a fifth joint between two of them: 10 equations, one more than the limit 3*4 - 3.
+    // An additional loose link gives the whole mechanism the correct mobility.
     let links = vec![
         link("ground", &[("O", 0.0, 0.0)]),
         link("crank", &[("O", 0.0, 0.0), ("A", 1.0, 0.0)]),

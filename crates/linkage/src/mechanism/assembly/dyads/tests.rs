@@ -42,8 +42,7 @@ impl Case {
         rotated(unit(pose.0[joint.first.link].angle), joint.axis_on(joint.first.link).unwrap())
     }
 
-    /// The pose with link `link` rotated: the axis of its prismatic `joint` then agrees with the axis on the other
-    /// link.
+    /// Rotates `link` until the axis of its prismatic `joint` agrees with the axis on the other link.
     fn with_turned(&self, mut pose: Pose, joint: JointId, link: LinkId) -> Pose {
         let other = self.joint(joint).other(link).link;
         let angle = |axis: Vec2| axis.y.atan2(axis.x);
@@ -68,7 +67,7 @@ impl Case {
             |joint: JointId, link: LinkId| self.place(&self.pose, joint, self.joint(joint).other(link).link);
         match self.group.kind {
             GroupKind::Rrr => {
-                // The triangle inequality for each of the three sides.
+                // The margin of the triangle inequality, for each of the three sides.
                 let span = |link: LinkId, outer: JointId| {
                     (self.joint(JointId(1)).on(link).unwrap() - self.joint(outer).on(link).unwrap()).norm()
                 };
@@ -77,8 +76,8 @@ impl Case {
                 (a + b - c).smaller(a + c - b).smaller(b + c - a)
             }
             GroupKind::Rrp => {
-                // Squared distance of the inner joint from the outer pin as a function of the slide. Three values
-                // determine the function, a parabola.
+                // The function is the squared distance of the inner joint from the outer pin, against the slide.
+                // It is a parabola, which three values determine.
                 let (slider, outer, rod, pin) =
                     if self.joint(JointId(0)).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
                 let ([slider, rod], [outer, pin]) = ([slider, rod].map(LinkId), [outer, pin].map(JointId));
@@ -99,8 +98,8 @@ impl Case {
                 rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
-                // Distance from the line as a function of the common angle.
-                // Three values determine the function, a sinusoid plus a constant.
+                // The function is the distance from the line, against the common angle.
+                // It is a sinusoid plus a constant, which three values determine.
                 let off = |angle: f64| {
                     let mut pose = self.pose.clone();
                     pose.0[LinkId(3)].angle = angle;
@@ -158,7 +157,8 @@ fn random_dyads_of_every_kind() {
             let all = match configurations(&case.mechanism, &case.group, &case.pose) {
                 Ok(all) => all,
                 Err(error) => {
-                    // The criterion has other rounding errors, so it cannot decide exactly at the limit of assembly.
+                    // The independent criterion has other rounding errors, so the two results may differ at the limit
+                    // of assembly.
                     assert!(reach <= 1e-14, "{kind:?}: {error}, but there is room of {reach}");
                     assert!(error.kind() == ErrorKind::Geometry && error.way_out().is_some(), "{error}");
                     continue;
@@ -175,7 +175,8 @@ fn random_dyads_of_every_kind() {
                 })
                 .collect();
             for (one, pose) in all.iter().zip(&poses) {
-                // Two nearly parallel axes intersect far away, so the size is taken from the assembled dyad.
+                // If two axes are nearly parallel, they intersect far away. The size therefore includes the assembled
+                // dyad.
                 let size = size(&case.mechanism, pose);
                 let sine = transmission_sine(&case.mechanism, &case.group, pose).unwrap();
                 worst = worst.larger(pose.closure(&case.mechanism) / size);
@@ -215,8 +216,9 @@ fn parallel_axes_are_refused() {
             else {
                 panic!("two prismatic joints");
             };
-            // PRP: rotate one base until its guide is parallel to the guide of the other base. RPP: give the slider two
-            // parallel axes.
+            // The axes are made parallel. PRP: one base is rotated until its guide is parallel to the guide of the
+            // other base.
+            // RPP: the slider gets two parallel axes.
             let turned_by = |case: &mut Case, angle: f64| {
                 if kind == GroupKind::Prp {
                     let guide = |k: JointId, link: LinkId| {

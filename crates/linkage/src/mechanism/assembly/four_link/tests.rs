@@ -56,8 +56,8 @@ struct Tally {
     counts: [usize; 7],
     /// Largest closure error, as a fraction of the size.
     closure: f64,
-    /// Number of cases with a root that is double to within 1e-9. Neither method can distinguish such a root from a
-    /// near miss.
+    /// Number of cases in which the scan finds a double root, up to 1e-9.
+    /// For such a root neither method can decide between two zeros and a near miss.
     double: usize,
 }
 
@@ -98,14 +98,15 @@ fn compare(random: &mut Lcg, pairs: Pairs, triad: bool, cases: usize, tally: &mu
     }
 }
 
-/// Asserts the bounds of every comparison. The bound of the closure is the usual one.
+/// Asserts the bounds of a tally: the closure error, with the same bound as in other tests, and the number of double
+/// roots.
 /// The probability of a double root is some tens times 1e-9^(1/2) per root.
 fn check(tally: &Tally, cases: usize) {
     assert!(tally.closure <= 1e-12, "{tally:?}");
     assert!(tally.double <= 1 + cases / 200, "{tally:?}");
 }
 
-/// Whether to test the large number of groups. That takes minutes, and `.ci/nightly` does so.
+/// Whether to test a larger number of groups. This takes minutes, so only `.ci/nightly` requests it.
 fn many() -> bool {
     std::env::var_os("LINKPROOF_DRAWS").is_some()
 }
@@ -123,8 +124,8 @@ fn as_many_configurations_as_a_scan_finds() {
     }
 }
 
-/// All ways to place prismatic pairs in the leads.
-/// At most one lead may have two prismatic pairs; otherwise links would slide in a loop.
+/// All distributions of prismatic pairs over the leads.
+/// At most one lead may have two prismatic pairs. Otherwise links would slide in a loop.
 fn sliding() -> impl Iterator<Item = Pairs> {
     let lead = |bits: usize| [bits & 1 == 1, bits & 2 == 2];
     let all = (1..64).map(move |bits: usize| [lead(bits & 3), lead(bits >> 2 & 3), lead(bits >> 4)]);
@@ -155,7 +156,8 @@ fn a_group_that_can_move_is_refused() {
         let mut case = case(&mut random, REVOLUTE, triad, true);
         let mut joints = case.mechanism.joints().to_vec();
         for pair in joints.chunks_mut(2) {
-            // For every lead, the world vector between its two joints is the same.
+            // All leads are parallel and equally long: the world vector between the two joints of a lead is the same
+            // for each.
             let Some(lead) =
                 [pair[0].first.link, pair[0].second.link].into_iter().find(|&link| pair[1].on(link).is_some())
             else {
@@ -172,7 +174,7 @@ fn a_group_that_can_move_is_refused() {
             }
         }
         if !triad {
-            // The world is the third lead.
+            // The third lead is the world.
             let [a, b] = [4, 5].map(|k: usize| {
                 let joint = &joints[k];
                 if joint.first.link < LinkId(2) { joint.first } else { joint.second }

@@ -40,7 +40,7 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
     let mut random = Lcg(21);
     for _ in 0..20 {
         let (mechanism, group, mut pose) = case(&mut random, |random| random.yes());
-        // Far from the closed pose all terms matter.
+        // The poses are random. Far from the closed pose all terms of the Jacobian contribute.
         pose.0[1..].iter_mut().for_each(|link| *link = random.pose());
         let system = System { mechanism: &mechanism, group: &group, size: mechanism.size() };
         let rows = system.jacobian(&pose);
@@ -53,14 +53,16 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
             let back = system.gaps(&system.moved(&pose, &step));
             for row in 0..18 {
                 let slope = (ahead[row] - back[row]) / (2.0 * h);
-                // The error of central differences is h^2 times third derivatives, plus rounding error divided by h.
+                // The bound is the error of central differences: h^2 times third derivatives, plus rounding error
+                // divided by h.
                 assert!((slope - rows[row][column]).abs() < 1e-8, "{row} {column}: {slope} {}", rows[row][column]);
             }
         }
     }
 }
 
-/// If the approximate positions have errors of two hundredths, the method returns to their pose, and the pose closes.
+/// The approximate positions have errors of two hundredths.
+/// The method usually finds the original pose again. Every pose that it returns is closed.
 #[test]
 fn a_rough_drawing_finds_its_configuration() {
     let mut random = Lcg(22);
@@ -96,7 +98,8 @@ fn a_rough_drawing_finds_its_configuration() {
         }
     }
     println!("{found} found, {refused} refused of 500");
-    // The drawings of the other samples are nearer to another configuration, or their poses are nearly singular.
+    // More than 350 of the samples must lead to the original pose.
+    // In the others the drawing is nearer to another configuration, or the pose is nearly singular.
     assert!(found > 350, "{found}");
 }
 
@@ -107,7 +110,8 @@ fn too_few_positions_are_refused_with_the_link() {
     let near = drawing(&mut random, &mechanism, &group, &pose, 0.0);
     let error = place(&mechanism, &group, &near[..1], &mut pose.clone()).unwrap_err();
     assert!(error.to_string().contains("do not tell where link \"link1\" of the group lies"), "{error}");
-    // Links 1 and 2 have joints with the ground. They determine link 5, and so on.
+    // One point is given for each of four links. Links 1 and 2 are placed by their joints with the ground, then they
+    // determine link 5, and so on.
     let few: Vec<(SidePoint, Vec2)> = ["E1", "F2", "G3", "H4"]
         .iter()
         .map(|name| near.iter().find(|(point, _)| point.name == *name).expect("a point of that name").clone())

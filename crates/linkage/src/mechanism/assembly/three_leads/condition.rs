@@ -45,7 +45,7 @@ pub enum Locus {
         centre: Vec2,
         radius: f64,
     },
-    /// p + q . O = 0
+    /// A line: all O with p + q . O = 0
     Line {
         p: f64,
         q: Vec2,

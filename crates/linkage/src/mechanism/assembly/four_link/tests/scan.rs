@@ -1,8 +1,8 @@
 //! Counts the configurations of a base on three leads by a scan.
-//! The method uses no polynomial and so is an independent check for the tests of this module.
+//! The method uses no polynomial, so it is an independent check for the tests of this module.
 //!
 //! For every angle of the base, two leads allow one or two positions of its reference point.
-//! The condition of the third lead holds where a function of the angle changes sign.
+//! The third lead's condition is a function of the angle. It holds where the function changes sign.
 //! The scan follows the position over all angles at which it exists: forwards on one branch, backwards on the other.
 //! Along this path the function is smooth and periodic.
 //! Samples are closer together where the position changes fast.
@@ -15,12 +15,12 @@ use std::f64::consts::{PI, TAU};
 use crate::math::{Vec2, cross, extremum, root, rotated, turned, unit};
 use crate::mechanism::assembly::three_leads::{LeadPair, PlatformLead};
 
-/// Number of bisections of an interval with a zero, and of golden section steps for an extremum. Both searches reach
-/// rounding error.
+/// Number of bisections of an interval with a zero. It is also the number of golden section steps for an extremum.
+/// After 60 steps the remaining interval is as small as a rounding error.
 const STEPS: usize = 60;
 
-/// An extremum below this fraction of the function's largest value counts as a double root. For a double root neither
-/// method can decide.
+/// If an extremum divided by the function's largest value is below this, it counts as a double root.
+/// For a double root neither method can decide between two zeros and a near miss.
 const DOUBLE: f64 = 1e-9;
 
 /// Result of a scan.
@@ -39,13 +39,13 @@ enum Locus {
     Line(Vec2, Vec2),
 }
 
-/// Possible positions of the base's reference point, taken literally from the definition of the pairs.
-/// The lead is placed, then the base's far joint is put on the lead's far joint.
+/// Possible positions of the base's reference point, computed directly from the definition of the pairs.
+/// First the lead is placed, then the base's far joint is put on the lead's far joint.
 fn locus(lead: &PlatformLead, b: Vec2) -> Option<Locus> {
     let (near, far) = (lead.near, lead.far);
     let span = far.lead.place - near.lead.place;
     let arm = rotated(b, far.body.place);
-    // Direction of the lead for which the lead's axis of a pair points along `axis`.
+    // Direction of the lead's frame for which the pair's axis on the lead points along `axis`.
     let onto = |pair: LeadPair, axis: Vec2| rotated(Vec2::new(pair.lead.axis.x, -pair.lead.axis.y), axis);
     match (near.slides, far.slides) {
         (false, false) => Some(Locus::Circle(near.body.place - arm, span.norm())),
@@ -69,8 +69,8 @@ fn off(locus: Locus, o: Vec2) -> f64 {
     }
 }
 
-/// A smooth function that is positive if the circle intersects the other locus, and the intersection on the branch
-/// `sign`.
+/// Returns a smooth function that is positive if the circle intersects the other locus.
+/// Also returns the intersection on the branch `sign`.
 fn meet(centre: Vec2, radius: f64, other: Locus, sign: f64) -> (f64, Vec2) {
     match other {
         Locus::Line(point, direction) => {
@@ -90,7 +90,7 @@ fn meet(centre: Vec2, radius: f64, other: Locus, sign: f64) -> (f64, Vec2) {
 }
 
 /// Zeros of a periodic function on [0, `period`), and whether one of them is double.
-/// Between samples `place` moves by at most `step`.
+/// The samples are so close together that `place` changes by at most `step` from one sample to the next.
 fn zeros(f: &dyn Fn(f64) -> f64, place: &dyn Fn(f64) -> Vec2, period: f64, step: f64) -> (Vec<f64>, bool) {
     let first = 400;
     let mut at = vec![0.0];
@@ -152,7 +152,7 @@ pub fn scanned(leads: &[PlatformLead; 3]) -> Option<Scan> {
     let still = |_: f64| Vec2::zeros();
     let Some(circle) = circle else {
         // Lines 1 and 2 intersect at p1 + d1 (p2 - p1) x d2 / d1 x d2.
-        // The function is the distance of that point from line 3, times the denominator.
+        // The function is the distance of that intersection from line 3, multiplied by the denominator d1 x d2.
         let f = |beta: f64| {
             let [Locus::Line(p1, d1), Locus::Line(p2, d2), Locus::Line(p3, d3)] = at(beta) else { return f64::NAN };
             cross(d1, d2) * cross(d3, p1 - p3) + cross(d3, d1) * cross(p2 - p1, d2)
@@ -189,7 +189,7 @@ pub fn scanned(leads: &[PlatformLead; 3]) -> Option<Scan> {
         let to = ends.get(index + 1).copied().unwrap_or(ends[0] + TAU);
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         if both(middle, 1.0).0 > 0.0 {
-            // Forwards on one branch and backwards on the other.
+            // The path runs forwards on one branch and backwards on the other.
             let on = |turn: f64| both(middle - half * turn.cos(), if turn < PI { 1.0 } else { -1.0 });
             add(&|turn| on(turn).2, &|turn| on(turn).1);
         }
