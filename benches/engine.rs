@@ -1,5 +1,5 @@
 //! Cost of the harness: the time of an engine's run, divided by that of a bare loop of the same Rapier world.
-//! The settings are the same, and the two are timed alternately in one process.
+//! The run and the loop have the same settings, and are timed alternately in one process.
 //! `cargo bench --bench engine [-- SCENARIO|BUILD|SWEEPS...]`.
 
 use linkage::math::KeepNan;
@@ -69,7 +69,7 @@ fn main() {
                 let engine = engine.set(Settings { sweeps, ..engine.settings() });
                 let last = STEPS as f64 * step;
                 // The engine also does ten steps outside the grid: before its start and after its end.
-                // `bare` therefore gets additional steps, so that the work is nearly the same.
+                // `bare` therefore gets additional steps, so that its work is nearly that of the engine.
                 let none = base.on(Grid::of_times(base.crank(), vec![last])).unwrap().wanting(Wanted::of(&[]));
                 let all = |every: usize| {
                     let times = (0..=STEPS / every).map(|k| every as f64 * step * k as f64).collect();

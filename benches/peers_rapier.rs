@@ -1,7 +1,7 @@
 //! Rapier's part of the comparison with other engines in `benches/peers`, as CSV.
 //! It gives error and time of single runs, and of combinations of runs at h, h/2, h/4, ...
-//! `cargo bench --bench peers_rapier -- REPEATS FILE...` takes the number of timings, of which the shortest counts, and
-//! scenario files.
+//! `cargo bench --bench peers_rapier -- REPEATS FILE...` times each run REPEATS times, of which the shortest time
+//! counts. Each FILE is a scenario file.
 
 use linkage::math::KeepNan;
 use std::path::Path;
@@ -24,7 +24,8 @@ const RUNS: usize = 5;
 /// Finest step (s); with smaller steps, second differences are rounding noise.
 const FINEST: f64 = 1.2e-5;
 /// Sweeps per step.
-/// More sweeps change nothing; with 8 sweeps the reaction at the first instant is wrong by a few percent.
+/// More sweeps than these numbers change nothing; with 8 sweeps the reaction at the first instant is wrong by a few
+/// percent.
 const SWEEPS: [usize; 2] = [12, 16];
 
 /// Crank angle (rad) and reaction (N) over the grid, and the shortest time of the run (s).
@@ -43,7 +44,7 @@ fn columns(trajectory: &Trajectory) -> Vec<Vec<f64>> {
 /// Processor time (s) of this thread; other work on the machine hardly disturbs it.
 /// On systems other than Linux, the function returns the elapsed time since `since`.
 fn used(since: Instant) -> f64 {
-    // Linux updates the processor time when the thread yields.
+    // Linux updates the processor time when the thread yields, so the thread yields before the time is requested.
     std::thread::yield_now();
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = told.and_then(|told| told.split_whitespace().next()?.parse::<f64>().ok());

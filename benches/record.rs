@@ -1,5 +1,5 @@
 //! Cost of writing a recording, divided by the cost of the proof that it stores.
-//! The same cost is also divided by that of the plain MCAP writer for the same prepared messages.
+//! The cost of writing is also divided by the cost of the plain MCAP writer for the same prepared messages.
 //! Only ratios from one run are printed: `cargo bench --bench record`.
 
 use std::collections::BTreeMap;
@@ -78,7 +78,7 @@ fn messages(bytes: &[u8]) -> Vec<Ready<'_>> {
     all
 }
 
-/// Writes the same messages with the MCAP library's writer at its default settings.
+/// Writes the prepared messages with the MCAP library's writer at its default settings.
 fn plain(messages: &[Ready<'_>], path: &Path) {
     let mut writer = WriteOptions::new().create(BufWriter::new(File::create(path).unwrap())).unwrap();
     let mut topics: BTreeMap<&str, u16> = BTreeMap::new();

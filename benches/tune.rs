@@ -1,10 +1,11 @@
 //! Time of the settings that `tune` chooses, divided by the time of the cheapest settings of an exhaustive search.
-//! The two are timed alternately.
+//! Both settings are timed alternately.
 //! The search covers engines, routes, extrapolation, substeps, sweeps and steps.
 //! `cargo bench --bench tune [-- SCENARIO...]`.
-//! With `-- prices` it measures the constants of the cost model in `crates/lab/src/tune/price.rs`.
-//! With `-- whole` it searches the whole space by the cost model, for three required accuracies.
-//! It fails if `tune` breaks its promise.
+//! With `-- prices` the benchmark measures the constants of the cost model in `crates/lab/src/tune/price.rs`.
+//! With `-- whole` the benchmark searches the whole space by the cost model, for three required accuracies.
+//! The benchmark then fails if the settings that `tune` chooses miss the required error, or cost more than `FACTOR`
+//! times the cheapest settings.
 
 use linkage::math::KeepNan;
 use std::hint::black_box;
@@ -55,7 +56,7 @@ fn seconds(engine: &dyn Engine, case: &Case, repeats: usize) -> f64 {
 }
 
 /// Cost of the settings of a row: a constant plus a part proportional to the number of steps.
-/// Runs at two steps determine the two parts.
+/// Runs at two steps determine the constant and the proportional part.
 struct Clock<'a> {
     case: &'a Case,
     row: Option<(Settings, &'static str)>,
@@ -182,8 +183,9 @@ fn measure_prices() {
     println!("unit: {:.2} us", unit * 1e6);
 }
 
-/// Compares the settings that `tune` chooses with the cheapest of the whole space, for three required accuracies.
-/// The costs come from the cost model. Nothing is timed, but it runs for minutes.
+/// Compares the settings that `tune` chooses with the cheapest settings of the whole space, for three required
+/// accuracies.
+/// The costs come from the cost model. Nothing is timed, but the comparison runs for minutes.
 fn whole(names: &[&str]) {
     const SWEEPS: &[usize] = &[1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024];
     const WHOLE: Space = Space { sweeps: SWEEPS, factor: 1.1 };

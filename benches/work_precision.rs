@@ -1,5 +1,5 @@
 //! Error and time of every engine, with every route, raw and extrapolated: a Markdown table for docs/engines.md.
-//! `cargo bench --bench work_precision [-- SCENARIO]`; with `--features simbody` it includes that engine.
+//! `cargo bench --bench work_precision [-- SCENARIO]`; with `--features simbody` the table includes the engine Simbody.
 
 use linkage::math::KeepNan;
 use std::path::Path;
@@ -19,7 +19,7 @@ const STEPS: [f64; 3] = [0.8, 0.24, 0.08];
 const ACCURACIES: [f64; 2] = [1e-4, 1e-10];
 /// Number of timings; the shortest counts. Runs longer than a second are timed once.
 const REPEATS: usize = 3;
-/// Sweeps of the multibody build; the flywheel makes this number sufficient here.
+/// Sweeps of the multibody build; the flywheel makes this number sufficient in this benchmark.
 /// The impulse build needs its full default number.
 const SWEEPS: usize = 256;
 

@@ -1,6 +1,6 @@
 //! Compares a user's solver with both analytic sides: a crank-rocker by Freudenstein's equation.
 //!
-//! The solver takes the geometry from the case and computes only angles and angular velocities, which are compared.
+//! The solver gets the geometry from the case and computes only angles and angular velocities, which are compared.
 //!
 //! `cargo run --release --example own_solver`.
 //! To use the crates from the registry, name them in your manifest as in this workspace:

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example random_run -- BINARY FILE_OR_DIR.. [--jobs 2] [--limit SECONDS] [-- OPTIONS OF RUN]`
 //!
-//! It prints one line for each file that does not agree, the counts, and the total processor time of the runs.
+//! The example prints one line for each file that does not agree, the counts, and the total processor time of the runs.
 //! The binary is an argument, so that two versions of the program can be compared.
 
 use std::collections::{BTreeMap, VecDeque};
@@ -108,7 +108,7 @@ fn run(binary: &str, file: &Path, limit: Duration, further: &[String]) -> Outcom
 }
 
 /// The verdict, and the check or channel that causes it.
-/// This is the one with the largest ratio of residual to bound, or the one with the widest bound.
+/// This check or channel has the largest ratio of residual to bound, or the widest bound.
 fn judged(report: &Value) -> (&'static str, String) {
     let Some(run) = report["runs"].get(0) else {
         let error = &report["errors"][0];

@@ -2,9 +2,9 @@
 //!
 //! `cargo run --release --example rapier_orders -- SCENARIO DEG [ENGINE,..] [ROUTE,..] [plain|extrapolated] [SWEEPS]`
 //!
-//! For each stage it prints the largest error of any channel, divided by half of the channel's range.
+//! For each stage the example prints the largest error of any channel, divided by half of the channel's range.
 //! The step is DEG degrees of the crank.
-//! It also prints the order of convergence observed between this step and half of it.
+//! The example also prints the order of convergence observed between this step and half of this step.
 
 use std::path::Path;
 use std::time::Instant;

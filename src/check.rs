@@ -6,7 +6,7 @@ use scenario::formula::{fault_of_claim, refused};
 use scenario::{Claim, Scenario};
 
 /// A formula, and the channel of a mechanism that the formula claims to equal.
-/// [`check_formula`] judges it.
+/// [`check_formula`] judges the formula.
 #[derive(Clone, Debug, Default)]
 pub struct FormulaQuestion {
     /// The formula: a function of the crank angle `phi` (rad), the time `t` (s), and parameters and formulas of the
@@ -17,7 +17,7 @@ pub struct FormulaQuestion {
     pub channel: String,
     /// Steps of the derivation, by name: formulas that later steps and `formula` may use.
     pub steps: Vec<(String, String)>,
-    /// First and last crank angle (rad) between which the formula is claimed to hold.
+    /// First and last crank angle (rad) between which the formula is claimed to be valid.
     pub valid: [Option<f64>; 2],
     /// Claimed error in the channel's unit, for series and approximations.
     pub error: Option<f64>,
@@ -62,7 +62,7 @@ impl FormulaQuestion {
 
 /// Judges every `[[formula]]` of a scenario that claims a channel.
 /// The values and the derivatives of the formula are compared with both analytic sides at all instants of the grid.
-/// The bound is the rounding error of the formula.
+/// The bound of these comparisons is the rounding error of the formula.
 /// If a formula is wrong and the cause is simple, the result names the cause.
 ///
 /// ```
@@ -76,7 +76,7 @@ impl FormulaQuestion {
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if no formula claims a channel.
-/// If an analytic side cannot solve the scenario, its error is returned, with the crank angle.
+/// If an analytic side cannot solve the scenario, the error of that side is returned, with the crank angle.
 pub fn check(scenario: &Scenario) -> Result<Claimed> {
     judge(scenario)
 }

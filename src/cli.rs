@@ -59,7 +59,7 @@ struct Cli {
     command: Command,
 }
 
-/// Declares the commands. Each has a purpose, arguments, and a function.
+/// Declares the commands. Each command has a purpose, arguments, and a function.
 macro_rules! commands {
     ($($group:literal { $($(#[$about:meta])* $name:ident($args:ty) = $run:path,)* })*) => {
         #[derive(Debug, Subcommand)]
@@ -214,7 +214,7 @@ mod tests {
         }
     }
 
-    /// The documents of the repository: those at the top, in `docs`, and in the Python example.
+    /// The documents of the repository: those in its top directory, in `docs`, and in the Python example.
     fn documents() -> Vec<PathBuf> {
         let top = Path::new(env!("CARGO_MANIFEST_DIR"));
         let all =

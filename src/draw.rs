@@ -31,7 +31,7 @@ const AMONG: [f64; 2] = [100.0, 96.0];
 ///
 /// # Errors
 /// [`ErrorKind::Input`](crate::parts::ErrorKind::Input) for an invalid crank angle or an unknown point.
-/// Also the error that prevents assembly at the crank angle.
+/// The error that prevents assembly at the crank angle is returned as well.
 pub fn draw(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result<Vec<u8>> {
     let drawn = Drawn::of(scenario, wish, medium)?;
     match &drawn.fault {
@@ -54,7 +54,7 @@ pub(crate) fn picture(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> R
         }
         match wish.each_mode {
             true => sheets[0].extend(cells),
-            // A mechanism that cannot move looks the same in every frame.
+            // A mechanism that cannot move looks the same in every frame, so its last cell is repeated.
             false => {
                 let last = cells.last().cloned().into_iter().cycle();
                 sheets.iter_mut().zip(cells.into_iter().chain(last)).for_each(|(sheet, cell)| sheet.push(cell));

@@ -1,9 +1,9 @@
 //! Builds every planar mechanism twice, once analytically and once as a Rapier multibody, and proves that the two
 //! agree.
 //!
-//! A [`Scenario`] holds a [`Case`].
+//! A [`Scenario`] contains a [`Case`].
 //! An analytic side and an engine solve the case, and their trajectories are compared.
-//! [`prove`] does all of this; [`solve`] gives only the analytic solution.
+//! [`prove`] solves the case on both sides and compares the trajectories; [`solve`] gives only the analytic solution.
 //! [`check`] judges formulas, and [`compare`] judges tables and recordings of other programs.
 //! `draw` shows a mechanism (feature `command`).
 //!
@@ -64,7 +64,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! In a test; a disagreement panics with the report, and [`testing`] has more:
+//! In a test, a disagreement panics with the report; [`testing`] has further functions for tests:
 //!
 //! ```
 //! linkproof::assert_proven!("scenarios/crank_rocker.toml", only = ["positions"]);

@@ -1,5 +1,5 @@
 //! Files that help texts and documents mention.
-//! They are embedded in the program, because `cargo install` installs only the program.
+//! The files are embedded in the program, because `cargo install` installs only the program.
 
 use include_dir::{Dir, include_dir};
 
@@ -7,7 +7,8 @@ static SCENARIOS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/scenarios");
 static CATALOGUES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/catalogues");
 const FINDINGS: &[u8] = include_bytes!("../docs/findings.md");
 
-/// Directory of study scenarios. They are not embedded: no document mentions them, and they are half of all scenarios.
+/// Directory of study scenarios. Study scenarios are not embedded: no document mentions them, and they are half of all
+/// scenarios.
 const STUDY: &str = "variants60";
 
 fn below(directory: &'static Dir<'static>, path: &str, found: &mut Vec<(String, &'static [u8])>) {
@@ -19,7 +20,8 @@ fn below(directory: &'static Dir<'static>, path: &str, found: &mut Vec<(String, 
 }
 
 /// Paths, with `/`, and bytes of all embedded files.
-/// They are the scenarios with their tables, the catalogues, and the findings that published numbers refer to.
+/// The embedded files are the scenarios with their tables, the catalogues, and the findings that published numbers
+/// refer to.
 #[must_use]
 pub fn files() -> Vec<(String, &'static [u8])> {
     let mut found = vec![("docs/findings.md".to_string(), FINDINGS)];

@@ -23,7 +23,7 @@ use prover::run::{Options, Proof, prove};
 use scenario::grid::listed;
 use scenario::{Scenario, StartRequest};
 
-/// Proves a scenario file, and panics with the report unless it agrees; returns the [`Proof`].
+/// Proves a scenario file, and panics with the report unless the proof agrees; returns the [`Proof`].
 ///
 /// The path is relative to the directory of the caller's `Cargo.toml`.
 /// Further arguments are methods of [`Proving`](crate::testing::Proving), each with its argument.
@@ -70,7 +70,7 @@ pub trait AssertProven: Sized {
     /// ```
     ///
     /// # Panics
-    /// If the proof disagrees or is inconclusive, with the verdict and the report.
+    /// Panics with the verdict and the report if the proof disagrees or is inconclusive.
     #[track_caller]
     fn assert(self) -> Self;
 }
@@ -151,15 +151,16 @@ impl Proving {
     /// Requests only these channels, by the words of `want` in `[channels]`.
     /// A word is a stage (`positions`), a subject (`point.P`), a subject's stage (`point.P.positions`) or a channel
     /// (`joint.B.fx_N`).
-    /// May be called several times.
+    /// The method may be called several times.
     pub fn only<W: Into<String>>(mut self, words: impl IntoIterator<Item = W>) -> Self {
         self.only.extend(words.into_iter().map(Into::into));
         self
     }
 
     /// Sets a parameter by its key in `[parameters]`, in the unit of the key.
-    /// Published numbers hold only for the file's parameters, so the proof then omits them.
-    /// May be called several times.
+    /// Published numbers are valid only for the file's parameters, so the proof omits these numbers if a parameter is
+    /// set.
+    /// The method may be called several times.
     pub fn set(mut self, key: impl Into<String>, number: f64) -> Self {
         self.asked.set.push((key.into(), number));
         self
@@ -192,7 +193,7 @@ impl Proving {
     /// Sets an upper limit for the engine's error bound, as a fraction of a channel's scale.
     /// Above this limit, agreement no longer counts as a proof.
     /// The limit replaces `engine_rel` of `[tolerances]`.
-    /// The bounds themselves are derived and cannot be chosen.
+    /// The bounds themselves are computed and cannot be chosen.
     pub fn tolerance(mut self, share: f64) -> Self {
         self.tolerance = Some(share);
         self
@@ -201,7 +202,7 @@ impl Proving {
     /// Proves the scenario.
     ///
     /// # Errors
-    /// Those of [`Scenario::load`] and of [`prove`], and [`ErrorKind::Input`] for invalid settings.
+    /// The errors of [`Scenario::load`] and of [`prove`], and [`ErrorKind::Input`] for invalid settings.
     pub fn prove(&self) -> Result<Proof> {
         prove(&self.scenario()?, &self.options)
     }
@@ -209,8 +210,8 @@ impl Proving {
     /// Proves the scenario, and returns the proof if it agrees.
     ///
     /// # Panics
-    /// If the proof disagrees or is inconclusive, with the verdict and the report.
-    /// If the proof cannot be made, with the error.
+    /// Panics with the verdict and the report if the proof disagrees or is inconclusive.
+    /// Panics with the error if the proof cannot be made.
     #[track_caller]
     pub fn assert(&self) -> Proof {
         match self.prove() {

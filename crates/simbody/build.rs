@@ -9,12 +9,12 @@ fn main() {
     for file in ["src/shim.cpp", "src/shim.h"] {
         println!("cargo::rerun-if-changed={file}");
     }
-    // On docs.rs Simbody is not installed. The documentation is built without the library, so nothing is compiled here.
+    // On docs.rs Simbody is not installed. The documentation does not need the library, so nothing is compiled here.
     if env::var_os("DOCS_RS").is_some() {
         return;
     }
-    // If `SIMBODY_HOME` is set, it is the only candidate. Simbody's build files read the same variable.
-    // Otherwise the candidates are the prefixes of Debian and of a build from source.
+    // If `SIMBODY_HOME` is set, its path is the only candidate. Simbody's build files use the same variable.
+    // If `SIMBODY_HOME` is not set, the candidates are the prefixes of Debian and of a build from source.
     let home = env::var_os("SIMBODY_HOME").map(PathBuf::from);
     let prefixes: Vec<PathBuf> = match &home {
         Some(home) => vec![home.clone()],
@@ -40,7 +40,7 @@ fn main() {
         .warnings_into_errors(false)
         .extra_warnings(true)
         // Simbody's headers contain assertions that depend on `NDEBUG`. Simbody's library was built with `NDEBUG`, so
-        // this build must match.
+        // the shim is built with `NDEBUG` too.
         .define("NDEBUG", None)
         .compile("linkproof_simbody_shim");
     if home.is_some() {

@@ -41,7 +41,7 @@ fn option(name: &str, to: Option<f64>) -> String {
     }
 }
 
-/// Replaces the file names of documentation pages by commands that show the pages, for example `docs/scenario.md`.
+/// Replaces the file names of documentation pages, for example `docs/scenario.md`, by commands that show the pages.
 /// The user may not have the files.
 fn as_commands(text: &str) -> String {
     let is_of_path = |sign: char| sign.is_alphanumeric() || matches!(sign, '/' | '.' | '#' | '-' | '_');
@@ -77,7 +77,7 @@ mod tests {
             (Advice::MoreMemory { to: 5.23e9 }, "allow more memory, such as --memory 5.3"),
             (Advice::OtherEngine, "use another engine: `linkproof list --solvers` lists them"),
             (Advice::OtherReference { solver: "newton" }, "use side \"newton\" as the reference: --reference newton"),
-            (Advice::AllResults, "all of them with --json"),
+            (Advice::AllResults, "all of them with -o FILE.json"),
             ("check the lengths".into(), "check the lengths"),
             (Advice::ShortenGrid, "shorten the grid to the crank angles that can be reached on this branch"),
         ] {

@@ -110,10 +110,11 @@ pub(super) fn run(args: &Args) -> Result<()> {
     args.outputs.of(Benches::Page).try_for_each(page)
 }
 
-/// Processor time (s) that this thread has used; other work on the machine disturbs it less than elapsed time.
+/// Processor time (s) that this thread has used; other work on the machine changes the processor time less than the
+/// elapsed time.
 /// On systems other than Linux, the function returns the elapsed time.
 fn used(since: Instant) -> f64 {
-    // Linux updates the processor time when the thread yields.
+    // Linux updates the processor time when the thread yields, so the thread yields before the time is requested.
     std::thread::yield_now();
     processor_time().unwrap_or_else(|| since.elapsed().as_secs_f64())
 }
@@ -145,12 +146,12 @@ fn one(args: &Args, scenario: &Scenario, options: &BenchOptions, used: Clock, wa
     bench(scenario, options, &peers, used, &mut |part| bar.at(part))
 }
 
-/// A file of a scenario in the directory.
+/// Path of a scenario's file in the output directory `out`.
 fn place(out: &Path, name: &str, ending: &str) -> PathBuf {
     out.join(format!("{name}.{ending}"))
 }
 
-/// Diagrams and numbers of one scenario.
+/// Writes the diagrams and the numbers of one scenario.
 fn put(out: &Path, found: &Bench, machine: &report::Machine) -> Result<()> {
     let place = |end: &str| place(out, &found.scenario[0], end);
     output::make(&report::rows(found, machine)?, &place("csv"))?;

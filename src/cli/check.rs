@@ -29,10 +29,10 @@ pub(super) struct Args {
     /// Step of the derivation: a named formula that later steps and EXPR may use; may be given several times
     #[arg(long = "let", value_name = "NAME=EXPR", requires = "expression", value_parser = step)]
     steps: Vec<(String, String)>,
-    /// First crank angle in degrees at which the formula is claimed to hold
+    /// First crank angle in degrees at which the formula is claimed to be valid
     #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true, value_parser = number::finite)]
     from_deg: Option<f64>,
-    /// Last crank angle in degrees at which the formula is claimed to hold
+    /// Last crank angle in degrees at which the formula is claimed to be valid
     #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true, value_parser = number::finite)]
     to_deg: Option<f64>,
     /// Claimed error of the formula in the channel's unit, for series and approximations

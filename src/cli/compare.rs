@@ -43,7 +43,8 @@ pub(super) struct Args {
     /// channels or for one channel, subject or stage
     #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share(Size::Relative))]
     rel: Vec<Allowed>,
-    /// Allow differences of this fraction of each value: 0.05 for 5 %. Near zero only --abs allows a difference
+    /// Allow differences of this fraction of each value: 0.05 for 5 %. For values near zero, only --abs allows a
+    /// difference
     #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share(Size::OfValue))]
     rel_value: Vec<Allowed>,
     /// Allow differences of this size, in the unit of the channel
@@ -192,7 +193,8 @@ fn is_table(path: &Path) -> bool {
 }
 
 /// The mapping for the first party.
-/// It is the separate mapping of that party, or the command's mapping if only the first party is a table.
+/// This mapping is the separate mapping of the first party, or the command's mapping if only the first party is a
+/// table.
 fn mapping_of_first(args: &Args, mapping: &Mapping) -> Result<Mapping> {
     match args.map_a.is_empty() && !is_table(&args.second) {
         true => Ok(mapping.clone()),
@@ -225,7 +227,7 @@ fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Co
             let may = |bytes: f64, rows: usize| {
                 let most = Some(args.memory.bytes());
                 memory::check_input(&sentences::the_table(&path.display()), bytes, most)?;
-                // This is a lower limit: columns named like channels may need more memory.
+                // The estimate is a lower limit: columns named like channels may need more memory.
                 let compared = if is_solved && rows > 0 { memory::of_comparison(rows, claims, claims) } else { 0.0 };
                 memory::check_input(&sentences::comparing_rows(&rows), compared, most)
             };

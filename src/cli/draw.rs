@@ -27,7 +27,7 @@ pub(super) struct Args {
     /// Start a group in a different assembly mode from that of the file, as in `linkproof run`
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
-    /// Number of a parameter, by its key in `[parameters]`; may be given several times
+    /// Value of a parameter, by its key in `[parameters]`; may be given several times
     #[arg(long, value_name = "KEY=NUMBER", value_parser = load::setting)]
     set: Vec<(String, f64)>,
     /// Draw all configurations at this crank angle, each with the modes of its groups
@@ -42,7 +42,7 @@ pub(super) struct Args {
     /// Draw the path of this point; may be given several times
     #[arg(long, value_name = "POINT")]
     trace: Vec<String>,
-    /// Write the lengths of the links
+    /// Write the lengths of the links into the picture
     #[arg(long)]
     dimensions: bool,
     /// Width of a bitmap in pixels [default: 800]

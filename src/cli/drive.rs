@@ -39,8 +39,8 @@ pub(super) struct Args {
     /// Crank angle between two rows of the table, in degrees
     #[arg(long, value_name = "DEG", default_value = "10", allow_hyphen_values = true, value_parser = number::positive)]
     step_deg: f64,
-    /// Write the run-up with all requested channels as CSV to FILE; it replaces the text on standard output if FILE is
-    /// `-`
+    /// Write the run-up with all requested channels as CSV to FILE; the CSV replaces the text on standard output if
+    /// FILE is `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     run_up: Option<PathBuf>,
     /// Duration of the run-up

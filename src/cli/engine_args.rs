@@ -79,7 +79,7 @@ impl MemoryArgs {
 
 /// The settings of an engine: one argument for each row of [`ROWS`].
 /// If a setting is not given, the scenario's setting applies.
-/// If the scenario lacks it too, the proof finds the setting, or the engine uses its default.
+/// If the scenario lacks the setting too, the proof finds a setting, or the engine uses its default.
 #[derive(Clone, Debug)]
 pub(super) struct SettingArgs {
     settings: EngineSettings,
@@ -167,7 +167,7 @@ impl SettingArgs {
     /// An engine with these settings; missing settings come from the scenario, or else from the engine's defaults.
     ///
     /// # Errors
-    /// If the engine does not support one of the settings.
+    /// An error is returned if the engine does not support one of the settings.
     pub(super) fn engine(&self, engine: EngineName, scenario: &Scenario) -> Result<Box<dyn Engine>> {
         let options = Options { settings: self.settings.clone(), ..Options::default() };
         Ok(options.engine(engine).set_engines(scenario)?.remove(0))

@@ -35,7 +35,7 @@ pub(super) fn keys(scenario: &Scenario, name: &str, settings: Settings) -> Engin
 /// Writes the section into the scenario's file and leaves the rest of the file unchanged.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the file cannot be written, and those of [`edit::with_engine`].
+/// [`ErrorKind::Io`] if the file cannot be written, and the errors of [`edit::with_engine`].
 pub(super) fn write(file: &Path, scenario: &Scenario, keys: EngineSettings) -> Result<()> {
     let text = edit::with_engine(&scenario.text, keys)?;
     files::replace(&OutputTarget::Named(file), |mut to| to.write_all(text.as_bytes())).map_err(|error: io::Error| {

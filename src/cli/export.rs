@@ -24,8 +24,8 @@ pub(super) struct Args {
     /// fastest driving link]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = number::positive)]
     dt: Option<f64>,
-    /// Start a group in a different assembly mode from that of the file, or in the configuration with that number in
-    /// `inspect --modes`. May be given for several groups
+    /// Start a group in a different assembly mode from that of the file. A number as MODE means the configuration with
+    /// this number in `inspect --modes`. May be given for several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
 }

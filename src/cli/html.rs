@@ -32,7 +32,7 @@ impl Pages {
     /// Tests in advance whether the pages can be written.
     ///
     /// # Errors
-    /// If a page cannot be written.
+    /// An error is returned if a page cannot be written.
     pub(super) fn of(to: &Path, scenarios: usize) -> Result<Pages> {
         let is_directory = scenarios > 1 || to.is_dir() || to.as_os_str().to_string_lossy().ends_with('/');
         let tried = if is_directory { files::may_fill(to) } else { files::may_write(to) };
@@ -53,7 +53,7 @@ impl Pages {
     /// Writes the page of a proof, and returns its path.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] if it cannot be written.
+    /// [`ErrorKind::Io`] if the page cannot be written.
     pub(super) fn write(
         &mut self,
         scenario: &Scenario,

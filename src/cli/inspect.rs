@@ -44,7 +44,8 @@ results! { Inspected {
 
 pub(super) fn inspect(args: &Args) -> Result<()> {
     let asked = StartRequest { modes: args.mode.clone(), ..StartRequest::default() };
-    // If the file leaves the configuration open, a list of all configurations is most useful.
+    // If the file leaves the configuration open, a list of all configurations is most useful, so `to_list` accepts such
+    // a file.
     let (scenario, undecided) = match args.modes {
         true => load::to_list(&args.file, &asked)?,
         false => (load::as_asked(&args.file, &asked)?, Vec::new()),

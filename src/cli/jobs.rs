@@ -11,7 +11,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Memory for all items in progress.
-/// An item holds its reserved memory until its result has been passed on.
+/// An item keeps its reserved memory until its result has been passed on.
 pub(super) struct Room {
     most: f64,
     held: Mutex<Held>,
@@ -35,9 +35,9 @@ impl Room {
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits until item `index` may take `bytes`.
+    /// Waits until item `index` may reserve `bytes`.
     /// Items reserve memory in their order.
-    /// If no other item holds memory, the item always gets its memory.
+    /// If no item other than this one has reserved memory, this item always gets its memory.
     /// The first item without a result therefore never waits for a later item.
     /// `tell` is called when the item gets its memory.
     pub(super) fn take(&self, index: usize, bytes: f64, tell: impl FnOnce()) {
@@ -139,7 +139,7 @@ mod tests {
     fn results_are_in_order_for_any_number_of_threads() {
         for threads in [1, 2, 7, 100] {
             let squares = results(threads, 1.0, |index, room| {
-                // The first items take longest.
+                // In this test, the first items need the longest time.
                 std::thread::sleep(Duration::from_millis(20 - index as u64));
                 room.take(index, 0.0, || {});
                 Ok(index * index)

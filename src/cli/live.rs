@@ -46,7 +46,7 @@ const USUAL: &str = "127.0.0.1:8765";
 #[group(skip)]
 pub(super) struct LiveArgs {
     /// Show the mechanism to Foxglove and Lichtblick while and after it is proven, in a slow loop until Ctrl-C [default
-    /// address: 127.0.0.1:8765; port 0 takes a free one]. Needs the cargo feature `live`
+    /// address: 127.0.0.1:8765; port 0 selects a free port]. Needs the cargo feature `live`
     #[arg(long, value_name = "[HOST:]PORT", num_args = 0..=1, require_equals = true, default_missing_value = USUAL)]
     live: Option<String>,
 }
@@ -60,7 +60,8 @@ impl LiveArgs {
     /// Listens for viewers of a scenario, if requested.
     ///
     /// # Errors
-    /// If this build has no server, if there are several scenarios, or if the address cannot be used.
+    /// An error is returned if this build has no server, if there are several scenarios, or if the address cannot be
+    /// used.
     pub(super) fn start(&self, files: &[PathBuf]) -> Result<Option<Live>> {
         let Some(address) = &self.live else { return Ok(None) };
         if let [_, _, ..] = files {
@@ -72,7 +73,7 @@ impl LiveArgs {
     }
 }
 
-/// Replaces the server in builds without one.
+/// Replaces the server in builds without a server.
 #[cfg(not(feature = "live"))]
 pub(super) enum Live {}
 

@@ -14,16 +14,16 @@ use scenario::{Draft, Scenario, StartRequest, Undecided};
 #[derive(Clone, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct StartArgs {
-    /// Start a group in a different assembly mode from that of the file, or in the configuration with that number in
-    /// `inspect --modes`; published numbers hold only for the modes of the file and are then left out. May be given for
-    /// several groups
+    /// Start a group in a different assembly mode from that of the file. A number as MODE means the configuration with
+    /// this number in `inspect --modes`. Published numbers are valid only for the modes of the file, so they are then
+    /// omitted. May be given for several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     pub(super) mode: Vec<String>,
-    /// Crank angle at t = 0 in degrees, measured as in the scenario, instead of the `crank` of its `[start]`; published
-    /// numbers stay if the start lies on the branch of the file
+    /// Crank angle at t = 0 in degrees, measured as in the scenario. Replaces the `crank` of the scenario's `[start]`;
+    /// published numbers stay if the start lies on the branch of the file
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     pub(super) start_crank_deg: Option<f64>,
-    /// Number of a parameter, by its key in `[parameters]`; may be given several times
+    /// Value of a parameter, by its key in `[parameters]`; may be given several times
     #[arg(long, value_name = "KEY=NUMBER", value_parser = setting)]
     pub(super) set: Vec<(String, f64)>,
 }
@@ -95,8 +95,8 @@ pub(super) fn draft(file: &Path, asked: &StartRequest) -> Result<Draft> {
     }
 }
 
-/// If a requested mode probably caused the error, adds the option `--mode` as its location.
-/// Such an error has no location in the file.
+/// If a requested mode probably caused the error, adds the option `--mode` as the location of the error.
+/// An error that a requested mode causes has no location in the file.
 fn of_mode(asked: &StartRequest, error: Error) -> Error {
     let is_asked = !asked.modes.is_empty() && error.place().is_none() && error.kind() != ErrorKind::Io;
     if is_asked { error.key("--mode") } else { error }

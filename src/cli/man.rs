@@ -20,7 +20,7 @@ pub(super) struct Args {
     output: Option<PathBuf>,
 }
 
-/// Writes one page to standard output, or all of them to a directory.
+/// Writes one page to standard output, or all pages to a directory.
 pub(super) fn run(args: &Args, command: Command) -> Result<()> {
     // Without the help subcommand, the page of linkproof is the same in both outputs.
     let mut command = command.disable_help_subcommand(true);

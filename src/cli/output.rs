@@ -236,6 +236,6 @@ pub(super) fn show(error: &Error) {
 fn say(text: &str) {
     let mut stream = io::stderr();
     let width = columns_of(if stream.is_terminal() { terminal_size_of(&stream) } else { None });
-    // If standard error is closed, an error cannot be reported.
+    // If standard error is closed, an error cannot be reported, so a failure to write is ignored.
     let _ = writeln!(stream, "{}", fitted(text, width));
 }

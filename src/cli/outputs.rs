@@ -29,7 +29,7 @@ pub(super) enum Form {
 }
 
 impl Form {
-    /// Endings of files of this form; the first is the usual one.
+    /// Endings of files of this form; the first ending is the usual ending.
     fn endings(self) -> &'static [&'static str] {
         match self {
             Form::Csv => &["csv"],
@@ -228,7 +228,7 @@ impl<R: Results> Outputs<R> {
         self.all.iter().map(|(own, path)| (*own, path.as_path()))
     }
 
-    /// Whether no result is asked for.
+    /// Whether no result is requested.
     pub(super) fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
@@ -264,7 +264,7 @@ impl<R: Results> Outputs<R> {
     /// Writes every result, like [`Outputs::write_some`].
     ///
     /// # Errors
-    /// Those of [`Outputs::write_some`].
+    /// The errors of [`Outputs::write_some`].
     pub(super) fn write(&self, mut make: impl FnMut(R) -> Result<String>) -> Result<()> {
         self.write_some(|own| make(own).map(Some))
     }
@@ -273,7 +273,7 @@ impl<R: Results> Outputs<R> {
     /// If a result goes to standard output, the text is omitted.
     ///
     /// # Errors
-    /// Those of [`Outputs::write_some`].
+    /// The errors of [`Outputs::write_some`].
     pub(super) fn deliver(
         &self,
         make: impl FnMut(R) -> Result<String>,

@@ -5,7 +5,7 @@ use std::panic::{set_hook, take_hook};
 
 /// Sets a hook that forwards every panic to the present hook, except panics for which `is_caught` returns true.
 /// Call it once, at the start of the process.
-/// A hook runs on the thread that panics.
+/// The hook, and therefore `is_caught`, runs on the thread that panics.
 pub(super) fn silence(is_caught: fn() -> bool) {
     let previous = take_hook();
     set_hook(Box::new(move |info| {

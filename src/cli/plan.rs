@@ -40,7 +40,7 @@ results! { PlanResults {
 } }
 
 /// Largest number of points of a link.
-/// The number of relative vectors grows with the square of the number of points.
+/// The limit is needed because the number of relative vectors grows with the square of the number of points.
 const POINTS: usize = 100;
 
 pub(super) fn plan(args: &Args) -> Result<()> {

@@ -32,17 +32,18 @@ const REFERENCE: &str = "reference";
 #[derive(Clone, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct RecordArgs {
-    /// Directory for the recordings (MCAP), with a layout for Foxglove and Lichtblick beside each
+    /// Directory for the recordings (MCAP), with a layout for Foxglove and Lichtblick beside each recording
     #[arg(long, value_name = "DIR", default_value = "recordings")]
     record: PathBuf,
     /// Write no recording
     #[arg(long, conflicts_with = "record")]
     no_record: bool,
-    /// Time scale of recordings and of `--live`: viewers play them this many times slower than the mechanism runs
-    /// [default: 1; without it, layouts and `--live` show a turn in some four seconds]
+    /// Time scale of recordings and of `--live`: viewers play recordings this many times slower than the mechanism
+    /// runs. Without this option, layouts and `--live` show a turn in some four seconds [default: 1]
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::positive)]
     slow: Option<f64>,
-    /// Record at most this many instants per second of the mechanism's time, beside the first and the last [default: all]
+    /// Record at most this many instants per second of the mechanism's time, besides the first and the last instant
+    /// [default: all]
     #[arg(long, value_name = "HZ", allow_hyphen_values = true, value_parser = number::positive)]
     record_hz: Option<f64>,
     /// Also record reactions as arrows; their numbers are recorded anyway
@@ -56,7 +57,7 @@ pub(super) struct Recorded {
     pub path: PathBuf,
     /// Its layout.
     pub layout: Option<PathBuf>,
-    /// Its path, its size, and a suitable viewer.
+    /// Message about the recording: its path, its size, and a suitable viewer.
     pub told: String,
 }
 
@@ -193,7 +194,7 @@ fn sides(proof: &Proof) -> Vec<RecordedSide<'_>> {
     sides
 }
 
-/// Message about a large recording of these instants (s): how many there are, and how to reduce the recording.
+/// Message about a large recording of these instants (s): the number of instants, and how to reduce the recording.
 fn large(bytes: u64, times: &[f64], hz: Option<f64>) -> String {
     if bytes < LARGE {
         return String::new();
@@ -202,7 +203,7 @@ fn large(bytes: u64, times: &[f64], hz: Option<f64>) -> String {
         .iter()
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &time| [low.smaller(time), high.larger(time)]);
     let rate = hz.unwrap_or(times.len() as f64 / (ends[1] - ends[0]));
-    // One significant digit is enough for a suggestion.
+    // The suggested number is rounded to one significant digit, which is enough for a suggestion.
     let fewer = rate * HANDY / bytes as f64;
     let digit = 10f64.powf(fewer.log10().floor());
     let fewer = (fewer / digit).floor() * digit;

@@ -24,7 +24,8 @@ pub(super) struct Args {
     /// Largest allowed error, as a fraction of each channel's scale
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = number::share)]
     within: f64,
-    /// Channel, or stage of channels, that must meet the allowed error [default: all that the scenario requests]
+    /// Channel, or stage of channels, that must meet the allowed error [default: all channels that the scenario
+    /// requests]
     #[arg(long, value_name = "CHANNEL")]
     channel: Vec<String>,
     #[command(flatten)]

@@ -80,7 +80,7 @@ pub(super) fn view(args: &Args) -> Result<()> {
     Ok(())
 }
 
-/// Writes a layout; if the program chose the name, no other file is replaced.
+/// Writes a layout; if the program chose the name, only a file that the program itself wrote is replaced.
 fn put(args: &Args, text: &str, to: &Path) -> Result<()> {
     match args.output {
         Some(_) => output::write(text, to),
@@ -88,7 +88,7 @@ fn put(args: &Args, text: &str, to: &Path) -> Result<()> {
     }
 }
 
-/// Whether this program made the Rerun recording: the application's name stands near the file's beginning.
+/// Whether this program made the Rerun recording: the application's name is near the file's beginning.
 fn is_film(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(4096)];
     head.starts_with(b"RRF") && head.windows(9).any(|part| part == b"linkproof")

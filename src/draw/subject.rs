@@ -45,7 +45,7 @@ pub(crate) struct Drawn {
     traces: Vec<Trace>,
     /// Fault of the file or of the request.
     pub(crate) fault: Option<Error>,
-    /// Whether the file has mistakes. If it has mistakes, they are listed below the picture.
+    /// Whether the file has mistakes. The mistakes of a file are listed below the picture.
     has_mistakes: bool,
     pub(crate) note: Option<Note>,
 }
@@ -209,7 +209,8 @@ impl Drawn {
         all.truncate(MOST);
         let own = lay(&draft.mechanism, &structure, &angles, &draft.starts);
         let headings = all.iter().map(|laid| heading(&draft.mechanism, &structure, laid, &own)).collect();
-        // If the file states no mode, the list of configurations shows the possible modes, so this is not a fault.
+        // If the file states no mode, the list of configurations shows the possible modes, so the missing mode is not a
+        // fault.
         // A configuration that does not close is not a fault either.
         let is_answered = draft.mistakes.is_none() && all.iter().any(Laid::is_whole);
         let cut = is_cut.then(|| sentences::only_the_first_configurations_are_drawn(&MOST));

@@ -99,10 +99,10 @@ pub fn worst(proof: &Proof, width: Option<usize>, text: &mut String) {
         let (factor, unit) = read(kind.unit);
         let [difference, bound] = [factor * residual.max, factor * channel.bound];
         let value = |side: &Trajectory| at(side, &residual.channel, residual.worst_time).map(|value| factor * value);
-        // Every judged channel has a value on both sides.
+        // Every judged channel has a value on both sides, so no judged channel is skipped.
         let found = engine.trajectory.as_ref().and_then(value);
         let (Some(right), Some(found)) = (value(&proof.reference_trajectory), found) else { continue };
-        // An angle may differ by whole revolutions, which do not count as a difference.
+        // An angle may differ by whole revolutions, which do not count as a difference, so they are subtracted.
         let turns = if kind.periodic { 360.0 * ((found - right) / 360.0).round() } else { 0.0 };
         let [right, found] = numbers::beside([right, found - turns], bound);
         table.add_row([

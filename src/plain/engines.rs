@@ -1,5 +1,5 @@
 //! Several engines side by side, and the party that disagrees with all other parties.
-//! Also the forces that an engine itself exerts, beside the forces that follow from its motion.
+//! The reports also show the forces that an engine itself exerts, beside the forces that follow from its motion.
 
 use super::cells::{fitted, share, trimmed};
 use super::judged::{Grade, grade, worst};

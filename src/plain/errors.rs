@@ -37,7 +37,7 @@ pub fn text(error: &Error, tell: Tell) -> String {
     all(error, tell, ("error", Level::ERROR))
 }
 
-/// The same text as a warning, because the command continued as far as possible.
+/// The text of an error, as a warning, because the command continued as far as possible.
 pub(crate) fn warning(error: &Error, tell: Tell) -> String {
     all(error, tell, ("warning", Level::WARNING))
 }

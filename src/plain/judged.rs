@@ -1,5 +1,5 @@
 //! The model behind every report of a proof.
-//! It holds each channel, each force that an engine itself exerts, and each check, with its verdict.
+//! The model contains each channel, each force that an engine itself exerts, and each check, with its verdict.
 //! Text, JSON, JUnit, Markdown, logs and pages all use these verdicts.
 
 use crate::sentences;
@@ -119,7 +119,7 @@ fn checks<'a>(engine: Option<&'a EngineProof>, checks: &'a [Check]) -> impl Iter
 /// All verdicts of a proof by name: channels, forces that engines exert themselves, and checks.
 pub fn verdicts(proof: &Proof) -> Vec<(String, &Verdict)> {
     let several = proof.engines.len() > 1;
-    // An engine without a valid run has no channels, so no channel reports its failure.
+    // An engine without a valid run has no channels, so the verdict of the engine itself is listed.
     let without_run = proof.engines.iter().filter(|engine| engine.channels.is_empty() && engine.failure.is_none());
     let mut all: Vec<_> = without_run.map(|engine| (engine.info.name.to_string(), &engine.verdict)).collect();
     for engine in &proof.engines {

@@ -1,5 +1,6 @@
 //! All information besides the verdict that an engineer needs to act.
-//! It says why something disagrees or is open, what was not judged, and which printed numbers are known to be wrong.
+//! This information states why something disagrees or is open, what was not judged, and which printed numbers are known
+//! to be wrong.
 
 use super::cells::distinct;
 use super::judged::{Grade, grade, unproven};
@@ -42,7 +43,7 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
         return;
     }
     let (count, told) = (findings.len(), distinct(findings));
-    // One command per line: a wrapped command cannot be copied.
+    // Each command is on a separate line, because a wrapped command cannot be copied.
     say!(text, sentences::checks_disagree_as_expected_see(&count, &(told.join(",\n  "))));
 }
 

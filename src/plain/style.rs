@@ -33,7 +33,7 @@ impl Detail {
 /// Width of a report for a file or a pipe, in columns.
 pub const COLUMNS: usize = 80;
 
-/// The same text without colours.
+/// The given text without colours.
 #[must_use]
 pub fn plain(text: &str) -> String {
     let mut parts = text.split("\u{1b}[");
@@ -107,7 +107,7 @@ mod tests {
     #[test]
     fn long_lines_have_a_hanging_indent() {
         for (line, fitted) in [
-            ("error: no such file or directory", "error: no such file\n       or directory"),
+            ("error: no such file or directory", "error: no such file or\n       directory"),
             ("  = help: name another file here", "  = help: name another\n          file here"),
             ("source   a book of mechanisms", "source   a book of\n         mechanisms"),
             ("12 | mass_kg = 1 # a long comment", "12 | mass_kg = 1 # a long comment"),

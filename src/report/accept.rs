@@ -122,8 +122,9 @@ fn counts(comparison: &FigureComparison) -> String {
     parts.join(", ")
 }
 
-/// For every channel that has changed: the figure with the largest change.
-/// Also the channels that are new, that are missing now, or that have a wider bound.
+/// Lists, for every channel that has changed, the figure with the largest change.
+/// Also lists the channels that are new, that are missing in this run, or that have a wider bound than the accepted
+/// bound.
 fn changes(comparison: &FigureComparison, text: &mut String) {
     let worst_of = |channel: &&str| {
         let own = comparison.moved.iter().filter(|moved| moved.channel == *channel);

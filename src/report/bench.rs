@@ -22,7 +22,8 @@ pub(crate) fn ratio(bench: &Bench, point: &BenchPoint) -> Option<f64> {
 }
 
 /// An error as text.
-/// If the reference's error limits it, a note follows; if it is below the reference's error, a note replaces it.
+/// If the reference's error limits the error, a note follows the number; if the error is below the reference's error, a
+/// note replaces the number.
 pub(crate) fn error(errors: Errors, floor: f64) -> String {
     match (errors.is_limited, errors.max > floor) {
         (false, _) => format!("{:.1e}", errors.max),

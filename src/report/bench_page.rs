@@ -15,7 +15,7 @@ const WITHIN: [f64; 3] = [1e-3, 1e-6, 1e-9];
 const REASONS: usize = 6;
 
 /// The page.
-/// `command` is the command that made it; `pictures` is the directory of the diagrams, relative to the page.
+/// `command` is the command that made the page; `pictures` is the directory of the diagrams, relative to the page.
 pub(crate) fn page(benches: &[Bench], machine: &Machine, command: &str, pictures: &str) -> String {
     let mut text = filled(include_str!("bench_page.md"), &[("command", command), ("clear", &CLEAR.to_string())]);
     let machine: Vec<String> = machine.iter().map(|(name, value)| format!("{name}: {value}")).collect();

@@ -70,7 +70,7 @@ fn costs(bench: &Bench, axis: CostAxis) -> Option<[f64; 2]> {
 }
 
 /// Programs in the order of their first occurrence in the table.
-/// Their number in this order selects their colour and mark.
+/// A program's number in this order selects its colour and mark.
 pub(super) fn programs(bench: &Bench) -> Vec<&str> {
     distinct(bench.points.iter().map(|point| point.program.as_str()))
 }

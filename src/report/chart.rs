@@ -94,11 +94,12 @@ impl Chart {
     }
 }
 
-/// Powers of ten between two values; if there are more than `most`, only every second, third, ... power.
+/// Powers of ten between two values; if there are more than `most` powers, only every second, third, ... power is
+/// returned.
 pub(super) fn decades([low, high]: [f64; 2], most: i32) -> Vec<f64> {
     let (first, last) = (low.log10().ceil() as i32, high.log10().floor() as i32);
     let every = (last - first) / most + 1;
-    // Parsed from text, so that 1e-5 is the nearest double.
+    // The power is parsed from text, so that 1e-5 is the nearest double.
     let power = |power: i32| format!("1e{power}").parse().ok();
     (first..=last).filter(|power| power % every == 0).filter_map(power).collect()
 }

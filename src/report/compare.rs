@@ -81,7 +81,7 @@ fn of_pair(pair: &SidePair, all: bool, tell: Tell, width: usize) -> String {
 fn row(own: &Compared, by_crank: bool) -> [String; 7] {
     let [at, first, second, difference, bound] = own.worst.map_or_else(Default::default, |at| {
         let when = if by_crank { numbers::fixed(at.crank.to_degrees(), 2) } else { numbers::fixed(at.time, 6) };
-        // An angle may differ by whole revolutions, which do not count as a difference.
+        // An angle may differ by whole revolutions, which do not count as a difference, so they are subtracted.
         // A value is shown as zero only if it is rounding error and negligible beside the other value.
         // Allowed differences do not reduce the number of digits shown.
         let values = [at.values[0], if at.difference.is_nan() { at.values[1] } else { at.values[0] + at.difference }];

@@ -1,6 +1,6 @@
 //! A proof as one self-contained HTML page: the mechanism in motion, all channels with errors and bounds, verdict and
 //! findings.
-//! A script on the page draws it; all text is visible without the script.
+//! A script on the page draws the proof; all text is visible without the script.
 
 mod data;
 mod findings;
@@ -113,7 +113,7 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
     )
 }
 
-/// Number of instants on the page, if some are left out.
+/// Number of instants on the page, if some instants are omitted.
 fn told(thinned: &Thinned) -> String {
     let (shown, all) = (thinned.rows.len(), thinned.all);
     match shown == all {

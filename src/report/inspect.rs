@@ -55,7 +55,8 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     text
 }
 
-/// Distance of the configuration from the approximate positions in the file, and that of the next configuration.
+/// Distance of the configuration from the approximate positions in the file, and the distance of the next-nearest
+/// configuration from these positions.
 fn from_rough_place(choice: &ConfigurationChoice) -> String {
     let mm = |distance: f64| format!("{:.*} mm", if distance < 0.01 { 1 } else { 0 }, distance * 1e3);
     match (choice.nearest_m, choice.next_m) {
@@ -67,7 +68,7 @@ fn from_rough_place(choice: &ConfigurationChoice) -> String {
 
 /// The structure as JSON, schema 1.
 /// `modes`: a crank angle (rad) and the configurations at this angle; `range`: the range of motion.
-/// Each is written only if it is given.
+/// Each of `modes` and `range` is written only if it is given.
 /// A group in `undecided` has no mode.
 pub(crate) fn json(
     scenario: &Scenario,

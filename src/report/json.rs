@@ -163,7 +163,7 @@ rows! {
         error: Option<String> = diagnosis.nature.map(nature),
         /// Whether the cause explains all channels.
         explained: bool = diagnosis.is_explained(),
-        /// Other causes that explain as much.
+        /// Causes other than `cause` that explain as much as `cause`.
         also: Vec<String> = diagnosis.also.iter().map(cause).collect(),
         left_over: Vec<String> = diagnosis.left_over.iter().map(ToString::to_string).collect(),
         cases_tried: usize = diagnosis.solved,

@@ -1,5 +1,5 @@
 //! A layout for Foxglove and Lichtblick: the mechanism from above, beside plots of both sides and of their errors.
-//! The same contents as a film for other viewers.
+//! A film gives the same contents to viewers other than these.
 
 use serde_json::{Map, Value, json};
 
@@ -71,7 +71,7 @@ fn picture(view: &View) -> Value {
         "followMode": "follow-none", "followTf": "world",
         "scene": { "transforms": {
             "showLabel": false, "labelSize": 0.02 * height, "axisScale": 0.05 * height, "lineWidth": 0,
-            // Loads all poses at once, so that the picture is right after a jump backwards.
+            // The viewer loads all poses at once, so that the picture is correct after a jump backwards.
             "enablePreloading": true,
         } },
         "transforms": frames, "topics": topics, "layers": {},
@@ -92,7 +92,7 @@ fn graph(plot: &Plot) -> Value {
 /// reference.
 fn path(line: &Line) -> Value {
     let width = if line.side == Some(0) { 5.0 } else { 1.5 };
-    // The title names the quantity; a long name would cover the curve.
+    // The title names the quantity, so the label names only the side: a long label would cover the curve.
     let side = line.side.and_then(|_| line.topic.split('/').nth(1));
     json!({
         "value": format!("{}.{}", quoted(&line.topic), line.field), "label": side.unwrap_or(&line.label),
@@ -104,7 +104,7 @@ fn path(line: &Line) -> Value {
 /// Colour of a side, where 0 is the reference, or of an error.
 fn colour(side: Option<usize>) -> &'static str {
     // Viewers draw samples as dots, which are darker than the line on a light background and lighter on a dark one.
-    // These colours suit both backgrounds.
+    // The colours of this list suit both backgrounds.
     const COLOURS: [&str; 4] = ["#56b4e9", "#ff9f40", "#5fd3ae", "#cc79a7"];
     side.map_or("#9a9a9a", |side| COLOURS[side % COLOURS.len()])
 }

@@ -1,6 +1,6 @@
 //! Messages between the live server and a viewer: Foxglove's WebSocket protocol, as JSON and as bytes.
 //!
-//! The protocol has a new name, but the messages used here are unchanged.
+//! The protocol has a new name, but the messages that this server uses are unchanged.
 //! Only viewers with the new name support playback control.
 //! Numbers are little-endian; a binary message begins with the number of its kind.
 
@@ -26,7 +26,7 @@ linkage::words! {
 }
 
 impl Dialect {
-    /// The best of the protocol names that a viewer offers, separated by commas.
+    /// The preferred protocol name among the names that a viewer offers in `offered`, separated by commas.
     pub(crate) fn of(offered: &str) -> Option<Dialect> {
         let is_offered = |own: &Dialect| offered.split(',').any(|name| name.trim() == own.name());
         [Dialect::Sdk, Dialect::WebSocket].into_iter().find(is_offered)
@@ -66,7 +66,7 @@ pub(crate) struct State {
     pub time: u64,
     /// Playback speed: log time that passes per second of the clock.
     pub speed: f32,
-    /// Whether playback jumped to this time.
+    /// Whether playback jumped to `time`.
     pub jumped: bool,
 }
 
@@ -139,7 +139,7 @@ pub(crate) fn time(time: u64) -> Vec<u8> {
     [&[2][..], &time.to_le_bytes()].concat()
 }
 
-/// The playback state; `id` is that of the request that it answers, or empty.
+/// The playback state; `id` is the number of the request that this message answers, or empty.
 pub(crate) fn state(state: &State, id: &str) -> Vec<u8> {
     let (head, jumped, length) = ([5, u8::from(!state.plays)], [u8::from(state.jumped)], id.len() as u32);
     let (time, speed) = (state.time.to_le_bytes(), state.speed.to_le_bytes());

@@ -82,7 +82,7 @@ fn singular_text(text: &mut String, case: &Case, point: &SingularPoint) {
     }
 }
 
-/// The plans as JSON, schema 1. Arguments as in [`text`].
+/// The plans as JSON, schema 1. The arguments are those of [`text`].
 pub(crate) fn json(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>], tell: Tell) -> String {
     let plan = |plan: &VectorPlan| {
         let vectors = list(&plan.vectors, |vector| {

@@ -24,7 +24,7 @@ fn plots(plots: &[Plot]) -> String {
     filled(include_str!("plotjuggler_plots.xml"), &slots)
 }
 
-/// One plot; its lines have the same width, and the last is in front.
+/// One plot; its lines have the same width, and the last line is in front.
 fn area(plot: &Plot) -> String {
     let curves: String = plot.lines.iter().map(curve).collect();
     let slots = [("title", &*escaped(&plot.title)), ("curves", &*curves)];

@@ -186,6 +186,6 @@ mod tests {
         let scenario = of_repository("scenarios/crank_rocker.toml");
         let range = Range { extent: Extent::FullTurn(2), ..Range::of(&scenario.case).unwrap() };
         assert_eq!(json(&scenario, &range)["extent"], json!({"full_turn": true, "turns_to_same_pose": 2}));
-        assert!(text(&scenario, &range, None).contains("at its first pose after 2 turns"));
+        assert!(text(&scenario, &range, None).contains("returns to its first pose after 2 turns"));
     }
 }

@@ -46,7 +46,7 @@ fn object(path: &str) -> Value {
 
 fn of_key(key: &FileKey, path: &str) -> Value {
     let child = if path.is_empty() { key.name.to_string() } else { format!("{path}.{}", key.name) };
-    // Any number may be an arithmetic expression of parameters.
+    // Any number may be an arithmetic expression of parameters, so a string is allowed as well.
     let number = || json!({ "type": ["number", "string"] });
     let list = |items: Value| json!({ "type": "array", "items": items });
     let mut value = match key.kind {
@@ -65,7 +65,7 @@ fn of_key(key: &FileKey, path: &str) -> Value {
     value
 }
 
-/// A section: with fixed keys, with names as keys, or with names that stand for numbers.
+/// A section: with fixed keys, with names as keys, or with names that represent numbers.
 fn table(path: &str) -> Value {
     let named = format!("{path}.*");
     match (section(path), section(&named)) {

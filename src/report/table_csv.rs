@@ -9,7 +9,7 @@ use linkage::trajectory::Trajectory;
 /// A table of texts as CSV, its header first.
 ///
 /// # Errors
-/// [`Io`](linkage::error::ErrorKind::Io) if it cannot be written.
+/// [`Io`](linkage::error::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn csv<R: IntoIterator<Item = String>>(rows: impl IntoIterator<Item = R>) -> linkage::error::Result<String> {
     let failed = |error: csv::Error| {
         linkage::error::Error::new(linkage::error::ErrorKind::Io, sentences::the_table_cannot_be_written(&error))
@@ -23,7 +23,7 @@ pub(crate) fn csv<R: IntoIterator<Item = String>>(rows: impl IntoIterator<Item =
 /// Writes time, crank angle, then all channels of a solution.
 ///
 /// # Errors
-/// Those of `to`.
+/// The errors of `to`.
 pub(crate) fn solution(trajectory: &Trajectory, to: &mut dyn Write) -> Result<()> {
     let columns: Vec<&[f64]> =
         [trajectory.times(), trajectory.inputs()].into_iter().chain(trajectory.iter().map(|(_, v)| v)).collect();
@@ -34,7 +34,7 @@ pub(crate) fn solution(trajectory: &Trajectory, to: &mut dyn Write) -> Result<()
 /// Writes the crank and the motor's moment in a run-up, then all requested channels.
 ///
 /// # Errors
-/// Those of `to`.
+/// The errors of `to`.
 pub(crate) fn run_up(run_up: &RunUp, to: &mut dyn Write) -> Result<()> {
     let own = [
         "t_s",
@@ -64,7 +64,7 @@ fn io_error(error: csv::Error) -> Error {
 }
 
 /// Writes a table: the columns `own`, then the channels of a trajectory.
-/// It is written row by row, because the text of all rows would need three times the memory of the numbers.
+/// The table is written row by row, because the text of all rows would need three times the memory of the numbers.
 fn table(
     own: &[&str],
     trajectory: &Trajectory,

@@ -211,7 +211,7 @@ fn checks(proof: &Proof, width: Option<usize>) -> String {
 }
 
 /// Every residual of a proof beside its bound, for readers who examine the bounds.
-/// It has a line for every channel of every engine, and for every check.
+/// The text has a line for every channel of every engine, and for every check.
 #[must_use]
 pub fn residuals(proof: &Proof) -> String {
     let mut all = judged::of(proof);

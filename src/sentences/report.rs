@@ -335,7 +335,7 @@ linkage::sentences! {
     LEAST_MARGIN_DIFFERENCE_OVER_ITS_BOUND = "least margin: difference over its bound of what sees the fault most clearly, where it is least clear.
 found down to: sizes above this are found in every scenario, to a factor of two; relative, angles in rad.";
     no_fault_of_the_kinds_asked(name, instead, formulas) = "{name}: no fault of the requested kinds changes a result; kinds that do: {instead}{formulas}\n";
-    NO_FORMULA_OF_IT_CLAIMS_AN_EXACT = "; its formulas claim no exact value";
+    NO_FORMULA_OF_IT_CLAIMS_AN_EXACT = "; no formula of the scenario claims an exact value, so formula faults cannot be planted";
     // report/plan.rs
     omega_rad_alpha_rad(link, name, omega, alpha) = "  {link} {name:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s²";
     a_on_the_first_on_the_second(shown, shown_2) = "  a_S {shown} m/s² on the first base link, {shown_2} m/s² on the second";

@@ -39,7 +39,7 @@ pub fn main(folder: impl AsRef<Path>) -> ExitCode {
     Folder::of(folder).main()
 }
 
-/// Tests of a folder: [`main`] with options.
+/// One test for every scenario of a folder, as in [`main`], but with options for the proofs.
 ///
 /// ```no_run
 /// use linkproof::Options;

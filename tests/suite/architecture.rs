@@ -1,8 +1,8 @@
 //! The architecture as a test.
-//! It checks which crate may use which other crate, and which module may use which other module.
+//! The test checks which crate may use which other crate, and which module may use which other module.
 //! No files may depend on each other in a circle.
 //! The two analytic sides may share only their common base.
-//! A few further rules apply to every file.
+//! The test also checks a few rules that apply to every file.
 
 mod graph;
 
@@ -53,7 +53,8 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     ),
 ];
 
-/// Top-level modules of the crates with internal rules, and the modules of the same crate that each may use.
+/// Top-level modules of the crates with internal rules, and the modules of the same crate that each top-level module
+/// may use.
 const ROOMS: &[(&str, &str)] = &[
     ("linkage::case", "drive error input math mechanism trajectory"),
     ("linkage::drive", "input math mechanism"),
@@ -110,7 +111,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::testing", "plain"),
 ];
 
-/// Parts of other crates that a module must not name, although its crate may.
+/// Modules, and the parts of other crates that each module must not name, although the module's crate may use them.
 const NEVER: &[(&str, &str)] = &[
     // Only trajectories are compared.
     ("prover::bounds", "analytic rapier_twin simbody_twin linkage::case linkage::mechanism linkage::solver"),
@@ -124,7 +125,7 @@ const NEVER: &[(&str, &str)] = &[
     ("linkproof::cli", "rapier_twin"),
     // Drawings of mechanisms do not depend on the solver.
     ("lab::specimens", "analytic prover linkage::solver"),
-    // The module runs other programs, but does not use the solvers of this project.
+    // `lab::outside` starts foreign programs, but does not use the solvers of this project.
     ("lab::outside", "analytic prover linkage"),
     // Diagrams, drawings and exports accept the states of any solver.
     ("design::diagram", "analytic"),
@@ -145,8 +146,8 @@ const HOMES: &[(&str, &str)] = &[
     ("toml", "scenario"),
     ("toml_edit", "design::synthesize scenario"),
     ("comfy_table", "linkproof::plain linkproof::report"),
-    // Only `lab::outside` runs other programs.
-    // In the command line, `Command` is that of clap; `testing` uses only an exit code.
+    // Only `lab::outside` starts foreign programs.
+    // In the command line, `Command` is the type of clap; `testing` uses only an exit code.
     ("Command", "linkproof::cli lab::outside"),
     ("process", "linkproof::cli lab::outside linkproof::testing"),
     ("serde", "lab::stress linkproof::report"),
@@ -269,13 +270,13 @@ fn pairs(table: &'static [(&str, &str)]) -> impl Iterator<Item = (&'static str, 
     table.iter().flat_map(|(from, all)| all.split_whitespace().map(|to| (*from, to)))
 }
 
-/// Fails with all errors in one message; passes if `wrong` is empty.
+/// Fails with all entries of `wrong` in one message; passes if `wrong` is empty.
 fn nothing(wrong: Vec<String>) {
     assert!(wrong.is_empty(), "\n{}\n", wrong.join("\n"));
 }
 
 /// The dependencies of a manifest, without development dependencies.
-/// They are package names, even if the code renames them.
+/// Each dependency has the name of its package, even if the code renames the package.
 fn dependencies(manifest: &Path) -> BTreeSet<String> {
     let read = |manifest: &Path| fs::read_to_string(manifest).unwrap().parse::<toml::Table>().unwrap();
     let shared = read(&top().join("Cargo.toml"));
@@ -312,7 +313,8 @@ fn the_map_has_the_edges_of_the_table() {
     }
 }
 
-/// The file or directory that a name in ARCHITECTURE.md means: a path from the root, or a crate with a path in it.
+/// The file or directory that a name in ARCHITECTURE.md means.
+/// The name is a path from the repository's root, or a crate followed by a path inside the crate.
 fn of_the_map(name: &str) -> PathBuf {
     match name.split_once('/') {
         Some((own, rest)) if top().join("crates").join(own).is_dir() => {
@@ -399,7 +401,7 @@ fn forbidden_imports_are_absent() {
 }
 
 /// Files of the analytic crate that both sides use, directly or through other files.
-/// If one side uses the other, the files of the other side count as shared.
+/// If one side uses the other side, the files of the used side count as shared.
 fn shared_by_the_sides(root: &Path) -> Vec<String> {
     let mut next: BTreeMap<PathBuf, BTreeSet<PathBuf>> = BTreeMap::new();
     for (from, to) in Graph::of(&[("analytic", root.join("lib.rs"))]).edges().into_keys() {
@@ -549,7 +551,8 @@ fn files_are_short_and_free_of_stopgaps() {
             if lines >= MOST_LINES {
                 wrong.push(format!("{}: {lines} lines, fewer than {MOST_LINES} are allowed; split it", file.display()));
             }
-            // This file names the banned words. The boundary to Simbody has its own test.
+            // This file names the banned words, and the boundary to Simbody has its own test, so both files are
+            // skipped.
             let own = file.ends_with("suite/architecture.rs") || file.ends_with("simbody/src/ffi.rs");
             let told = |line: &str| line.trim_start().starts_with("//");
             let code: String = text.lines().filter(|line| !told(line)).collect::<Vec<_>>().join("\n");

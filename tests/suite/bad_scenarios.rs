@@ -1,5 +1,5 @@
-//! Errors in a scenario file and their messages. Each case is one edit of a good scenario. It asserts the kind of
-//! error, the line, the key, and the words that help.
+//! Errors in a scenario file and their messages. Each case is one edit of a good scenario. Each case asserts the kind
+//! of error, the line, the key, and the words that help the user.
 
 use std::path::Path;
 
@@ -160,7 +160,7 @@ fn regress_twenty_thousand_parameters_and_points_are_read() {
     let ground = &scenario.case.mechanism.links()[LinkId(0)];
     let last = ground.points.iter().find(|point| point.name == "Q19999").unwrap();
     assert!((last.local.x - 20.0).abs() < 1e-12, "{last:?}");
-    // In a file with this many names, a wrong name is compared with only a limited number of them.
+    // In a file with this many names, a wrong name is compared with only a limited number of the names.
     let wrong = text.replacen("\"p19998 + 1\"", "\"pp\"", 1);
     let error = parse(&wrong, TABLE).unwrap_err();
     assert!(error.to_string().contains("it is not among the more than 1000 names"), "{error}");

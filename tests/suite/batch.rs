@@ -122,8 +122,9 @@ fn batch_poses_match_the_pose_solver() {
         outcome.unwrap();
         assert_eq!(poses.len(), 500);
         let found = differences(&rows(case, &poses), &states);
-        // A dyad has a condition number near 1, but a higher group has not.
-        // Differences behind a higher group grow with its condition number.
+        // A dyad has a condition number near 1, but a higher group may have a much larger condition number.
+        // Differences behind a higher group grow with the group's condition number, so the bound is multiplied by this
+        // number.
         let is_higher = case.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
         let bound = ROUNDING * if is_higher { condition(case, &states) } else { 1.0 };
         found.iter().for_each(|&found| assert_within!(found, bound, "{name}: {found:?}"));
@@ -156,7 +157,8 @@ fn random_chains_agree_and_fail_alike() {
             within("difference", found, ROUNDING * sample.condition)?;
         }
         // Tries a whole revolution in 200 and in 5 steps.
-        // Most chains cannot make a whole revolution; both methods must then report the same error.
+        // Most chains cannot make a whole revolution.
+        // For such a chain, the batch and the pose-by-pose solution must report the same error.
         for count in [200, 5] {
             let cranks = turn(case, count);
             let (states, expected) = one_by_one(case, &cranks, Stage::Positions);
@@ -226,7 +228,7 @@ fn a_turn_split_over_threads_keeps_every_bit() {
 }
 
 /// Random groups of four and six links, alone and with dyads.
-/// Most of them reach a dead point before a full revolution.
+/// Most of these mechanisms reach a dead point before a full revolution.
 #[test]
 fn random_higher_groups_agree_and_fail_alike() {
     let (mut random, mut solved, mut ended) = (RandomSource::from_seed(23), 0, 0);

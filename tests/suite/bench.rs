@@ -49,7 +49,7 @@ fn engine_errors_are_well_above_the_floor() {
                 assert!(errors.max >= CLEAR * floor && !errors.is_limited, "{name} {stage:?}: {errors:?} {floor:e}");
                 assert!(errors.rms <= errors.max, "{name} {stage:?}: {errors:?}");
             }
-            // The errors of the sides are at the floor, and are marked as limited by it.
+            // The errors of the sides are at the floor, and the points are marked as limited by the floor.
             let sides = found.points.iter().filter(|point| point.party == MethodOwner::Side && point.is_usual);
             assert!(sides.filter_map(|point| point.error(stage)).all(|errors| errors.is_limited), "{name} {stage:?}");
             let best =

@@ -1,10 +1,12 @@
 //! The parts of every bound of a few scenarios, as a reviewed table.
-//! A bound that is a thousand times too wide passes every test that plants multiples of it, but fails here.
+//! Tests that plant multiples of a bound also pass if the bound is a thousand times too wide.
+//! This test fails for such a bound.
 //!
 //! Numbers have two digits.
 //! A number may differ from the table by half its value, which allows for the noise between machines.
 //! The engine settings are fixed, so changes in the search for settings do not affect the table.
-//! `INSTA_UPDATE=always cargo test --release --test suite bounds` writes the table anew; such a change needs a reason.
+//! `INSTA_UPDATE=always cargo test --release --test suite bounds` writes the table anew; a changed table needs a
+//! reason.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -100,7 +102,8 @@ fn parts(sample: &Sample, proof: &Proof, all: &mut Numbers) {
     for own in engine.channels.iter().filter(|own| own.residual.scale > 0.0) {
         let (quantity, scale) = (own.residual.channel.kind.quantity, own.residual.scale);
         let parts = &own.parts;
-        // Differences between sweeps below the engine's rounding are noise of the machine.
+        // Differences between sweeps below the engine's rounding are noise of the machine, so the table lists them as
+        // zero.
         let iteration = if parts.iteration <= parts.rounding { 0.0 } else { parts.iteration };
         let of_error = [parts.discretisation, iteration, parts.rounding, parts.reference];
         widen(format!("engine, {quantity}: {ENGINE}"), &of_error.map(|part| part / scale));

@@ -13,7 +13,7 @@ use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::sketch::RandomSource;
 
 /// Numbers of equal steps in which the tests follow the same crank angle.
-/// Some are small, some are large, and some have no common factor with the others.
+/// Some numbers are small, some are large, and some have no common factor with the rest of the list.
 const STEPS: [usize; 12] = [1, 2, 3, 5, 7, 12, 24, 37, 90, 101, 360, 1009];
 
 /// Follows the branch from the start of a case over an angle of the crank (rad), in equal steps. Returns the directions
@@ -93,9 +93,9 @@ fn no_step_passes_over_the_change_point_of_a_four_bar() {
     }
 }
 
-/// A dyad on the rocker of a crank-rocker.
-/// At some crank angle, the distance of the dyad's outer joints has an extreme.
-/// That pose is a change point if the lengths of the dyad's links just allow that distance.
+/// The outer joints of the dyad of a four-bar are farthest apart where crank and frame are in line.
+/// The pose with crank and frame in line is a change point if coupler and rocker together are exactly as long as the
+/// distance of the outer joints.
 #[test]
 fn no_step_passes_over_the_change_point_of_a_dyad_on_a_dyad() {
     let mut random = RandomSource::from_seed(43);
@@ -103,8 +103,8 @@ fn no_step_passes_over_the_change_point_of_a_dyad_on_a_dyad() {
     for _ in 0..24 {
         let (at, pivot) = (random.vector(0.3, 1.2), Vec2::new(1.0, 0.0) + random.vector(1.0, 3.0));
         let (start, way) = (random.number(-3.0, 3.0), if random.yes() { 6.0 } else { -6.0 });
-        // The distance has its extremes at the ends of the rocker's swing, and where the rocker is in line with
-        // `pivot`.
+        // The distance of the dyad's outer joints has its extremes at the ends of the rocker's swing, and where the
+        // rocker is in line with `pivot`.
         let plain = six_bar(lengths, None, start).unwrap();
         let mut poses = PoseSolver::new(&plain).unwrap();
         let mut distance = |gone: f64| {
@@ -130,8 +130,9 @@ fn no_step_passes_over_the_change_point_of_a_dyad_on_a_dyad() {
             let [least, most] = [f64::smaller, f64::larger].map(|of| distances.iter().copied().fold(extreme, of));
             for defect in [0.0, 1e-9, 1e-7, 1e-4, -1e-7, -1e-4] {
                 let reach = extreme * (1.0 + sign * defect);
-                // The distance has two extremes; `reach` decides whether the dyad fits at this one.
-                // At the other extreme, the dyad fits with a margin.
+                // The distance of the dyad's outer joints has two extremes; `reach` decides whether the dyad fits at
+                // `extreme`.
+                // At the opposite extreme, the dyad fits with a margin.
                 let [rod, bar] = if sign > 0.0 {
                     let off = random.number(-0.4, 0.4) * least;
                     [0.5 * reach - off, 0.5 * reach + off]
@@ -159,7 +160,7 @@ fn moved(spec: &lab::specimens::spec::Spec, by: f64) -> Option<Scenario> {
 }
 
 /// Random higher groups: a ground point is moved until the group just passes a dead point, or just fails to pass it.
-/// For any number of steps, a run ends in the same pose as the finest run, or reports an error.
+/// For any number of steps, a run ends in the same pose as the run with the most steps, or reports an error.
 #[test]
 fn higher_groups_do_not_change_branch_silently() {
     const WAY: f64 = 1.5;

@@ -1,5 +1,6 @@
 //! Clearance against brute force.
-//! The distances come from independent formulas, at poses of the other side, on a grid many times finer.
+//! The distances come from independent formulas, at poses of side 2, on a grid many times finer than that of the
+//! clearance.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -47,7 +48,7 @@ fn between(one: [Vec2; 2], two: [Vec2; 2]) -> f64 {
     ends.into_iter().fold(f64::INFINITY, f64::smaller)
 }
 
-/// Whether a point is inside, by the sum of the angles that the sides subtend at it.
+/// Whether a point is inside an outline, by the sum of the angles that the sides of the outline subtend at the point.
 fn holds(shape: &Shape, p: Vec2) -> bool {
     let seen = |k: usize| {
         let [a, b] = side(shape, k).map(|corner| corner - p);
@@ -76,7 +77,7 @@ fn distance(asked: &ClearanceQuestion, state: &State, pair: [usize; 2]) -> f64 {
 }
 
 /// States of side 2 at crank angles.
-/// A drive of constant speed reaches these angles, whatever the law of the case.
+/// A drive of constant speed reaches the crank angles, whatever the law of the case.
 fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
     let case = &case.at_top_speed();
     let times: Vec<f64> = Grid::of_inputs(case.crank(), cranks.to_vec()).times;
@@ -93,7 +94,7 @@ fn asked(random: &mut RandomSource, case: &Case) -> ClearanceQuestion {
         let places: Vec<Vec2> = own.points.iter().map(|point| point.local).collect();
         let radius = size * random.number(0.005, 0.03);
         let outline = if random.index(3) == 0 {
-            // A star, seldom convex, around the link's first point.
+            // The outline is a star around the link's first point, and is seldom convex.
             let corners = random.index(7) + 3;
             let corner = |k: usize| {
                 let angle = std::f64::consts::TAU * (k as f64 + random.number(0.0, 0.6)) / corners as f64;
@@ -134,16 +135,16 @@ struct Seen {
     distances: usize,
 }
 
-/// Checks that every sample is at least as far apart as the proven distance, and that the reported distances and
-/// meetings exist.
-/// Also checks that nothing meets before the reported first meeting.
+/// Checks that in every sample the bodies are at least as far apart as the proven distance.
+/// Also checks that the reported distances and meetings exist, and that no bodies meet before the reported first
+/// meeting.
 fn check(case: &Case, asked: &ClearanceQuestion, found: &ClearanceResult, seen: &mut Seen, name: &str) {
     assert!(found.open.is_empty(), "{name}: {:?}", found.open);
     let ([from, to], size) = (found.range, case.mechanism.size());
     let cranks: Vec<f64> = (0..=FINE).map(|k| from + (to - from) * (k as f64 / FINE as f64)).collect();
     let fine = at(case, &cranks);
     let grid = course(case, asked).unwrap();
-    // Allows for the error of the sides' poses at condition numbers of up to some thousands.
+    // The tolerance allows for the error of the sides' poses at condition numbers of up to some thousands.
     let rounding = 1e-10 * size;
     for (index, pair) in found.pairs.iter().enumerate() {
         let what = || format!("{name}: {:?}", pair.bodies.map(|body| &asked.bodies[body].name));
@@ -280,7 +281,7 @@ fn a_grid_of_several_turns_gives_the_results_of_one() {
 }
 
 /// The computed area is so close to the closed form that missing area at the border would show.
-/// The proven interval of the area is wider, because the work is limited.
+/// The proven interval of the area is wider than this difference, because the work is limited.
 #[test]
 fn a_swept_area_matches_its_closed_form_to_1e_4() {
     let scenario = shipped("crankcase.toml");
@@ -305,7 +306,7 @@ fn the_crankcase_is_clear() {
     assert_eq!((seen.pairs, seen.collisions), (13, 0));
     let piston =
         found.pairs.iter().find(|pair| asked.bodies[pair.bodies[1]].name == "head" && pair.bodies[0] == 2).unwrap();
-    // At the upper dead centre: 204 - 3 - (40 + 130 + 30) mm.
+    // The distance at the upper dead centre is 204 - 3 - (40 + 130 + 30) mm.
     assert_within!((piston.smallest.distance - 1e-3).abs(), 1e-12);
     // A piston 70 mm wide with a hollow of 44 x 32 mm below its crown, over a stroke of 80 mm.
     // The part of the hollow that is never covered is subtracted.
@@ -363,7 +364,7 @@ fn a_run_does_not_depend_on_the_clearance_section() {
     assert_eq!(with.case, without.case);
 }
 
-/// Three links on one pin: two of these links have no common joint, but they touch at the pin.
+/// Three links are on one pin: two of the links have no common joint, but touch at the pin.
 #[test]
 fn links_on_one_pin_are_joined_without_a_common_joint() {
     let case = shipped("ov7_base.toml").case;

@@ -1,4 +1,4 @@
-//! Mechanisms for the integration tests, written as scenario text, so that tests enter where a user does.
+//! Mechanisms for the integration tests, written as scenario text, so that tests use the same input as a user.
 
 pub mod chain;
 pub mod damage;
@@ -30,7 +30,7 @@ pub fn draws(ordinary: usize) -> usize {
     ordinary * std::env::var("LINKPROOF_DRAWS").map_or(1, |times| times.parse().expect("LINKPROOF_DRAWS: a number"))
 }
 
-/// Whether tests draw more than in an ordinary run.
+/// Whether tests draw more examples than in an ordinary run.
 pub fn by_night() -> bool {
     draws(1) > 1
 }
@@ -41,13 +41,14 @@ pub fn shipped(name: &str) -> Scenario {
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The end of a shipped scenario's text: numbers from another program.
-/// These numbers hold only for the unchanged case, so a test that changes the text must omit them.
+/// The end of a shipped scenario's text: numbers from a foreign program.
+/// These numbers are valid only for the unchanged case, so a test that changes the text must omit them.
 pub fn from_outside(text: &str) -> &str {
     &text[text.find("# Not published").expect("numbers from outside stand last")..]
 }
 
-/// Names of the Rapier engines; those in single precision only in builds with the feature `f32`.
+/// Names of the Rapier engines.
+/// The list contains the engines in single precision only in builds with the feature `f32`.
 pub fn rapiers() -> Vec<&'static str> {
     let single = |name: &&str| cfg!(feature = "f32") || !name.ends_with("-f32");
     ["rapier", "rapier-f32", "impulse", "impulse-f32"].into_iter().filter(single).collect()

@@ -1,4 +1,4 @@
-//! Tables, recordings and scenarios compared with each other: correct ones agree, and faults are found and named.
+//! Tables, recordings and scenarios compared with each other: correct inputs agree, and faults are found and named.
 
 mod constants;
 pub(crate) mod digits;

@@ -1,5 +1,5 @@
 //! Mechanisms in which all values of a quantity vanish.
-//! A proof must neither divide by their rounding errors nor be inconclusive because of them.
+//! A proof must not divide by the rounding errors of these values, and must not be inconclusive because of them.
 
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{from_outside, shipped};
@@ -40,7 +40,8 @@ fn crank_alone() -> Spec {
     spec
 }
 
-/// Symptom: the analytic sides disagreed by 150 % on a parallelogram. On a crank without other links, their moments disagreed by 110 %.
+/// Symptom: the analytic sides disagreed by 150 % on a parallelogram. For a crank without other links, the moments of
+/// the sides disagreed by 110 %.
 /// Cause: rounding was measured by the range of channels that do not vary.
 #[test]
 fn regress_channels_that_vanish_by_symmetry_agree() {
@@ -73,8 +74,8 @@ fn regress_a_single_point_driving_link_uses_slider_moments() {
     agrees_by("an Oldham coupling without load", &scenario, &Options::default());
 }
 
-/// Symptom: without masses, the shaking force of a loaded four-bar vanishes, and the proof was inconclusive: its bound
-/// was infinitely many times its scale.
+/// Symptom: without masses, the shaking force of a loaded four-bar vanishes, and the proof was inconclusive: the bound
+/// of the force was infinitely many times the force's scale.
 #[test]
 fn regress_a_zero_shaking_force_takes_its_scale_from_joints() {
     let masses = ["mass_kg", "mass_centre", "inertia_kg_m2"];
@@ -83,7 +84,7 @@ fn regress_a_zero_shaking_force_takes_its_scale_from_joints() {
 }
 
 /// Symptom: the analytic sides disagree in nearly constant coordinates, and in every mechanism far from the origin.
-/// Cause: rounding of a coordinate is a share of the coordinate, not of its range.
+/// Cause: the rounding error of a coordinate is proportional to the coordinate, not to the coordinate's range.
 #[test]
 fn regress_a_mechanism_far_from_the_origin_agrees() {
     let spec = four_bar([0.4, 0.1, 0.35, 0.3], true);
@@ -93,7 +94,7 @@ fn regress_a_mechanism_far_from_the_origin_agrees() {
 }
 
 /// Symptom: a pendulum whose only point is its hinge ended in one of three errors at t = 0.
-/// They were "closure NaN", "step size became too small" and "jumped to another branch".
+/// The three errors were "closure NaN", "step size became too small" and "jumped to another branch".
 /// Cause: the mechanism's size was the distance of points alone, here 0.
 #[test]
 fn regress_a_link_of_a_single_point_has_a_size() {
@@ -102,8 +103,8 @@ fn regress_a_link_of_a_single_point_has_a_size() {
     for reference in Reference::ALL {
         agrees_by(reference.name(), &parsed(&free), &Options::default().reference(reference));
     }
-    // Two more cases: the link turned at constant speed, and driven from rest by a motor.
-    // The second has its mass centre in the pivot, like a flywheel.
+    // Two further cases of the pendulum: the link turned at constant speed, and the link driven from rest by a motor.
+    // In the case with the motor, the mass centre of the link is in the pivot, like that of a flywheel.
     let driven = without(&without(&free, "motion ="), "zero_deg");
     agrees_by("driven", &parsed(&driven), &Options::default());
     let motor = "motion = \"free\"\ninitial_speed_rad_s = 0\n";

@@ -37,9 +37,9 @@ fn edited(text: &str, from: &str, to: &str) -> String {
 enum Outcome {
     /// The fault is named.
     Named,
-    /// Another cause is named, and the fault is mentioned as an equally good explanation.
+    /// A cause other than the fault is named, and the fault is mentioned as an equally good explanation.
     Mentioned,
-    /// Another cause is named as explaining everything.
+    /// A cause other than the fault is named as explaining everything.
     Wrong,
     /// No cause is named as explaining everything.
     Nothing,
@@ -120,7 +120,7 @@ fn examined(case: &Case, suspect: &Trajectory, step: Option<f64>) -> Option<Diag
     diagnose(&question, &[])
 }
 
-/// Counts outcomes, prints each, and collects those that are not allowed.
+/// Counts outcomes, prints each outcome, and collects the outcomes that are not allowed.
 #[derive(Default)]
 struct Tally {
     counts: [usize; 4],

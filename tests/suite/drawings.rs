@@ -252,7 +252,8 @@ fn paths_of_swinging_links_are_no_full_circles() {
         let all = || own.iter().skip(axis).step_by(2).copied();
         all().fold(f64::NEG_INFINITY, f64::larger) - all().fold(f64::INFINITY, f64::smaller)
     };
-    // Released at 20 deg, the arc is 2 sin 20 deg wide and 1 - cos 20 deg high.
+    // After a release at 20 deg, the arc is 2 sin 20 deg wide and 1 - cos 20 deg high, as multiples of the pendulum's
+    // length.
     let arc = path("formulas/simple_pendulum");
     let ratio = (1.0 - 20f64.to_radians().cos()) / (2.0 * 20f64.to_radians().sin());
     approx::assert_relative_eq!(extent(&arc, 1) / extent(&arc, 0), ratio, max_relative = 2e-2);
@@ -282,7 +283,8 @@ fn wrong_input_is_refused_with_a_remedy() {
     }
 }
 
-/// A pin that joins three links has rings, a point without a joint a cross, and a spring a zigzag.
+/// The drawing has rings at a pin that joins three links, a cross at a point without a joint, and a zigzag for a
+/// spring.
 #[test]
 fn marks_distinguish_pins_and_loads() {
     let rings = |name: &str| {
@@ -297,7 +299,8 @@ fn marks_distinguish_pins_and_loads() {
     assert!(loads(&with) >= 5 && loads(&without) == 0);
 }
 
-/// The key `drawn` of a prismatic pair takes precedence over the choice by names and positions.
+/// The key `drawn` of a prismatic pair takes precedence over the symbol that the program chooses by names and
+/// positions.
 #[test]
 fn a_prismatic_pair_is_drawn_as_the_file_says() {
     let directory = tempfile::tempdir().unwrap();
@@ -312,7 +315,7 @@ fn a_prismatic_pair_is_drawn_as_the_file_says() {
         assert_eq!(code, 0, "{told}");
         String::from_utf8(out).unwrap()
     };
-    // For each scenario: the symbol that the program chooses, and the other symbol.
+    // For each scenario: the symbol that the program chooses, and a symbol that it does not choose.
     // The scenarios have a ram on rails, pistons in cylinders, and a block in a swinging slot.
     for (name, own, other) in [
         ("loaded_slider", "block", "cylinder"),

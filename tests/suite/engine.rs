@@ -46,18 +46,18 @@ fn epsilon(engine: &dyn Engine) -> f64 {
 }
 
 /// The engines whose step the user chooses.
-/// An engine that controls its error is excluded: it chooses its steps itself, so they miss the instants of the grid
-/// and show no order.
+/// An engine that controls its error is excluded, because it chooses its steps itself.
+/// The steps of such an engine miss the instants of the grid, and its errors show no order of convergence.
 fn stepping(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
     prover::engines::all(dt).into_iter().filter(|engine| !engine.controls_error())
 }
 
-/// The engines of `stepping` in double precision; in single precision, rounding hides orders (story 60).
+/// The engines of `stepping` in double precision; in single precision, rounding hides orders of convergence (story 60).
 fn double(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
     stepping(dt).filter(|engine| !single(engine.as_ref()))
 }
 
-/// Checks order 2 in every channel whose error is not rounding, over the steps h, h/2 and h/4.
+/// Checks order of convergence 2 in every channel whose error is not rounding, over the steps h, h/2 and h/4.
 fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>, solver: &dyn Solver) {
     let reference = solve(solver, case);
     for engine in engines {
@@ -66,7 +66,9 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
         let mut seen = 0;
         for residual in finest {
             let kind = residual.channel.kind;
-            // If rounding is a hundredth of the error, it changes an order by less than 0.02.
+            // If the rounding error is a hundredth of the channel's error, it changes the order of convergence by less
+            // than 0.02.
+            // Channels with more rounding error than this are skipped.
             let noise = engine.at(engine.settings().resolution / 4.0).noise(case, kind);
             if residual.rms <= 100.0 * noise {
                 continue;
@@ -80,6 +82,7 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
         }
         // Crank angles are exact; in a Scotch yoke all angles and speeds are exact.
         // In single precision almost every error is rounding.
+        // Only a third of the channels must therefore show an order, and in single precision none.
         assert!(
             single(engine.as_ref()) || seen > reference.channels().len() / 3,
             "only {seen} channels have more than rounding errors"
@@ -173,7 +176,7 @@ fn regress_02_the_driven_joint_may_name_the_crank_first() {
 }
 
 /// Story 3.
-/// Symptom: an engine refuses a link without mass, or never moves it.
+/// Symptom: an engine refuses a link without mass, or never moves the link.
 /// Cause: the engine needs inertia to integrate.
 /// The motion under a prescribed speed must not depend on the masses, and a massless link must carry no inertial force.
 #[test]
@@ -186,10 +189,11 @@ fn regress_03_massless_links_keep_the_motion_and_carry_no_force() {
         let case = &with;
         let (with, without) = (solve(engine.as_ref(), &with), solve(engine.as_ref(), &without));
         for (channel, values) in without.iter() {
-            // The mass centre of a massless link is the origin of its frame, which is a different point.
+            // Without mass, the mass centre of a link is the origin of the link's frame.
+            // The motions of the mass centres with and without mass are therefore not compared.
             let centre = channel.kind.subject == ChannelSubject::Link && channel.kind.unit.symbol().starts_with('m');
             if channel.kind.stage >= Stage::Reactions {
-                // Reactions must be zero.
+                // Reactions of the mechanism without masses must be zero.
                 // Only an engine that cancels its stand-in masses by applied forces may leave rounding error.
                 let left = if engine.controls_error() { engine.noise(case, channel.kind) } else { 0.0 };
                 values.iter().for_each(|value| assert_within!(value.abs(), left, "{} {channel}", engine.name()));

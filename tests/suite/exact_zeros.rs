@@ -1,6 +1,6 @@
 //! Channels that are zero throughout: by a constant speed, by guides that prevent rotation, or by equal lengths.
 //! The range of such a channel is only rounding, so its scale is a tenth of the natural size of the quantity.
-//! If that size vanishes too, it comes from the nominal speed, the masses and the gravity of the file.
+//! If the natural size vanishes too, the scale comes from the nominal speed, the masses and the gravity of the file.
 
 use std::path::Path;
 
@@ -66,7 +66,7 @@ fn translating_links_take_the_scale_of_rotating_ones() {
         }
     }
     // In this mechanism no channel is zero throughout, so a small channel keeps its small scale.
-    // This scale is at least a thousandth of the natural size.
+    // The small scale is at least a thousandth of the natural size.
     let crank = proven(&shipped("crank_rocker.toml"));
     let small = crank.engine().channels.iter().filter(|own| own.residual.scale < 0.05 * natural(&crank, ".ax_m_s2"));
     assert!(small.count() > 0);
@@ -85,15 +85,15 @@ fn alone(centre: Vec2) -> Spec {
 }
 
 /// Symptom: for a balanced rotor without gravity, ten numbers were open, "of scale: inf".
-/// Cause: all its forces and moments are zero, and the motion gave no scale for them.
-/// Now its mass and its speed give the scale.
+/// Cause: all forces and moments of the rotor are zero, and the motion gave no scale for them.
+/// Now the mass and the speed of the rotor give the scale.
 #[test]
 fn regress_a_balanced_rotor_agrees_without_any_force() {
     let mut spec = alone(Vec2::zeros());
     spec.gravity = Vec2::zeros();
     let proof = proven(&spec.scenario().unwrap());
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
-    // 3 kg at the nominal 10 rad/s on the arm of 0.3 m.
+    // Inertial force of 3 kg at the nominal 10 rad/s on the arm of 0.3 m.
     let force = 3.0 * 100.0 * 0.3;
     for (channel, natural) in [("joint.O.fx_N", force), ("frame.fy_N", force), ("drive.torque_N_m", 0.3 * force)] {
         let own = of(&proof, channel);
@@ -126,10 +126,10 @@ fn regress_a_mechanism_in_equilibrium_agrees_though_nothing_moves() {
 }
 
 /// Symptom: 94 of 122 numbers of a crane disagreed.
-/// The crane has a jib that is free on a spring, a trolley that a winch pulls along the jib, and a load released at the
-/// jib's tip.
+/// The crane's jib is free on a spring. A winch pulls a trolley along the jib. A load is released at the jib's tip.
 /// Cause: the load, released from rest, started with the speed of the jib.
-/// The moment in the trolley's guide is small beside all other moments, but all its numbers are decided.
+/// The moment in the trolley's guide is small beside all other moments of the crane, but all numbers of this moment are
+/// decided.
 #[test]
 fn regress_a_crane_with_a_trolley_on_its_jib_agrees() {
     let proof = proven(&scenario("jib_crane.toml"));

@@ -109,7 +109,7 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
             let gap = second.0.speed(second.1) - first.0.speed(first.1);
             let (off, turning) = match joint.axis_on(joint.first.link) {
                 None => (gap.norm(), 0.0),
-                // The guide that carries the block rotates.
+                // The guide that carries the block rotates, so its rotation is subtracted from the velocity of the gap.
                 Some(axis) => {
                     let axis = rotated(unit(first.0.angle), axis);
                     let way = second.0.place(second.1) - first.0.place(first.1);
@@ -164,7 +164,7 @@ fn resistance_is_dry_friction_on_the_angle_of_the_link() {
     let document = Document::read(&exported(&case, "loads"));
     assert_eq!(document.body("rocker").friction, 120.0);
     assert_eq!(document.body("coupler").friction, 0.0);
-    // The coupler follows the crank: its angle is the sum of the angles of both hinges.
+    // The coupler follows the crank: the coupler's angle is the sum of the angles of the hinges O and A.
     let path = vec![("O".to_string(), 1.0), ("A".to_string(), 1.0)];
     assert_eq!(document.tendons, [("coupler".to_string(), 7.0, path)]);
 
@@ -204,7 +204,7 @@ fn the_rotor_inertia_dominates_the_mechanism() {
         let case = &scenario.case;
         let state = start(case);
         let model = MjcfModel::new(case, &state, &scenario.name, STEP).unwrap();
-        // Inertia reduced to the crank: twice the kinetic energy over the square of its speed.
+        // Inertia reduced to the crank: twice the kinetic energy over the square of the crank's speed.
         let energy = |link: LinkId| {
             let (body, motion) = (&case.mechanism.links()[link], &state.motions[link]);
             body.mass * motion.point_velocity(body.mass_centre).norm_squared() + body.inertia * motion.omega.powi(2)

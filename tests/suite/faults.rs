@@ -34,7 +34,7 @@ fn found(proof: &Proof) -> Vec<(String, Stage)> {
     wrong.map(|channel| (channel.residual.channel.to_string(), channel.residual.channel.kind.stage)).collect()
 }
 
-/// Asserts that a fault is found, only in channels that `may` allows, and in all that `must` names.
+/// Asserts that a fault is found only in channels that `may` allows, and in all channels that `must` names.
 fn is_found(wrong: &str, may: impl Fn(&str, Stage) -> bool, must: &[&str]) {
     let proof = against(wrong);
     assert_eq!(proof.verdict.word(), "disagree");

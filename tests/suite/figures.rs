@@ -61,7 +61,7 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
     assert_eq!(published.len(), 2 * 51);
     for check in published {
         assert!(matches!(check.verdict, Verdict::Agree { .. }), "{}: {:?}", check.name(), check.verdict);
-        // At most half a unit of the second printed decimal (positions in mm, angles in degrees).
+        // The bound is at most half a unit of the second printed decimal (positions in mm, angles in degrees).
         let half_unit: f64 = match check.unit {
             "m" => 0.005e-3,
             "rad" => 0.005f64.to_radians(),
@@ -122,8 +122,9 @@ fn val_crank_rocker_lengths_follow_from_the_extreme_positions() {
     let turn = solve(&AssurSolver, &fine(&scenario.case));
     let angles = turn.column(&rocker).unwrap();
     let (low, high) = angles.iter().fold((f64::MAX, f64::MIN), |(l, h), &a| (l.smaller(a), h.larger(a)));
-    // Two samples are a tenth of a degree apart; near its extremes, the rocker rotates by less than 1e-6 rad between
-    // them.
+    // Two samples are a tenth of a degree apart.
+    // Near its extremes, the rocker rotates by less than 1e-6 rad between two samples, so a tolerance of 1e-4 deg is
+    // enough.
     assert_abs_diff_eq!(low.to_degrees(), 50.0, epsilon = 1e-4);
     assert_abs_diff_eq!(high.to_degrees(), 82.0, epsilon = 1e-4);
 }
@@ -135,7 +136,7 @@ fn val_crank_rocker_mean_reduced_inertia_and_resistance() {
         let means = analytic::reduced::means::means_over_turn(&case, solver).unwrap();
         assert_abs_diff_eq!(means.inertia, 0.164846013, epsilon = 0.5e-9);
         // The exact value is 100 N m times twice the swing, over one revolution.
-        // The difference is the error of the mean at the two kinks.
+        // The computed value differs by the error of the mean at the two kinks.
         assert_abs_diff_eq!(means.resistance, 100.0 * 2.0 * 32.0 / 360.0, epsilon = 5e-5);
     }
 }
@@ -155,7 +156,7 @@ fn val_crank_rocker_printed_mass_and_inertia_show_in_the_mean_reduced_inertia() 
             .unwrap()
             .inertia
     };
-    // m l^2 / 12 of 22.6 kg, and the listed m l^2 / 5 of 2.6 kg.
+    // The inertias are m l^2 / 12 for 22.6 kg, and the listed m l^2 / 5 for 2.6 kg.
     let mass = ("mass_kg = 2.6", "mass_kg = 22.6");
     let [heavy, listed] = ["inertia_kg_m2 = 0.0012727", "inertia_kg_m2 = 0.00035"]
         .map(|to| ("inertia_kg_m2 = 0.00014641741001640535", to));
@@ -228,7 +229,7 @@ fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
 fn val_crank_rocker_steady_speed() {
     let scenario = scenario("crank_rocker");
     let (ratio, a, b): (f64, f64, f64) = (2745.0 / 130.0, 22.51, 0.0716);
-    // i (a - b i omega) = M.
+    // The closure solves i (a - b i omega) = M for the speed omega.
     let speed = |resistance: f64| (a - resistance / ratio) / (b * ratio);
     for solver in analytic::all() {
         let mean = analytic::reduced::means::means_over_turn(&scenario.case, solver).unwrap().resistance;
@@ -331,7 +332,7 @@ fn a_solved_length_is_checked_to_its_last_digit() {
 }
 
 /// The authors' formula for the moment on the crank uses only one component of the reaction at joint 2.
-/// This component is perpendicular to link 2-3.
+/// The component in the formula is perpendicular to link 2-3.
 #[test]
 fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
     let case = fine(&scenario("ov7_new_tabulated").case);
@@ -362,7 +363,7 @@ fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
         Ok(())
     };
     AssurSolver.each(&case, &mut visit).unwrap();
-    // Printed -5.831: the moment of the forces on the crank, not the moment that balances it.
+    // The printed -5.831 is the moment of the forces on the crank, not the moment that balances it.
     assert_abs_diff_eq!(-first, -5.831, epsilon = 0.5e-3);
     // Printed maxima over the revolution; they occur between the twelve angles of the table.
     assert_abs_diff_eq!(largest, 6.34, epsilon = 5e-3);

@@ -18,7 +18,7 @@ const TRIES: usize = 60;
 /// by the crank's speed.
 /// Rounding error grows with the square of this measure.
 /// Near a singular pose, accelerations are large even if a speed passes through zero.
-/// Lengths are about a metre.
+/// Lengths are about a metre, so linear and angular speeds are of similar size.
 fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
     let of = |(channel, values): (&linkage::trajectory::Channel, &[f64])| {
         let most = values.iter().fold(0.0f64, |max, v| max.larger(v.abs()));
@@ -31,8 +31,8 @@ fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
     trajectory.iter().map(of).fold(1.0, f64::larger)
 }
 
-/// Largest difference of the two sides for each stage, as a fraction of the mechanism's size.
-/// Then the number of solved mechanisms, and the number of mechanisms whose start pose is the drawn one.
+/// Returns the largest difference of the two sides for each stage, as a fraction of the mechanism's size.
+/// Also returns the number of solved mechanisms, and the number of mechanisms whose start pose is the drawn pose.
 fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize) {
     let mut random = RandomSource::from_seed(7);
     let (mut worst, mut solved, mut as_drawn) = ([0.0f64; 5], 0, 0);
@@ -41,7 +41,7 @@ fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize
         let scenario = match spec.scenario() {
             Ok(scenario) => scenario,
             // Approximate positions are refused if they fit two configurations or lead to no configuration.
-            // Other errors are not allowed.
+            // The test allows no error other than these refusals.
             Err(error) => {
                 assert_eq!(error.kind(), ErrorKind::Geometry, "{error}\n{}", spec.toml());
                 assert!(error.message().contains("approximate position"), "{error}\n{}", spec.toml());
@@ -78,7 +78,7 @@ fn agree(among: Among, tries: usize) {
         let (worst, solved, as_drawn) = worst(family, among, tries);
         let what = format!("{}, sliding {:?}, {among:?}", family.topology.name, family.slides);
         println!("{what}: {solved} solved, {as_drawn} as drawn, {}", worst.map(|w| format!("{w:.1e}")).join(" "));
-        // Many mechanisms may end at dead points, but a tenth must remain for the comparison.
+        // Many mechanisms may end at dead points, but more than a tenth of all mechanisms must be solved.
         assert!(solved * 10 > tries && as_drawn * 2 > tries, "{what}: only {solved}, {as_drawn} of {tries}");
         for stage in Stage::ALL {
             // The bounds of the published mechanisms, multiplied by the square of `nearness`.

@@ -123,7 +123,7 @@ fn val_the_order_stays_two() {
     }
 }
 
-/// Instants about a jump of the drive's acceleration are left out, and the others are proven.
+/// Instants about a jump of the drive's acceleration are left out, and all remaining instants are proven.
 #[test]
 fn instants_at_a_jump_of_the_acceleration_are_left_out() {
     let scenario = swing(RAMP, "from_s = 0.1\nto_s = 0.14\nstep_s = 0.0005");

@@ -52,7 +52,7 @@ impl Served {
 
 impl Drop for Served {
     fn drop(&mut self) {
-        // The server has already ended, unless a test fails.
+        // If the test passes, the server has already ended, and the call has no effect.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -284,7 +284,7 @@ fn pause_and_seek_affect_only_their_own_viewer() {
     let mut frames = recorded(&served.place).into_iter();
     let (.., frame) = frames.rfind(|(topic, time, _)| topic == "/tf" && *time <= wanted).unwrap();
     assert_eq!(shown.unwrap(), frame, "the pose of that time");
-    // The other viewer plays on, into the next pass.
+    // The viewer that did not pause plays on, into the next pass.
     let mut now = 0;
     loop {
         if let Said::Clock(time) = other.hear() {
@@ -361,7 +361,7 @@ fn a_viewer_may_request_a_topic_four_times_at_most() {
         }
     }
     assert_eq!(numbers.into_iter().collect::<Vec<_>>(), [0, 1, 2, 3]);
-    // Giving up one subscription allows another.
+    // Giving up one subscription allows a new subscription.
     viewer.say(&json!({ "op": "unsubscribe", "subscriptionIds": [1] }));
     viewer.subscribe(&[(9, grid)]);
     let mut is_ninth = || matches!(viewer.hear(), Said::Message { number: 9, .. });

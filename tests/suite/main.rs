@@ -1,6 +1,6 @@
 //! All integration tests in one binary, so that their common parts are compiled and linked once.
 //!
-//! `cargo test --release --test suite` runs them all, `... --test suite figures::` one module of them.
+//! `cargo test --release --test suite` runs all tests; `... --test suite figures::` runs the tests of one module.
 
 #![expect(
     clippy::wildcard_enum_match_arm,

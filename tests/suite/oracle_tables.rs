@@ -36,7 +36,7 @@ const CRANKS: [Instants; 5] = [
     (Format::Shortest, 1.0, "crank_rad"),
 ];
 
-/// A scenario without its own oracles: the text before them.
+/// The text of a scenario before the scenario's own oracles.
 fn text(path: &str) -> String {
     let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap();
     text.split("[[oracle]]").next().unwrap().to_string()
@@ -60,7 +60,7 @@ impl Table {
                 case.crank(),
                 (0..rows).map(|row| 0.0361 + 0.127_314_159_265 * f64::from(row)).collect(),
             ),
-            // Rounding may move the last instant beyond the run.
+            // Rounding of the printed instants may move the last instant beyond the end of the run.
             false => {
                 let share = |row: i32| (f64::from(row) / f64::from(rows)).powf(1.1);
                 Grid::of_times(case.crank(), (1..=rows).map(|row| last * share(row)).collect())
@@ -259,7 +259,7 @@ fn a_zero_column_is_exact_if_others_omit_trailing_zeros() {
 }
 
 /// Angles a whole revolution apart mean the same: programs print them within one revolution, or over many.
-/// This does not hold for positions.
+/// Positions have no such period.
 #[test]
 fn angles_may_be_whole_turns_apart() {
     let scenario = text("scenarios/crank_rocker.toml");

@@ -1,6 +1,6 @@
 //! Two independent checks of code that all parties share.
-//! The first uses numbers of a program that shares no code (`tests/outside/`).
-//! The second uses laws that hold for the sampled channels.
+//! The first check uses numbers of a program that shares no code with the parties (`tests/outside/`).
+//! The second check uses laws that the sampled channels must satisfy.
 
 mod coverage;
 mod sampled;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use linkproof::{Options, Scenario, prove};
 
-/// First words of the source of such numbers.
+/// First words of the source of numbers from a foreign program.
 const SOURCE: &str = "tests/outside/";
 
 /// Files of a directory of the package that are scenarios, in order.

@@ -1,4 +1,4 @@
-//! Forces that the engine itself exerts, judged in addition to those that follow from its motion.
+//! Forces that the engine itself exerts, judged in addition to the forces that follow from the engine's motion.
 
 use analytic::AssurSolver;
 use linkage::case::Wanted;
@@ -27,7 +27,7 @@ fn every_force_is_judged_twice_and_names_its_origin() {
         let (engine, own) = (proof.engine(), own(&proof));
         assert_eq!((proof.verdict.word(), own.verdict.word()), ("agree", "agree"), "{name}");
         let wanted: Vec<_> = engine.channels.iter().map(|channel| &channel.residual.channel).collect();
-        // Shaking force and moment are sums of the frame's reactions.
+        // Shaking force and moment are sums of the frame's reactions, so they do not count as exerted forces.
         let exerted = |channel: &&Channel| {
             channel.kind.stage >= Stage::Reactions && channel.kind.subject != ChannelSubject::Frame
         };
@@ -72,7 +72,7 @@ fn a_given_step_is_extrapolated_from_coarser_ones_only() {
         assert_eq!((proof.verdict.word(), own(&proof).verdict.word()), ("agree", "agree"), "{step:e}");
         assert_eq!(proof.engine().info.settings.resolution, step);
     }
-    // A given number of extrapolations applies to the step given with it.
+    // A given number of extrapolations applies to the given step.
     let proof = proven(&scenario, &Options::default().step(1e-3).extrapolated(2));
     let settings = own(&proof).info.settings;
     assert_eq!((settings.resolution, settings.extrapolated), (1e-3, 2));
@@ -88,8 +88,8 @@ fn every_engine_has_its_own_exerted_forces() {
     }
 }
 
-/// In the run with double the step, the impulses of the first five steps still contain an error that the sweeps have
-/// not yet corrected.
+/// In the run with twice the given step, the impulses of the first five steps still contain an error that the sweeps
+/// have not yet corrected.
 /// These impulses are left out; all later impulses are judged.
 #[test]
 fn exerted_forces_omit_only_the_start_of_a_free_motion() {
@@ -122,9 +122,9 @@ fn rounded_accelerations_omit_only_the_start_of_free_motion() {
     assert_eq!([left_out(EngineName::Rapier), left_out(EngineName::RapierF32)], [vec![0], vec![early]]);
 }
 
-/// Largest error of the native reactions, divided by the largest force.
-/// Then the largest error of the moment on the crank, divided by the largest moment.
-/// Both are taken at the given times.
+/// Returns the largest error of the native reactions, divided by the largest force.
+/// Also returns the largest error of the moment on the crank, divided by the largest moment.
+/// Both errors are taken at the given times.
 fn native_errors(name: &str, build: Build, step: f64, times: &[f64]) -> [f64; 2] {
     let scenario = shipped(name);
     let rapier = Rapier::new(build, Precision::Double, step);
@@ -156,8 +156,8 @@ fn impulses_at_the_start_of_a_moving_mechanism_converge() {
     }
 }
 
-/// If a motor's moment does not fall with the speed, Rapier receives it as a load.
-/// This moment is not among the impulses, but the drive exerts it.
+/// If a motor's moment does not fall with the speed, Rapier receives the moment as a load.
+/// The impulses do not contain the moment, but the moment counts as a force that the drive exerts.
 #[test]
 fn a_motor_moment_applied_as_a_load_is_an_exerted_force() {
     let errors = native_errors("compressor_runup.toml", Build::Multibody, 1e-4, &[0.0, 0.02, 0.05, 0.1]);

@@ -72,7 +72,7 @@ fn plans(name: &str, degrees: f64) -> Plans {
     plans_with(name, &AssurSolver, degrees)
 }
 
-/// Crank angles over the whole turn.
+/// Crank angles over the whole revolution.
 fn angles() -> impl Iterator<Item = f64> {
     (0..12).map(|k| 7.0 + 30.0 * f64::from(k))
 }
@@ -189,7 +189,8 @@ fn normal_and_tangential_parts_have_their_directions() {
         seen += 1;
     }
     assert_eq!(seen, 17);
-    // a_EC = a_EC^n + a_EC^t, omega^2 l and alpha l with the published magnitudes to their printed digits.
+    // The test compares a_EC = a_EC^n + a_EC^t, omega^2 l and alpha l with the published magnitudes to their printed
+    // digits.
     let size = |name: &str| plan.vector(name).unwrap().value.norm();
     assert_within!((size("a_EC^n") - 31.87948f64.powi(2) * 0.04).abs(), 2.0 * 31.88 * 0.04 * 0.5e-5);
     assert_within!((size("a_EC^t") - 48.4440 * 0.04).abs(), 0.5e-4 * 0.04);
@@ -240,7 +241,7 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
             let point = SingularPoint::of(&case, group, &state.motions).unwrap().unwrap();
             assert_eq!(point.lines(), "BD x CE");
             // The farther S is from the group, the more digits cancel.
-            // `far` measures this: it grows with the distance of S divided by the size of the group.
+            // `far` measures the cancellation: `far` grows with the distance of S divided by the size of the group.
             let far = 1.0 + point.at.norm() / 0.1;
             for (link, omega, alpha) in point.links {
                 let motion = &state.motions[link];
@@ -292,7 +293,7 @@ fn val_fourth_class_published_graphical_figures() {
             assert_eq!(shown(exact, &cells[0]), cells[0], "analytic {what} of link {}", row[0]);
             let graphical: f64 = cells[1].parse().unwrap();
             let error = (graphical / exact - 1.0).abs() * 100.0;
-            // The authors' own criterion: agreement of 95 %.
+            // The authors require an agreement of 95 %, so the error may be at most 5 %.
             assert_within!(error, 5.0);
             if shown(error, &cells[2]) != cells[2] {
                 wrong.push(format!("{what}{} printed {} is {error:.2}", row[0], cells[2]));

@@ -1,4 +1,5 @@
-//! Whole proofs on random mechanisms and at unfavourable instants: a correct solution must never be a disagreement.
+//! Whole proofs on random mechanisms and at unfavourable instants: a correct solution must never have the verdict
+//! disagree.
 
 use std::cell::Cell;
 use std::path::Path;
@@ -51,7 +52,8 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
                 let count = if word == "agree" { &proven } else { &open };
                 count.set(count.get() + 1);
             }
-            // The run-up leads some mechanisms out of the range in which they can be assembled.
+            // The run-up leads some mechanisms out of the range in which they can be assembled, so these errors are
+            // allowed.
             Err(error) => {
                 let says = |words| error.message().contains(words);
                 proptest::prop_assert!(
@@ -103,7 +105,7 @@ fn regress_random_higher_groups_never_disagree() {
                     }
                     proof.verdict.word()
                 }
-                // The sides or the engine cannot reach the pose.
+                // The sides or the engine cannot reach a pose of this mechanism, so it counts as refused.
                 Err(_) => "refused",
             };
             *counts.entry(word).or_insert(0) += 1;
@@ -114,8 +116,8 @@ fn regress_random_higher_groups_never_disagree() {
 }
 
 /// Symptom: reactions disagree by 80 % at an instant a ten-thousandth of a degree before the rocker reverses. Cause:
-/// the moment of resistance jumps there, and the engine's rocker reverses a moment earlier. The verdict must be
-/// inconclusive.
+/// the moment of resistance jumps when the rocker reverses, and the engine's rocker reverses slightly too early. The
+/// verdict must be inconclusive.
 #[test]
 fn regress_a_load_jump_within_the_engine_error_never_disagrees() {
     let text = include_str!("../../scenarios/crank_rocker.toml");

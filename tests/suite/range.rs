@@ -1,5 +1,5 @@
 //! The crank angles over which mechanisms can be followed, and their singular poses.
-//! They are compared with closed forms, with solving, and with counting configurations.
+//! The angles and poses are compared with closed forms, with the solvers, and with the number of configurations.
 
 use linkage::math::KeepNan;
 use std::f64::consts::{PI, TAU};
@@ -167,7 +167,7 @@ fn val_crank_rocker_extreme_positions() {
 }
 
 /// Every limit and extreme position of random chains of dyads, checked with the closed forms of the solver.
-/// The solver succeeds on one side of a limit and fails on the other.
+/// The solver succeeds on the inner side of a limit and fails on the outer side.
 /// On the two sides of an extreme position the link rotates in opposite directions.
 #[test]
 fn limits_and_extremes_of_chains_match_the_solver() {
@@ -236,8 +236,8 @@ fn near_a_parallelogram_branches_touch_or_end() {
             .filter(|s| s.kind == SingularityKind::BranchContact)
             .map(|s| wrapped(s.crank))
             .collect();
-        // Sine of the transmission angle at a contact: A is on the line of the pivots, law of cosines for the triangle
-        // A B C.
+        // Sine of the transmission angle at a contact.
+        // A is on the line of the pivots, so the law of cosines for the triangle A B C gives the angle.
         let sine = |reach: f64| {
             let (b, c) = (0.4, 0.1 + off);
             let sixteen = (b + c + reach) * (b + c - reach) * (reach + b - c) * (reach - b + c);
@@ -272,7 +272,7 @@ fn two_groups_with_one_dead_point() {
     }
     spec.pins.push(Pin { name: copy("B"), links: [copy("coupler"), copy("rocker")] });
     // The new joints at A and C lie at points whose names other joints already use.
-    // A spec cannot express this.
+    // A spec cannot express such joints, so the scenario text is extended.
     let more = "[[joints]]\nname = \"A_2\"\npoint = \"A\"\ntype = \"revolute\"\nlinks = [\"crank\", \"coupler_2\"]\n\
                 [[joints]]\nname = \"C_2\"\npoint = \"C\"\ntype = \"revolute\"\nlinks = [\"ground\", \"rocker_2\"]\n";
     spec.dyads.push(Dyad { links: [copy("coupler"), copy("rocker")], left: false });
@@ -312,6 +312,7 @@ fn groups_of_four_links_lose_two_configurations_at_their_limits() {
             for (limit, outwards) in [(from, -1.0), (to, 1.0)] {
                 // Near a double zero, the error of the polynomial's zeros is of the order of the square root of the
                 // rounding error.
+                // The test therefore counts zeros at 1e-6 rad from the limit.
                 let [inside, outside] = [-1e-6, 1e-6].map(|d| count(limit.crank + outwards * d));
                 assert_eq!(
                     (limit.kind, inside - outside),
@@ -385,7 +386,7 @@ fn coinciding_configurations_have_no_velocities() {
             .iter()
             .all(|mode| mode.omegas.as_ref().is_some_and(|all| all.iter().all(|omega| omega.is_finite())))
     );
-    // 1e-14 rad before the limit the determinant is of the order of 1e-7.
+    // 1e-14 rad before the limit the determinant is of the order of 1e-7, so no angular velocities are reported.
     let near = modes::all(&case, to - 1e-14).unwrap();
     assert!(near[0].modes.len() == 2 && near[0].modes.iter().all(|mode| mode.omegas.is_none()), "{near:?}");
 }
@@ -398,7 +399,7 @@ fn coinciding_configurations_have_no_velocities() {
 /// Relative to their size, however, velocities and accelerations both lose a factor of k^2.
 /// The measured factors are 2.5, 2.1 and 6.4, and nearly the same at 30 and at 0.3 degrees.
 /// The condition number is therefore the whole cause.
-/// The bound allows twice as much for other mathematical libraries.
+/// The bound allows twice the measured factors, for other mathematical libraries.
 #[test]
 fn loss_of_digits_at_a_dead_point_follows_the_condition_number() {
     let lengths = [0.4, 0.35, 0.3, 0.2];

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Speed of the crank (rad/s): one turn in about 65 ms.
+/// Speed of the crank (rad/s): one revolution in about 65 ms.
 const OMEGA: f64 = 96.0;
 
 fn link(name: &str, points: &[(&str, f64, f64)], mass_centre: Vec2) -> Link {
@@ -379,7 +379,7 @@ fn a_file_that_is_no_recording_is_not_called_damaged() {
 fn a_recording_that_cannot_be_written_is_an_error_with_its_path() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("old.mcap");
-    // A directory at the path of the file stops even a superuser; permissions do not.
+    // A directory at the path of the file stops even a superuser; file permissions do not stop a superuser.
     fs::create_dir(&path).unwrap();
     let run = Run::over(turn(5));
     let error = run.write(&path).unwrap_err();

@@ -1,4 +1,4 @@
-//! Only requested quantities are computed, and they keep their values.
+//! Only requested quantities are computed, and the requested quantities keep their values.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -86,7 +86,7 @@ fn several_points_of_one_group_cost_one_group() {
     assert_eq!(groups(&asked(&case, &["point.2.positions"])), 0.0);
 }
 
-/// A reaction depends on all parts that its joint carries, and on no others.
+/// A reaction depends on all parts that its joint carries, and on no part that its joint does not carry.
 #[test]
 fn reactions_need_everything_attached_to_their_joint() {
     let case = shipped("ov7_base.toml").case;

@@ -41,7 +41,7 @@ fn every_sentence_of_a_guarantee_names_an_existing_test() {
     assert!(guarantees.len() >= 7, "{} guarantees", guarantees.len());
     let mut names = Vec::new();
     for guarantee in guarantees {
-        // A title is a sentence or the beginning of one.
+        // A title is a sentence or the beginning of a sentence.
         let (_, rest) = guarantee.split_once("**").unwrap();
         for sentence in sentences(rest) {
             let before = names.len();
@@ -57,7 +57,7 @@ fn every_sentence_of_a_guarantee_names_an_existing_test() {
     assert!(!is_there("robustness::names::no_such_test") && !is_there("robustness::names::files"));
 }
 
-/// Checks the statements of SECURITY.md about connections, environment variables and other programs.
+/// Checks the statements of SECURITY.md about connections, environment variables and started programs.
 #[test]
 fn no_connections_no_environment_variables_no_other_programs() {
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -84,8 +84,8 @@ fn no_connections_no_environment_variables_no_other_programs() {
             }
             let run = code.split("Command::new(\"").skip(1).map(|rest| rest.split('"').next().unwrap());
             programs.extend(run.map(String::from));
-            // A program name that is not a literal could be anything.
-            // Only a peer may have one, because the caller names it.
+            // A program name that is not a literal could be any program.
+            // Only a peer may have such a name, because the caller names the peer.
             let other = code.matches("Command::new(").count() - code.matches("Command::new(\"").count();
             assert!(other == 0 || path.ends_with("cli/bench.rs"), "{}", path.display());
         }

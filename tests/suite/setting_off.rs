@@ -86,8 +86,8 @@ fn regress_a_weight_that_drives_the_motor_meets_its_losses() {
 
 /// Symptom: the sides differed by the whole motion, and neither side explained why.
 /// Cause: from rest, the crank may start in both directions, because a load drives it in one direction and the motor in
-/// the other.
-/// Side 1 took one direction, side 2 the other.
+/// the opposite direction.
+/// Side 1 took one direction, side 2 the opposite direction.
 #[test]
 fn regress_an_ambiguous_start_is_refused() {
     let text = shipped("crank_rocker_runup.toml").text.replace("speed_rpm = 130", "speed_rpm = -130");

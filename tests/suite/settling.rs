@@ -1,4 +1,4 @@
-//! A proof without any setting finds its settings, keeps to those that are given, and reports what it did.
+//! A proof without any setting finds its settings, keeps to the given settings, and reports what it did.
 
 use std::path::Path;
 
@@ -71,7 +71,7 @@ fn regress_unconverged_sweeps_are_inconclusive() {
 
 /// The third derivative of a spline jumps at its knots, so second differences across the knots have an error of order
 /// 1.
-/// This is not a fault of an engine.
+/// The engine does not cause this error.
 #[test]
 fn regress_knots_of_a_motion_law_do_not_falsify_the_order() {
     let own = specimen(1, 374, &mut Default::default());
@@ -79,8 +79,8 @@ fn regress_knots_of_a_motion_law_do_not_falsify_the_order() {
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
 }
 
-/// A proof keeps to a given step and runs nothing finer for its result.
-/// If it proves nothing, it also tries a free choice and reports the outcome.
+/// A proof keeps to a given step and makes no finer run for its result.
+/// If the given step proves nothing, the proof also tries a step of its own choice and reports the outcome.
 #[test]
 fn a_given_step_is_kept_and_the_suggested_remedy_tried() {
     let scenario = shipped("crank_rocker.toml");
@@ -139,8 +139,8 @@ fn regress_a_light_rocker_behind_a_heavy_coupler_needs_few_sweeps() {
 
 /// Symptom: a mechanism released from rest, with masses over three decades, disagrees at t = 0 only.
 /// Cause: the sweeps of the first step cannot start from a previous step, and runs with 16 and 32 sweeps have the same
-/// error there.
-/// The second mechanism is another example of the same fault.
+/// error at t = 0.
+/// The test contains a second mechanism with the same fault.
 #[test]
 fn regress_the_first_step_of_a_start_from_rest_is_left_out() {
     for (seed, index) in [(16, 394), (1, 42)] {
@@ -152,7 +152,7 @@ fn regress_the_first_step_of_a_start_from_rest_is_left_out() {
 
 /// A free motion over ten thousand steps of the grid.
 /// The sides differ by more than the rounding of a pose, but by less than their integration error.
-/// A run with a tighter accuracy shows this error.
+/// A run with a tighter accuracy shows the integration error.
 #[test]
 fn regress_a_long_run_up_is_bounded_by_its_integration_error() {
     let text = shipped("compressor_runup.toml").text;
@@ -165,7 +165,8 @@ fn regress_a_long_run_up_is_bounded_by_its_integration_error() {
     let proof = prove(&long, &Options::default().engine(EngineName::Rapier).budget(1e4)).unwrap();
     assert_ne!(proof.verdict.word(), "disagree", "{:?}", proof.verdict);
     let positions = proof.checks.iter().find(|check| check.name() == "assur against newton, positions").unwrap();
-    // Poses here are accurate to 1e-15 of the size.
+    // The rounding error of a pose is only about 1e-15 of the size.
+    // The sides differ by more than this rounding error, but agree within their integration error.
     assert_eq!(positions.verdict.word(), "agree", "{positions:?}");
     assert!(positions.value > 1e-13 && positions.bound > 1e-12 && positions.bound < 1e-9, "{positions:?}");
 }
@@ -176,7 +177,8 @@ fn parallelogram(gap: f64, more: &str) -> Scenario {
     parsed(&format!("{PARALLELOGRAM}from_deg = {gap}\nto_deg = {to}\nstep_deg = {step}\n{more}"))
 }
 
-/// Rounding grows with the condition number of the pose: 115 at one degree, 458 at a quarter of one.
+/// Rounding grows with the condition number of the pose: 115 at one degree from the change point, 458 at a quarter of a
+/// degree.
 /// The engine's error grows too, and may leave the verdict open at a quarter of a degree.
 #[test]
 fn regress_bounds_near_a_change_point_include_the_condition() {
@@ -272,7 +274,10 @@ fn regress_steps_do_not_cross_dead_points_beyond_the_grid() {
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
 }
 
-/// Symptom: on a grid of one instant no channel has a range, and errors "may reach inf".
+/// Symptom: at every step tried, an engine passed the dead points outside its grid, before the first instant and after
+/// the last.
+/// The engine passed these points when it covered its whole range, and the search attributed the error to the sweeps.
+/// Both ends of the test's grid are 0.15 deg from a dead point.
 #[test]
 fn regress_one_instant_can_be_judged() {
     let mut scenario = shipped("crank_rocker.toml");

@@ -1,5 +1,5 @@
-//! Simbody against the analytic reference: all mechanisms of the repository, random ones and other instants.
-//! Also cases that must be errors.
+//! Simbody against the analytic reference: all mechanisms of the repository, random mechanisms and other instants.
+//! Cases that Simbody must refuse are tested too.
 
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::for_each;
@@ -63,8 +63,9 @@ fn agree(case: &Case, engine: &Simbody, reference: &dyn Solver, condition: f64) 
 }
 
 /// The required figures are 1e-8 and 1e-7 of half the range.
-/// Three accuracies are tested: the loosest useful one, the default, and the tightest that does not take minutes.
-/// Under prescribed motion the results do not differ: see the engine's `noise`.
+/// Three accuracies are tested: the loosest useful accuracy, the default, and the tightest accuracy that does not take
+/// minutes.
+/// Under prescribed motion the results at the three accuracies do not differ: see the engine's `noise`.
 #[test]
 fn all_scenarios_agree_with_the_reference() {
     for name in scenarios() {
@@ -85,7 +86,8 @@ fn the_other_analytic_side_agrees_too() {
     }
 }
 
-/// Between distant instants the integrator alone chooses its steps, and the projection must correct more.
+/// Between distant instants the integrator alone chooses its steps.
+/// The projection must therefore correct more than between close instants.
 #[test]
 fn distant_instants_are_as_accurate() {
     for name in ["crank_rocker.toml", "ov7_base.toml", "fourth_class.toml", "compressor.toml", "five_bar.toml"] {
@@ -113,7 +115,7 @@ fn instants_may_be_unordered_and_before_the_start() {
     assert_eq!(solve(&default(), &shipped("crank_rocker.toml").case.on(Grid::default()).unwrap()).times().len(), 0);
 }
 
-/// A four-bar with its links named in the other order, moved, mirrored, heavier, and without masses.
+/// A four-bar with the links of its joints named in reverse order, moved, mirrored, heavier, and without masses.
 /// All variants carry loads.
 #[test]
 fn variants_of_a_four_bar_agree() {
@@ -165,7 +167,8 @@ fn felt(spec: &Spec, open: f64) -> BTreeMap<(Stage, &'static str), f64> {
 
 /// The engine's bound covers the effect on a channel of a joint that is open by the constraint tolerance.
 /// The bound is never below this effect, and not much above it.
-/// The bound assumes a transmission angle of 6 deg: at 7 deg it is close to the effect, elsewhere it is larger.
+/// The bound assumes a transmission angle of 6 deg.
+/// At 7 deg the bound is close to the effect; at larger angles the bound exceeds the effect by more.
 #[test]
 fn the_noise_bound_covers_the_effect_of_an_open_joint() {
     // This displacement is far above rounding error, and small enough that the effect is proportional to it.
@@ -219,7 +222,7 @@ fn loads_of_all_sorts_agree() {
 }
 
 /// All kinds of sliders, with their links in either order.
-/// In the Oldham coupling, sliding joints alone also lead to the crank.
+/// In the Oldham coupling, a chain of sliding joints alone also connects links to the crank.
 #[test]
 fn sliders_agree_however_their_joints_are_written() {
     for sample in sliders::all() {
@@ -229,7 +232,7 @@ fn sliders_agree_however_their_joints_are_written() {
     }
 }
 
-/// The same case with its joints in the other order, so that the driven joint comes last.
+/// The same case with its joints in reverse order, so that the driven joint comes last.
 fn crank_last(case: &Case) -> Case {
     use linkage::mechanism::{AssemblyMode, Mechanism, Structure};
     let joints: Vec<_> = case.mechanism.joints().iter().rev().cloned().collect();
@@ -251,7 +254,7 @@ fn crank_last(case: &Case) -> Case {
     .unwrap()
 }
 
-/// Chains of dyads magnify errors from dyad to dyad, and those of forces again on the way back.
+/// Chains of dyads magnify the errors of motion from dyad to dyad, and the errors of forces in the opposite direction.
 #[test]
 fn random_mechanisms_agree() {
     for_each(40, |sample| {
@@ -261,8 +264,8 @@ fn random_mechanisms_agree() {
 }
 
 /// A measure of how near a run comes to a singular pose.
-/// It is the largest speed, or the square root of the largest acceleration, divided by the crank's speed.
-/// Lengths are about a metre.
+/// The measure is the largest speed, or the square root of the largest acceleration, divided by the crank's speed.
+/// Lengths are about a metre, so linear and angular speeds are of similar size.
 /// The effect of a small error grows with the square of this measure.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
     let crank = case.crank().at(0.0).rate.abs();
@@ -285,7 +288,7 @@ fn random_higher_groups_agree() {
         for among in [Among::Alone, Among::BehindADyad, Among::CarryingADyad] {
             let (spec, _) = mechanism(&mut random, family, among);
             let Ok(scenario) = spec.scenario() else { continue };
-            // Beyond a dead point there is no solution with which to compare.
+            // Beyond a dead point there is no solution with which to compare, so such a mechanism is skipped.
             if let Ok(truth) = AssurSolver.solve(&scenario.case) {
                 agree(&scenario.case, &default(), &AssurSolver, nearness(&scenario.case, &truth).powi(2));
                 solved += 1;
@@ -405,6 +408,7 @@ fn run_ups_and_pendulums_agree_with_the_reference() {
         let proof = prove(&shipped(&format!("{name}.toml")), &Options::default().engine(EngineName::Simbody)).unwrap();
         // Some channels of the compressor's pistons are a thousandth of their natural size, and Simbody is not accurate
         // enough for them.
+        // The verdict may therefore be inconclusive, but must not be disagree.
         assert!(!matches!(proof.verdict, Verdict::Disagree { .. }), "{name}: {:?}", proof.verdict);
         agreed += usize::from(matches!(proof.verdict, Verdict::Agree { .. }));
     }

@@ -50,8 +50,8 @@ fn regress_change_points_are_refused() {
         is_refused("over", &at(parallelogram, left, 60.0, &[95.0, 175.0, 185.0, 275.0]), 180.0);
         is_refused("over, in one step of one degree", &at(parallelogram, left, 179.5, &[179.5, 180.5]), 180.0);
         is_refused("back over", &at(parallelogram, left, 60.0, &[60.0, -10.0]), 0.0);
-        // Two cases that the report does not name: a kite, and lengths whose longest two sum to as much as the other
-        // two.
+        // Two cases that the fault report does not name: a kite, and lengths whose longest two sum to as much as the
+        // shortest two.
         is_refused("kite", &at([0.3, 0.2, 0.2, 0.3], left, 90.0, &[90.0, 200.0]), 180.0);
         is_refused("sum", &at([0.5, 0.1, 0.25, 0.35], left, 90.0, &[90.0, 170.0, 190.0]), 180.0);
     }
@@ -90,7 +90,8 @@ fn dead_points_are_refused() {
 /// Symptom: 1e-9 deg from a dead point, side 2 gave the acceleration of the crank pin wrong by 176 %.
 /// Cause: rounding of the huge accelerations of the neighbouring group entered through one elimination over all rows.
 /// The motion of the crank depends on its drive alone, and is exact here.
-/// The mechanism is ten times as large as the report's, because lever arms above 1 m become pivots of the elimination.
+/// The mechanism is ten times as large as that of the fault report, because lever arms above 1 m become pivots of the
+/// elimination.
 #[test]
 fn regress_a_dead_point_does_not_affect_the_driving_link() {
     let lengths = [4.0, 3.0, 2.5, 2.0];
@@ -177,7 +178,8 @@ fn regress_a_crank_without_length_is_refused() {
 /// Beyond a dead point of the followed branch, configurations are found in the opposite direction.
 #[test]
 fn regress_configurations_beyond_a_dead_point_are_found() {
-    // The crank swings between 41 and 319 deg: its links reach each other from d = 0.3 to 0.9 only.
+    // The crank swings between 44 and 316 deg.
+    // Coupler and rocker connect only if their outer joints are between d = 0.3 and 0.9 apart.
     let lengths = [0.4f64, 0.4, 0.3, 0.6];
     let limit = ((0.16f64 + 0.16 - 0.09) / 0.32).acos().to_degrees();
     let case = at(lengths, true, limit + 10.0, &[limit + 10.0]);
@@ -187,7 +189,7 @@ fn regress_configurations_beyond_a_dead_point_are_found() {
 }
 
 /// A chain with ten loops; side 1 first follows all poses over the revolution.
-/// Before, this took 2.7 s and grew with the third power of the number of loops.
+/// Before the fix, the solution took 2.7 s, and its time grew with the third power of the number of loops.
 #[test]
 fn both_sides_solve_a_long_chain() {
     let case = four_bars(10, 0.01, 0.01);

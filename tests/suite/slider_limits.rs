@@ -29,7 +29,7 @@ fn regress_a_slide_that_goes_to_infinity_ends_the_range() {
         // Promised accuracy of limits.
         assert_within!((limit.crank - expected).abs(), 1e-9, "{:e}", limit.crank - expected);
     }
-    // The test limits poses, not seconds; before, the endless curve took the largest allowed number of poses.
+    // The test limits poses, not seconds; before the fix, the endless curve took the largest allowed number of poses.
     println!("{} poses", range.samples.len());
     assert!(range.samples.len() < 10_000, "{}", range.samples.len());
 }
@@ -104,8 +104,8 @@ fn a_short_rod_limits_the_crank_when_perpendicular_to_the_guide() {
         let limit = |sine: f64| if sine.abs() <= 1.0 { Some(sine.asin()) } else { None };
         let expected = [limit((offset - rod) / 0.1), limit((offset + rod) / 0.1)];
         for (found, expected) in [from, to].into_iter().zip(expected) {
-            // If the crank pin cannot go that far on one side of the guide, the limit belongs to the other side and is
-            // not compared here.
+            // If the crank pin cannot go that far on one side of the guide, the limit belongs to the opposite side of
+            // the guide and is not compared.
             if let Some(expected) = expected {
                 assert_within!((found.crank - expected).abs(), 1e-9, "{rod}, {offset}: {found:?}, {expected}");
             }

@@ -82,7 +82,8 @@ fn val_compressor_closed_form() {
                 let pair = |(crank, state): &(f64, State)| {
                     let [at, velocity, acceleration] = place(&case, state, pin);
                     let motion = &state.motions[link];
-                    // Clockwise from +y: 90 deg minus the angle, and rates with the opposite sign.
+                    // Angles are clockwise from +y: 90 deg minus the angle of the state, and rates with the opposite
+                    // sign.
                     let phi2 = linkage::math::angle::wrapped(FRAC_PI_2 - state.angles[link]);
                     let found = [phi2, at.y, -motion.omega, velocity.y, -motion.alpha, acceleration.y];
                     (found[quantity], cylinder(l1, l2, FRAC_PI_2 - crank + delta, COMPRESSOR_SPEED)[quantity])
@@ -113,7 +114,7 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     };
     assert_eq!((local("C") - local("O2")).norm(), 2.0 * (local("B") - local("O2")).norm());
     let mut cranks = upright().to_vec();
-    // The oracles of the scenario for that position are at these angles, to the digits in the file.
+    // The oracles of the scenario for the topmost position are at these angles, to the digits in the file.
     let topmost = || scenario.oracles.iter().filter(|oracle| oracle.name.starts_with("topmost position"));
     for (oracle, crank) in topmost().zip(&cranks) {
         for series in &oracle.series {

@@ -1,6 +1,6 @@
 //! Numerical stability.
 //! The double-double reference is compared with closed forms, and the sides with the double-double reference.
-//! The other tests cover faults that `stress` has found.
+//! Tests without these comparisons cover faults that `stress` has found.
 
 mod precise;
 
@@ -45,7 +45,8 @@ fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
         println!("{}: {worst:.2e} of its bound", side.name);
         assert_within!(worst, 1.0, "{}", side.name);
         // The bound must not become too wide.
-        // For angles it stays proportional to the angle including its revolutions.
+        // For angles, the bound stays proportional to the angle including its revolutions, so angles are not tested
+        // here.
         for own in side.deviations.iter().filter(|own| own.channel.kind.unit != Unit::Radian) {
             assert_within!(own.bound, 1e-9, "{} {}", side.name, own.channel);
         }
@@ -98,7 +99,7 @@ fn work_per_four_bar_does_not_grow_with_the_chain() {
     assert!(few > 0 && many <= 12 * few, "side 2: {few} and {many}");
 }
 
-/// If solvers refuse a case, its result contains the reason.
+/// If solvers refuse a case, the result of the case contains the reason.
 /// The sides are accurate up to a hundredth of a degree from a dead point.
 #[test]
 fn refused_points_are_results_with_a_reason() {
@@ -117,7 +118,7 @@ fn refused_points_are_results_with_a_reason() {
 }
 
 /// The reference has one length that is wrong by a millionth.
-/// Both sides contradict it, while they agree with each other.
+/// Both sides contradict the reference, while they agree with each other.
 /// A wrong number of the sides without a warning would show in the same way.
 #[test]
 fn a_wrong_number_that_both_sides_share_is_counted() {

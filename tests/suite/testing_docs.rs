@@ -4,7 +4,7 @@ use saphyr::{LoadableYamlNode, Yaml};
 
 const PAGE: &str = include_str!("../../docs/testing.md");
 
-/// The blocks of a language.
+/// The code blocks of a page in one language.
 fn blocks(page: &str, language: &str) -> Vec<String> {
     let begin = format!("\n```{language}\n");
     let parts = page.split(&begin).skip(1);
@@ -139,7 +139,7 @@ fn gitlab(document: &Yaml) -> Result<(), String> {
         }
         let Some(artifacts) = job.as_mapping_get("artifacts") else { continue };
         known(artifacts, "artifacts", &["name", "paths", "exclude", "expire_in", "when", "reports"])?;
-        // Reports are needed most when a proof fails.
+        // Reports are needed most when a proof fails, so artifacts must always be kept.
         if artifacts.as_mapping_get("when").and_then(Yaml::as_str) != Some("always") {
             return Err(format!("{name}: what a failing job has written is not kept"));
         }

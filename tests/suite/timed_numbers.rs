@@ -1,5 +1,5 @@
 //! Numbers of an `[[oracle]]` at a time of the motion: they are read and compared with both sides.
-//! For another start, for which they are not valid, they are omitted.
+//! If the motion starts differently, the numbers are not valid and are omitted.
 
 use std::path::Path;
 
@@ -87,7 +87,7 @@ fn tables_by_time_support_known_wrong_cells() {
     assert_eq!(words, ["agree", "expected", "agree", "expected"]);
 }
 
-/// From another start angle, the same time is a different instant of a different motion.
+/// If the start angle differs from that of the file, the same time is a different instant of a different motion.
 #[test]
 fn another_start_omits_numbers_at_a_time() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker_runup.toml");

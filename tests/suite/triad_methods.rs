@@ -1,5 +1,5 @@
-//! The published methods for class III groups of order 3 against both solvers, on the published mechanism over its turn
-//! and on random mechanisms.
+//! The published methods for class III groups of order 3 against both solvers, on the published mechanism over its
+//! revolution and on random mechanisms.
 
 use std::cell::Cell;
 use std::fmt::Write;
@@ -24,13 +24,14 @@ use scenario::Scenario;
 #[derive(Clone, Copy, Debug, Default)]
 struct Differences {
     cramer: [f64; 2],
-    /// Angles, angular velocities and angular accelerations; zero if the layout does not allow the method.
+    /// Differences of the method of class change: angles, angular velocities and angular accelerations.
+    /// The differences are zero if the layout does not allow the method.
     change: [f64; 3],
     assur_point: f64,
     linear: f64,
-    /// Largest condition of the contours.
+    /// Largest condition number of the contours.
     condition: f64,
-    /// Largest condition of the chain of dyads.
+    /// Largest condition number of the chain of dyads.
     chain: f64,
     /// Number of exchanges of the conditional driver.
     exchanges: usize,
@@ -56,8 +57,8 @@ fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |max, value| if max.is_nan() || value <= max { max } else { value })
 }
 
-/// Product of the lengths of the four columns of a group's equations over the size of their determinant, at least 1. It
-/// is the factor by which rounding of the coefficients can grow in the unknowns.
+/// Product of the lengths of the four columns of a group's equations, divided by the absolute value of their
+/// determinant; at least 1. The product is the factor by which rounding of the coefficients can grow in the unknowns.
 fn condition(contours: &Contours) -> f64 {
     let mut matrix = Matrix::zeros(4, 4);
     for (k, side) in contours.sides.into_iter().enumerate() {
@@ -137,7 +138,7 @@ fn all_methods_agree_with_both_solvers_over_the_turn_of_the_published_drive() {
             let found = differences(case, &only_triad(case), &states, &case.grid.times);
             // Some two hundred operations lie between a pose and the accelerations.
             // If all their rounding errors (1.1e-16) had the same sign, the sum would be 2e-14.
-            // The solver adds its rounding errors.
+            // The solver adds its rounding errors, so the bound is 1e-13.
             assert!(found.are_within(1e-13), "{name} {} {found:?}", solver.name());
             assert!(found.condition < 2.0 && found.chain < 2.0, "{found:?}");
             // The motion passes both limits of the ground lead.
@@ -231,7 +232,8 @@ fn mechanism(draw: &mut Draw, moving: bool) -> Option<Scenario> {
     let _ = writeln!(text, "[drive]\njoint = \"O\"\nspeed_rad_s = {speed:?}\nzero_rad = {:?}", draw.between(-3.1, 3.1));
     let _ = writeln!(text, "[gravity]\nx_m_s2 = 1\ny_m_s2 = -9.8");
     let _ = writeln!(text, "[[loads]]\ntype = \"resistance\"\nlink = \"right\"\nmoment_N_m = 3");
-    // The crank's frame is arbitrary: this is the crank angle that puts its pin at the drawn position.
+    // The crank's frame is arbitrary, so the code computes the crank angle that puts the crank pin at the drawn
+    // position.
     let own = text.split("[links.crank.points]").nth(1).unwrap_or_default().lines().skip(1).take(2).map(|line| {
         let number =
             |key: &str| line.split(key).nth(1)?.split([',', ' ', '}']).find(|word| !word.is_empty())?.parse().ok();

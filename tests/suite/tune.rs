@@ -76,7 +76,7 @@ fn regress_a_search_ends_at_the_work_limit() {
     assert!(error.way_out().unwrap().contains("1e6 steps"), "{error}");
 }
 
-/// Fewer channels are cheaper: positions need neither reactions nor a step that resolves them.
+/// Few channels cost less than all channels: positions need neither reactions nor a step that resolves reactions.
 #[test]
 fn only_requested_channels_decide() {
     let scenario = shipped("crank_rocker.toml");
@@ -88,7 +88,7 @@ fn only_requested_channels_decide() {
 }
 
 /// In free motion the engine refuses probes at any step and number of sweeps.
-/// They are therefore not tried repeatedly, and a tuning that may use only probes reports this.
+/// Probes are therefore not tried repeatedly, and a tuning that may use only probes reports the refusal.
 #[test]
 fn a_refused_route_is_given_up_at_once() {
     let scenario = shipped("pendulum.toml");

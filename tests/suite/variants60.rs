@@ -98,8 +98,8 @@ fn off(from: Vec2, to: Vec2, expected: f64) -> f64 {
     wrapped(to.y.atan2(to.x) - from.y.atan2(from.x) - expected.to_radians()).abs()
 }
 
-/// The given pose, constructed by hand, closes all joints. Where it is not singular both solvers find it, with its
-/// angles.
+/// The given pose, constructed by hand, closes all joints. Where the pose is not singular, both solvers find it, with
+/// its angles.
 #[test]
 fn the_given_pose_closes_all_joints_of_the_file() {
     let mut singular = 0;
@@ -115,8 +115,8 @@ fn the_given_pose_closes_all_joints_of_the_file() {
             pose.extend([slider, along(linkage.c, linkage.d)]);
         }
         pose.push(rocker);
-        // Positions in the file are rounded to 1e-12 m, so x and y are each off by at most half of this.
-        // The position is then off by this half times the square root of two.
+        // Positions in the file are rounded to 1e-12 m, so x and y are each off by at most half of 1e-12 m.
+        // The position is then off by at most this half times the square root of two.
         let closure = Pose(pose.into()).closure(&case.mechanism);
         assert_within!(closure, 1e-12, "{}: {closure:e}", v.number);
         if plan.given < 1e-4 {
@@ -166,7 +166,7 @@ fn structure_and_masses_match_the_interpretation() {
         let lengths: f64 = v.lengths.iter().sum::<f64>() + v.rocker.unwrap_or(0.0);
         let slider = if v.rocker.is_some() { 1.0 } else { 0.0 };
         let mass: f64 = mechanism.links().iter().map(|link| link.mass).sum();
-        // The sum of five decimal numbers, each accurate to its last bit.
+        // The bound allows for the sum of five decimal numbers, each accurate to its last bit.
         assert_within!((mass - 10.0 * lengths - slider).abs(), 1e-12, "{}: {mass}", v.number);
     }
 }

@@ -53,7 +53,7 @@ fn regress_work_per_step_grows_with_the_mechanism() {
 }
 
 /// Symptom: the range of a hundred four-bars was computed without end.
-/// Cause: the poses of a range did not count as work, although each needs systems of all links.
+/// Cause: the poses of a range did not count as work, although each pose needs systems of all links.
 #[test]
 fn regress_computing_a_range_counts_as_work() {
     let chain = named("chain").expect("there are chains");
@@ -61,7 +61,7 @@ fn regress_computing_a_range_counts_as_work() {
     let (found, is_over) = limited(1e5, || Range::of(&large));
     let error = found.expect_err("a hundred four-bars are more than 1e5 steps");
     assert!(is_over && error.message().contains("1.0e5 steps") && !error.advice().is_empty(), "{error}");
-    // A single four-bar needs so little work that its range is found within the same limit.
+    // A single four-bar needs so little work that its range is found within the limit that is too small for the chain.
     let small = shipped("crank_rocker.toml").case;
     let (found, is_over) = limited(1e5, || Range::of(&small));
     assert!(found.is_ok_and(|range| range.links.len() == 3) && !is_over);
@@ -82,7 +82,7 @@ fn regress_planting_faults_keeps_to_the_work_limit() {
     let error = found.err().expect("600 faults in 100 four-bars are too many");
     assert!(error.message().contains("planting") && error.message().contains("1.0e5 are allowed"), "{error}");
     assert!(error.advice().iter().any(|own| own.to_string().contains("some kinds")), "{error}");
-    // This work covers the solutions of both sides without a fault, and their exact answers.
+    // The counted work covers the solutions of both sides without a fault, and their exact answers.
     // No step of an engine was run.
     assert!(work.of(Count::Groups) < 1_000_000 && work.of(Count::Steps) == 0, "{work:?}");
     let few = MutationPlan { kinds: vec!["gravity-sign".into()], parties: vec![FaultyParty::Assur], ..asked };
@@ -90,8 +90,8 @@ fn regress_planting_faults_keeps_to_the_work_limit() {
 }
 
 /// Chains that swing through their change points.
-/// Impulses do not converge there, and four rounds of the search show this.
-/// Before, the impulses took 48 of 51 million sweeps.
+/// Impulses do not converge at change points, and four rounds of the search show this.
+/// Before the fix, the impulses took 48 of 51 million sweeps.
 #[test]
 fn regress_forces_without_progress_are_given_up_early() {
     let (proof, work) = proven(&shipped("n_four_bar_1.toml"), &Options::default());
@@ -103,8 +103,8 @@ fn regress_forces_without_progress_are_given_up_early() {
 }
 
 /// The forces that the engine exerts have a limit on their work.
-/// If the motion alone exceeds this limit, the search for their settings does not begin.
-/// Before, this four-bar took 118 million sweeps.
+/// If the motion alone exceeds this limit, the search for the settings of the forces does not begin.
+/// Before the limit, the four-bar of this test took 118 million sweeps.
 #[test]
 fn regress_forces_are_skipped_if_the_motion_used_their_work() {
     let (proof, work) = proven(&scenario("transmission_1_deg.toml"), &Options::default());

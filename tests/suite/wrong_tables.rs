@@ -1,4 +1,4 @@
-//! Wrong tables, as engineers and students make them; their kinds were not used to develop the diagnosis.
+//! Wrong tables, as engineers and students make them; the kinds of these tables were not used to develop the diagnosis.
 //! All wrong tables are found, no false cause is named, and most causes are named.
 
 mod first_half;
@@ -142,7 +142,7 @@ impl Tally {
         for own in tables {
             let compared = own.compared();
             let causes = || compared.pairs.iter().flat_map(|pair| &pair.causes);
-            // For each explained part of the channels: the cause and its equivalents.
+            // For each explained part of the channels: the cause and the causes equivalent to it.
             let told: Vec<Vec<String>> = causes()
                 .map(|one| why(one).into_iter().chain(one.diagnosis.also.iter().map(cause)).collect())
                 .collect();
@@ -193,9 +193,9 @@ fn errors_in_unseen_tables_are_named() {
     tally.holds();
 }
 
-/// Compares a table of another program with a scenario.
+/// Compares a table of a foreign program with a scenario.
 /// Returns the causes with their equivalents.
-/// Each cause comes with the location of a single wrong row, if there is one besides.
+/// Each cause comes with the location of a single wrong row, if the table also has such a row.
 fn told(scenario: &str, table: &str, lines: &[&str]) -> Vec<(Vec<String>, Option<f64>)> {
     let (right, path) = text(scenario);
     let mut mapping = Mapping::default();
@@ -231,7 +231,7 @@ fn late_rows_and_a_rotated_drive_are_both_reported() {
 }
 
 /// Except in the first row, MuJoCo prints the values at the beginning of a step.
-/// The error of the step remains unexplained.
+/// The error of the time step remains unexplained.
 #[test]
 fn a_correct_first_row_hides_no_cause() {
     let found = told("norton", "mj.csv", &["time=time_s", "px=point.P.x_m", "py=point.P.y_m"]);
@@ -241,7 +241,7 @@ fn a_correct_first_row_hides_no_cause() {
 }
 
 /// Many programs print angles within one revolution.
-/// This is correct and hides no other fault.
+/// Such angles are correct, and hide no fault of the table.
 #[test]
 fn angles_within_one_turn_hide_no_cause() {
     let wrong = Wrong {

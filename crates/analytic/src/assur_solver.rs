@@ -1,6 +1,6 @@
 //! Side 1: the solver by Assur groups.
-//! Motion is solved from the first group to the last, forces from the last to the first; dyads are solved in closed
-//! form.
+//! The solver computes the motion from the first group to the last, and the forces from the last group to the first.
+//! It solves dyads in closed form.
 
 use crate::assur::PoseSolver;
 use crate::assur::transfer::TransferSide;
@@ -14,7 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::{Progress, Provision, Solver, Visit};
 use linkage::trajectory::Channel;
 
-/// The solver of side 1, group by group.
+/// The solver of side 1. It solves the mechanism group by group.
 #[derive(Clone, Copy, Debug)]
 pub struct AssurSolver;
 
@@ -44,7 +44,7 @@ impl Solver for AssurSolver {
 }
 
 /// Side 1 with a chosen integration error per step for motions under forces.
-/// A prescribed motion is not integrated.
+/// The chosen error has no effect on a prescribed motion, because such a motion is not integrated.
 #[derive(Clone, Copy, Debug)]
 pub struct AssurAt(pub f64);
 
@@ -68,12 +68,12 @@ impl Solver for AssurAt {
 /// Side 1 with a tighter integration of motions under forces.
 /// Its results differ from those of [`AssurSolver`] by the integration error of [`AssurSolver`].
 /// Both sides have this error, because they share the integrator.
-/// A prescribed motion is not integrated.
+/// A prescribed motion is not integrated, so its results do not differ.
 pub const TIGHT_ASSUR: AssurAt = AssurAt(TIGHTER * ACCURACY);
 
 /// Solves a motion under forces.
-/// A case of one degree of freedom is solved by the reduced equation of motion if all its terms are functions of the
-/// crank angle.
+/// A case of one degree of freedom is solved by the reduced equation of motion if all terms of this equation are
+/// functions of the crank angle.
 /// Every other case is solved with transfer functions.
 fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     let share = if accuracy < ACCURACY { NARROWER } else { 1.0 };
@@ -86,8 +86,8 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
     times.dedup();
     let model = match ReducedModel::of(case) {
         // Use the equations with transfer functions if the reduced equation does not apply.
-        // In that case the loads are not functions of the crank angle over whole turns, or the branch is not known over
-        // a full turn.
+        // The reduced equation does not apply if the loads are not functions of the crank angle over whole turns.
+        // It also does not apply if the branch is not known over a full turn.
         Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::Numeric) => {
             return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
         }
@@ -114,7 +114,7 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
     })
 }
 
-/// The error of a motion that ends before the grid does.
+/// Error for a motion that ends before the last instant of the grid.
 fn ended(case: &Case, end: RunUpEnd) -> Error {
     let (what, t, crank) = match end {
         RunUpEnd::Held(t, crank) => (sentences::LOADS_HOLD_THE_MECHANISM, t, crank),

@@ -19,7 +19,7 @@ pub use newton::{NewtonAt, NewtonSolver, TIGHT_NEWTON};
 
 use linkage::solver::Solver;
 
-/// The analytic solvers, the default first.
+/// The analytic solvers; the default solver comes first.
 #[must_use]
 pub fn all() -> [&'static dyn Solver; 2] {
     [&AssurSolver, &NewtonSolver]

@@ -93,7 +93,8 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
             let mut chosen = case.modes[..=index.index()].to_vec();
             chosen[index] = one.mode;
             let mut plan = SolutionPlan::of(mechanism, &part, &chosen);
-            // The configurations are already exact. This solution only prepares the computation of the velocities.
+            // The configurations are already exact. `positions` is called only to prepare the computation of the
+            // velocities.
             let solved = plan.positions(&angles, &mut motions).is_ok();
             let mut placed = pose.clone();
             for (&link, place) in group.links.iter().zip(&one.links) {

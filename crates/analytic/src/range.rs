@@ -1,12 +1,13 @@
-//! The crank angles over which a mechanism can be followed on its branch, with their limits and the condition numbers.
+//! The crank angles over which a mechanism can be followed on its branch, with their limits and the condition numbers
+//! of the groups.
 //!
 //! The crank is not driven. The curve of all poses is followed by arc length, in both directions from the start pose.
 //! The curve ends at the start pose or at a singular pose.
 //! At a *limit of rotation* (dead point of the crank) the determinant of one group is zero.
-//! Two branches meet there and form one smooth curve, along which the crank reverses.
+//! Two branches meet at the limit and form one smooth curve, along which the crank reverses.
 //! At a *change point* two such curves cross.
-//! The determinant changes its sign, and the crank does not reverse. Geometry does not decide which curve the mechanism
-//! follows.
+//! The group's determinant changes its sign at the change point, and the crank does not reverse.
+//! Geometry does not decide which curve the mechanism follows.
 
 mod constraints;
 mod extremes;
@@ -33,8 +34,9 @@ use tracking::{End, Point, Tracker};
 /// [`SingularityKind::BranchContact`].
 /// The value corresponds to a transmission angle of 0.06 deg, at which accelerations have lost six digits.
 const CONTACT: f64 = 1e-3;
-/// If a group's determinant is smaller than this, the pose counts as singular.
+/// If a group's determinant is smaller than this value, the pose counts as singular.
 /// Rounding separates coinciding configurations by the square root of the rounding error, 1e-8 to 1e-7.
+/// The value is therefore larger than this separation.
 const SINGULAR: f64 = 1e-6;
 
 /// Work allowed for finding the reachable crank angles as a by-product, for example for an error message.
@@ -47,11 +49,11 @@ pub enum Extent {
     /// All crank angles.
     /// The mechanism returns to its first pose after this number of turns (one, except with some higher groups).
     FullTurn(i32),
-    /// From one singular pose to another; the start pose lies between them. The range may exceed one turn.
+    /// Crank angles between two singular poses; the start pose lies between the two. The range may exceed one turn.
     Limited([Singularity; 2]),
 }
 
-/// The worst values of one group.
+/// Smallest determinant and largest condition number of one group over the range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroupRange {
     /// Smallest magnitude of the normalised determinant, with the determinant's sign.
@@ -80,12 +82,12 @@ pub struct Range {
     pub extent: Extent,
     /// Limits, change points and contacts, in ascending order of the crank angle.
     pub singularities: Vec<Singularity>,
-    /// The worst values of each group.
+    /// Smallest determinant and largest condition number of each group.
     pub groups: PerGroup<GroupRange>,
     /// The range of every moving link.
     pub links: Vec<LinkRange>,
-    /// Measures of all groups in ascending order of the crank angle, at most two degrees apart, without the limits
-    /// themselves.
+    /// Measures of all groups in ascending order of the crank angle.
+    /// The samples are at most two degrees apart and do not include the limits.
     pub samples: Vec<GroupMeasures>,
     /// Grashof's type, if the mechanism is a four-bar.
     pub four_bar: Option<FourBar>,
@@ -118,7 +120,8 @@ impl Range {
     }
 }
 
-/// Crank angles that the branch of a case reaches. [`Range::of`] computes them too, before its other results.
+/// Crank angles that the branch of a case reaches.
+/// [`Range::of`] also computes these angles, before its other results.
 ///
 /// # Errors
 /// Those of [`Range::of`].

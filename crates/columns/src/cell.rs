@@ -1,4 +1,5 @@
-//! Uncertainty of the numbers in a column. It is estimated from the printed digits, because printing rounds numbers.
+//! Uncertainty of the numbers in a column. The uncertainty is estimated from the printed digits, because printing
+//! rounds numbers.
 
 use crate::instants::chosen;
 use formula::Rounded;
@@ -13,16 +14,16 @@ pub struct TableCell {
     decimals: i32,
     /// Number of digits, counted from the first nonzero digit.
     significant: u16,
-    /// The same number of digits, but without the trailing zeros of a whole number.
-    /// These zeros may replace digits lost in rounding.
+    /// Number of digits, counted from the first nonzero digit, without the trailing zeros of a whole number.
+    /// The trailing zeros are left out because they may replace digits lost in rounding.
     telling: u16,
     is_missing: bool,
 }
 
-/// Value of an empty cell. Nothing was measured, so the cell states no number.
+/// Value of an empty cell, in which nothing was measured.
 pub const MISSING: Rounded = Rounded::exact(f64::NAN);
 
-/// Value of an empty cell, in which nothing was measured.
+/// Value of a cell with a NaN or an infinity that a program computed.
 pub const UNDEFINED: Rounded = Rounded { value: f64::NAN, error: f64::INFINITY };
 
 /// Words that mean an empty cell.
@@ -42,8 +43,8 @@ impl TableCell {
     #[must_use]
     pub fn parse(text: &str) -> Option<TableCell> {
         let Some(decimal) = TableCell::decimal(text) else { return TableCell::word(text) };
-        // A final `.0` is removed before the digits are counted. Python appends it to whole numbers, regardless of
-        // their number of digits.
+        // A final `.0` is removed before the digits are counted, because Python appends `.0` to whole numbers of any
+        // number of digits.
         Some(text.strip_suffix(".0").and_then(TableCell::decimal).unwrap_or(decimal))
     }
 
@@ -78,7 +79,7 @@ impl TableCell {
         is_word.then_some(TableCell { value: f64::NAN, decimals: 0, significant: 0, telling: 0, is_missing })
     }
 
-    /// The number; NaN if there is none.
+    /// The number; NaN if the cell contains no number.
     #[must_use]
     pub fn value(&self) -> f64 {
         self.value
@@ -100,7 +101,7 @@ impl TableCell {
         self.significant > 0 && !self.value.is_nan()
     }
 
-    /// The same number with the trailing zeros that its format left out.
+    /// The same number with the trailing zeros that the column's format left out.
     /// Zeros are added until the cell has `decimals` decimals or `significant` significant digits.
     pub(crate) fn with_zeros(mut self, decimals: i32, significant: u16) -> TableCell {
         let mut zeros = decimals.saturating_sub(self.decimals).max(0);
@@ -122,19 +123,19 @@ impl TableCell {
 /// The numbers of a column, each with the uncertainty left by its printed digits.
 ///
 /// A column is printed with a fixed number of decimals or of significant digits, and programs omit trailing zeros.
-/// The cell with the most decimals or digits shows that fixed number.
-/// The uncertainty is half a unit of the last printed place. It is computed for both formats, and the larger value
-/// counts.
+/// The largest number of decimals or digits of any cell is therefore the fixed number.
+/// The uncertainty is half a unit of the last printed digit. The uncertainty is computed for both formats, and the
+/// larger value counts.
 /// The larger value is always that of the actual format:
 /// With fixed decimals, the largest number has most significant digits.
 /// With fixed significant digits, the smallest number has most decimals.
 ///
 /// Several whole numbers may have more digits than all other cells only because of trailing zeros.
-/// These zeros then count as digits lost in rounding, unless all numbers are multiples of a chosen step.
+/// The trailing zeros then count as digits lost in rounding, unless all numbers are multiples of a chosen step.
 ///
 /// Numbers in single precision are printed with up to nine digits but have fewer significant ones.
 /// The shortest text for such a number may lie half way to the neighbouring number.
-/// Such a number is therefore converted to single precision again.
+/// A number in single precision is therefore converted to single precision again.
 #[must_use]
 pub fn numbers(cells: &[TableCell]) -> Vec<Rounded> {
     numbers_as(cells, Precision::of(cells))
@@ -156,7 +157,8 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
                 0 => -decimals,
                 _ => (-decimals).max(cell.first_place() + 1 - significant),
             };
-            // Converting the decimal to binary rounds the number once more. The margin 1e-9 covers this small error.
+            // The conversion of the decimal to binary rounds the number once more. The margin 1e-9 covers this small
+            // rounding error.
             let half = 0.5 * 10f64.powi(place) * (1.0 + 1e-9);
             let value = if is_single { f64::from(cell.value as f32) } else { cell.value };
             Rounded { value, error: half.larger(binary * value.abs()) }
@@ -168,7 +170,7 @@ pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Round
     if are_rounded && !chosen(&found) { with(telling) } else { found }
 }
 
-/// If trailing zeros occur in at least this many whole numbers, chance is an unlikely cause.
+/// If at least this many whole numbers end with zeros, the zeros count as digits lost in rounding, not as chance.
 /// By chance, one whole number in ten ends with zero.
 const FEW: usize = 2;
 
@@ -210,9 +212,9 @@ mod tests {
     fn a_number_has_the_digits_of_its_column() {
         for (cells, halves) in [
             (["1", "1.25"], [0.005, 0.005]),
-            // The number 2 may have only one significant digit, because .5 has only one.
+            // The expected error of 2 is 0.5: 2 may have only one significant digit, because .5 has only one.
             ([".5", "2."], [0.05, 0.5]),
-            // Printed by %g with an exponent: a fixed number of significant digits.
+            // `%g` printed these numbers with an exponent, so they have a fixed number of significant digits.
             (["1e3", "1.25e3"], [5.0, 5.0]),
             (["0.000277777778", "0.0155555556"], [5e-13, 5e-11]),
             (["1.00001e-05", "123"], [5e-11, 5e-4]),
@@ -225,8 +227,8 @@ mod tests {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);
             }
         }
-        // Three significant digits. Python prints these rounded numbers with `.0`, other programs print them without
-        // it.
+        // These numbers are rounded to three significant digits. Python prints them with `.0`, other programs without
+        // `.0`.
         for cells in [["-2450.0", "1260.0", "301.0", "0.354"], ["2450", "1260", "301", "0.354"]] {
             for (error, half) in errors(&cells).iter().zip([5.0, 5.0, 0.5, 0.0005]) {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);

@@ -12,13 +12,16 @@ const SINGLE: u16 = 7;
 /// For a column of zeros, `others` gives the other columns of the file, which also count.
 ///
 /// A constant column does not show its format.
-/// `0` printed by `%g`, Python and similar formats is an exact zero. Printed by `%.0f` it may be anything below a half.
-/// A file usually has one format. If the format omits trailing zeros, the cells of another column differ in their
-/// decimals and in their significant digits.
-/// If the cells of all other columns differ in this way, the constant has at least the decimals and digits of the
-/// coarsest of these columns.
-/// Two kinds of columns show that each column may have a separate format. A constant may then be rounded to its format.
-/// One kind has a fixed number of decimals, as from `%.6f`. The other kind contains whole numbers that are not steps.
+/// A `0` printed by `%g`, Python and similar formats is an exact zero. A `0` printed by `%.0f` may be any number below
+/// a half.
+/// A file usually has one format. If the format omits trailing zeros, the cells of a column that is not constant differ
+/// in their decimals and in their significant digits.
+/// If the cells of all other columns differ in this way, the zeros have at least the decimals and digits of the
+/// coarsest of the other columns.
+/// Two kinds of columns show that each column may have a separate format. The zeros may then be rounded to the format
+/// of their column.
+/// The first kind has a fixed number of decimals, as from `%.6f`. The second kind contains whole numbers that are not
+/// steps.
 #[must_use]
 pub fn numbers_beside<Others>(cells: &[TableCell], others: impl FnOnce() -> Others) -> Vec<Rounded>
 where
@@ -33,8 +36,9 @@ where
     }
 }
 
-/// Evidence from other columns: the smallest number of decimals, the smallest number of digits, and the coarsest
-/// precision of any of them.
+/// Evidence from the columns other than the column of zeros.
+/// The evidence consists of the smallest number of decimals, the smallest number of digits, and the coarsest precision
+/// of any of these columns.
 #[derive(Clone, Copy)]
 struct Vouched {
     decimals: i32,
@@ -42,7 +46,7 @@ struct Vouched {
     precision: Precision,
 }
 
-/// Evidence from the other columns; `None` if they give no evidence.
+/// Evidence from the columns `others`; `None` if these columns give no evidence.
 fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouched> {
     let mut coarsest: Option<Vouched> = None;
     for column in others {
@@ -71,9 +75,9 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouche
     coarsest
 }
 
-/// Whether all numbers of a column are zero. Only for zeros do the other columns count.
-/// The reason is that, in a format with significant digits, a zero is exact even with few digits.
-/// Any other constant may have been rounded to fewer digits than the other columns have.
+/// Whether all numbers of a column are zero. The other columns of the file count only for such a column.
+/// In a format with significant digits, a zero is exact even with few digits.
+/// A constant other than zero may have been rounded to fewer digits than the other columns have.
 fn is_zero(cells: &[TableCell]) -> bool {
     is_constant(cells) && cells.iter().any(|cell| cell.value() == 0.0)
 }
@@ -102,7 +106,7 @@ mod tests {
         texts.iter().map(|text| TableCell::parse(text).unwrap()).collect()
     }
 
-    /// Error of the first number of a column in a file with other columns.
+    /// Error of the first number of `column` in a file that also contains the columns `others`.
     fn error(column: &[&str], others: &[&[&str]]) -> f64 {
         let others: Vec<Vec<TableCell>> = others.iter().map(|texts| cells(texts)).collect();
         numbers_beside(&cells(column), || others)[0].error
@@ -117,8 +121,8 @@ mod tests {
         for zero in [["0", "0", "-0"], ["0.0", "0.0", "0"]] {
             approx::assert_relative_eq!(error(&zero, &[STEPS, GENERAL, FORCES]), 5e-6, max_relative = 1e-6);
         }
-        // For a constant other than zero the other columns do not count.
-        // With three digits, 13.6 and 1.36e1 may both have been 13.63.
+        // For a constant other than zero, the other columns of the file do not count.
+        // Rounded to three digits, 13.63 is printed as 13.6 or 1.36e1.
         approx::assert_relative_eq!(error(&["13.6", "13.6", ""], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
         approx::assert_relative_eq!(error(&["1.36e1", "1.36e1"], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
         let three: &[&str] = &["0.123", "1.5", "12.3"];
@@ -127,8 +131,8 @@ mod tests {
 
     #[test]
     fn a_constant_in_a_different_format_may_be_rounded() {
-        // Columns with fixed decimals, columns with an exponent, and columns of whole numbers.
-        // Steps and other constants give no evidence.
+        // These columns have fixed decimals, an exponent, or whole numbers.
+        // Steps and constants give no evidence.
         for fixed in [["0.125000", "1.500000", "12.345679"], ["1.25e-1", "1.50e0", "1.23e1"], ["2450", "-13", "301"]] {
             approx::assert_relative_eq!(error(&["0", "0", "0"], &[GENERAL, &fixed]), 0.5, max_relative = 1e-6);
         }
@@ -137,7 +141,7 @@ mod tests {
             0.5,
             max_relative = 1e-6
         );
-        // A column whose numbers differ shows its format without the other columns.
+        // A column whose numbers differ shows its format, so the other columns of the file do not count.
         approx::assert_relative_eq!(error(&["0", "1", "0"], &[GENERAL, FORCES]), 0.5, max_relative = 1e-6);
     }
 }

@@ -3,13 +3,14 @@
 use formula::Rounded;
 use linkage::math::KeepNan;
 
-/// If a pattern of instants has by chance at most a probability of one in this number, the instants count as exact.
+/// If the probability that a pattern of instants occurs by chance is at most one in this number, the instants count as
+/// exact.
 /// A step that was not chosen looks constant over n steps with the probability 2 / n.
 /// A step ends with a zero by chance with the probability 1 / 10, for each zero.
 const EVIDENCE: f64 = 50.0;
 
 /// Whether instants were chosen as printed, not rounded.
-/// They must be multiples of one step.
+/// Chosen instants are multiples of one step.
 /// In addition, the number of multiples or the roundness of the step must show that no other step gives the same
 /// printed instants.
 #[must_use]
@@ -19,8 +20,8 @@ pub fn chosen(values: &[Rounded]) -> bool {
 
 /// Whether instants in degrees were chosen as printed, not rounded.
 /// Whole degrees at equal steps always count as chosen.
-/// At unequal steps they must have a common divisor that whole numbers rarely have by chance. An example is 0, 30, 45,
-/// 60, 90.
+/// Instants at unequal steps must have a common divisor that whole numbers rarely have by chance. Chosen instants are,
+/// for example, 0, 30, 45, 60, 90.
 #[must_use]
 pub fn degrees_chosen(values: &[Rounded]) -> bool {
     let are_whole = values.iter().all(|at| at.value.fract() == 0.0);
@@ -39,7 +40,7 @@ fn chosen_as(values: &[Rounded], sort: Sort) -> bool {
     let step = values.get(1).map_or(first.value, |second| second.value - first.value);
     let is_step = |pair: &[Rounded]| (pair[1].value - pair[0].value - step).abs() <= 8.0 * f64::EPSILON * size;
     let is_first_one = first.value == 0.0 || is_multiple(first.value, step);
-    // The half unit contains a margin for its rounding error, which is removed here.
+    // The half unit contains a margin for its rounding error. The division by 1 + 1e-9 removes this margin.
     let unit = 2.0 * values.iter().map(|at| at.error).fold(0.0, f64::larger) / (1.0 + 1e-9);
     if !is_first_one || !values.windows(2).all(is_step) {
         return are_multiples(values, unit, sort);
@@ -53,10 +54,10 @@ fn is_multiple(value: f64, of: f64) -> bool {
 }
 
 /// Evidence that a step was chosen, for a step of `round` units.
-/// It is the number of multiples, multiplied by every factor two or five of the step.
+/// The evidence is the number of multiples, multiplied by every factor two or five of the step.
 fn evidence(multiples: f64, mut round: f64) -> f64 {
     let mut evidence = if multiples < 1.0 { 1.0 } else { multiples };
-    // Larger doubles are no longer reliable whole numbers.
+    // Doubles above 1e15 are not reliable whole numbers, so they give no evidence.
     if !(round < 1e15) {
         return 0.0;
     }
@@ -73,7 +74,7 @@ fn evidence(multiples: f64, mut round: f64) -> f64 {
 const INDEPENDENT: i32 = 3;
 
 /// Whether instants at unequal steps are multiples of a chosen step.
-/// A round common divisor, such as trailing zeros in all rows, is evidence.
+/// A round common divisor, as with trailing zeros in all rows, is evidence for a chosen step.
 /// n independent whole degrees have a common divisor d by chance only with the probability 1 / d^n.
 fn are_multiples(values: &[Rounded], unit: f64, sort: Sort) -> bool {
     let (mut divisor, mut count) = (0u64, 0i32);
@@ -85,7 +86,7 @@ fn are_multiples(values: &[Rounded], unit: f64, sort: Sort) -> bool {
         divisor = common(divisor, units.round() as u64);
         count = count.saturating_add(1);
     }
-    // A single number is always a multiple of itself.
+    // A single number is always a multiple of itself, so it gives no evidence.
     if count < 2 {
         return false;
     }
@@ -103,12 +104,12 @@ fn common(mut one: u64, mut other: u64) -> u64 {
 }
 
 /// Safety factor for the slope. Near an inflection a curve is steeper than the two secants next to a row.
-/// With eight rows per period it is steeper by a ninth.
+/// With eight rows per period the curve is steeper than these secants by a ninth.
 const STEEPER: f64 = 1.2;
 
 /// Uncertainty that rounded instants cause in a column, from the slope of the column.
-/// For each row it is the slope of the steeper of the two neighbouring secants times the uncertainty of the row's
-/// instant, `slack`.
+/// For each row the uncertainty is a slope times the uncertainty `slack` of the row's instant.
+/// This slope is that of the steeper of the two neighbouring secants, times a safety factor.
 /// `order` lists the rows in ascending order of the instants `at`. Angles may jump by a `turn`.
 #[must_use]
 pub fn drift(values: &[Rounded], at: &[f64], slack: &[f64], order: &[usize], turn: Option<f64>) -> Vec<f64> {
@@ -161,7 +162,8 @@ mod tests {
         assert!(!degrees_chosen(&of(&["0".into(), "2.7".into(), "5.4".into()])));
         let (degrees, any) = (degrees_chosen as fn(&[Rounded]) -> bool, chosen as fn(&[Rounded]) -> bool);
         for (texts, chosen, expected) in [
-            // Whole degrees as in printed tables count as chosen. The same numbers in another unit may be rounded.
+            // Whole degrees as in printed tables count as chosen. In a unit other than degrees, the same numbers may be
+            // rounded.
             (["0", "30", "45", "60", "90"], degrees, true),
             (["0", "30", "45", "60", "90"], any, false),
             (["0", "3", "5", "8", "10"], degrees, false),
@@ -176,8 +178,8 @@ mod tests {
         }
     }
 
-    /// Rows in descending order of their instants. The value jumps by a whole turn of 6.2, so its actual change is only
-    /// 0.2.
+    /// The rows are in descending order of their instants. The value jumps by a whole turn of 6.2, so its actual change
+    /// is only 0.2.
     #[test]
     fn drift_follows_the_slope_of_the_column() {
         let values: Vec<Rounded> = [0.5, 0.3, 6.3, 6.1].map(Rounded::exact).to_vec();

@@ -7,7 +7,7 @@ use linkage::math::KeepNan;
 /// One row of both columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowPair {
-    /// Index of the row in the column of the party that defines the instants.
+    /// Index of the row in the column of the party whose instants are used.
     pub row: usize,
     /// Time (s); NaN if unknown.
     pub time: f64,
@@ -19,8 +19,8 @@ pub struct RowPair {
     pub difference: f64,
     /// Largest difference allowed.
     pub bound: f64,
-    /// Known part of the bound. It comes from the digits of numbers and instants, from rounding, and from the error
-    /// bounds of the parties.
+    /// Known part of the bound. The known part comes from the digits of numbers and instants, from rounding, and from
+    /// the error bounds of the parties.
     pub known: f64,
 }
 
@@ -33,7 +33,8 @@ impl RowPair {
     }
 }
 
-/// A difference that is allowed in addition to the known part of the bound. The larger of the two fields counts.
+/// A difference that is allowed in addition to the known part of the bound. The larger of the fields `fixed` and
+/// `of_value` counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Allowance {
     /// Allowance that is the same in every row, in the unit of the columns.
@@ -49,9 +50,9 @@ pub struct Beside<'a> {
     pub values: [&'a [Rounded]; 2],
     /// Times (s) and crank angles (rad) of the rows; NaN if unknown.
     pub places: [&'a [f64]; 2],
-    /// Uncertainty caused by the digits of the instants, row by row; empty if there is none.
+    /// Uncertainty caused by the digits of the instants, row by row; empty if the digits cause no uncertainty.
     pub drift: &'a [f64],
-    /// Period of a quantity for which values that differ by a multiple of it mean the same, such as a whole turn.
+    /// Period of a quantity, such as a whole turn. Values that differ by a multiple of the period mean the same.
     pub turn: Option<f64>,
     /// What is allowed.
     pub allowance: Allowance,
@@ -70,7 +71,7 @@ pub struct ScaleColumn {
 }
 
 impl ScaleColumn {
-    /// Selects the reference. Each flag says whether that column comes from an analytic side.
+    /// Selects the reference. Each flag says whether the first or the second column comes from an analytic side.
     #[must_use]
     pub fn among([one, other]: [bool; 2]) -> Self {
         ScaleColumn { party: usize::from(!one && other), is_analytic: one || other }
@@ -98,8 +99,8 @@ pub struct JudgedColumns {
     pub since: Option<RowPair>,
 }
 
-/// Compares the columns row by row.
-/// If one value is a number and the other is a computed NaN, the row exceeds its bound.
+/// Compares the two columns row by row.
+/// If one value is a number and the other value is a computed NaN, the row exceeds its bound.
 #[must_use]
 pub fn judge(both: &Beside) -> JudgedColumns {
     let Beside { values, places, drift, turn, allowance, measure } = *both;
@@ -153,7 +154,7 @@ mod tests {
         judge(&Beside { values: [first, second], places, drift: &[], turn: None, allowance, measure })
     }
 
-    /// The rows are in descending order of their instants: of times if known, otherwise of crank angles.
+    /// The rows are in descending order of their instants. The instants are times if known, otherwise crank angles.
     #[test]
     fn judgement_values_belong_to_their_row() {
         let of = |value: f64, error: f64| Rounded { value, error };
@@ -170,9 +171,10 @@ mod tests {
             assert_eq!(found.rms, (17.0f64 / 3.0).sqrt());
             let largest = found.largest.unwrap();
             assert_eq!((largest.row, largest.difference, largest.bound), (2, -4.0, 3.0));
-            // The NaN is the worst row. It has the earliest instant, so it is also the first row beyond its bound.
+            // The row with the NaN is the worst row. This row also has the earliest instant, so it is the first row
+            // beyond its bound.
             assert_eq!([found.worst, found.since].map(|own| own.unwrap().row), [4, 4]);
-            // The second party is now the reference. The bound therefore depends on its number, 26.
+            // The second party is now the reference. The bound therefore depends on the second party's number, 26.
             let by_other = judge(&Beside { measure: ScaleColumn { party: 1, is_analytic: false }, ..both });
             assert_eq!(by_other.largest.unwrap().bound, 0.1 * 26.0);
             // With a turn of 5, a difference of 4 becomes -1.
@@ -192,10 +194,10 @@ mod tests {
         let found = of(UNDEFINED);
         assert_eq!((found.judged, found.missing, found.since.map(|at| at.row)), (4, 0, Some(1)));
         assert!(found.largest.unwrap().difference == 0.0 && found.worst.unwrap().used().is_infinite());
-        // The analytic side has no number in this row. A number of the other side is then not an error.
+        // The analytic side has no number in this row. A number of the side that is not analytic is then no error.
         let found = judged(&[right[0], UNDEFINED], &right[..2], [true, false]);
         assert_eq!((found.judged, found.missing, found.since), (1, 1, None));
-        // Neither column is analytic, and only one of them has a number.
+        // Neither column is analytic, and only one of the two columns has a number, so the row exceeds its bound.
         assert!(judged(&[right[0], UNDEFINED], &right[..2], [false; 2]).since.is_some());
         assert_eq!(judged(&[UNDEFINED], &[UNDEFINED], [false; 2]).missing, 1);
     }

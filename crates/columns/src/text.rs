@@ -11,7 +11,7 @@ use super::cell::TableCell;
 use super::constant::numbers_beside;
 use formula::Rounded;
 
-/// Characters that begin a comment line.
+/// Characters with which a comment line begins.
 const COMMENTS: [char; 3] = ['#', '%', ';'];
 
 /// A table as read from a file. The columns have no meaning yet. All columns have the same length.
@@ -60,7 +60,7 @@ pub struct TableFault {
     pub help: String,
 }
 
-/// Two columns with the same name. It can be displayed as a message.
+/// Two columns with the same name. The pair can be displayed as a message.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Twice {
     /// The name.
@@ -96,7 +96,7 @@ impl fmt::Display for Twice {
     }
 }
 
-/// Largest memory (bytes) that the numbers of a text take.
+/// Upper limit of the memory that the numbers of a text need (bytes).
 #[must_use]
 pub fn bytes(text: &str) -> f64 {
     let cells = text.bytes().filter(|byte| matches!(byte, b',' | b';' | b'\t' | b' ' | b'\n')).count() + 1;
@@ -106,8 +106,8 @@ pub fn bytes(text: &str) -> f64 {
 /// Reads a table. The last line shows which character separates the columns.
 ///
 /// # Errors
-/// A line whose number of cells differs from that of the header, a cell that is not a number, two columns with the same
-/// name, or no line at all.
+/// A line whose number of cells differs from that of the header, or a cell that is not a number.
+/// Also two columns with the same name, or a text without any line.
 pub fn read(text: &str) -> Result<TextTable, TableFault> {
     let wrong = |start: usize, message: String, help: &str| {
         let length = text[start..].find(['\r', '\n']).unwrap_or(text.len() - start);
@@ -162,7 +162,7 @@ pub fn read(text: &str) -> Result<TextTable, TableFault> {
     Ok(TextTable { names, columns, lines: places })
 }
 
-/// A cell. Decimal commas are accepted if commas do not separate the cells.
+/// The number in a cell. Decimal commas are accepted if commas do not separate the cells.
 fn number(cell: &str) -> Option<TableCell> {
     TableCell::parse(cell)
         .or_else(|| (cell.matches(',').count() == 1).then(|| TableCell::parse(&cell.replace(',', ".")))?)
@@ -262,7 +262,7 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// For any text the result is columns of equal length, or a fault with its location.
+        /// For any text the result is either columns of equal length, or a fault with its location.
         #[test]
         fn any_text_is_a_table_or_a_fault(text in "([-+0-9.,;eE \t\r\n#\"a-z\u{fc}\u{20ac}]{0,12}\n){0,8}") {
             match read(&text) {

@@ -1,4 +1,5 @@
-//! Largest reactions and moments over the grid's range, refined between samples, and the journal diameters they require.
+//! Largest reactions and moments over the grid's range, refined between samples, and the journal diameters that these
+//! loads require.
 
 use crate::sentences;
 use linkage::math::KeepNan;
@@ -12,8 +13,8 @@ use linkage::math::statistics::ends;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Upper limit of the crank angle between two samples (rad). It suffices because a reaction has only a few maxima per
-/// turn.
+/// Upper limit of the crank angle between two samples (rad).
+/// The limit suffices because a reaction has only a few maxima per turn.
 const SAMPLE_STEP: f64 = PI / 360.0;
 
 /// Largest value of a quantity over a range of crank angles, with the crank angle where it occurs.

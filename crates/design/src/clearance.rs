@@ -1,5 +1,5 @@
 //! Clearance: smallest distances between links and from a housing, first collision, and swept areas.
-//! Every result is proven for all crank angles in the range of the grid, also for those between the instants.
+//! Every result is proven for all crank angles in the range of the grid, also for crank angles between the instants.
 
 mod gap;
 mod search;
@@ -32,7 +32,8 @@ use tube::Tubes;
 /// Default tolerance of a distance, divided by the mechanism's size.
 const TOLERANCE: f64 = 1e-6;
 /// Contact distance, divided by the mechanism's size.
-/// If a part of the range cannot be halved further, bodies that are nearer than this count as touching.
+/// If a part of the range cannot be halved further, bodies nearer to each other than the contact distance count as
+/// touching.
 const TOUCH: f64 = 1e-9;
 /// Upper limit of the number of pairs of convex parts that one run examines, over all parts of the range.
 /// `AREA_BUDGET` is the upper limit of the number of tests for one swept area.
@@ -42,7 +43,7 @@ const AREA_BUDGET: usize = 8_000_000;
 /// Clearance of one pair of bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairClearance {
-    /// Indices of the two bodies in the question.
+    /// Indices of the two bodies in the question's list of bodies.
     pub bodies: [usize; 2],
     /// Smallest distance over the range.
     pub smallest: Smallest,
@@ -56,9 +57,9 @@ pub struct PairClearance {
 /// Operation counts of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClearanceWork {
-    /// Poses computed by side 1 for distances.
+    /// Number of poses that side 1 computes for distances.
     pub poses: usize,
-    /// Additional poses computed by side 1 for swept areas.
+    /// Number of additional poses that side 1 computes for swept areas.
     pub positions: usize,
     /// Number of pairs of convex parts whose nearest points were computed.
     pub distances: usize,
@@ -75,7 +76,7 @@ pub struct ClearanceResult {
     pub pairs: Vec<PairClearance>,
     /// Swept areas of the question's moving bodies: index of the body and area.
     pub swept: Vec<(usize, Area)>,
-    /// Parts of the range (rad) for which no bound could be proven. They lie around singular poses.
+    /// Parts of the range (rad) for which no bound could be proven. These parts lie around singular poses.
     pub open: Vec<[f64; 2]>,
     /// Error bound of the smallest distances (m).
     pub tolerance: f64,
@@ -114,7 +115,7 @@ impl ClearanceResult {
 /// `progress` receives the finished fraction, from 0 to 1.
 ///
 /// The poses repeat after a turn if all groups are dyads, there is one drive, and change points are not passed.
-/// Only one turn of a longer range is then examined.
+/// If the poses repeat and the range is longer than a turn, only one turn is examined.
 /// For a free motion with one degree of freedom, the range spans the crank angles at the instants of the grid.
 ///
 /// # Errors

@@ -1,5 +1,5 @@
 //! Drawings as SVG with one unit per millimetre.
-//! The scale factors on a drawing hold if it is printed at full size.
+//! The scale factors on a drawing are correct if the drawing is printed at full size.
 
 mod axes;
 mod clearance_sheet;

@@ -21,7 +21,7 @@ pub use slider_crank::SliderCrank;
 use linkage::error::{Error, ErrorKind};
 use std::f64::consts::PI;
 
-/// Time of the slower stroke divided by that of the faster one, at a constant speed of the crank:
+/// Time of the slower stroke divided by that of the faster stroke, at a constant speed of the crank:
 /// K = (pi + |theta|) / (pi - |theta|).
 /// `theta` (rad) is the difference between the directions of crank and coupler in the two extreme positions.
 fn time_ratio(theta: f64) -> f64 {

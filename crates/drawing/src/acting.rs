@@ -8,9 +8,9 @@ use linkage::mechanism::JointSide;
 /// A load that is drawn as an arrow, at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Acting {
-    /// Number of the load in its case.
+    /// Index of the load in the loads of its case.
     pub load: usize,
-    /// World position at which it is drawn (m).
+    /// World position at which the load is drawn (m).
     pub at: Vec2,
     /// The force (N, world axes).
     pub force: Vec2,
@@ -37,14 +37,14 @@ pub fn acting(case: &Case, sketch: &super::Sketch, motions: &[Motion], angles: &
 /// Force or moment of a spring or damper between its two points or links, at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tension {
-    /// Number of the load in its case.
+    /// Index of the load in the loads of its case.
     pub load: usize,
-    /// Between points: the force (N) that pulls them together; below 0 it pushes them apart.
-    /// Between links: the moment (N m) on the first one, counter-clockwise positive.
+    /// Between points: the force (N) that pulls the two points together; a negative force pushes them apart.
+    /// Between links: the moment (N m) on the first link, counter-clockwise positive.
     pub size: f64,
 }
 
-/// Forces and moments of all springs and dampers. Arguments as in [`acting`].
+/// Forces and moments of all springs and dampers. The arguments are those of [`acting`].
 #[must_use]
 pub fn tensions(case: &Case, motions: &[Motion], angles: &[f64]) -> Vec<Tension> {
     let of = |(load, own): (usize, &Load)| {

@@ -6,19 +6,20 @@ use super::mark::{Mark, MarkRole};
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
-/// Dimensions in units of the sketch: `WELD` is the radius of the half disc that marks a bar as continuous.
-/// `MASS` is the radius of a mass centre. `TRACER` is half the width of a traced point's cross.
+/// Radius of the half disc that marks a bar as continuous, in units of the sketch.
+/// `MASS` is the radius of a mass centre, in the same units. `TRACER` is half the width of a traced point's cross, in
+/// the same units.
 const WELD: f64 = 2.0;
 const MASS: f64 = 1.7;
 const TRACER: f64 = 1.1;
-/// Corners of a quarter of a circle.
+/// Number of corners of a quarter of a circle that is drawn as a line.
 const QUARTER: usize = 6;
 
 /// Positions on a link (m, in its frame): its points, then its joints without a named point.
 pub fn places(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     let points = mechanism.links()[link].points.iter().map(|point| point.local);
     let all = points.chain(mechanism.joints().iter().filter_map(|joint| joint.on(link)));
-    // Positive and negative zero are the same position.
+    // Positive and negative zero are the same position, so adding 0.0 makes them equal.
     let mut seen = BTreeSet::new();
     all.filter(|place| seen.insert([place.x, place.y].map(|own| (own + 0.0).to_bits()))).collect()
 }
@@ -29,7 +30,7 @@ pub fn corners(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
 }
 
 /// A point on a link where a symbol hides no joint: the middle of a plate, or of the longest piece of a bar.
-/// `None` if the piece or plate is shorter than `least` (m).
+/// `None` if the plate or the piece is shorter than `least` (m).
 pub fn free(mechanism: &Mechanism, link: LinkId, least: f64) -> Option<Vec2> {
     let (mut places, corners) = (places(mechanism, link), corners(mechanism, link));
     if let [first, _] = corners[..] {
@@ -102,7 +103,8 @@ pub fn size(mechanism: &Mechanism, link: LinkId) -> f64 {
     places.iter().flat_map(|a| places.iter().map(move |b| (a - b).norm())).fold(0.0, f64::larger)
 }
 
-/// Convex hull, counter-clockwise; both ends if all points are on one line (Andrew 1979).
+/// Convex hull of the points `places`, counter-clockwise (Andrew 1979).
+/// If all points are on one line, the result is the two ends of the line.
 fn hull(mut places: Vec<Vec2>) -> Vec<Vec2> {
     places.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let far = places.iter().map(|at| (at - places[0]).norm_squared()).fold(0.0, f64::larger);
@@ -134,7 +136,7 @@ mod tests {
         assert_eq!(at(&[(0.0, 0.0), (2.0, 2.0), (1.0, 1.0)]), 2);
         assert_eq!(at(&[(0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (1.0, 0.2)]), 3);
         assert_eq!((at(&[(0.0, 0.0)]), at(&[])), (1, 0));
-        // A plate far from the frame's origin must not be taken for a bar.
+        // A plate far from the frame's origin must not be mistaken for a bar.
         assert_eq!(at(&[(1e4, 0.0), (1e4 + 1.0, 0.0), (1e4, 1.0)]), 3);
     }
 }

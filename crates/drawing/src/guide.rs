@@ -8,7 +8,7 @@ use linkage::math::{KeepNan, Vec2, cross, turned};
 use linkage::mechanism::{GROUND, Guise, Joint, JointId, JointSide, LinkId, Mechanism};
 
 /// Half length and half width of a block: `FIXED` in a fixed guide, `MOVING` on a moving guide.
-/// They differ so that both blocks are visible at the same joint.
+/// The two sizes differ so that both blocks are visible at the same joint.
 const FIXED: [f64; 2] = [5.0, 3.2];
 const MOVING: [f64; 2] = [3.8, 2.0];
 /// Clearance between a block and the wall beside it.
@@ -18,7 +18,7 @@ const HEAD: f64 = 2.5;
 /// Length of hatching lines, and their spacing along the rail.
 const HATCH: f64 = 1.6;
 const PITCH: f64 = 2.0;
-/// A centre line extends at most this far beyond the rail, towards the ground point on its line.
+/// A centre line extends at most this far beyond the rail, towards a ground point on the centre line.
 const AXIS: f64 = 150.0;
 /// No rail is drawn in a box around a pivot.
 /// `BELOW` is the distance of the box's centre below the pin, and `BOX` is half its width and height.
@@ -68,8 +68,8 @@ pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(LinkId
 
 /// Whether a prismatic pair is drawn as a piston in a cylinder.
 /// If the joint states how it is drawn, this statement decides.
-/// Otherwise it is a cylinder if the names say so.
-/// It is also a cylinder if the guide moves and all points of the block's link lie on the axis.
+/// Otherwise the pair is a cylinder if the names say so.
+/// The pair is also a cylinder if the guide moves and all points of the block's link lie on the axis.
 fn is_cylinder(mechanism: &Mechanism, joint: &Joint, guide: JointSide, block: JointSide, axis: Vec2) -> bool {
     if let Some(guise) = joint.drawn {
         return guise == Guise::Cylinder;
@@ -118,7 +118,7 @@ impl Guide {
     }
 
     /// The closed end of a cylinder: 1 in the direction of the axis, -1 in the opposite direction.
-    /// The closed end is farther from the guide's point, where the crank is.
+    /// The crank is at the guide's point, so the closed end is the end farther from this point.
     fn head(&self) -> f64 {
         if self.travel[1] + self.travel[0] >= 0.0 { 1.0 } else { -1.0 }
     }
@@ -130,7 +130,7 @@ impl Guide {
     }
 
     /// Marks of a moving guide: a slot, or a cylinder that is open opposite its head.
-    /// If the slot or cylinder does not reach the guide's point, a bar connects them.
+    /// If the slot or cylinder does not reach the guide's point, a bar connects it with this point.
     fn moving(&self) -> Vec<Mark> {
         let ([from, to], play) = (self.covered(), PLAY * self.unit);
         let ends = if self.is_cylinder { self.barrel() } else { [from - play, to + play] };
@@ -142,12 +142,12 @@ impl Guide {
         self.lead(ends).into_iter().chain([guide]).collect()
     }
 
-    /// The corners of a strip from its open end around the head.
+    /// The corners of a strip, in order from its open end around the head.
     fn open(&self, [a, b, c, d]: [Vec2; 4]) -> [Vec2; 4] {
         if self.head() > 0.0 { [a, d, c, b] } else { [d, a, b, c] }
     }
 
-    /// The bar from the guide's point to a slot or cylinder that does not reach it.
+    /// The bar from the guide's point to a slot or cylinder that does not reach this point.
     fn lead(&self, [from, to]: [f64; 2]) -> Option<Mark> {
         let near = 0.0_f64.clamp(from, to);
         let ends = [0.0, near].map(|way| self.guide.local + self.axes[0] * way);
@@ -156,7 +156,8 @@ impl Guide {
 
     /// Rails or bore of a fixed guide, hatched, and its centre line.
     /// Rails are interrupted at pivots.
-    /// Where a rail lies on the line of an earlier rail, it is not hatched again: the hatching would fill the gaps.
+    /// Where a rail lies on the line of an earlier rail, the rail is not hatched again: the second hatching would fill
+    /// the gaps.
     fn fixed(&self, pivots: &[Vec2], drawn: &mut Vec<[Vec2; 2]>) -> Vec<Mark> {
         let u = self.unit;
         let (role, ends) =
@@ -166,7 +167,7 @@ impl Guide {
         let mut marks = vec![Mark::line(MarkRole::Axis, centre.map(|way| self.guide.local + self.axes[0] * way))];
         let [a, b, c, d] = self.open(self.strip(ends, self.gap()));
         // The path along the walls runs from the open end over the head and back.
-        // The hatched outer side of a wall may be to the left or to the right of this path.
+        // The outer side of a wall, which is hatched, may be to the left or to the right of this path.
         let walls = if self.is_cylinder { vec![[a, b], [b, c], [c, d]] } else { vec![[a, b], [c, d]] };
         let middle = (a + b + c + d) / 4.0;
         for wall in walls {

@@ -14,7 +14,7 @@ use linkage::mechanism::{
 /// A joint is open if its gap is larger than this fraction of the mechanism's size.
 const OPEN: f64 = 1e-6;
 /// Gaps smaller than this fraction of the largest gap are ignored.
-/// Such small gaps arise only because the largest gap is distributed over the joints.
+/// Such small gaps arise only because the largest gap is distributed among the joints.
 const SEEN: f64 = 1e-2;
 
 /// A mechanism at one instant, whole or in part.
@@ -22,7 +22,7 @@ const SEEN: f64 = 1e-2;
 pub struct Laid {
     /// Where every link is.
     pub places: Vec<LinkPlacement>,
-    /// Joints that stay open: number, and the two world points (m) that should coincide.
+    /// Joints that stay open: the joint, and the two world points (m) that should coincide.
     pub gaps: Vec<(JointId, [Vec2; 2])>,
     /// For dyads that cannot be closed: circles on which the inner pin would lie, as centres and radii (m).
     pub reaches: Vec<(Vec2, f64)>,
@@ -39,7 +39,7 @@ pub struct GroupPlacement {
     pub group: GroupId,
     /// Its mode.
     pub mode: AssemblyMode,
-    /// Number of its configuration, counted from 1; 0 if unknown.
+    /// Number of the group's configuration, counted from 1; 0 if unknown.
     pub number: usize,
 }
 
@@ -115,7 +115,7 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
             }
             Err(error) => {
                 // If the group can be closed, its only fault is an unspecified mode.
-                // Otherwise, the circles on which its inner pin would lie are listed.
+                // If the group cannot be closed, the circles on which its inner pin would lie are listed.
                 if configurations(mechanism, group, &laid.pose()).is_err() {
                     laid.reaches.extend(reaches(mechanism, group, &laid));
                 }
@@ -213,8 +213,8 @@ fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)
     group.links.iter().zip(&group.outer).filter_map(of_link).collect()
 }
 
-/// All configurations of a mechanism with the driving links at these world angles (rad), at most `most` of them.
-/// Each is assembled as far as possible.
+/// At most `most` configurations of a mechanism whose driving links have these world angles (rad).
+/// Each configuration is assembled as far as possible.
 /// A group whose configurations are not all known is placed in the mode that `starts` selects.
 #[must_use]
 pub fn all_modes(

@@ -14,7 +14,7 @@ pub enum MarkShape {
     Line {
         /// Its corners.
         points: Vec<Vec2>,
-        /// Whether the last corner is joined to the first.
+        /// Whether the last corner is joined to the first corner.
         closed: bool,
     },
     /// A circle.
@@ -32,7 +32,7 @@ pub enum MarkShape {
         radius: f64,
         /// Direction of the first end from the centre (rad), counter-clockwise from the frame's x axis.
         from: f64,
-        /// Angle from the first end to the last (rad), counter-clockwise positive.
+        /// Angle from the first end to the last end (rad), counter-clockwise positive.
         sweep: f64,
     },
 }
@@ -57,7 +57,7 @@ impl MarkShape {
         }
     }
 
-    /// Whether the last of its points is joined to the first.
+    /// Whether the last point of the shape is joined to its first point.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         matches!(self, MarkShape::Line { closed: true, .. } | MarkShape::Circle { .. })
@@ -94,7 +94,7 @@ roles! {
     Rail = "rail": Text, None, 0.5, Ground;
     /// Wall of a fixed cylinder.
     Bore = "bore": Text, None, 0.5, Ground;
-    /// Pivot on the ground: its triangle, the line that it stands on, and the hatching below.
+    /// Pivot on the ground: its triangle, the line below the triangle, and the hatching below this line.
     Pivot = "pivot": Text, Tint, 0.35, Blocks;
     /// Stroke across a guide at a ground point that is not a pivot.
     Stop = "stop": Text, None, 0.4, Ground;
@@ -192,7 +192,7 @@ pub struct Look {
     pub ink: Ink,
     /// What it encloses.
     pub fill: Fill,
-    /// Thickness of its line, in units of the sketch.
+    /// Thickness of the mark's line, in units of the sketch.
     pub width: f64,
     /// Where it lies.
     pub layer: Layer,
@@ -201,7 +201,7 @@ pub struct Look {
 /// A shape and its meaning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
-    /// The shape, in the frame of its link (m).
+    /// The shape, in the frame of the mark's link (m).
     pub shape: MarkShape,
     /// What it stands for.
     pub role: MarkRole,
@@ -226,7 +226,7 @@ impl Mark {
         Mark { role, shape: MarkShape::Circle { centre, radius } }
     }
 
-    /// A part of a circle: directions of its first end and angle to its last (rad).
+    /// A part of a circle, with the direction of its first end and the angle from the first end to the last end (rad).
     #[must_use]
     pub fn arc(role: MarkRole, centre: Vec2, radius: f64, [from, sweep]: [f64; 2]) -> Mark {
         Mark { role, shape: MarkShape::Arc { centre, radius, from, sweep } }

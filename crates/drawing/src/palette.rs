@@ -1,6 +1,6 @@
 //! Colours of links, the same in every picture.
 //!
-//! Colour is never the only distinction: links have numbers, and plates are hatched at different angles.
+//! Colour is never the only distinction: links also have numbers, and plates are hatched at different angles.
 
 use linkage::mechanism::LinkId;
 
@@ -15,7 +15,7 @@ pub struct PaletteColour {
     pub hatch_deg: f64,
 }
 
-/// Colours of links, different in grey scale too (after Okabe and Ito 2008).
+/// Colours of links, which also differ in grey scale (after Okabe and Ito 2008).
 pub const LINKS: [PaletteColour; 7] = [
     PaletteColour { light: "#0072b2", dark: "#56b4e9", hatch_deg: 45.0 },
     PaletteColour { light: "#d55e00", dark: "#ff8c42", hatch_deg: -45.0 },

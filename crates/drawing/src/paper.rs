@@ -1,5 +1,5 @@
 //! Pictures on paper: lines, shapes and letters in millimetres, as SVG.
-//! Printed at full size they have the scale factors stated on them.
+//! If a picture is printed at full size, the scale factors stated on it are correct.
 
 pub mod document;
 pub mod figure;

@@ -23,13 +23,13 @@ const FORCE: f64 = 22.0;
 const GRAVITY: f64 = 12.0;
 const MOMENT: f64 = 6.5;
 /// If a force or moment is below `LEAST` times the largest one, or below `NOTHING` (N, N m), it is not drawn.
-/// Such values are rounding errors.
+/// Such small values are rounding errors.
 const LEAST: f64 = 1e-6;
 const NOTHING: f64 = 1e-9;
 /// Dash patterns: `LOOSE` for links whose pose is uncertain, `CONSTRUCTION` for construction lines.
 const LOOSE: &str = "2 1.4";
 const CONSTRUCTION: &str = "4 1 0.5 1";
-/// Half the angle over which a circle of reachable points is drawn (rad).
+/// Half the angle of the arc that is drawn of a circle of reachable points (rad).
 const REACH: f64 = 0.7;
 /// Opacity of tints.
 const TINT: f64 = 0.14;
@@ -63,7 +63,7 @@ impl LinkPlacement {
 pub struct Picture<'a> {
     sketch: &'a Sketch,
     places: &'a [LinkPlacement],
-    /// Length in the world of a millimetre on paper (m).
+    /// Length in the world that corresponds to a millimetre on paper (m).
     scale: f64,
     /// What is drawn.
     pub figure: DrawnFigure,
@@ -148,7 +148,8 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Positions on paper and texts of the labels for which `wanted` holds, for [`Picture::name`].
+    /// Positions on paper and texts of the labels for which `wanted` returns true. They are the argument of
+    /// [`Picture::name`].
     #[must_use]
     pub fn names(&self, wanted: impl Fn(Lettering) -> bool) -> Vec<(Vec2, String)> {
         let labels = self.sketch.labels.iter().filter(|label| wanted(label.names));
@@ -195,14 +196,14 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// A text at a point on paper, in a preferred direction from it. If the direction is zero, any direction may be
-    /// chosen.
+    /// Adds a text at a point on paper, in a preferred direction from the point. If the direction is zero, any
+    /// direction may be chosen.
     pub fn letters(&mut self, anchor: Vec2, away: Vec2, clear: f64, text: String, paint: &'static str) {
         let label = labels::PlacedLabel { anchor, away, size: label_size(&text), clear };
         self.written.push(Written { sort: Sort::Letters, label, text, paint });
     }
 
-    /// Arrows of forces and moments, each with its value. The largest force is 22 mm long.
+    /// Draws arrows of forces and moments, each with its value. The largest force is 22 mm long.
     /// The arrows begin at the points on which the loads act.
     pub fn draw_loads(&mut self, all: &[Acting]) {
         let largest = all.iter().map(|own| own.force.norm()).fold(0.0, f64::larger);
@@ -222,7 +223,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// An arrow in the direction of gravity, to the left of the drawing at its top.
+    /// Draws an arrow in the direction of gravity, at the upper left of the drawing.
     pub fn draw_gravity(&mut self, gravity: Vec2) {
         if !(gravity.norm() > 0.0) {
             return;
@@ -238,7 +239,7 @@ impl<'a> Picture<'a> {
         marks.iter().for_each(|mark| self.put(mark, GROUND, |own| own + at));
     }
 
-    /// The path of a point in the world (m), beneath later drawings.
+    /// Draws the path of a point in the world (m). Later drawings cover the path.
     pub fn draw_trace(&mut self, path: &[Vec2], link: LinkId) {
         let points: Vec<Vec2> = path.iter().map(|at| at / self.scale).collect();
         if points.len() > 1 {
@@ -282,7 +283,7 @@ impl<'a> Picture<'a> {
     }
 
     /// Places all labels and returns the figure.
-    /// `drawings` is the number of figures made together: they share the allowed work for placing labels.
+    /// `drawings` is the number of figures made together: these figures share the allowed work for placing labels.
     #[must_use]
     pub fn finish(mut self, drawings: usize) -> DrawnFigure {
         self.written.sort_by_key(|own| own.sort);

@@ -8,7 +8,7 @@ use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 pub const PIN: f64 = 1.2;
 const RING: f64 = 0.9;
 
-/// Revolute joints at one point: the point in the frame of every link there, and the number of joints.
+/// Revolute joints at one point: the point in the frame of every link at this point, and the number of joints.
 struct Place {
     sides: Vec<JointSide>,
     joints: usize,
@@ -30,13 +30,14 @@ fn shared(mechanism: &Mechanism) -> Vec<Place> {
     all
 }
 
-/// Positions on the ground of all revolute pairs with it (m).
+/// Positions on the ground of all revolute pairs with the ground (m).
 pub fn pivots(mechanism: &Mechanism) -> Vec<Vec2> {
     let on_ground = |place: &Place| place.sides.iter().find(|side| side.link == GROUND).map(|side| side.local);
     shared(mechanism).iter().filter_map(on_ground).collect()
 }
 
-/// All pins and pivots: the link that each mark belongs to, and the mark. A pin is drawn once, on the first of its links.
+/// All pins and pivots: the link that each mark belongs to, and the mark. A pin is drawn once, on the first of its
+/// links.
 pub fn marks(mechanism: &Mechanism, unit: f64) -> Vec<(LinkId, Mark)> {
     let mut marks = Vec::new();
     for place in shared(mechanism) {

@@ -14,20 +14,20 @@ const TITLE: f64 = 5.2;
 const HEADING: f64 = 4.2;
 const NOTE: f64 = 3.4;
 const LINE: f64 = 1.45;
-/// Height of the space for the scale below a picture (mm), and the greatest length of the scale.
+/// Height of the space for the scale bar below a picture, and upper limit of the scale bar's length (mm).
 const SCALE: f64 = 9.0;
 const LONGEST: f64 = 40.0;
 
 /// One picture of a sheet.
 #[derive(Clone, Debug)]
 pub struct SheetCell {
-    /// Lines above it; the first is bold.
+    /// Lines above the picture. The first line is bold.
     pub heading: Vec<String>,
     /// The picture.
     pub figure: DrawnFigure,
-    /// Corners of the area that the picture may cover (mm): the same for all frames of an animation.
+    /// Corners of the area that the picture may cover (mm). The area is the same for all frames of an animation.
     pub bounds: [Vec2; 2],
-    /// Length in the world of a millimetre on paper (m).
+    /// Length in the world that corresponds to a millimetre on paper (m).
     pub scale: f64,
     /// Faults, written below it.
     pub faults: Vec<String>,
@@ -42,7 +42,7 @@ pub fn fit(extent: Vec2, room: Vec2) -> f64 {
     }
     let power = 10f64.powi(least.log10().floor() as i32 - 1);
     let rounded = (least / power * (1.0 - 1e-12)).ceil() * power;
-    // Parsed from text, so that it is printed with its two digits.
+    // The scale is parsed from text, so that it is printed with its two digits.
     format!("{rounded:.1e}").parse().unwrap_or(rounded)
 }
 
@@ -113,7 +113,7 @@ fn scale(sheet: &mut DrawnFigure, at: Vec2, scale: f64) {
     sheet.text(end + Vec2::new(2.0, -1.1), millimetres(long), Type { colour: GREY, ..words(NOTE) });
 }
 
-/// A text broken into lines of this width (mm) at a font size (mm).
+/// A text broken into lines of at most `wide` (mm), at the font size `size` (mm).
 fn wrapped(text: &str, size: f64, wide: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

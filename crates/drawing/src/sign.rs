@@ -6,7 +6,8 @@ use linkage::math::{KeepNan, Vec2, turned, unit};
 use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 use std::f64::consts::{PI, TAU};
 
-/// Arrow of a drive's direction: its radius, the angle that it spans (rad), and the angle from its link to its start.
+/// Arrow of a drive's direction: its radius, the angle that it spans (rad), and the angle from the driven link to the
+/// arrow's start.
 const DRIVE: f64 = 8.0;
 const SWEEP: f64 = 1.7;
 const AHEAD: f64 = 0.35;
@@ -23,12 +24,12 @@ const STEPS: usize = 54;
 /// Radius of a torsional damper's drum.
 const DRUM: f64 = 5.4;
 
-/// A load drawn as an arrow. Its size and direction are known only for a given state of the mechanism.
+/// A load drawn as an arrow. The arrow's size and direction are known only for a given state of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadSign {
-    /// Number of the load in its case.
+    /// Index of the load in the loads of its case.
     pub load: usize,
-    /// Where it is drawn: for a force the point on which it acts, for a moment a pin of the link.
+    /// Point at which the arrow is drawn: for a force the point on which it acts, for a moment a pin of the link.
     pub at: JointSide,
 }
 
@@ -53,7 +54,7 @@ fn place_between(mechanism: &Mechanism, links: [LinkId; 2]) -> JointSide {
     }
 }
 
-/// The arrow of a load; `None` for springs and dampers, which have other symbols.
+/// The arrow of a load. `None` for springs and dampers, which have symbols instead of arrows.
 pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<LoadSign> {
     match load.nature().on {
         On::Link(link) => Some(LoadSign { load: number, at: JointSide { link, local: place_of(mechanism, link) } }),
@@ -62,7 +63,7 @@ pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<Load
     }
 }
 
-/// The symbol of a torsional spring or damper, and its link; `None` for other loads.
+/// The symbol of a torsional spring or damper, and the link of the symbol. `None` for loads of any other kind.
 pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(LinkId, Vec<Mark>)> {
     let On::Links(links) = load.nature().on else { return None };
     let JointSide { link, local } = place_between(mechanism, links);

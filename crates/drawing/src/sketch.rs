@@ -10,13 +10,13 @@ use linkage::drive::{Drive, Load};
 use linkage::math::{Vec2, turned};
 use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 
-/// Units in the size of a mechanism, if the size of the picture is unknown.
+/// Size of a mechanism in units of its sketch, if the size of the picture is unknown.
 const UNITS: f64 = 60.0;
 /// Half length of the stroke at a ground point on a guide.
 const STOP: f64 = 1.4;
 
 /// The unit (m) of a sketch if the size of its picture is unknown: a pin is 2.4 units wide, a block 10 units long.
-/// A picture about 150 units wide reads well.
+/// A picture about 150 units wide is easy to read.
 #[must_use]
 pub fn unit(mechanism: &Mechanism) -> f64 {
     mechanism.size() / UNITS
@@ -27,7 +27,7 @@ pub fn unit(mechanism: &Mechanism) -> f64 {
 pub struct Sketch {
     /// Unit length (m) of symbols and line widths.
     pub unit: f64,
-    /// Every link, in the order of the mechanism; the first is the ground, in world coordinates.
+    /// Every link, in the order of the mechanism. The first is the ground, in world coordinates.
     pub bodies: Vec<LinkMarks>,
     /// Springs and dampers between points.
     pub stretched: Vec<Stretched>,
@@ -37,14 +37,14 @@ pub struct Sketch {
     pub labels: Vec<SketchLabel>,
 }
 
-/// The marks of one link, in its frame.
+/// The marks of one link, in the frame of the link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkMarks {
     /// Number of the link.
     pub link: LinkId,
     /// Its marks.
     pub marks: Vec<Mark>,
-    /// Largest distance between two of its points (m); infinite for the ground.
+    /// Largest distance between two points of the link (m); infinite for the ground.
     pub size: f64,
 }
 
@@ -73,7 +73,7 @@ pub struct SketchLabel {
 }
 
 impl Sketch {
-    /// Links and joints of a mechanism; the guides are as long as these travels.
+    /// The sketch of the links and joints of a mechanism. The guides are as long as these travels.
     /// Symbols are multiples of `unit` (m): see [`unit`](self::unit).
     #[must_use]
     pub fn of(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Sketch {
@@ -140,7 +140,7 @@ impl Sketch {
     }
 
     /// All marks of all links, with the link's number, in drawing order.
-    /// They are ordered by layer; within a layer, larger links come first.
+    /// The marks are ordered by layer; within a layer, larger links come first.
     /// Springs and dampers belong to [`Layer::Stretched`].
     #[must_use]
     pub fn in_order(&self) -> Vec<(LinkId, &Mark)> {
@@ -154,7 +154,7 @@ impl Sketch {
     }
 }
 
-/// Marks on the ground besides guides and pivots: traced points, and strokes across guides at their points.
+/// Marks on the ground besides guides and pivots: traced points, and strokes across guides at the points of the guides.
 fn ground(mechanism: &Mechanism, unit: f64) -> Vec<Mark> {
     let mut marks: Vec<Mark> =
         body::traced(mechanism, GROUND).into_iter().flat_map(|at| body::tracer(at, unit)).collect();
@@ -177,7 +177,7 @@ fn labels(mechanism: &Mechanism) -> Vec<SketchLabel> {
     let mut labels: Vec<SketchLabel> = fixed.chain(mechanism.moving_points()).map(point).collect();
     for (link, body) in mechanism.links().entries().skip(1) {
         let places = body::places(mechanism, link);
-        // A link without points is invisible.
+        // A link without points is invisible, so it gets no label.
         if places.is_empty() {
             continue;
         }

@@ -7,7 +7,7 @@ use linkage::mechanism::JointSide;
 
 /// Width of springs and dampers.
 const WIDTH: f64 = 4.0;
-/// Distance between the middle lines of parallel springs and dampers, in widths.
+/// Distance between the middle lines of parallel springs and dampers, divided by their width.
 const APART: f64 = 1.25;
 /// Number of teeth of a spring's zigzag.
 /// The teeth begin and end at the fractions `COIL` of the spring's length.
@@ -19,11 +19,11 @@ const COIL: [f64; 2] = [0.18, 0.82];
 pub struct Stretched {
     /// [`MarkRole::Spring`] or [`MarkRole::Damper`].
     pub role: MarkRole,
-    /// Number of the load in its case.
+    /// Index of the load in the loads of its case.
     pub load: usize,
     /// End points.
     pub ends: [JointSide; 2],
-    /// Width (m). The y of the marks is multiplied by it, the x by the distance between the ends.
+    /// Width (m). The y of the marks is multiplied by the width, the x by the distance between the ends.
     pub width: f64,
     /// The drawing from (0, 0) to (1, 0); lines only.
     pub marks: Vec<Mark>,

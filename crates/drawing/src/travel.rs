@@ -4,7 +4,7 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{JointId, LinkId, Mechanism};
 
 /// Range of the distance between the block's point and the guide's point along the guide's axis (m), for every joint.
-/// `None` for joints that do not slide, and before the first pose is included.
+/// The range is `None` for joints that do not slide, and before the first pose is included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Travels(Vec<Option<[f64; 2]>>);
 
@@ -42,7 +42,7 @@ impl Travels {
         }
     }
 
-    /// Travel on the joint of this number (m).
+    /// Travel of the joint with this number (m).
     #[must_use]
     pub fn of(&self, joint: JointId) -> Option<[f64; 2]> {
         self.0[joint]

@@ -36,7 +36,7 @@ pub struct Extras {
     /// Lengths of the links.
     pub dimensions: bool,
     /// Draws only the names of ground points, and numbers only on links with enough space.
-    /// No label then jumps between frames.
+    /// Because of this restriction, no label jumps between frames.
     pub is_moving: bool,
 }
 
@@ -52,7 +52,7 @@ pub struct Shot {
 /// The path of a point: its link, and its positions in the world (m).
 pub type Trace = (LinkId, Vec<Vec2>);
 
-/// The shots as figures at one scale, within this size (mm), without headings.
+/// The shots as figures at one scale. Each figure fits into this size (mm) and has no heading.
 #[must_use]
 pub fn cells(
     subject: &DrawnSubject,
@@ -90,7 +90,7 @@ fn figure(
         picture.draw_trace(path, *link);
     }
     for (index, (centre, radius)) in laid.reaches.iter().enumerate() {
-        // Towards the other circle of the same dyad; along x if there is no other circle.
+        // The arc lies towards the other circle of the same dyad. Without another circle, it lies along x.
         let other = laid.reaches.get(index ^ 1).map_or(Vec2::new(1.0, 0.0), |other| other.0 - centre);
         picture.draw_reach(*centre, *radius, other);
     }

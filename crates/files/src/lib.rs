@@ -28,7 +28,7 @@ use temporary::{clear, create, directory_of};
 ///
 /// # Errors
 /// The errors of `fill` and of the file system.
-/// [`io::ErrorKind::AlreadyExists`] if an existing file may not be replaced. This file then stays unchanged.
+/// [`io::ErrorKind::AlreadyExists`] if an existing file may not be replaced. The existing file then stays unchanged.
 pub fn replace<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&File) -> Result<(), E>) -> Result<(), E> {
     let (place, old) = match target.place()? {
         Place::Open(path) => return fill(&File::options().write(true).open(path)?),
@@ -42,7 +42,8 @@ pub fn replace<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&Fil
     }
     fill(temporary.as_file())?;
     temporary.as_file().sync_all()?;
-    // The rule is checked again, because the file may have appeared since the first check.
+    // The rule for replacing an existing file is checked again, because the file may have appeared since the first
+    // check.
     target.place()?;
     temporary.persist(&place).map_err(|error| error.error)?;
     Ok(())

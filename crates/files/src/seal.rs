@@ -1,4 +1,4 @@
-//! A seal in a file. It shows whether this program wrote the file, and whether anybody has changed it since.
+//! A seal in a file. The seal shows whether this program wrote the file, and whether the file has been changed since.
 
 use crate::sentences;
 use std::path::Path;
@@ -9,7 +9,8 @@ const MARK: &str = sentences::MADE_BY_LINKPROOF_SEAL;
 const DIGITS: usize = 16;
 
 /// Returns a text with its seal, in a comment or key that the file format allows.
-/// These formats are JSON, HTML, SVG, other XML, manual pages, and tables whose first lines may begin with `#`.
+/// The formats with such a comment or key are JSON, HTML, SVG, other XML, manual pages, and tables whose first lines
+/// may begin with `#`.
 /// In any other format the seal is the last line.
 pub fn sealed(text: &str, place: &Path) -> String {
     let blank = format!("{MARK}{}", "0".repeat(DIGITS));
@@ -27,10 +28,10 @@ pub fn sealed(text: &str, place: &Path) -> String {
     open.replacen(&blank, &format!("{MARK}{:016x}", hash(open.as_bytes())), 1)
 }
 
-/// Whether a file has an unbroken seal: this program wrote it, and nobody has changed it since.
+/// Whether a file has an unbroken seal. This program then wrote the file, and nobody has changed the file since.
 pub fn is_sealed(bytes: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(bytes) else { return false };
-    // The seal is at the beginning or at the end. The text between may quote another seal.
+    // Only the first and the last seal are tested, because the text between the two may quote another file's seal.
     [text.find(MARK), text.rfind(MARK)].into_iter().flatten().any(|found| {
         let digits = found + MARK.len()..found + MARK.len() + DIGITS;
         let Some(told) = text.get(digits.clone()) else { return false };
@@ -40,8 +41,8 @@ pub fn is_sealed(bytes: &[u8]) -> bool {
     })
 }
 
-/// FNV-1a hash. It is the same in every version of the language.
-/// Carriage returns do not count, because tools change line endings.
+/// FNV-1a hash. The hash is the same in every version of the language.
+/// Carriage returns are not hashed, because tools change line endings.
 fn hash(bytes: &[u8]) -> u64 {
     let letters = bytes.iter().filter(|&&byte| byte != b'\r');
     letters.fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))

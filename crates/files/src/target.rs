@@ -1,5 +1,5 @@
-//! Decides to which paths files may be written and which files may be replaced. Describes the errors if this is not
-//! allowed.
+//! Decides to which paths files may be written and which files may be replaced.
+//! If a file may not be written or replaced, this module describes the error.
 
 use crate::sentences;
 use std::fs::{self, File};
@@ -27,7 +27,7 @@ pub enum OutputTarget<'a> {
 
 /// Destination of the content of a target.
 pub(super) enum Place {
-    /// The content goes to a path that is already open or is not a regular file.
+    /// The content goes to a path that is already open or that is not a regular file.
     Open(PathBuf),
     /// The content replaces this file. If the file exists, its metadata follow.
     File(PathBuf, Option<fs::Metadata>),
@@ -97,7 +97,7 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
 }
 
 /// Tests whether a file can be written at `path`, which the caller named. The test comes before any work.
-/// It leaves no file behind and does not change an existing file.
+/// The test leaves no file behind and does not change an existing file.
 ///
 /// # Errors
 /// The obstacle, in words.
@@ -106,7 +106,7 @@ pub fn may_write(path: &Path) -> Result<(), String> {
         return Err(sentences::THIS_IS_A_DIRECTORY_EXPECTED.into());
     }
     let place = match OutputTarget::Named(path).place() {
-        // A pipe or a device is opened only when its content is written.
+        // A pipe or a device is not tested here, because it is opened only when its content is written.
         Ok(Place::Open(_)) => return Ok(()),
         Ok(Place::File(place, _)) => place,
         Err(error) => return Err(sentences::expected_a_file(&error)),
@@ -157,9 +157,9 @@ fn why(error: &io::Error) -> String {
 }
 
 /// The error of an output that could not be written.
-/// `what` names the output. `needs` is its size in bytes, if known.
+/// `what` names the output. `needs` is the size of the output in bytes, if known.
 /// The remedy is `usual`, except for three causes: missing space, an existing file and a size limit.
-/// These causes have special remedies.
+/// Each of these causes has a special remedy.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
 pub fn unwritten(what: &str, error: &io::Error, needs: Option<u64>, usual: &str) -> Error {
     let way_out = match error.kind() {

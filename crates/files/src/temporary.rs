@@ -9,8 +9,8 @@ use super::seal::check;
 use tempfile::{Builder, NamedTempFile};
 
 /// Beginning and end of the names of temporary files.
-/// Between them are random digits and their check digits. Other files with a similar name are therefore not mistaken
-/// for temporary files.
+/// Each name contains random digits and their check digits between this beginning and this end.
+/// A file of another program is therefore not mistaken for a temporary file, even if its name is similar.
 const TEMPORARY: [&str; 2] = [".linkproof-", ".partial"];
 
 /// A name that no other run has.
@@ -30,7 +30,7 @@ pub(super) fn directory_of(path: &Path) -> &Path {
     path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."))
 }
 
-/// Creates a temporary file. It stays locked until it is closed.
+/// Creates a temporary file. The file stays locked until it is closed.
 pub(super) fn create(directory: &Path) -> io::Result<NamedTempFile> {
     loop {
         let own = name();
@@ -42,7 +42,7 @@ pub(super) fn create(directory: &Path) -> io::Result<NamedTempFile> {
         // On a file system without locks this call fails. The failure is harmless, because `clear` then removes no
         // files.
         let _ = temporary.as_file().lock();
-        // Another run may have removed the file before it was locked, because it looked stale. A new file is then
+        // Another run may have removed the file before the lock, because the file looked stale. A new file is then
         // created.
         if temporary.path().exists() {
             return Ok(temporary);

@@ -14,13 +14,14 @@ pub const LARGEST: u64 = 64 << 20;
 const LONGEST: usize = 2000;
 
 /// A text of limited length, with every invisible character escaped.
-/// A name from a file can then neither imitate a line of output nor control a terminal.
+/// The escapes prevent a name from a file from imitating a line of output or controlling a terminal.
 #[must_use]
 pub fn visible(text: &str) -> String {
     shown(text, is_unseen)
 }
 
-/// The same for a text of several lines, such as help with a section to add.
+/// A text of several lines and of limited length, such as help with a section to add.
+/// Every invisible character except the line feed is escaped.
 #[must_use]
 pub fn visible_lines(text: &str) -> String {
     shown(text, |letter| letter != '\n' && is_unseen(letter))
@@ -43,7 +44,8 @@ fn shown(text: &str, is_escaped: impl Fn(char) -> bool) -> String {
 /// Text of the file at `path`, at most 64 MiB.
 ///
 /// # Errors
-/// Those of the file system. It is also an error if the file is larger than 64 MiB or is not text. [`way_out`] gives the remedy.
+/// The errors of the file system. A file that is larger than 64 MiB or is not text is also an error. [`way_out`] gives
+/// the remedy.
 pub fn read_text(path: &Path) -> io::Result<String> {
     text_from(File::open(path)?)
 }
@@ -51,7 +53,7 @@ pub fn read_text(path: &Path) -> io::Result<String> {
 /// Text from an open source, at most 64 MiB.
 ///
 /// # Errors
-/// Those of [`read_text`].
+/// The errors of [`read_text`].
 pub fn text_from(from: impl Read) -> io::Result<String> {
     let mut bytes = Vec::new();
     from.take(LARGEST + 1).read_to_end(&mut bytes)?;
@@ -62,7 +64,7 @@ pub fn text_from(from: impl Read) -> io::Result<String> {
 }
 
 /// The same as [`read_text`], for a file that another file names.
-/// The file must be regular, because reading any other kind, such as a terminal, might never end.
+/// The file must be regular. The reading of any other kind of file, such as a terminal, might never end.
 ///
 /// # Errors
 /// The errors of [`read_text`], or an error if the file is not regular.
@@ -77,7 +79,7 @@ pub fn read_named(path: &Path) -> io::Result<String> {
 /// Text of a file whose name the program generated; `None` if there is no such file.
 ///
 /// # Errors
-/// Those of [`read_named`].
+/// The errors of [`read_named`].
 pub fn text(path: &Path) -> io::Result<Option<String>> {
     match read_named(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
@@ -85,7 +87,7 @@ pub fn text(path: &Path) -> io::Result<Option<String>> {
     }
 }
 
-/// Remedy for a file that could not be read. It is `usual`, unless the file has another encoding.
+/// Remedy for a file that could not be read. The remedy is `usual`, unless the encoding of the file is not UTF-8.
 pub fn way_out(error: &io::Error, usual: &str) -> String {
     match error.get_ref().and_then(|inner| inner.downcast_ref::<Encoding>()) {
         None => usual.into(),
@@ -115,8 +117,8 @@ fn decoded(bytes: Vec<u8>) -> Result<String, Encoding> {
     match bytes.as_slice() {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => return Err(other("UTF-32")),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return Err(other("UTF-16")),
-        // UTF-16 without byte order mark is recognised by its zeros: every other byte of ASCII text is zero in this
-        // encoding.
+        // UTF-16 without byte order mark is recognised by its zeros: in UTF-16, every second byte of ASCII text is
+        // zero.
         [first, 0, second, 0, ..] if *first != 0 && *second != 0 => return Err(other("UTF-16LE")),
         [0, first, 0, second, ..] if *first != 0 && *second != 0 => return Err(other("UTF-16BE")),
         _ => {}

@@ -16,7 +16,8 @@ impl FormulaGraph {
         self.derivatives[&(of, input)]
     }
 
-    /// Rate of change of a node from the rates of the inputs: the sum of partial derivatives times `rates`.
+    /// Rate of change of a node: the sum of the node's partial derivatives with respect to the inputs, each times the
+    /// rate of the input in `rates`.
     /// Inputs without a rate are constant.
     pub fn rate(&mut self, of: NodeId, rates: &[Option<NodeId>]) -> NodeId {
         let mut sum = self.whole(0.0);
@@ -103,7 +104,8 @@ impl FormulaGraph {
                 self.pair(Times, slope, a)
             }
             Function::Asin | Function::Acos => {
-                // 1 - x^2 is written as a product, so that no digits cancel near the ends of the domain.
+                // 1 - x^2 is written as the product (1 - x)(1 + x), so that no digits cancel near the ends of the
+                // domain.
                 let (less, more) = (self.pair(Minus, one, x), self.pair(Plus, one, x));
                 let product = self.pair(Times, less, more);
                 let root = self.call(Function::Sqrt, product, product);
@@ -139,7 +141,7 @@ impl FormulaGraph {
     }
 
     /// A node that is zero, but undefined if `x` is zero.
-    /// It makes a derivative undefined at a kink or a jump at `x` = 0.
+    /// The node makes a derivative undefined at a kink or a jump at `x` = 0.
     fn but_at_zero(&mut self, x: NodeId) -> NodeId {
         let zero = self.whole(0.0);
         self.put(Node::Pair(Over, zero, x))

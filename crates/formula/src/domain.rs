@@ -10,7 +10,7 @@ impl FormulaTree {
     /// Value of the formula. `of` gives the values of names.
     ///
     /// # Errors
-    /// The first operation outside its domain, with its position.
+    /// The first operation outside its domain, with its position in the text.
     pub fn evaluated(&self, of: &dyn Fn(&str) -> Rounded) -> Result<Rounded, FormulaFault> {
         let mut lower: Option<Rounded> = None;
         for tree in self.left_parts().into_iter().rev() {

@@ -11,7 +11,8 @@ use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub(crate) u32);
 
-/// Operation of a node. Its arguments are stored before it. `P` is the type that refers to an argument.
+/// Operation of a node. The arguments of the operation are stored before the node. `P` is the type that refers to an
+/// argument.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Node<P = NodeId> {
     Input(usize),
@@ -33,7 +34,7 @@ impl<P: Copy> Node<P> {
         }
     }
 
-    /// References to the arguments. If there is only one argument, it is given twice.
+    /// References to the arguments. If there is only one argument, its reference is given twice.
     pub(crate) fn parts(self) -> Option<[P; 2]> {
         match self {
             Node::Input(_) | Node::Number(_) => None,
@@ -42,7 +43,7 @@ impl<P: Copy> Node<P> {
         }
     }
 
-    /// Value of the node. `at` gives the values of its arguments. A missing input is undefined.
+    /// Value of the node. `at` gives the values of the node's arguments. A missing input is undefined.
     #[inline]
     pub(crate) fn value(self, inputs: &[Rounded], at: impl Fn(P) -> Rounded) -> Rounded {
         match self {
@@ -55,7 +56,7 @@ impl<P: Copy> Node<P> {
     }
 }
 
-/// A node as a key. Its numbers are represented by their bits.
+/// A node as a key. The key contains the bits of the node's numbers.
 type Key = (u8, u64, u64, u64);
 
 fn key(node: Node) -> Key {
@@ -184,15 +185,16 @@ impl FormulaGraph {
             (NodeShape::Negative(_), [Some(part), _]) => self.negative(part),
             (NodeShape::Pair(operator, _), [Some(left), Some(right)]) => {
                 match (operator, self.exact(left), self.exact(right)) {
-                    // A node minus itself is exactly zero, even if the node has an error. If the node is undefined, so
-                    // is the result.
+                    // A node minus itself is exactly zero, even if the node has an error. If the node is undefined, the
+                    // difference is undefined too.
                     // The difference is therefore stored as 0 times the node.
                     (Operator::Minus, ..) if left == right => {
                         let zero = self.whole(0.0);
                         self.put(Node::Pair(Operator::Times, zero, left))
                     }
-                    // The operation with zero stays in the graph unsimplified. The other part may be outside a domain,
-                    // which would be lost.
+                    // The operation with zero stays in the graph unsimplified, because the argument other than zero may
+                    // be outside a domain.
+                    // A simplified graph would lose this domain error.
                     (Operator::Times | Operator::Over, Some(0.0), _)
                     | (Operator::Times | Operator::Power, _, Some(0.0)) => self.put(Node::Pair(*operator, left, right)),
                     _ => self.pair(*operator, left, right),
@@ -221,14 +223,15 @@ impl FormulaGraph {
         self.nodes[id.0 as usize]
     }
 
-    /// All nodes on which these nodes depend, including themselves, arguments first.
-    /// Other parts of a large graph are not visited.
+    /// All nodes on which the given nodes depend, including the given nodes, arguments first.
+    /// The other nodes of a large graph are not visited.
     pub(crate) fn needed(&self, nodes: &[NodeId]) -> Vec<NodeId> {
         self.needed_but(nodes, &|_| false)
     }
 
-    /// All nodes on which these nodes depend, except the nodes that are done and the nodes that only done nodes need.
-    /// Common parts of formulas are then visited once.
+    /// All nodes on which the given nodes depend, including the given nodes, arguments first.
+    /// Nodes that are done, and nodes that only done nodes need, are left out.
+    /// Common parts of formulas are therefore visited once.
     pub(crate) fn needed_but(&self, nodes: &[NodeId], is_done: &dyn Fn(NodeId) -> bool) -> Vec<NodeId> {
         let mut needed: BTreeSet<NodeId> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();
         let mut next: Vec<NodeId> = needed.iter().copied().collect();
@@ -236,11 +239,11 @@ impl FormulaGraph {
             let Some(parts) = self.node(id).parts() else { continue };
             next.extend(parts.into_iter().filter(|part| !is_done(*part) && needed.insert(*part)));
         }
-        // The set is sorted by number, so arguments precede the nodes that use them.
+        // The set is sorted by node number, so arguments precede the nodes that use them.
         needed.into_iter().collect()
     }
 
-    /// Lets `then` add to the graph. Afterwards the additions are removed, names included.
+    /// Lets `then` add nodes and names to the graph. Afterwards the added nodes and names are removed.
     pub fn meanwhile<T>(&mut self, then: impl FnOnce(&mut FormulaGraph) -> T) -> T {
         let (nodes, derivatives) = (self.nodes.len(), self.derivatives.len());
         self.is_meanwhile = true;

@@ -10,14 +10,14 @@ use winnow::{ModalResult, Parser};
 
 use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 
-/// Upper limit of the length of a formula's text (bytes). A notebook page has several thousand.
+/// Upper limit of the length of a formula's text (bytes). A notebook page has several thousand bytes.
 const LONGEST: usize = 20_000;
-/// Upper limit of the nesting depth, so that no text exhausts the stack.
+/// Upper limit of the nesting depth of a formula. The limit prevents a stack overflow.
 const DEEPEST: usize = 200;
 
 type Input<'a> = LocatingSlice<&'a str>;
 
-/// A fault found in reading. If it is empty, the parser may try another alternative.
+/// A fault found while the text was parsed. If the fault is empty, the parser may try another alternative.
 #[derive(Debug)]
 struct Found(Option<FormulaFault>);
 
@@ -40,12 +40,12 @@ fn refused<T>(message: impl Into<String>, at: Range<usize>, help: impl Into<Stri
 }
 
 impl FormulaTree {
-    /// Reads a formula: numbers, names (they may contain dots), `+ - * / ^`, parentheses and calls of a [`Function`].
-    /// A name with other characters, such as that of a column, is put in backquotes.
+    /// Parses a formula: numbers, names (with dots if needed), `+ - * / ^`, parentheses and calls of a [`Function`].
+    /// A name with any other character, such as that of a column, is put in backquotes.
     /// `^` is right-associative and binds tighter than a minus before it: -x^2 is -(x^2), 2^3^2 is 2^9.
     ///
     /// # Errors
-    /// The unreadable part, with its position and the remedy.
+    /// The text that cannot be parsed, with its position and the remedy.
     pub fn parse(text: &str) -> Result<FormulaTree, FormulaFault> {
         bounded(text)?;
         whole(&mut LocatingSlice::new(text)).map_err(|error| match error {
@@ -59,7 +59,7 @@ impl FormulaTree {
     }
 }
 
-/// Checks that the text cannot exhaust memory or stack when it is read.
+/// Checks that the parsing of the text cannot exhaust memory or stack.
 fn bounded(text: &str) -> Result<(), FormulaFault> {
     if text.len() > LONGEST {
         let message = sentences::the_formula_has_bytes_more(&text.len(), &LONGEST);
@@ -70,7 +70,7 @@ fn bounded(text: &str) -> Result<(), FormulaFault> {
         match byte {
             b'(' => open += 1,
             b')' => open = open.saturating_sub(1),
-            // Powers, and several signs in a row, nest to the right.
+            // Powers, and several signs in a row, nest to the right, so they are counted against the depth limit.
             b'^' => powers += 1,
             b'-' | b'+' => signs += 1,
             b' ' => {}
@@ -96,7 +96,7 @@ fn whole(input: &mut Input<'_>) -> Read<FormulaTree> {
     }
 }
 
-/// The fault of a character that stands where an operator or the end of a part is expected.
+/// The fault of a character at a position where an operator or the end of a part is expected.
 fn no_operator<T>(sign: char, at: usize) -> Read<T> {
     let own = at..at + sign.len_utf8();
     if sign == ',' {
@@ -154,7 +154,7 @@ fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMod
 }
 
 fn negative(part: FormulaTree) -> FormulaTree {
-    // The minus is directly before the part, except for spaces between the two.
+    // The minus is directly before the part, except for spaces between the minus and the part.
     let at = part.at.start.saturating_sub(1)..part.at.end;
     FormulaTree { shape: NodeShape::Negative(Box::new(part)), at }
 }
@@ -162,7 +162,7 @@ fn negative(part: FormulaTree) -> FormulaTree {
 fn between<'a>(input: &mut Input<'a>) -> Read<Infix<Input<'a>, FormulaTree, ErrMode<Found>>> {
     let text: &str = input;
     let (length, found) = match text.as_bytes() {
-        // Python and Fortran write powers in this way.
+        // Python and Fortran write a power as `**`, so it is recognised.
         [b'*', b'*', ..] => (2, Operator::Power),
         [b'+', ..] => (1, Operator::Plus),
         [b'-', ..] => (1, Operator::Minus),
@@ -190,7 +190,7 @@ fn none<T>() -> Read<T> {
     Err(ErrMode::Backtrack(Found(None)))
 }
 
-/// Takes bytes, and the spaces after them.
+/// Consumes the given number of bytes, and the spaces after them.
 fn take(input: &mut Input<'_>, bytes: usize) {
     let _ = input.next_slice(bytes);
     skip(input);
@@ -207,7 +207,8 @@ fn operand(input: &mut Input<'_>) -> Read<FormulaTree> {
         None => {
             refused(sentences::THE_FORMULA_ENDS_WHERE_A_PART, start..start, sentences::ADD_A_NUMBER_A_NAME_OR_A_CALL)
         }
-        // No operand begins here. The parser then tries the alternative of a minus or plus sign before a part.
+        // No operand begins with this character. The parser then tries the alternative of a minus or plus sign before a
+        // part.
         Some('-' | '+') => none(),
         Some(sign @ (')' | ',' | '=' | '*' | '/' | '^')) => refused(
             sentences::a_part_is_missing_before(&sign),
@@ -227,7 +228,7 @@ fn parentheses(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     Ok(inner)
 }
 
-/// Takes the parenthesis that closes the one at `start`.
+/// Consumes the parenthesis that closes the one at `start`.
 fn closed(input: &mut Input<'_>, start: usize) -> Read<()> {
     let at = input.current_token_start();
     match input.chars().next() {

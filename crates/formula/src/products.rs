@@ -26,14 +26,14 @@ pub struct Product {
     pub dimension: Dimension,
 }
 
-/// All products of up to three quantities, by their value.
+/// All products of up to three quantities, sorted by the value of the product.
 #[derive(Clone, Debug)]
 pub struct Products {
     list: Vec<Product>,
 }
 
 impl Products {
-    /// The products of quantities with these values and dimensions, at most 255.
+    /// The products of the quantities with the given values and dimensions; at most 255 quantities.
     #[must_use]
     pub fn of(quantities: &[(f64, Dimension)]) -> Self {
         let mut list = Vec::new();
@@ -54,7 +54,7 @@ impl Products {
         self.list.is_empty()
     }
 
-    /// The products whose absolute value is `size` to within the relative `accuracy`, the simplest first.
+    /// The products whose absolute value is `size` to within the relative `accuracy`, the simplest product first.
     #[must_use]
     pub fn near(&self, size: f64, accuracy: f64) -> Vec<&Product> {
         let [low, high] = [size * (1.0 - accuracy), size * (1.0 + accuracy)];
@@ -64,7 +64,8 @@ impl Products {
         near
     }
 
-    /// Number of products of this dimension up to this complexity. An unknown dimension matches any dimension.
+    /// Number of products of the given dimension up to the given complexity. An unknown dimension matches any
+    /// dimension.
     #[must_use]
     pub fn alike(&self, weight: usize, dimension: Dimension) -> usize {
         let is_alike = |own: &&Product| match (own.dimension, dimension) {
@@ -75,7 +76,7 @@ impl Products {
     }
 }
 
-/// Adds all products of the chosen quantities with those from `next` on.
+/// Adds all products of the chosen quantities with the quantities from index `next` on.
 fn put(quantities: &[(f64, Dimension)], next: usize, chosen: &mut Vec<(u8, i8)>, products: &mut Vec<Product>) {
     let value: f64 = chosen.iter().map(|&(index, power)| quantities[usize::from(index)].0.powi(power.into())).product();
     let dimension = chosen.iter().try_fold([0.0; 3], |sum: [f64; 3], &(index, power)| {
@@ -100,7 +101,7 @@ fn put(quantities: &[(f64, Dimension)], next: usize, chosen: &mut Vec<(u8, i8)>,
     }
 }
 
-/// Information (bits) in a number that is known to a relative accuracy. Examples: 3 for a sixtieth, 13 for 1.4715.
+/// Information (bits) in a number that is known to a relative accuracy. A sixtieth has 3 bits, 1.4715 has 13 bits.
 /// A round number or a simple fraction, also of pi, has few bits. Any other number has as many bits as the accuracy.
 /// A number with few bits is easily matched by chance.
 #[must_use]

@@ -5,14 +5,14 @@ use crate::tree::{Function, Operator};
 /// A number with a bound on its error.
 /// Every operation propagates the errors of its arguments and adds its rounding error.
 ///
-/// An operation outside its domain gives [`Rounded::UNDEFINED`], and so does every operation on that result.
+/// An operation outside its domain gives [`Rounded::UNDEFINED`], and so does every operation on an undefined number.
 /// Unlike in IEEE 754, `1/(1/0)`, `(0/0)^0` and `atan(1/0)` have no value.
 /// If an argument is outside the domain by less than its error, the end of the domain is used instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded {
-    /// The number; NaN if it is undefined.
+    /// The number; NaN if the number is undefined.
     pub value: f64,
-    /// Largest distance of the exact number from `value`; infinite if nothing is known.
+    /// Largest distance of the exact number from `value`; infinite if the distance has no known limit.
     pub error: f64,
 }
 
@@ -24,7 +24,7 @@ const WHOLE: f64 = 2.0 * f64::EPSILON;
 impl Rounded {
     /// Result of an operation outside its domain.
     pub const UNDEFINED: Self = Rounded { value: f64::NAN, error: f64::INFINITY };
-    /// A number about which nothing is known: too large for a double, or divided by a possible zero.
+    /// A number about which nothing is known, because it is too large for a double or was divided by a possible zero.
     pub const UNKNOWN: Self = Rounded { value: 0.0, error: f64::INFINITY };
 
     /// A number that is exact.
@@ -52,7 +52,7 @@ impl Rounded {
             return Rounded::UNKNOWN;
         }
         let error = error + rounding * value.abs();
-        // Zero times an unknown (infinite) error is NaN. The error of the result is then unknown too.
+        // Zero times an unknown (infinite) error is NaN. In this case the error of the result is infinite too.
         Rounded { value, error: if error.is_nan() { f64::INFINITY } else { error } }
     }
 
@@ -64,7 +64,7 @@ impl Rounded {
         }
     }
 
-    /// Whether the operation that gave this number, or an earlier one, was outside its domain.
+    /// Whether the number comes from an operation outside its domain, directly or through later operations.
     #[must_use]
     pub fn is_undefined(self) -> bool {
         self.value.is_nan()
@@ -178,7 +178,7 @@ impl Rounded {
     }
 }
 
-/// Error of a sine or cosine at `x`. `slope` is the slope of the function at `x`.
+/// Error of a sine or cosine at `x`. `slope` is the slope of the sine or cosine at `x`.
 fn swing(x: Rounded, slope: f64) -> f64 {
     let least = |bound: f64, other: f64| if other < bound { other } else { bound };
     least(least(slope.abs() * x.error + x.error * x.error / 2.0, x.error), 2.0)
@@ -199,7 +199,7 @@ fn larger(one: f64, other: f64) -> f64 {
 }
 
 /// Value of a function that is monotonic from `domain[0]` to `domain[1]`.
-/// Over the interval of the argument, the value changes most at one of the ends.
+/// The value changes most at one of the ends of the argument's interval, so this change is the error.
 /// If the argument is outside the domain by less than its error, the end of the domain is used instead.
 fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Rounded {
     let at = |value: f64| function(value.clamp(domain[0], domain[1]));
@@ -211,7 +211,8 @@ fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Round
     Rounded::of(value, larger(below, above), WHOLE)
 }
 
-/// If a whole exponent is at most this, the power is computed as a product. Its rounding error grows with every factor.
+/// If the absolute value of a whole exponent is at most this number, the power is computed as a product. The rounding
+/// error of the product grows with every factor.
 const FACTORS: f64 = 1024.0;
 
 fn power(a: Rounded, b: Rounded) -> Rounded {
@@ -221,10 +222,10 @@ fn power(a: Rounded, b: Rounded) -> Rounded {
     }
     if is_whole && b.value.abs() <= FACTORS {
         let power = b.value as i32;
-        // A product of many factors is rounded at every factor.
+        // A product of many factors is rounded at every factor, so the rounding error grows with the exponent.
         let rounding = WHOLE * (1.0 + b.value.abs());
-        // The slope is steepest where the base is largest. For a negative exponent it is steepest where the base is
-        // smallest.
+        // The error uses the steepest slope. The slope is steepest where the base is largest, or, for a negative
+        // exponent, where the base is smallest.
         let end = if power >= 0 { a.value.abs() + a.error } else { a.value.abs() - a.error };
         let slope = if power < 0 && !(end > 0.0) { f64::INFINITY } else { b.value.abs() * end.powi(power - 1) };
         let found = match power {

@@ -1,5 +1,5 @@
 //! A derivation stored part by part and evaluated at some instants.
-//! After a change of one part, only the parts that depend on it are evaluated again.
+//! After a change of one part, only the parts that depend on the changed part are evaluated again.
 
 use std::collections::BTreeMap;
 
@@ -32,11 +32,11 @@ pub struct DerivationSheet {
     operations: u64,
 }
 
-/// Prefix of names such as `#12`. In a tree made for a change, such a name stands for part 12.
+/// Prefix of names such as `#12`. In a tree made for a change, the name `#12` denotes part 12.
 const PLACE: char = '#';
 /// Upper limit of the number of Newton steps in the search for the correction of a part at an instant.
 const STEPS: usize = 30;
-/// To measure a slope, an amount is changed by this fraction of its size.
+/// To measure a slope, the correction is changed by this fraction of its size.
 const DIFFERENCE: f64 = 1e-6;
 
 /// Correct value of a formula at an instant.
@@ -60,7 +60,7 @@ impl FormulaTarget {
 }
 
 impl DerivationSheet {
-    /// A sheet without formulas, from the names of inputs and their numbers at every instant.
+    /// A sheet without formulas, made from the names of the inputs and their values at every instant.
     #[must_use]
     pub fn new(names: &[&str], inputs: Vec<Vec<Rounded>>) -> Self {
         let values = vec![Vec::new(); inputs.len()];
@@ -77,7 +77,7 @@ impl DerivationSheet {
         self.put_named(name, Node::Number(number));
     }
 
-    /// Adds a formula that later formulas may use by its name. `None` if it uses an unknown name.
+    /// Adds a formula that later formulas may use by its name. `None` if the formula uses an unknown name.
     pub fn add(&mut self, name: &str, tree: &FormulaTree) -> Option<()> {
         let mut order = Vec::new();
         let place = self.read(tree, &mut order)?;
@@ -185,10 +185,10 @@ impl DerivationSheet {
         self.operations += operations;
     }
 
-    /// These positions and all positions that depend on them, in the order of evaluation, up to the last formula.
+    /// The given positions and all positions that depend on them, in the order of evaluation, up to the last formula.
     pub fn depending(&mut self, places: &[usize]) -> Vec<usize> {
         let Some(&first) = places.iter().min() else { return Vec::new() };
-        // This loop evaluates nothing. Visiting a part counts as a sixteenth of an operation.
+        // This loop evaluates no part, so the visit of a part counts only as a sixteenth of an operation.
         self.operations += (self.parts.len() - first) as u64 / 16;
         self.change += 1;
         let mut found = Vec::new();
@@ -207,9 +207,9 @@ impl DerivationSheet {
         found
     }
 
-    /// The value of the last formula at an instant, with other trees at some positions.
-    /// `depending` is the result of [`DerivationSheet::depending`] for these positions.
-    /// A name that is unknown before a position has the value NaN.
+    /// The value of the last formula at an instant, with the trees of `changes` at their positions.
+    /// `depending` is the result of [`DerivationSheet::depending`] for the positions of `changes`.
+    /// If a tree uses a name that is unknown before the tree's position, the name has the value NaN.
     pub fn changed(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize], instant: usize) -> Rounded {
         self.change += 1;
         for &place in depending {
@@ -223,7 +223,7 @@ impl DerivationSheet {
         self.current(self.parts.len() - 1, instant)
     }
 
-    /// The value of the last formula at an instant, with a number in place of the first part of `depending`.
+    /// The value of the last formula at an instant, with `number` in place of the first part of `depending`.
     fn with_number(&mut self, number: Rounded, depending: &[usize], instant: usize) -> Rounded {
         self.change += 1;
         let Some((&first, rest)) = depending.split_first() else { return Rounded::exact(f64::NAN) };
@@ -267,10 +267,10 @@ impl DerivationSheet {
         }
     }
 
-    /// The correction of a part that makes the last formula correct at an instant. The second number is its
-    /// uncertainty.
+    /// The correction of a part that makes the last formula correct at an instant, and the uncertainty of the
+    /// correction.
     /// The correction is the amount to add to the part (`Plus`) or the missing factor (`Times`).
-    /// Newton's method starts at the amount `from`. `None` if it finds no correction.
+    /// Newton's method starts at the correction `from`. `None` if the method finds no correction.
     /// `depending` is the result of [`DerivationSheet::depending`] for the part.
     pub fn amount(
         &mut self,

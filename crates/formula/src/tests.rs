@@ -144,7 +144,7 @@ fn graph_of(tree: &FormulaTree) -> (FormulaGraph, crate::NodeId) {
     (graph, id)
 }
 
-/// Text for exmex, with parentheses everywhere, because this test is not about precedence.
+/// Text for exmex, with parentheses everywhere, because this test does not test precedence.
 fn in_parentheses(tree: &FormulaTree) -> String {
     match &tree.shape {
         NodeShape::Number(number) => format!("{number}"),
@@ -157,7 +157,7 @@ fn in_parentheses(tree: &FormulaTree) -> String {
     }
 }
 
-/// A formula, its derivative with respect to x, and the derivative of that with respect to y.
+/// A formula, its derivative with respect to x, and the derivative of the x derivative with respect to y.
 fn with_derivatives(tree: &FormulaTree, x: f64, y: f64) -> [Rounded; 3] {
     let (mut graph, id) = graph_of(tree);
     let first = graph.derivative(id, 0);
@@ -167,7 +167,7 @@ fn with_derivatives(tree: &FormulaTree, x: f64, y: f64) -> [Rounded; 3] {
     [found[0], found[1], found[2]]
 }
 
-/// The limit of central differences by Ridders' extrapolation, with its error.
+/// The limit of central differences by Ridders' extrapolation, with the error of the limit.
 /// `None` if the limit is not accurate to five digits, as near a kink, a pole, or the end of a domain.
 fn limit_of_differences(function: &dyn Fn(f64) -> Rounded) -> Option<(f64, f64)> {
     let (mut before, mut best) = (Vec::<f64>::new(), None::<(f64, f64)>);
@@ -197,14 +197,14 @@ fn holds(tree: &FormulaTree, test: &dyn Fn(&NodeShape) -> bool) -> bool {
 }
 
 proptest! {
-    /// A tree that was written as text is read back unchanged.
+    /// A tree that was written as text is parsed back unchanged.
     #[test]
     fn a_printed_tree_parses_to_itself(tree in tree()) {
         let text = tree.to_string();
         prop_assert_eq!(shape_of(&FormulaTree::parse(&text).unwrap()), shape_of(&tree), "{}", text);
     }
 
-    /// Any text is either read or rejected, with a position inside the text.
+    /// Any text is either parsed or rejected. A rejection has a position inside the text.
     #[test]
     fn any_text_parses_or_is_rejected_with_a_position(text in "[-+*/^(),.0-9a-z φ²=]{0,60}") {
         if let Err(fault) = FormulaTree::parse(&text) {
@@ -216,7 +216,7 @@ proptest! {
     /// Derivatives agree with those of an independent library.
     #[test]
     fn derivatives_agree_with_exmex(tree in tree(), x in 0.1f64..2.0, y in -2.0f64..2.0) {
-        // exmex does not have atan2, abs and sign.
+        // exmex does not have atan2, abs and sign, so trees with these functions are skipped.
         let unknown = |shape: &NodeShape| {
             matches!(shape, NodeShape::Call(Function::Atan2 | Function::Abs | Function::Sign, _))
         };
@@ -228,7 +228,8 @@ proptest! {
         let theirs = [theirs.eval(&[x, y]).unwrap(), theirs.partial(1).unwrap().eval(&[x, y]).unwrap()];
         for (ours, theirs) in [first, mixed].into_iter().zip(theirs) {
             prop_assume!(theirs.is_finite() && ours.error < 1e-6 * (1.0 + ours.value.abs()));
-            // exmex squares the divisor, and loses digits if the square is a subnormal number.
+            // exmex squares the divisor, and loses digits if the square is a subnormal number. Large results are
+            // therefore skipped.
             prop_assume!(ours.value.abs() < 1e100);
             let bound = (ours.error + 1e-12 * ours.value.abs()) * 1e3 + 1e-9;
             prop_assert!((ours.value - theirs).abs() <= bound, "{}: {:?} {}", tree, ours, theirs);
@@ -264,7 +265,7 @@ proptest! {
     }
 }
 
-/// Cancelled digits are lost, and the bound shows it.
+/// The digits that cancel are lost, and the error bound covers the loss.
 #[test]
 fn cancellation_widens_the_bound() {
     let x = Rounded::exact(1e-9);
@@ -279,7 +280,7 @@ fn cancellation_widens_the_bound() {
     assert!(at("sqrt(x)", Rounded { value: -1.0, error: 1e-15 }, x).value.is_nan());
 }
 
-/// Large errors: the bound covers both ends of the interval of the argument, whatever the curvature.
+/// For large errors, the bound covers both ends of the interval of the argument, whatever the curvature.
 #[test]
 fn a_bound_covers_the_ends_of_wide_arguments() {
     type Case = (&'static str, [f64; 2], [f64; 2], fn(f64, f64) -> f64);
@@ -327,7 +328,8 @@ fn common_parts_are_evaluated_once() {
     assert_eq!(Program::of(&graph, &[one, other]).len(), alone + 1);
 }
 
-/// The second rate of change of x(phi(t), t). The inputs w and a are the first and the second derivative of phi.
+/// The second derivative of x(phi(t), t) with respect to t. The inputs w and a are the first and the second derivative
+/// of phi.
 #[test]
 fn rates_follow_the_chain_rule_over_all_inputs() {
     let mut graph = FormulaGraph::new(&["phi", "t"], 2);
@@ -374,7 +376,8 @@ fn names_with_other_characters_need_backquotes() {
     }
 }
 
-/// Another node may later take the position of a removed one. Derivatives of the removed node must not apply to it.
+/// A new node may later have the position of a removed node. Derivatives of the removed node must not apply to the new
+/// node.
 #[test]
 fn temporary_derivatives_are_removed() {
     let mut graph = FormulaGraph::new(&["x", "y"], 0);
@@ -430,14 +433,14 @@ fn derivatives_follow_the_rules_of_calculus() {
 }
 
 /// A function has no derivative at a kink or a jump.
-/// The two one-sided slopes differ. Their mean is zero, which would be a wrong derivative.
+/// At a kink, the two one-sided slopes differ. The mean of the two slopes is zero, which would be a wrong derivative.
 #[test]
 fn a_kink_has_no_derivative() {
     for text in ["abs(x)", "x*sign(x)", "abs(x)*abs(x)"] {
         let [value, slope, _] = with_derivatives(&FormulaTree::parse(text).unwrap(), 0.0, 1.0);
         assert_eq!((value.value, slope.is_undefined()), (0.0, true), "{text}");
     }
-    // An undefined number has no derivative either, although it is constant.
+    // An undefined number has no derivative, although the number is constant.
     assert!(with_derivatives(&FormulaTree::parse("1/0").unwrap(), 0.5, 1.0).iter().all(|own| own.is_undefined()));
     let slope = with_derivatives(&FormulaTree::parse("abs(x)").unwrap(), -0.5, 1.0)[1];
     assert!(slope.value == -1.0 && slope.error < 1e-15, "{slope:?}");

@@ -51,7 +51,7 @@ const WHOLE: u8 = 5;
 pub enum NodeShape {
     /// A number.
     Number(f64),
-    /// A name: that of an input, or that of another formula.
+    /// A name of an input or of another formula.
     Name(String),
     /// The negative of a part.
     Negative(Box<FormulaTree>),
@@ -156,8 +156,8 @@ impl FormulaTree {
         names
     }
 
-    /// The tree, its left argument, the left argument of that argument, and so on. Long sums are deep only in this
-    /// direction.
+    /// The tree, its left argument, the left argument of its left argument, and so on. Long sums are deep only in the
+    /// direction of left arguments.
     pub(crate) fn left_parts(&self) -> Vec<&FormulaTree> {
         std::iter::successors(Some(self), |tree| match &tree.shape {
             NodeShape::Pair(_, parts) => Some(&parts[0]),
@@ -289,7 +289,7 @@ impl Function {
     }
 }
 
-/// What is wrong with the text of a formula.
+/// A fault in the text of a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FormulaFault {
     /// What was found.

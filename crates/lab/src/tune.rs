@@ -31,7 +31,7 @@ use prover::run::{Options, memory};
 use scenario::Scenario;
 
 /// Work allowed by default, in steps without sweeps.
-/// It is many times the work that the shipped mechanisms need at 1e-7.
+/// This work is many times the work that the shipped mechanisms need for an allowed error of 1e-7 of the scale.
 const BUDGET: f64 = 5e6;
 
 /// The wanted accuracy.
@@ -39,7 +39,8 @@ const BUDGET: f64 = 5e6;
 pub struct WantedAccuracy {
     /// Largest error allowed, divided by each channel's scale (half its range in the run).
     pub within: f64,
-    /// Channels by name, or stages (`positions`, `reactions`, ...). If empty: all channels that the scenario requests.
+    /// Channels by name, or stages (`positions`, `reactions`, ...). If the list is empty, all channels that the
+    /// scenario requests are used.
     pub channels: Vec<String>,
 }
 
@@ -47,7 +48,7 @@ pub struct WantedAccuracy {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tuning {
     /// The cheapest settings that meet the request and that a proof confirms.
-    /// If no proof confirms any settings, the cheapest settings that meet the request.
+    /// If no proof confirms any settings, the field has the cheapest settings that meet the request.
     pub best: Candidate,
     /// The cheapest settings that meet the request, whether a proof confirms them or not.
     pub cheapest: Candidate,
@@ -71,9 +72,9 @@ pub struct Tuning {
 /// Settings that the options fix stay unchanged.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if the request or a channel makes no sense.
+/// [`ErrorKind::Input`] if the request or a channel is invalid.
 /// [`ErrorKind::Numeric`] if no engine meets the request; the message has the smallest error of each engine.
-/// Those of the analytic solver.
+/// The errors of the analytic solver are returned as well.
 pub fn tune(
     scenario: &Scenario,
     wish: &WantedAccuracy,

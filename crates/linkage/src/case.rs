@@ -26,14 +26,14 @@ pub use parts::{CaseParts, Wanted};
 pub use scene::{LeftOut, Scene};
 pub use seats::{Seat, Seats};
 
-/// If the angular velocity of a link is below this fraction of the fastest link's, it counts as rounding error.
-/// The link then has no sense of rotation.
+/// An angular velocity below this fraction of the largest angular velocity of any link counts as rounding error.
+/// A link with such an angular velocity has no sense of rotation.
 const STANDSTILL: f64 = 1e-12;
 
 /// A complete, checked problem that any solver accepts.
 ///
 /// The parts are readable as fields, for example `case.mechanism`.
-/// A case is immutable: [`Case::with`] and the methods like it return a changed case and check it.
+/// A case is immutable: [`Case::with`] and similar methods return a changed and checked case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     parts: CaseParts,
@@ -57,8 +57,8 @@ impl Case {
     /// Every error names the faulty part by its key.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) if drives, loads, start pose or modes do not belong to the
     /// mechanism.
-    /// The same kind if one of their numbers is NaN or infinite, or if the structure does not match mechanism and
-    /// drives.
+    /// [`ErrorKind::Input`](crate::ErrorKind::Input) also if a number in one of these parts is NaN or infinite.
+    /// [`ErrorKind::Input`](crate::ErrorKind::Input) also if the structure does not match mechanism and drives.
     /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a joint is open in the start pose or a driving link is
     /// not at its start angle.
     /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a combination of drives that this version does not
@@ -71,7 +71,7 @@ impl Case {
     }
 
     /// Returns the case of these parts without any check.
-    /// Tests use it to plant a fault and to assert which check finds the fault.
+    /// Tests use this function to plant a fault and to assert which check finds the fault.
     #[cfg(any(test, feature = "fixtures"))]
     #[doc(hidden)]
     #[must_use]
@@ -80,13 +80,13 @@ impl Case {
         Case { parts, turning }
     }
 
-    /// Returns the case of changed parts. The set of links that can turn is copied from this case, so `parts` must not
-    /// change it.
+    /// Returns a case made of `parts`, the changed parts of this case.
+    /// The set of links that can turn is copied from this case, so the change must not affect this set.
     fn of_parts(&self, parts: CaseParts) -> Case {
         Case { parts, turning: self.turning.clone() }
     }
 
-    /// Returns the parts. Change them and pass them to [`Case::new`] for a new case.
+    /// Returns the parts. To make a new case, change the parts and pass them to [`Case::new`].
     #[must_use]
     pub fn into_parts(self) -> CaseParts {
         self.parts
@@ -95,17 +95,17 @@ impl Case {
     /// Returns this case with its parts changed by `change`, checked again.
     ///
     /// # Errors
-    /// Those of [`Case::new`].
+    /// The errors of [`Case::new`].
     pub fn with(&self, change: impl FnOnce(&mut CaseParts)) -> Result<Case> {
         let mut parts = self.parts.clone();
         change(&mut parts);
         Case::new(parts)
     }
 
-    /// Returns this case with another grid.
+    /// Returns this case with the grid `grid`.
     ///
     /// # Errors
-    /// Those of [`Grid::check`].
+    /// The errors of [`Grid::check`].
     pub fn on(&self, grid: Grid) -> Result<Case> {
         check::grid(&grid, self.crank())?;
         Ok(self.of_parts(CaseParts { grid, ..self.parts.clone() }))
@@ -131,7 +131,7 @@ impl Case {
         case
     }
 
-    /// Returns this case with another motor of the crank, or without a motor.
+    /// Returns this case with the given motor of the crank, or without a motor.
     ///
     /// # Errors
     /// The errors of [`Case::new`] if a number of the motor is NaN or infinite.
@@ -234,15 +234,17 @@ impl Case {
         self.drives.iter().any(Drive::is_free)
     }
 
-    /// Whether all driving links turn at constant speed.
+    /// Whether forces determine the motion of a driving link (a free motion).
+    /// In a free motion, crank angles are known only from a solved trajectory. The crank angles of the grid belong to
+    /// the nominal motion.
     #[must_use]
     pub fn is_steady(&self) -> bool {
         !self.is_free() && self.drives.iter().all(|drive| drive.constant_speed().is_some())
     }
 
     /// Lever arm of the balancing moments (m): the extent of the largest driving link.
-    /// If a driving link has a slider, the lever arm is at least the size of the mechanism.
-    /// The reason is that the slider's force acts at the position of the slider.
+    /// If a driving link has a slider, the lever arm is at least the size of the mechanism, because the slider's force
+    /// acts at the position of the slider.
     #[must_use]
     pub fn drive_arm(&self) -> f64 {
         let links = self.mechanism.links();
@@ -254,7 +256,8 @@ impl Case {
     }
 
     /// Calls `put` with the action of every load on every link, the ground included.
-    /// `motions` and `angles` (rad, unwrapped) are those of all links, as in [`State`](crate::solver::State).
+    /// `motions` and `angles` contain the motion and the angle (rad, unwrapped) of every link, as in
+    /// [`State`](crate::solver::State).
     /// Loads depend on positions and velocities, not on accelerations.
     #[inline]
     pub fn each_load(&self, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
@@ -264,7 +267,8 @@ impl Case {
         }
     }
 
-    /// Calls `put` with the action of load number `load` on each of its links. Arguments as in [`Case::each_load`].
+    /// Calls `put` with the action of load number `load` on each of the load's links.
+    /// The other arguments are the same as in [`Case::each_load`].
     pub fn each_action(&self, load: usize, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
         self.act_in(&self.setting(motions, angles), &self.loads[load], &mut put);
     }
@@ -289,13 +293,14 @@ impl Case {
     }
 
     /// Angular velocity of a link (rad/s), for loads that depend on its sense of rotation.
-    /// It is zero for a link that cannot turn.
-    /// It is also set to zero if it is so small that it may be a rounding error of the fastest link's angular velocity.
+    /// The result is zero for a link that cannot turn.
+    /// The result is also zero if the angular velocity may be only a rounding error of the fastest link's angular
+    /// velocity.
     #[inline]
     #[must_use]
     pub fn spin(&self, motions: &[Motion], link: LinkId) -> f64 {
         let omega = motions[link].omega;
-        // The result is false if the angular velocity of any link is NaN.
+        // The result is false if the angular velocity of any link is NaN, so the function then returns zero.
         let is_seen = || motions.iter().all(|motion| omega.abs() > STANDSTILL * motion.omega.abs());
         if self.can_turn(link) && is_seen() { omega } else { 0.0 }
     }
@@ -314,19 +319,19 @@ impl Case {
         LoadState { motions, angles, start: &self.start.0, crank }
     }
 
-    /// Writes to `out` the resultant of all loads on every link, the ground included: force (N) at the mass centre and
-    /// moment (N m) about it.
-    /// Arguments as in [`Case::each_load`]; `out` has one entry per link.
+    /// Writes to `out` the resultant of all loads on every link, the ground included.
+    /// A resultant is a force (N) at the mass centre and a moment (N m) about the mass centre.
+    /// `out` has one entry per link. The other arguments are the same as in [`Case::each_load`].
     #[inline]
     pub fn loads_on(&self, motions: &[Motion], angles: &[f64], out: &mut [Wrench]) {
         self.loads_with(motions, angles, |_, load, link, crank| load.moment_in(self.spin(motions, link), crank), out);
     }
 
-    /// The same as [`Case::loads_on`], except that the caller computes the loads that depend on a link's sense of
+    /// Does the same as [`Case::loads_on`], except that the caller computes the loads that depend on a link's sense of
     /// rotation.
     /// `sensed` returns the moment (N m) of such a load.
     /// `sensed` receives the number of the load, the load, the link and the crank angle (rad).
-    /// It is not called for links that cannot turn, because these loads do not act on them.
+    /// `sensed` is not called for links that cannot turn, because these loads do not act on them.
     #[inline]
     pub fn loads_with(
         &self,
@@ -338,9 +343,9 @@ impl Case {
         self.loads_along(motions, angles, sensed, |_, velocity| sense_of(velocity), out);
     }
 
-    /// The same as [`Case::loads_with`], except that the caller also determines the direction of motion of loaded
+    /// Does the same as [`Case::loads_with`], except that the caller also determines the direction of motion of loaded
     /// points.
-    /// `way` returns this direction (unit vector, or zero) for each load that depends on it.
+    /// `way` returns this direction (unit vector, or zero) for each load that depends on the direction.
     /// `way` receives the number of the load and the point's velocity (m/s).
     /// If the velocity is only rounding error, `way` receives zero.
     #[inline]
@@ -381,7 +386,8 @@ impl Case {
         }
     }
 
-    /// Power of all loads (W), positive if they drive the mechanism. Arguments as in [`Case::each_load`].
+    /// Power of all loads (W), positive if the loads drive the mechanism.
+    /// The arguments are the same as in [`Case::each_load`].
     #[must_use]
     pub fn load_power(&self, motions: &[Motion], angles: &[f64]) -> f64 {
         let mut power = 0.0;

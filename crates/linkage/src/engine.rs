@@ -28,7 +28,7 @@ pub type Statics = Box<dyn FnMut(&Case, usize, &mut State) -> Result<()>>;
 
 /// An engine: a solver that integrates numerically and whose settings determine its accuracy.
 ///
-/// Implement [`StandIn`] for an engine that replaces another one; use [`Wrapped`] to change an engine's results.
+/// Implement [`StandIn`] for an engine that replaces another engine. Use [`Wrapped`] to change an engine's results.
 pub trait Engine: Solver {
     /// Name and version of the underlying software.
     fn version(&self) -> String;
@@ -36,33 +36,34 @@ pub trait Engine: Solver {
     /// Settings of the engine.
     fn settings(&self) -> Settings;
 
-    /// Returns this engine with other settings.
+    /// Returns this engine with the given settings.
     /// Settings that the engine does not use are ignored. [`Engine::told`] lists the settings in use.
     fn with(&self, settings: Settings) -> Box<dyn Engine>;
 
-    /// Returns this engine at another resolution, otherwise unchanged.
+    /// Returns this engine at the given resolution. All other settings stay unchanged.
     fn at(&self, resolution: f64) -> Box<dyn Engine> {
         self.with(Settings { resolution, ..self.settings() })
     }
 
     /// Whether the engine controls its error.
-    /// If so, [`Settings::resolution`] is an accuracy, and the engine chooses its time steps accordingly.
-    /// Otherwise it is the time step.
+    /// For an engine that controls its error, [`Settings::resolution`] is an accuracy, and the engine chooses its time
+    /// steps accordingly.
+    /// For any other engine, [`Settings::resolution`] is the time step.
     fn controls_error(&self) -> bool;
 
-    /// Methods for joint reactions and balancing moment, the cheapest first.
+    /// Methods for joint reactions and balancing moment, the cheapest method first.
     fn routes(&self) -> &'static [Route];
 
-    /// Methods by which the engine reports the forces it applies in a case, the cheapest first.
-    /// Empty if the engine's default method already reports these forces.
+    /// Methods by which the engine reports the forces that it applies in a case, the cheapest method first.
+    /// The list is empty if the engine's default method already reports these forces.
     fn own_routes(&self, case: &Case) -> &'static [Route];
 
     /// Smallest and largest useful number of sweeps for a case; `None` for an engine that does not iterate.
-    /// Both numbers are 1 if one sweep already solves the case.
+    /// Smallest and largest number are 1 if one sweep already solves the case.
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]>;
 
     /// Returns a function that computes reactions and balancing moments from a motion, by the engine's method.
-    /// Returns `None` if the motion alone does not determine the forces, so that the engine must report them.
+    /// Returns `None` if the motion alone does not determine the forces; the engine must then report the forces.
     /// Extrapolation calls this function to compute the forces of the extrapolated motion.
     fn statics(&self, case: &Case) -> Option<Statics>;
 
@@ -70,7 +71,7 @@ pub trait Engine: Solver {
     /// An engine that stores its runs returns the stored run, if there is one.
     ///
     /// # Errors
-    /// Those of [`Solver::sweep`].
+    /// The errors of [`Solver::sweep`].
     fn rows(&self, case: &Case, progress: Progress) -> Result<Arc<Rows>> {
         Rows::of_solver(self, case, progress)
     }
@@ -85,7 +86,7 @@ pub trait Engine: Solver {
     /// Bound on the rounding error of a channel on the grid of a case, in the channel's unit.
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;
 
-    /// Whether the factors in [`Engine::noise`] are measured values. If not, they are assumed values.
+    /// Whether the factors in [`Engine::noise`] are measured values. Otherwise the factors are assumed values.
     fn is_noise_measured(&self) -> bool;
 
     /// Names and values of the settings that influence the result, for display.

@@ -1,5 +1,5 @@
-//! The only error type. An error holds what was requested, what was found, its location and the remedy.
-//! All of them are stored as data and become text only in the output.
+//! The only error type. An error contains the request, the finding, the location and the remedy.
+//! These parts are stored as data and become text only in the output.
 
 mod advice;
 mod several;
@@ -17,13 +17,13 @@ use crate::input::InputValue;
 /// Result of every fallible operation of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// Kind of error. It decides the exit code and nothing else.
+/// Kind of error. The kind determines the exit code and nothing else.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ErrorKind {
     /// The scenario or an argument is wrong.
     #[default]
     Input,
-    /// The mechanism cannot take the requested pose.
+    /// The mechanism cannot reach the requested pose.
     Geometry,
     /// A solver could not finish: a dead point, no convergence, a NaN or infinite number.
     Numeric,
@@ -64,11 +64,11 @@ pub enum ErrorSubject {
     Group(String),
 }
 
-/// The key of a description that an error is about.
+/// Key in a description, to which an error refers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeyPath {
     text: String,
-    /// Length of the dotted path in the text.
+    /// Length of the dotted path at the start of `text`.
     path: usize,
     links: Vec<String>,
 }
@@ -157,7 +157,7 @@ impl Error {
         Error(Box::new(Inner { kind, message: message.into(), ..Inner::default() }))
     }
 
-    /// Sets the remedy; replaces an earlier one.
+    /// Sets the remedy. An earlier remedy is replaced.
     #[must_use]
     pub fn help(mut self, advice: impl Into<Advice>) -> Self {
         self.0.advice = vec![advice.into()];
@@ -178,7 +178,7 @@ impl Error {
         self
     }
 
-    /// Rewords the error: `change` turns the old message into the new one. Everything else is kept.
+    /// Rewords the error: `change` turns the old message into the new message. All other parts of the error are kept.
     #[must_use]
     pub fn map_message(mut self, change: impl FnOnce(&str) -> String) -> Self {
         self.0.message = change(&self.0.message);
@@ -242,7 +242,7 @@ impl Error {
         self
     }
 
-    /// Removes the out-of-reach mark. Callers use it after they have explained the error.
+    /// Removes the out-of-reach mark. Callers use this method after they have explained the error.
     #[must_use]
     pub fn explained(mut self) -> Self {
         self.0.out_of_reach = false;

@@ -20,7 +20,7 @@ pub fn link(name: &str, points: &[(&str, f64, f64)]) -> Link {
     }
 }
 
-/// A revolute joint at the point `point`, which both links carry.
+/// A revolute joint called `name` between the links `first` and `second`, at the point `point` of both links.
 pub fn pin(links: &[Link], name: &str, point: &str, first: &str, second: &str) -> Joint {
     let side = |wanted: &str| {
         let index = links.iter().position(|l| l.name == wanted).unwrap();
@@ -78,15 +78,15 @@ pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
     mechanism(links, &pins).unwrap()
 }
 
-/// A case of a mechanism of dyads, all in mode left.
-/// Joint 0 drives link 1 from angle zero at 1 rad/s. There is no gravity, no load and no grid.
+/// A case of a mechanism of dyads, all of them in mode left.
+/// Joint 0 drives link 1 from angle zero at 1 rad/s. The case has no gravity, no load and no grid.
 pub fn turning(mechanism: Mechanism) -> Case {
     let left = StartGroup { mode: Some(AssemblyMode::Left), ..StartGroup::default() };
     turning_from(mechanism, 0.0, &left)
 }
 
 /// A case like that of `turning`, for a mechanism with Assur groups of any kind.
-/// It starts at the crank angle `crank` (rad). `group` gives the required start configuration of every group.
+/// The case starts at the crank angle `crank` (rad). `group` gives the required start configuration of every group.
 pub fn turning_from(mechanism: Mechanism, crank: f64, group: &StartGroup) -> Case {
     let drives = Drives::from(Drive::prescribed(JointId(0), LinkId(1), 0.0, crank, MotionLaw::ConstantSpeed(1.0)));
     let structure = Structure::of(&mechanism, &drives.joints()).unwrap();

@@ -1,14 +1,15 @@
 //! The input: the joint coordinate that moves a mechanism.
-//! This module alone defines what an input measures, how it is named in files and messages, and how its units convert.
+//! This module alone defines what an input measures, how an input is named in files and messages, and how its units
+//! convert.
 
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// What an input measures. Its values are in SI units, and their zero is that of the scenario.
+/// Quantity that an input measures. The input's values are in SI units. Their zero is the zero of the scenario.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Input {
     /// Angle of a crank, a driving link that turns about its joint.
-    /// It is measured counter-clockwise from the link's zero direction and counts whole turns.
+    /// The angle is measured counter-clockwise from the link's zero direction and counts whole turns.
     #[default]
     Angle,
 }
@@ -74,7 +75,8 @@ impl Input {
         }
     }
 
-    /// Period after which the driving link has the same pose again, with its name in the plural.
+    /// Period of the input, and the name of the period in the plural.
+    /// After each period the driving link has the same pose again.
     /// `None` if there is no period.
     #[must_use]
     pub const fn period(self) -> Option<(f64, &'static str)> {
@@ -84,7 +86,7 @@ impl Input {
     }
 }
 
-/// Value of an input. It is displayed with its name and unit: `crank angle 41.0000 deg`.
+/// Value of an input. The value is displayed with the input's name and unit: `crank angle 41.0000 deg`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InputValue {
     /// What it measures.

@@ -56,7 +56,7 @@ pub fn corners(points: impl IntoIterator<Item = Vec2>) -> [Vec2; 2] {
     points.into_iter().fold(none, |[low, high], at| [low.inf(&at), high.sup(&at)])
 }
 
-/// Rotates `v` by the direction `d` = (cos, sin): the product of the two as complex numbers.
+/// Rotates `v` by the direction `d` = (cos, sin): the product of `v` and `d` as complex numbers.
 #[inline]
 #[must_use]
 pub fn rotated(d: Vec2, v: Vec2) -> Vec2 {

@@ -1,4 +1,4 @@
-//! The mechanism: links, joints, structure, and start pose. This module knows no time, files or solvers.
+//! The mechanism: links, joints, structure, and start pose. This module does not depend on time, files or solvers.
 
 pub mod assembly;
 mod ids;
@@ -37,8 +37,9 @@ pub struct Mechanism {
     /// For every joint: index of its first equation in the list of all joints' equations. The last entry is the total
     /// number of equations.
     rows: Vec<usize>,
-    /// Size of the mechanism. It is needed in every pose.
-    /// It is computed only once, because a link with many points has many more distances between them.
+    /// Size of the mechanism (m). Every pose needs the size.
+    /// The size is computed only once, because a link with many points has many more distances between points than
+    /// points.
     size: f64,
 }
 
@@ -46,9 +47,12 @@ impl Mechanism {
     /// A mechanism with these links (the first is the ground) and joints.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] with the key of the link or joint at fault: duplicate names, a joint that connects a link
-    /// with itself, negative or non-finite masses and inertias, inertia without mass, a point name on two links that no
-    /// joint holds together.
+    /// [`ErrorKind::Input`] with the key of the link or joint at fault, for each of these faults:
+    /// - duplicate names;
+    /// - a joint that connects a link with itself;
+    /// - negative or non-finite masses and inertias;
+    /// - inertia without mass;
+    /// - a point name on two links that no joint holds together.
     pub fn new(links: Vec<Link>, joints: Vec<Joint>) -> Result<Self> {
         let mechanism = Mechanism::unchecked(links, joints);
         mechanism.check_names()?;
@@ -60,7 +64,7 @@ impl Mechanism {
     }
 
     /// A mechanism from unchecked links and joints.
-    /// Use it only to look up names in a faulty file, or to draw the parts that exist.
+    /// Use this function only to look up names in a faulty file, or to draw the parts that exist.
     #[must_use]
     pub fn unchecked(links: Vec<Link>, joints: Vec<Joint>) -> Self {
         let (links, joints) = (PerLink::from(links), PerJoint::from(joints));
@@ -68,7 +72,8 @@ impl Mechanism {
         let mut on = PerLink::from(vec![Vec::new(); links.len()]);
         for (index, joint) in joints.entries() {
             for side in [joint.first, joint.second] {
-                // A joint that connects a link with itself is rejected later, in `check_names`.
+                // A joint that connects a link with itself is listed here like any other joint. `check_names` rejects
+                // it later.
                 on[side.link].push(index);
             }
         }
@@ -127,7 +132,8 @@ impl Mechanism {
 
     /// Guide and block of a sliding joint; `None` for other joints.
     /// The ground is always the guide.
-    /// Of two moving links the larger is the guide; if they are equal, the first.
+    /// Of two moving links, the link with the larger size is the guide. If the sizes are equal, the joint's first link
+    /// is the guide.
     #[must_use]
     pub fn guide_and_block(&self, joint: &Joint) -> Option<[JointSide; 2]> {
         let size = |side: JointSide| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
@@ -152,13 +158,13 @@ impl Mechanism {
 
     /// Largest extent of a link (m); for the ground, the extent of its points. Closure gaps are compared with this
     /// size.
-    /// It is always positive: if no link has an extent, lengths do not matter and the size is 1 m.
+    /// The size is always positive. If no link has an extent, lengths do not matter and the size is 1 m.
     #[must_use]
     pub fn size(&self) -> f64 {
         self.size
     }
 
-    /// Whether a link can turn. It cannot if joints that keep the angle connect it with the ground.
+    /// Whether a link can turn. A link cannot turn if joints that keep the angle connect it with the ground.
     #[must_use]
     pub fn can_turn(&self, link: LinkId) -> bool {
         let mut still = vec![GROUND];
@@ -250,7 +256,8 @@ impl Mechanism {
             for joint in self.joints.iter().filter(|joint| joint.is_pin() && joint.on(link).is_some()) {
                 let other = joint.other(link).link;
                 if !reached.contains(&other) && at(joint.first) && at(joint.second) {
-                    // Stops early: on a link with many joints, visiting all other links would take long.
+                    // The search stops as soon as the answer is known.
+                    // On a link with many joints, a visit to all other links would be slow.
                     if other == b {
                         return true;
                     }

@@ -64,7 +64,7 @@ mod tests {
         assert_eq!(cause.downcast_ref(), Some(&"inside"));
         assert!(!is_guarded());
         assert!(guarded(is_guarded).unwrap());
-        // The hook set by this test is still active. It saw one panic and recognised it as caught.
+        // The hook set by this test is still active. The hook saw one panic and recognised this panic as caught.
         assert_eq!((HEARD.load(Ordering::SeqCst), CAUGHT.load(Ordering::SeqCst)), (1, 1));
         // The guard applies to one thread only, so the panic of a spawned thread counts as not caught.
         let outside = guarded(|| thread::spawn(|| panic!("outside")).join()).unwrap();

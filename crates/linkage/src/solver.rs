@@ -14,16 +14,16 @@ use crate::trajectory::{Channel, Trajectory};
 /// How a solver obtains a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Provision {
-    /// It is computed, or read from the engine, without conversion.
+    /// The channel is computed, or reported by the engine, without conversion.
     Computed,
-    /// It is derived from other quantities. The text describes the method.
+    /// The channel is computed from other quantities. The text describes the method.
     Derived(&'static str),
 }
 
-/// Receives the completed fraction of a long run, from 0 to 1.
+/// Function that receives the completed fraction of a long run, from 0 to 1.
 pub type Progress<'a> = &'a mut dyn FnMut(f64);
 
-/// Receives every state with its row of the grid. If it returns an error, the run stops.
+/// Function that receives every state with its row of the grid. If the function returns an error, the run stops.
 pub type Visit<'a> = &'a mut dyn FnMut(usize, &State) -> Result<()>;
 
 /// A method that turns a case into a trajectory.
@@ -42,10 +42,10 @@ pub trait Solver: Send + Sync {
     /// An error of `visit` is passed on.
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()>;
 
-    /// The same as [`Solver::sweep`], without progress reports.
+    /// Does the same as [`Solver::sweep`], without progress reports.
     ///
     /// # Errors
-    /// Those of [`Solver::sweep`].
+    /// The errors of [`Solver::sweep`].
     fn each(&self, case: &Case, visit: Visit) -> Result<()> {
         self.sweep(case, visit, &mut |_| {})
     }
@@ -58,11 +58,11 @@ pub trait Solver: Send + Sync {
         self.solve_with(case, &mut |_| {})
     }
 
-    /// The same as [`Solver::solve`], with progress reports: `progress` receives the completed fraction of the run,
-    /// from 0 to 1.
+    /// Does the same as [`Solver::solve`], with progress reports: `progress` receives the completed fraction of the
+    /// run, from 0 to 1.
     ///
     /// # Errors
-    /// Those of [`Solver::solve`].
+    /// The errors of [`Solver::solve`].
     fn solve_with(&self, case: &Case, progress: Progress) -> Result<Trajectory> {
         let mut sampler = Sampler::new(case);
         let mut put = |row: usize, state: &State| {

@@ -16,13 +16,14 @@ pub fn cores() -> usize {
 
 /// Calls `work` for every index below `count`, on at most `threads` threads. Each thread takes the next free index.
 /// `work` may send any number of messages.
-/// The calling thread passes each message with its index to `hear`. If `hear` breaks, no further index is started.
+/// The calling thread passes each message with its index to `hear`. After `hear` returns a break, no further index is
+/// started.
 /// The [counts](work) of the work done on the threads are added to the counts of the calling thread.
 ///
 /// If `threads` is 1, or if the system cannot start a thread, the calling thread does the work.
 ///
 /// # Panics
-/// If `work` panics. All started work is finished first.
+/// If `work` panics. All started work is finished before the panic is passed on.
 pub fn side_by_side<M: Send>(
     count: usize,
     threads: usize,
@@ -51,7 +52,7 @@ pub fn side_by_side<M: Send>(
         let (tell, told) = mpsc::channel();
         let start = |_| {
             let tell = tell.clone();
-            // After `hear` breaks, the channel has no receiver, so a failed send is ignored.
+            // After `hear` returns a break, the channel has no receiver, so a failed send is ignored.
             let all = || take(&mut move |index, message| drop(tell.send((index, message))));
             thread::Builder::new().spawn_scoped(scope, || work::counted(all).1).ok()
         };

@@ -1,4 +1,4 @@
-//! The result of every solver: channels over a grid of times. All numbers in a trajectory are finite.
+//! The result of every solver: values of channels on a grid of times. All numbers in a trajectory are finite.
 
 pub mod channel;
 mod reading;
@@ -93,8 +93,8 @@ impl Trajectory {
         Some(&self.columns[index])
     }
 
-    /// The same as [`Trajectory::column`], but it looks first at position `index`.
-    /// This saves a search, because a channel has the same position in all trajectories of one case.
+    /// Does the same as [`Trajectory::column`], but first checks whether the channel is at position `index`.
+    /// This check saves a search, because a channel has the same position in all trajectories of one case.
     #[must_use]
     pub fn column_near(&self, channel: &Channel, index: usize) -> Option<&[f64]> {
         if self.channels.get(index) == Some(channel) { Some(&self.columns[index]) } else { self.column(channel) }

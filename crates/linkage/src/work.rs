@@ -1,7 +1,7 @@
 //! Exact counts of what solvers and engines do.
 //!
 //! Code that does work counts it in a [`WorkTally`]; a caller reads the counts with [`counted`].
-//! Counts tell the cost of a run independently of the machine. They never enter a result.
+//! Counts show the cost of a run independently of the machine. Counts never affect a result.
 
 use crate::sentences;
 use std::cell::Cell;
@@ -35,7 +35,7 @@ pub enum Count {
     Steps,
     /// Sweeps over the constraints of an engine's simulation, summed over all steps.
     Sweeps,
-    /// Tiny steps from a given pose. They show the forces that the engine exerts in that pose.
+    /// Tiny steps from a given pose. Such a step shows the forces that the engine exerts in the pose.
     Probes,
 }
 
@@ -110,7 +110,7 @@ thread_local! {
 }
 
 /// Runs `run` and returns its result together with the work counted on this thread during the call.
-/// This includes work of other threads that was passed to [`add`] during the call.
+/// The returned work includes work of other threads that was passed to [`add`] during the call.
 /// A `WorkTally` is counted only when it is dropped, so every tally created in `run` must be dropped in `run`.
 pub fn counted<T>(run: impl FnOnce() -> T) -> (T, Work) {
     let before = DONE.replace(Work::NONE);
@@ -125,7 +125,7 @@ pub fn add(work: &Work) {
     DONE.set(DONE.get().and(work));
 }
 
-/// Work of placing one Assur group. A step of Newton's method over all constraints costs this much per link.
+/// Work of placing one Assur group. A step of Newton's method for all constraints costs this much per link.
 /// The unit is the unit of budgets: one time step of an engine on a four-bar, without sweeps.
 /// The value was measured on chains of 1 to 1000 four-bars.
 pub const PLACED: f64 = 0.2;
@@ -165,7 +165,7 @@ fn spent(allowed: f64) -> Error {
     Error::new(ErrorKind::Unsupported, message).or_help(Advice::MoreWork { to: 10.0 * allowed })
 }
 
-/// Counts the work of one solver. When it is dropped, its counts are added to those of the thread.
+/// Counts the work of one solver. When a tally is dropped, its counts are added to the counts of the thread.
 #[derive(Debug, Default)]
 pub struct WorkTally(Work);
 

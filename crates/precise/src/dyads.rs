@@ -1,6 +1,7 @@
 //! Dyads of three revolute pairs in closed form, one dyad after the other. Forces are computed in reverse order.
 //!
-//! The inner joint is an intersection of two circles, on the same side as in the start pose.
+//! The inner joint is an intersection of two circles. The joint lies on the same side of the line between the outer
+//! joints as in the start pose.
 //! The angular velocities follow from the relative velocity of the outer joints, projected on the two links.
 //! Equations of moments about the inner joint give the forces.
 
@@ -95,8 +96,8 @@ impl Dyad {
         });
         let alphas = projected(carried[1] - carried[0]);
         for k in 0..2 {
-            // The world direction of the rod, rotated back by the direction of the rod in the link's frame, is that of
-            // the frame.
+            // The direction of the rod in the world, rotated back by the direction of the rod in the link's frame, is
+            // the direction of the frame.
             let direction = arms[k].rotated_back(rods[k]);
             let direction = direction * (Long::ONE / direction.norm());
             let to_origin = -Vector::of(self.locals[k][0]).rotated(direction);
@@ -114,13 +115,14 @@ impl Dyad {
     }
 }
 
-/// Reactions and torque from the equilibrium of every dyad, starting with the last.
+/// Reactions and torque from the equilibrium of every dyad, starting with the last dyad.
 fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
-    // The force on every link and its moment about the world's origin, from weight, inertia and later groups.
+    // The force on every link from weight, inertia and later groups, and its moment about the world's origin.
     let mut acting: Vec<(Vector, Long)> =
         case.mechanism.links().ids().map(|link| instant.inertia(case, link)).collect();
     let joints = case.mechanism.joints();
-    // Converts the force that a joint exerts on a link to the force of the joint's first link on its second.
+    // Converts the force that a joint exerts on a link to the force that the joint's first link exerts on its second
+    // link.
     let told =
         |joint: JointId, link: LinkId, force: Vector| if joints[joint].second.link == link { force } else { -force };
     for dyad in dyads.iter().rev() {
@@ -128,7 +130,7 @@ fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
         let c = instant.frames[dyad.links[0]].point(dyad.locals[0][1]);
         let [one, two] = dyad.links.map(|link| acting[link]);
         let about = |place: Vector, (force, moment): (Vector, Long)| moment - place.cross(force);
-        // Force in the second outer joint, from two moment equations:
+        // The force in the second outer joint follows from two moment equations:
         // that of the second link about the inner joint, and that of both links about the first outer joint.
         let (whole, part) = (-(about(a, one) + about(a, two)), -about(c, two));
         let (p, q) = (b - a, b - c);

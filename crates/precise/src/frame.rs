@@ -52,9 +52,9 @@ impl Frame {
 #[derive(Clone, Debug)]
 pub(crate) struct Snapshot {
     pub(crate) frames: Vec<Frame>,
-    /// Force of the first link on the second in every joint.
+    /// Force that the first link exerts on the second link in every joint.
     pub(crate) forces: Vec<Vector>,
-    /// Moment of the first link on the second in every joint, about the joint's point on the second link.
+    /// Moment that the first link exerts on the second link in every joint, about the joint's point on the second link.
     pub(crate) moments: Vec<Long>,
     pub(crate) torque: Long,
     /// World angle of the crank, unwrapped.
@@ -73,7 +73,7 @@ impl Snapshot {
         }
     }
 
-    /// Weight and inertia of a link, as a force at the world's origin and the moment about it.
+    /// Weight and inertia of a link, as a force at the world's origin and the moment about the origin.
     pub(crate) fn inertia(&self, case: &Case, link: LinkId) -> (Vector, Long) {
         let own = &case.mechanism.links()[link];
         let frame = &self.frames[link];

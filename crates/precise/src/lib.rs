@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 //!
-//! [`solve`] solves dyads of revolute pairs in closed form ([`dyads`]). It solves every other mechanism from all its
-//! equations at once ([`whole`]).
-//! Neither method shares an equation or code with the analytic sides; only the case is common.
+//! [`solve`] solves dyads of revolute pairs in closed form ([`dyads`]). It solves every other mechanism from all
+//! equations of the mechanism at once ([`whole`]).
+//! Neither of the two methods shares an equation or code with the analytic sides; only the case is common.
 //! The crank angle is computed from the time of the instant in full precision: start + speed t.
 
 pub mod dyads;

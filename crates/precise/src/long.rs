@@ -18,7 +18,7 @@ fn sum(a: f64, b: f64) -> Long {
     Long(sum, (a - (sum - second)) + (b - second))
 }
 
-/// The same sum if the first number has the larger absolute value (Dekker).
+/// The sum of two doubles without error, if the first double has the larger absolute value (Dekker).
 fn ordered_sum(a: f64, b: f64) -> Long {
     let sum = a + b;
     Long(sum, b - (sum - a))
@@ -56,7 +56,7 @@ impl Long {
         if self == Long::ZERO {
             return self;
         }
-        // One step of Newton's method doubles the digits.
+        // One step of Newton's method doubles the number of correct digits.
         let root = Long::of(self.0.sqrt());
         (root + self / root) * Long::of(0.5)
     }
@@ -145,7 +145,7 @@ mod tests {
     fn sums_and_products_keep_thirty_digits() {
         let third = Long::ONE / Long::of(3.0);
         assert!(near(third + third + third, Long::ONE));
-        // 1 + 2^-90 - 1 is exactly 2^-90.
+        // The sum 1 + 2^-90 minus 1 is exactly 2^-90.
         let small = Long::of(2f64.powi(-90));
         assert_eq!(Long::ONE + small - Long::ONE, small);
         for value in [2.0, 1e-12, 0.3, 7e11] {
@@ -155,7 +155,7 @@ mod tests {
         assert_eq!(Long::ZERO.sqrt(), Long::ZERO);
     }
 
-    /// Addition theorems, an angle known in radicals, and large angles.
+    /// The test covers addition theorems, an angle known in radicals, and large angles.
     #[test]
     fn sines_keep_thirty_digits() {
         for k in 0..200 {

@@ -28,11 +28,12 @@ pub(crate) fn trajectory(case: &Case, instants: &[Snapshot]) -> Result<Trajector
     Trajectory::new(case.grid.times.clone(), case.grid.inputs.clone(), channels, columns)
 }
 
-/// Adds whole turns, so that an angle changes by less than half a turn from one instant to the next.
+/// Adds whole turns to the values of an angle. Afterwards the angle changes by less than half a turn from one instant
+/// to the next.
 fn keep_turns(values: &mut [f64]) {
     for row in 1..values.len() {
         let turns = ((values[row - 1] - values[row]) / TAU).round();
-        // If no whole turns are needed, nothing is added, because an addition could cause a rounding error.
+        // If no whole turns are needed, nothing is added, because the addition could cause a rounding error.
         if turns != 0.0 {
             values[row] += turns * TAU;
         }
@@ -123,8 +124,8 @@ fn of_point(frame: &Frame, local: linkage::math::Vec2, reading: OfPoint) -> f64 
     .rounded()
 }
 
-/// Slide along the first link's axis, with its first and second derivative.
-/// It is computed from the motion of the second point relative to the rotating first link.
+/// Slide along the first link's axis, with the first and second derivative of the slide.
+/// The slide is computed from the motion of the second point relative to the rotating first link.
 fn slide(instant: &Snapshot, joint: &Joint) -> [Long; 3] {
     let [first, second] = [joint.first, joint.second].map(|side| (&instant.frames[side.link], side.local));
     let axis = first.0.arm(joint.axis_on(joint.first.link).unwrap_or_default());
@@ -132,14 +133,14 @@ fn slide(instant: &Snapshot, joint: &Joint) -> [Long; 3] {
     let gap_rate = second.0.point_velocity(second.1) - first.0.point_velocity(first.1);
     let gap_second = second.0.point_acceleration(second.1) - first.0.point_acceleration(first.1);
     let (omega, alpha, two) = (first.0.omega, first.0.alpha, Long::of(2.0));
-    // The axis rotates with the first link, which contributes to the derivatives of axis . gap.
+    // The axis rotates with the first link, so the derivatives of axis . gap also contain the rates of the axis.
     let turned = axis.turned();
     let second_rate =
         axis.dot(gap_second) + two * omega * turned.dot(gap_rate) + (turned * alpha - axis * (omega * omega)).dot(gap);
     [axis.dot(gap), axis.dot(gap_rate) + omega * turned.dot(gap), second_rate]
 }
 
-/// Force that joints and drive exert on the ground, and the moment about the origin.
+/// Force that joints and drive exert on the ground, and the moment of this force about the origin.
 fn shaking(case: &Case, instant: &Snapshot) -> (Vector, Long) {
     let (mut force, mut moment) = (Vector::ZERO, -instant.torque);
     for (index, joint) in case.mechanism.joints().entries() {

@@ -44,7 +44,7 @@ impl Vector {
         Vector { x: -self.y, y: self.x }
     }
 
-    /// `self` rotated by the direction `by`: the product of the two as complex numbers.
+    /// `self` rotated by the direction `by`: the product of `self` and `by` as complex numbers.
     pub(crate) fn rotated(self, by: Vector) -> Vector {
         Vector { x: by.x * self.x - by.y * self.y, y: by.x * self.y + by.y * self.x }
     }

@@ -3,7 +3,7 @@
 //!
 //! The unknowns are the frames of all moving links.
 //! The start pose is followed in steps of at most one degree of the crank.
-//! At the requested instants Newton's method continues until the change is at the level of rounding errors.
+//! At the requested instants Newton's method continues until the change of the pose is at the level of rounding errors.
 //! The elimination is dense, which is suitable for some tens of links.
 
 use crate::sentences;
@@ -22,10 +22,10 @@ use super::vector::Vector;
 const STEP: f64 = std::f64::consts::PI / 180.0;
 /// Upper limit of the number of iterations at one pose. Convergence is quadratic.
 const MOST: usize = 30;
-/// If the change of a pose, relative to the mechanism's size, is at most this, the iteration ends.
-/// Such a change is rounding error.
+/// If the change of a pose, divided by the mechanism's size, is at most this limit, the iteration ends.
+/// The remaining change is then rounding error.
 const SETTLED: f64 = 1e-28;
-/// If a further iteration does not halve the change, this larger limit applies instead of `SETTLED`.
+/// If an iteration does not halve the change, this larger limit applies instead of `SETTLED`.
 const ROUNDING: f64 = 1e-20;
 /// Limit of the change that is used instead of `SETTLED` in steps between requested instants.
 const NEAR: f64 = 1e-10;
@@ -33,7 +33,7 @@ const NEAR: f64 = 1e-10;
 /// The same as [`solve`](super::solve), for any mechanism of some tens of links.
 ///
 /// # Errors
-/// Those of [`solve`](super::solve).
+/// The errors of [`solve`](super::solve).
 pub fn solve(case: &Case) -> Result<Trajectory> {
     let task = Task::of(case)?;
     let whole = Whole { case, task, size: case.mechanism.size() };
@@ -133,8 +133,8 @@ impl Whole<'_> {
     }
 
     /// All equations in a pose: first those of the joints, then that of the drive.
-    /// The right-hand side depends on `what`. It contains the gaps of the pose, the speeds, or the terms of the
-    /// accelerations that are quadratic in the velocities.
+    /// The right-hand side depends on `what`. The right-hand side contains the gaps of the pose, the speeds, or the
+    /// terms of the accelerations that are quadratic in the velocities.
     fn system(&self, frames: &[Frame], what: What) -> System {
         let mut system = self.empty();
         for (index, joint) in self.case.mechanism.joints().entries() {
@@ -164,7 +164,7 @@ impl Whole<'_> {
                 JointKind::Prismatic { axes } => {
                     let axes = [0, 1].map(|k| sides[k].arm(axes[k]));
                     let normal = axes[0].turned();
-                    // The normal rotates with the first link.
+                    // The normal rotates with the first link, so its angular velocity is that of the first link.
                     let omega = sides[0].omega;
                     let speed = |k: usize| sides[k].velocity + arms[k].turned() * sides[k].omega;
                     let turning = two * omega * axes[0].dot(speed(1) - speed(0)) + omega * omega * normal.dot(gap);
@@ -211,8 +211,8 @@ impl Whole<'_> {
             if !largest.is_finite() {
                 return None;
             }
-            // In ill-conditioned poses rounding errors are larger. The iteration then also ends if the change no longer
-            // decreases.
+            // In ill-conditioned poses rounding errors are larger than `settled`. The iteration then also ends if the
+            // change no longer decreases by half.
             if largest <= settled || (largest <= ROUNDING && largest > 0.5 * before) {
                 return Some(());
             }
@@ -237,8 +237,8 @@ impl Whole<'_> {
         Some(instant)
     }
 
-    /// For each of a joint's two unknowns, its action on the second link.
-    /// It consists of force, moment about the world's origin, and moment of the joint.
+    /// For each of a joint's two unknowns, the action of the unknown on the second link.
+    /// The action consists of a force, a moment about the world's origin, and the moment of the joint.
     fn reactions(joint: &Joint, frames: &[Frame]) -> [(Vector, Long, Long); 2] {
         let place = frames[joint.second.link].point(joint.second.local);
         let along = |force: Vector| (force, place.cross(force), Long::ZERO);

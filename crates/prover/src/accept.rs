@@ -1,6 +1,6 @@
-//! Accepted values of a proof: they are stored to judge later runs by.
-//! Also reports what has changed since they were stored.
-//! Values are compared within the bounds of both runs, never byte by byte.
+//! Accepted values of a proof. Later runs are judged by comparison with the accepted values.
+//! This module also reports which values have changed since they were accepted.
+//! Values are compared within the bounds of the accepted run and the later run, never byte by byte.
 
 use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,17 +11,19 @@ use linkage::math::KeepNan;
 use linkage::math::statistics::{rms, share};
 use scenario::accepted::{Accepted, AcceptedChannel};
 
-/// Number of instants at which values are kept. They are evenly spaced over the grid and include its ends.
+/// Number of instants at which values are kept.
+/// The instants are evenly spaced between the ends of the grid and include these ends.
 const INSTANTS: usize = 5;
 
 /// Each stored bound is enlarged by this fraction of itself, because the stored numbers are rounded.
 const WRITTEN: f64 = 0.05;
 
-/// If the accepted bound is more than this many times the found bound, or the reverse, agreement proves nothing.
-/// The channel is then known much worse than before, or its accepted bound was much too wide.
+/// If one of the two bounds, accepted or found, is more than this multiple of the other bound, agreement proves
+/// nothing.
+/// Either the channel is known much worse than before, or its accepted bound was much too wide.
 const WIDER: f64 = 100.0;
 
-/// Two times count as the same instant if they differ by at most this fraction of the larger one.
+/// Two times count as the same instant if they differ by at most this fraction of the larger time.
 const SAME_TIME: f64 = 1e-9;
 
 /// Returns the values of a proof that are accepted. A channel whose bound is not finite is left out.
@@ -74,7 +76,7 @@ pub struct Moved {
     pub accepted: f64,
     /// Value found now, in the channel's unit.
     pub found: f64,
-    /// Largest difference that both bounds allow.
+    /// Largest difference that the accepted bound and the found bound together allow.
     pub bound: f64,
 }
 
@@ -92,7 +94,8 @@ pub enum ChannelFigure {
 }
 
 impl Moved {
-    /// Difference of both values divided by the largest difference that both bounds allow.
+    /// Difference of the accepted and the found value, divided by the largest difference that the bounds of both values
+    /// allow.
     #[must_use]
     pub fn bounds(&self) -> f64 {
         share((self.found - self.accepted).abs(), self.bound)
@@ -115,7 +118,7 @@ pub struct Wider {
 pub struct FigureComparison {
     /// Number of channels found.
     pub channels: usize,
-    /// Values that differ by more than both bounds allow, in the order of channels.
+    /// Values whose accepted and found numbers differ by more than the bounds of both allow, in the order of channels.
     pub moved: Vec<Moved>,
     /// Channels whose bound is now much wider than the accepted bound.
     pub wider: Vec<Wider>,
@@ -126,7 +129,7 @@ pub struct FigureComparison {
     pub new: Vec<String>,
     /// Accepted channels that are missing in the found values.
     pub gone: Vec<String>,
-    /// Whether the grids have different instants. If so, values are not compared.
+    /// Whether the accepted and the found run have grids with different instants. If so, values are not compared.
     pub is_other_grid: bool,
     /// Verdict words of the accepted and the found proof; `None` if both are `agree`.
     pub proof: Option<[String; 2]>,
@@ -226,7 +229,8 @@ fn is_same_grid(accepted: &Accepted, found: &Accepted) -> bool {
 
 /// Pairs every accepted value of a channel with the found value on the same grid.
 fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<Moved> {
-    // Angles that differ by a constant number of whole revolutions describe the same motion.
+    // Angles that differ by a constant number of whole revolutions describe the same motion, so whole revolutions are
+    // subtracted.
     let turns = match (found.rms, kept.at.first(), found.at.first()) {
         (None, Some(kept), Some(found)) => ((found - kept) / std::f64::consts::TAU).round() * std::f64::consts::TAU,
         _ => 0.0,

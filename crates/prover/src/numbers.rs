@@ -5,13 +5,14 @@
 
 use linkage::math::KeepNan;
 
-/// Digits of an error or a bound. An estimate does not justify more.
+/// Number of digits of an error or a bound. An estimate does not justify more digits.
 const DIGITS: usize = 3;
 
 /// Number of decimal digits that a double always preserves.
 const MOST_DIGITS: usize = 15;
 
-/// If the difference of two values exceeds this fraction of a value, it shows in the value's first four digits.
+/// If the difference of two values exceeds this fraction of a value, the first four digits of the value show the
+/// difference.
 const FAR: f64 = 1e-3;
 
 /// If two values differ by at most their bound, digits below this fraction of a value are not shown.
@@ -31,7 +32,7 @@ pub fn error_in(value: f64, unit: &str) -> String {
 }
 
 /// A number with at most `digits` significant digits.
-/// It is written plainly from a thousandth to a hundred thousand, otherwise with an exponent.
+/// Sizes from a thousandth to a hundred thousand are written as plain decimals, all other sizes with an exponent.
 #[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
@@ -59,7 +60,7 @@ pub fn resolved(value: f64, resolution: f64) -> String {
     if value.abs() < resolution || value == 0.0 {
         return "0".into();
     }
-    // With a resolution of 0 the ratio is infinite, and the cast saturates.
+    // With a resolution of 0 the ratio is infinite. The cast then saturates, so all digits are shown.
     let digits = (value.abs() / resolution).log10().ceil() as usize;
     let digits = digits.clamp(1, MOST_DIGITS);
     let decimals = -resolution.log10().floor();
@@ -108,7 +109,7 @@ pub fn fixed_in(value: f64, decimals: usize, unit: &str) -> String {
 /// Significant digits of a quantity in a report.
 const SHOWN: usize = 6;
 
-/// Units that take a decimal prefix, and the value from which kilo is used.
+/// Units written with a decimal prefix, each with the smallest value that is written with the prefix kilo.
 const PREFIXED: [(&str, f64); 4] = [("N", 1e4), ("N m", 1e4), ("W", 1e3), ("Pa", 1e3)];
 
 /// A quantity in an SI unit, with six significant digits and the decimal prefix of its size: `115.101 kN`.
@@ -141,7 +142,7 @@ pub fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.into() } else { format!("{number} {}", shown(unit)) }
 }
 
-/// Whether plain decimals are shorter than an exponent: from a thousandth to a hundred thousand.
+/// Whether plain decimals are shorter than an exponent, which is so for sizes from a thousandth to a hundred thousand.
 fn is_plain(value: f64) -> bool {
     (1e-3..1e5).contains(&value.abs())
 }

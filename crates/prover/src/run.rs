@@ -89,7 +89,7 @@ pub struct Proof {
     pub reference: &'static str,
     /// Checks on the analytic sides, published numbers among them.
     pub checks: Vec<Check>,
-    /// The engines, in the order asked for.
+    /// The engines, in the requested order.
     pub engines: Vec<EngineProof>,
     /// Channels in which the reference and the engines do not all agree.
     /// Empty if there is only one engine: the verdicts on its channels then show the disagreement.

@@ -59,7 +59,8 @@ pub enum BoundBasis {
         /// Origin of the rounding part. The discretisation and iteration parts are estimated.
         noise: BoundOrigin,
     },
-    /// The sum of three parts: half a unit of the last digit of a number, the number's known error, and its change
+    /// Bound of a number: the sum of three parts.
+    /// The parts are half a unit of the number's last digit, the number's known error, and the change of the number
     /// within the rounding of its instant.
     Digits {
         /// How the number is known: published, recomputed or derived.

@@ -4,11 +4,11 @@
 //! body.
 //! In a multibody, Rapier accepts a point mass that does not lie in a joint: the mass matrix of the chain is regular.
 //! A link that lacks mass or inertia gets an added mass or inertia.
-//! It also gets the load m a + J alpha - m g of the added part.
+//! The link also gets the load m a + J alpha - m g of the added part.
 //! With the true accelerations, the motion is that of the case: (M + M') a = f + M' a reduces to M a = f.
 //! The load in a step uses the accelerations of the step before.
 //! The resulting error is of first order, like that of the whole step.
-//! It decays from step to step, because an added mass is smaller than the total: M' / (M + M') is below 1.
+//! This error decays from step to step, because an added mass is smaller than the total: M' / (M + M') is below 1.
 //! See docs/numerics/twins.md.
 
 use super::masses::added;

@@ -1,8 +1,8 @@
 //! Checks whether the engine is still on the branch on which it began.
 //!
 //! Near a dead point, two assembly modes of a group are close together.
-//! The engine may then slip from one mode to the other while its loops hardly open.
-//! The two modes differ in the sign of the determinant of the group's constraints.
+//! The engine may then slip from one mode to the other mode while its loops hardly open.
+//! The two modes differ in the sign of the determinant of the group's constraints, so this sign is watched.
 
 use crate::sentences;
 use linkage::case::Case;
@@ -13,11 +13,11 @@ use linkage::mechanism::{GROUND, GroupId, LinkPose};
 use linkage::solver::State;
 
 /// Threshold, as a fraction of a group's largest determinant.
-/// If a determinant of the opposite sign is larger than this, the group is on another branch.
-/// If it is smaller, the sign is explained by the small opening of the engine's loops at a dead point.
+/// If a determinant of the opposite sign is larger than this, the group is on another branch than its start branch.
+/// If the determinant is smaller, its sign is explained by the small opening of the engine's loops at a dead point.
 const BEYOND: f64 = 0.02;
 
-/// The supervised groups of a case; none in a free motion.
+/// The supervised groups of a case. In a free motion, no group is supervised.
 #[derive(Debug)]
 pub(super) struct Branches {
     groups: Vec<Watched>,
@@ -26,16 +26,16 @@ pub(super) struct Branches {
 /// One group.
 #[derive(Debug)]
 struct Watched {
-    /// The group's number in the structure.
+    /// Index of the group in the structure.
     index: GroupId,
-    /// Constraints of the group's joints, in the coordinates of its links: x, y (m), and angle times the mechanism's
-    /// size.
+    /// Constraints of the group's joints, in the coordinates of the group's links.
+    /// The coordinates of a link are x, y (m), and its angle times the mechanism's size.
     constraints: Lu,
     /// Sign of the determinant on the start branch.
     sense: f64,
     /// Largest absolute value of the determinant so far.
     largest: f64,
-    /// Times (s) and determinants of the last two states, the older one first.
+    /// Times (s) and determinants of the last two states, the older state first.
     last: [Option<(f64, f64)>; 2],
 }
 
@@ -58,10 +58,10 @@ impl Branches {
         Branches { groups: case.structure.groups.ids().map(of).collect() }
     }
 
-    /// Checks that all groups of a state at `t` (s) are on their branches.
+    /// Checks that all groups of a state at `t` (s) are on their start branches.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a group is on another branch.
+    /// [`ErrorKind::Numeric`] if a group is on a branch other than its start branch.
     pub(super) fn check(&mut self, case: &Case, state: &State, t: f64) -> Result<()> {
         for own in &mut self.groups {
             let determinant = own.determinant(case, &state.motions);
@@ -120,7 +120,7 @@ impl Watched {
             let joint = &case.mechanism.joints()[joint];
             let sides = [joint.first, joint.second];
             let [one, other] = sides.map(|side| motions[side.link]);
-            // Derivative of the joint's position with respect to the angle of its link.
+            // The derivative of a joint's position with respect to the angle of its link is the arm turned by 90 deg.
             let arms = sides.map(|side| turned(motions[side.link].arm(side.local)));
             let rows: [[[f64; 3]; 2]; 2] = match joint.kind.axes() {
                 None => [0, 1].map(|end: usize| {
@@ -177,7 +177,7 @@ mod tests {
         let line = (places[1] - places[0]).normalize();
         let mirrored = |v: Vec2| 2.0 * line.dot(&v) * line - v;
         for &link in &group.links {
-            // The fixture's links lie along their x axes, so it is enough to mirror origin and direction.
+            // The fixture's links lie along their x axes, so mirroring origin and direction mirrors a link.
             let motion = &mut state.motions[link];
             motion.origin = places[0] + mirrored(motion.origin - places[0]);
             motion.direction = mirrored(motion.direction);

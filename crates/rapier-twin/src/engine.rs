@@ -11,7 +11,8 @@ use linkage::error::Result;
 use linkage::solver::{Progress, Provision, Solver, Visit};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
 
-/// Upper limit of the number of sweeps. If a loop stays open with so many sweeps, it has another fault.
+/// Upper limit of the number of sweeps. If a loop stays open even with this number of sweeps, the cause is not the
+/// number of sweeps.
 const MOST_SWEEPS: usize = 65_536;
 
 impl Engine for Rapier {
@@ -45,7 +46,7 @@ impl Engine for Rapier {
 
     fn own_routes(&self, _: &Case) -> &'static [Route] {
         // Probes are not tried by default, because they cost more and need many more sweeps at coarse steps.
-        // Their tiny steps also cause an error that a comparison of runs does not reveal.
+        // The tiny steps of a probe also cause an error that a comparison of runs does not reveal.
         &[Route::Native]
     }
 
@@ -54,8 +55,9 @@ impl Engine for Rapier {
         let reports = self.settings.route == Route::Native;
         let begins = case.is_free() && case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
         match self.build {
-            // Two sweeps are needed here: the worlds that report the forces of a tree have cut joints.
-            // With one sweep, the links would not get their start velocities, and later steps would not correct this.
+            // At least two sweeps are needed here, because the worlds that report the forces of a tree have cut joints.
+            // With one sweep, the links would not get their start velocities, and later steps would not correct this
+            // error.
             Build::Multibody if alone && reports && begins => Some([2, MOST_SWEEPS]),
             // A tree with one motor is solved exactly in one sweep.
             Build::Multibody if alone => Some([1, 1]),
@@ -91,8 +93,8 @@ impl Engine for Rapier {
     }
 
     fn told(&self) -> Vec<(&'static str, String)> {
-        // The engine's name already states the resolution, and `how` states the route.
-        // This engine does not know whether its results are extrapolated.
+        // Three settings are not listed here: the engine's name states the resolution, and `how` states the route.
+        // `Extrapolated`, which combines runs of this engine, lists the extrapolation.
         let Settings { resolution: _, sweeps, substeps, route: _, extrapolated: _ } = self.settings;
         let build = match self.build {
             Build::Multibody => sentences::SPANNING_TREE_AS_MULTIBODY_LOOPS,
@@ -114,7 +116,7 @@ impl Engine for Rapier {
 }
 
 impl Rapier {
-    /// Where reactions and moments come from.
+    /// Describes the source of reactions and moments.
     fn how(&self) -> &'static str {
         match (self.settings.route, self.build) {
             (Route::Differences, _) => sentences::NEWTON_EULER_ON_CENTRED_SECOND,

@@ -1,4 +1,4 @@
-//! Motor and loads of a free motion. They are set again before every step, from the engine's own state.
+//! Motor and loads of a free motion. Motor and loads are set again before every step, from the engine's own state.
 //! See docs/numerics/twins.md.
 
 use super::added::Added;
@@ -25,7 +25,7 @@ const STANDSTILL: f64 = 1e-9;
 /// Number of tiny steps that undo a trial.
 const UNDOING: usize = 8;
 /// Largest number of trials of the first step.
-/// The trials end earlier if the compensating loads change by less than the second value (relative).
+/// The trials end earlier if the relative change of the compensating loads is below `GUESSED`.
 const MOST_TRIALS: usize = 200;
 const GUESSED: f64 = 1e-9;
 
@@ -37,13 +37,14 @@ pub(super) struct Acting {
     before: Vec<f64>,
     /// Velocities, one step earlier, of the points whose motion some loads oppose; one for each load.
     swept: Vec<Vec2>,
-    /// Speeds that links at rest reach in the trial step; 0 without a trial step.
+    /// Speed that each link at rest reaches in the trial step. Without a trial step, the speeds are 0.
     setting_off: Vec<f64>,
     loads: Vec<Wrench>,
-    /// The loads plus those that compensate added masses.
+    /// The loads plus the loads that compensate added masses.
     relieved: Vec<Wrench>,
     branch: Option<MotorBranch>,
-    /// Moment of the motor on the crank (N m) that acts as a load in this step, because Rapier's motor cannot apply it.
+    /// Moment of the motor on the crank (N m) that acts as a load in this step.
+    /// It acts as a load because Rapier's motor cannot apply it.
     direct: f64,
     /// One for each world.
     added: Vec<Option<Added>>,
@@ -54,8 +55,9 @@ impl Acting {
     /// Those of [`check_inertias`].
     pub(super) fn new(case: &Case, precision: Precision, worlds: &[Guard]) -> Result<Self> {
         if precision != Precision::Double {
-            // In single precision, second differences of positions are only rounding noise.
-            // They cannot compensate an added mass.
+            // In single precision, second differences of positions are only rounding noise and cannot compensate an
+            // added mass.
+            // A case that needs an added mass is therefore refused.
             check_inertias(case, sentences::RAPIER_IN_SINGLE_PRECISION)?;
         }
         let links = case.mechanism.links().len();
@@ -91,7 +93,7 @@ impl Acting {
         let State { motions, angles, .. } = &self.state;
         let (before, setting_off) = (&self.before, &self.setting_off);
         // A link may reverse within the step.
-        // Its load is then the mean of the loads before and after the reversal, weighted by their durations.
+        // The load of such a link is the mean of the loads before and after the reversal, weighted by their durations.
         let sensed = |_: usize, load: &Load, link: LinkId, crank: f64| {
             let now = motions[link].omega;
             if now == 0.0 {
@@ -105,8 +107,8 @@ impl Acting {
             }
             own
         };
-        // A point whose motion is opposed by a force may also reverse within the step. Its force is then weighted in
-        // the same way.
+        // A point whose motion is opposed by a force may also reverse within the step. The force on such a point is the
+        // mean of the forces before and after the reversal, weighted in the same manner.
         let swept = &self.swept;
         let way = |index: usize, now: Vec2| {
             let next = 2.0 * now - swept[index];
@@ -134,7 +136,7 @@ impl Acting {
 
     /// Gives driving links their exact speeds at t = 0, and zero speed to links at rest.
     /// The tiny step before the motion leaves rounding errors in these speeds.
-    /// Their sign must not choose a direction of motion.
+    /// Without the exact speeds, the sign of a rounding error would choose a direction of motion.
     fn begin_exactly(&mut self, case: &Case) {
         let motions = &mut self.state.motions;
         for drive in &case.drives {
@@ -213,7 +215,7 @@ impl Acting {
 /// Returns the window of the motion.
 /// If a load or the losses of a reducer depend on the sense of rotation of a link at rest, one step is tried and
 /// undone.
-/// In this trial the load does not act, and power flows from the motor.
+/// In the trial step, such a load does not act, and power flows from the motor.
 ///
 /// # Errors
 /// Those of [`Guard::step`].
@@ -262,17 +264,18 @@ fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard]
     Ok(())
 }
 
-/// Undoes a trial step.
+/// Undoes a trial step by several tiny steps.
 /// Each tiny step starts from the velocities and impulses of the step before.
-/// After several tiny steps, nothing of the trial remains.
+/// After several tiny steps, velocities and impulses no longer depend on the trial step.
 fn undo(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
     (0..UNDOING).try_for_each(|_| settle(case, worlds, step))
 }
 
 /// Places worlds at the start pose and gives the driving links their start velocities.
 /// A tiny step with rigid drives then makes all other velocities consistent.
-/// These velocities exclude the correction of gaps: in a tiny step, even a gap of rounding size would give a speed.
-/// Later velocities include the correction.
+/// The velocities after the tiny step exclude the correction of gaps.
+/// The reason is that even a gap of rounding size would give a speed in a tiny step.
+/// Later velocities include the correction of gaps.
 fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
     let fastest = case.drives.iter().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));
     for guard in worlds {

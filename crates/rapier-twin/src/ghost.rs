@@ -3,7 +3,7 @@
 //! Rapier needs a mass and a moment of inertia on every link.
 //! For a given motion, reactions and driving moment are linear in masses, inertias and loads.
 //! The contribution of the differences can therefore be computed separately and subtracted.
-//! It follows from the Newton-Euler equations with the engine's accelerations.
+//! This contribution follows from the Newton-Euler equations with the engine's accelerations.
 //! See docs/numerics/twins.md.
 
 use super::masses::{added, masses, masses_with_flywheels};
@@ -21,7 +21,7 @@ pub(super) struct Ghost {
 }
 
 impl Ghost {
-    /// The stand-ins of a case; also its loads if they are missing in the engine (`unloaded`).
+    /// The stand-ins of a case. If its loads are missing in the engine (`unloaded`), they are included too.
     /// `None` if nothing has to be subtracted.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
         // At constant speed, flywheels are left out: a flywheel adds a moment only while it is accelerated.
@@ -40,7 +40,7 @@ impl Ghost {
         }
         let unloaded = unloaded && !case.loads.is_empty();
         let any = unloaded || extra.iter().flatten().any(|&extra| extra != 0.0);
-        // Subtracting the missing loads with a negative sign adds them.
+        // The contribution of the stand-ins is subtracted later. Loads with a negative sign are therefore added.
         let load_share = if unloaded { -1.0 } else { 0.0 };
         any.then(|| Ghost { statics: NewtonEuler::of(case, extra, load_share), state: State::at_rest(case) })
     }

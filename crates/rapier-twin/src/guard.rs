@@ -26,7 +26,7 @@ use linkage::work::{Count, WorkTally};
 const LARGEST_GAP: f64 = 0.05;
 /// If a link turns by more than this angle (rad) in one step, the run is stopped: its trajectory is meaningless.
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
-/// If the kinetic energy grows by more than this factor in one step, the run has diverged.
+/// If the kinetic energy grows by more than this factor in one step, the run has diverged and is stopped.
 /// The factor corresponds to a factor of ten in the speeds.
 /// Energy is not conserved, because the drives enforce their speeds.
 /// But the kinetic energy depends only on the pose, and the pose changes little in a step.
@@ -39,7 +39,7 @@ pub(super) struct Guard<'a> {
     /// The mechanism's size (m).
     size: f64,
     largest_gap: f64,
-    /// Frames of all links after the last step, and their mass centres (m).
+    /// Frames of all links after the last step. `centres` are the mass centres of all links at the same time (m).
     frames: Vec<LinkFrame>,
     centres: Vec<Vec2>,
     loads: Vec<Wrench>,
@@ -50,8 +50,8 @@ pub(super) struct Guard<'a> {
     sweeps: usize,
     tally: WorkTally,
     /// Largest kinetic energy so far (J).
-    /// The initial value assumes that all links turn as fast as the fastest drive, with mass centres one mechanism size
-    /// from the axis.
+    /// The initial value assumes that all links turn as fast as the fastest drive.
+    /// It also assumes that every mass centre is one mechanism size from the axis of rotation.
     energy: f64,
     /// Whether no step has been done yet.
     first: bool,
@@ -107,7 +107,7 @@ impl<'a> Guard<'a> {
         self.world.as_ref()
     }
 
-    /// Sets the speed of every drive to `speed` of that drive (rad/s).
+    /// Sets the speed of every drive to the value that `speed` returns for the drive (rad/s).
     pub(super) fn drive(&mut self, speed: impl Fn(&Drive) -> f64) {
         for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, speed(drive));
@@ -172,7 +172,7 @@ impl<'a> Guard<'a> {
         self.tally.many(Count::Sweeps, self.sweeps);
         let Guard { case, world, frames: before, centres, masses, size, .. } = self;
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
-        // Uses the frames before the step.
+        // The error states the crank angle from the frames before the step.
         let place = |before: &[LinkFrame]| {
             Moment::of(case.crank(), case.crank().from_world(before[case.crank().link].angle()), t)
         };
@@ -217,8 +217,8 @@ impl<'a> Guard<'a> {
     /// Checks that the world is back in the case's start pose after it has run backwards and forwards.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a link deviates by more than the largest loop opening.
-    /// The engine has then passed a dead point into another assembly mode.
+    /// [`ErrorKind::Numeric`] if a link deviates from the start pose by more than the largest loop opening.
+    /// After such a deviation, the engine has passed a dead point into an assembly mode other than that of the start.
     pub(super) fn check_start(&self) -> Result<()> {
         let case = self.case;
         for ((id, link), pose) in case.mechanism.links().entries().zip(&case.start.0).skip(1) {
@@ -301,12 +301,12 @@ mod tests {
     use linkage::math::{rotated, unit};
     use linkage::mechanism::JointId;
 
-    /// A world whose steps fail. After a failing step, it reports wrong positions and angles.
+    /// A world whose steps fail. After a failing step, the world reports wrong positions and angles.
     struct Broken {
         world: Box<dyn World>,
         wrong: fn(&mut dyn World),
         off: (Vec2, f64),
-        /// Number of sound steps before the failing ones.
+        /// Number of sound steps before the first failing step.
         healthy: usize,
         frames: Vec<LinkFrame>,
     }
@@ -371,7 +371,8 @@ mod tests {
 
     const BUILDS: [Build; 2] = [Build::Multibody, Build::Impulse];
 
-    /// Result of a guarded step that fails. It shifts all positions and angles by `off`.
+    /// Result of one guarded step of a broken world. In the step, the world calls `wrong` and then shifts all positions
+    /// and angles of its links by `off`.
     fn step(build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
         step_after(0, build, wrong, off)
     }
@@ -426,13 +427,13 @@ mod tests {
     }
 
     /// All links move away together, as sliders can: no link turns and no loop opens.
-    /// The links reach 5 m and the drive turns at 1 rad/s.
+    /// The links reach 5 m from the origin, and the drive turns at 1 rad/s.
     /// In a step of a millisecond, a point at 5 m travels 5 mm. A displacement of 5 cm is ten times this travel.
     #[test]
     fn spurious_energy_stops_the_run() {
         for build in BUILDS {
             step_after(1, build, |_| {}, (Vec2::new(0.01, 0.0), 0.0)).unwrap();
-            // The first step sets the reference energy.
+            // The first step sets the reference energy, so a large displacement in the first step is accepted.
             step(build, |_| {}, (Vec2::new(0.2, 0.0), 0.0)).unwrap();
             let error = step_after(1, build, |_| {}, (Vec2::new(0.2, 0.0), 0.0)).unwrap_err();
             assert!(error.message().contains("kinetic energy has grown"), "{error}");

@@ -6,7 +6,7 @@ use linkage::engine::bodies::stand_in;
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, Joint, Link, LinkId};
 
-/// Mass added to a massless link, divided by the mean mass.
+/// Mass added to a massless link, divided by the mean mass of the links.
 /// A small mass is compensated quickly: in each step, the error of the first guess is multiplied by about this
 /// fraction.
 const SHARE: f64 = 0.1;
@@ -15,29 +15,29 @@ const ROD: f64 = 1.0 / 12.0;
 
 /// If a mass centre is farther from all joints of its link than this fraction of the link's extent, a point mass is
 /// enough.
-/// The mass matrix of a multibody is then regular.
+/// In this case, the mass matrix of a multibody is regular.
 const OFF_JOINTS: f64 = 1e-2;
 
 /// Additional moment of inertia of driving links, divided by the total mass times the square of the mechanism's size.
-/// A link with prescribed speed may have any moment of inertia: it affects neither motion nor reactions.
-/// It affects the driving moment only where the speed changes. There, its contribution is subtracted
-/// ([`Ghost`](super::ghost::Ghost)).
+/// A link with prescribed speed may have any moment of inertia, because it affects neither motion nor reactions.
+/// The additional moment of inertia affects the driving moment only where the speed changes.
+/// Where the speed changes, its contribution is subtracted ([`Ghost`](super::ghost::Ghost)).
 /// With a large moment of inertia, the drives' rows hardly depend on those of the loops, and the sweeps converge.
 /// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps with the flywheel achieve as much as
-/// 1024 without it.
+/// 1024 sweeps without the flywheel.
 /// A flywheel ten times as large gives no further gain.
 const FLYWHEEL: f64 = 1.0;
 
 /// Mass (kg) and moment of inertia (kg m^2) of every link in Rapier, without flywheels.
 /// Rapier cannot move a body without mass and inertia.
 ///
-/// If the speed is prescribed, the motion does not depend on the masses, but the sweeps do.
-/// They hardly converge if the masses of neighbours differ much.
+/// If the speed is prescribed, the motion does not depend on the masses, but the convergence of the sweeps does.
+/// The sweeps hardly converge if the masses of neighbours differ much.
 /// Each link therefore has at least the mean mass, and at least the moment of inertia of a rod of that mass.
 /// The contribution of these additions to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
 ///
 /// In a free motion, the crank also carries rotor and gearbox.
-/// The stand-ins then depend on the world's tree, and loads compensate them ([`Added`](super::added::Added)).
+/// The stand-ins then depend on the world's tree, and loads compensate the stand-ins ([`Added`](super::added::Added)).
 pub(super) fn masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     let mut masses = bare_masses(case, tree);
     if case.is_free() {
@@ -67,7 +67,7 @@ fn bare_masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
 
 /// Masses of a world that only provides a motion with prescribed speeds.
 /// Every link has the same mass, and the moment of inertia of a rod of the link's extent.
-/// The motion does not depend on the masses, but the sweeps do: they hardly converge if the masses differ much.
+/// The motion does not depend on the masses, but the sweeps do: the sweeps hardly converge if the masses differ much.
 fn even_masses(case: &Case) -> Vec<[f64; 2]> {
     let of = |link: &Link| [1.0, ROD * length(case, link) * length(case, link)];
     let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(of).collect();
@@ -78,11 +78,11 @@ fn even_masses(case: &Case) -> Vec<[f64; 2]> {
 /// Use of a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Loading {
-    /// Only the motion is read. Under prescribed speeds the world has [`even_masses`].
+    /// Only the motion of the world is read. Under prescribed speeds the world has [`even_masses`].
     Moving,
-    /// Its forces are read, and the contribution of stand-ins is subtracted.
+    /// The forces of the world are read, and the contribution of stand-ins is subtracted.
     Read,
-    /// Its forces are read as they are.
+    /// The forces of the world are read, and nothing is subtracted.
     Bare,
 }
 
@@ -95,7 +95,7 @@ pub(super) fn world_masses(case: &Case, tree: &SpanningTree, loading: Loading) -
     }
 }
 
-/// The links' own masses, with flywheels on the driving links whose speed is prescribed.
+/// The masses of the links in Rapier, with flywheels on the driving links whose speed is prescribed.
 pub(super) fn masses_with_flywheels(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     with_flywheels(case, masses(case, tree))
 }
@@ -112,7 +112,8 @@ fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     masses
 }
 
-/// Mass (kg) and moment of inertia (kg m^2) that are added to a link in a free motion; 0 if none is needed.
+/// Mass (kg) and moment of inertia (kg m^2) that are added to a link in a free motion. If no addition is needed, they
+/// are 0.
 /// The values depend on whether the link is in the tree of the world.
 pub(super) fn added(case: &Case, link: LinkId, tree: &SpanningTree) -> [f64; 2] {
     if link == GROUND {

@@ -1,6 +1,6 @@
 //! Reactions and moments as the engine reports them during the run.
-//! Loads are added afterwards by the Newton-Euler equations.
-//! They jump where a link reverses, and a jump cannot be interpolated between steps.
+//! The contribution of loads is added afterwards by the Newton-Euler equations.
+//! The reason is that loads jump where a link reverses, and a jump cannot be interpolated between steps.
 
 use super::ghost::Ghost;
 use super::guard::Guard;
@@ -14,9 +14,9 @@ use linkage::mechanism::{JointId, PerJoint};
 use linkage::solver::State;
 
 /// Delay of the engine's reports, in substeps.
-/// It is the time from the instant that a report describes best to the end of the reported step.
+/// The delay is the time from the instant that a report describes best to the end of the reported step.
 /// The impulses of step n belong to the pose of step n - 1.
-/// They change the velocities of step n - 2 into those of step n - 1.
+/// These impulses change the velocities of step n - 2 into those of step n - 1.
 /// The error is of first order whichever instant the impulses are assigned to.
 /// At 0.32 deg a step, the instants t_n, t_(n-1) and t_(n-2) gave these errors:
 /// 3.8e-2, 2.0e-2 and 2.1e-2 on `ov7_base`; 1.7e-2, 5.8e-3 and 6.6e-3 on `crank_rocker`.
@@ -37,7 +37,7 @@ pub(super) struct Native {
     reporters: PerJoint<Option<usize>>,
     ghost: Option<Ghost>,
     row: Vec<f64>,
-    /// Lower limit of the step at the centre of the interpolation. Readings at earlier instants are extrapolated.
+    /// Lower limit of the step at the centre of the interpolation. Readings before this step are extrapolated.
     lowest: i64,
 }
 
@@ -48,8 +48,8 @@ impl Native {
         let width = 3 * case.mechanism.joints().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
         // In a free motion, the first reported step is step 1.
-        // If bodies move at the start, the impulses of the first steps are incomplete.
-        // These steps use velocities along the constraints of the present pose; later steps use those of the pose
+        // If bodies move at the start, the impulses of the first steps are incomplete, so these steps are left out.
+        // The first steps use velocities along the constraints of the present pose; later steps use those of the pose
         // before.
         let lowest = if case.is_free() { 3 + first_steps(case, plain) } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);

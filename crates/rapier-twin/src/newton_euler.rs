@@ -1,21 +1,22 @@
 //! Reactions and driving moment from the engine's motion: the Newton-Euler equations, link by link along a spanning
 //! tree.
 //!
-//! For every link: m (a - g) = sum of joint forces + loads.
-//! J alpha = sum of their moments about the mass centre + moments of the loads.
+//! For every link, m (a - g) = sum of joint forces + loads.
+//! Also J alpha = sum of the moments of these forces about the mass centre + moments of the loads.
 //! A joint has as many unknown components as equations.
-//! For a revolute joint they are the two components of its force.
-//! For a prismatic joint they are the force across its axis, at its point on the second link, and the moment.
+//! For a revolute joint, the components are the two components of its force.
+//! For a prismatic joint, the components are the force across its axis, at its point on the second link, and the
+//! moment.
 //!
 //! The unknowns are the components in the joints that the tree cuts.
 //! The force and moment that a tree joint must transmit to its outer link follow from the motion of all links beyond
-//! it.
-//! They are a linear function of the unknowns and are computed from the leaves inwards.
+//! the joint.
+//! This force and moment are a linear function of the unknowns and are computed from the leaves inwards.
 //! A revolute joint transmits no moment, and a prismatic joint no force along its axis.
 //! Each joint of the tree therefore gives one equation.
 //! The links beyond a joint form a composite body: Featherstone, "Rigid Body Dynamics Algorithms", 2008, ch. 8.
-//! Driven joints are in the tree, and the remainder of their equation is the driving moment.
-//! The remaining equations are as many as the components in cut joints.
+//! Driven joints are in the tree, and the remainder of a driven joint's equation is the driving moment.
+//! The number of the remaining equations equals the number of components in cut joints.
 //! A four-bar has two such equations; the equations of all its links together are nine.
 
 mod seam;
@@ -35,7 +36,7 @@ use linkage::work::{Count, WorkTally};
 use seam::{PAIR, Seam, Stand, Term};
 use stages::{Limb, Row, Stage, stages};
 
-/// The equations. Their memory is reused for every pose.
+/// The equations of a case. Their memory is reused for every pose.
 #[derive(Debug)]
 pub struct NewtonEuler {
     /// The links of the tree, from the ground outwards.
@@ -46,7 +47,7 @@ pub struct NewtonEuler {
     /// The joints of the tree, then the cut joints, in the present pose.
     stands: Vec<Stand>,
     /// Force and moment that the joint carrying a link must transmit to the link, for every link of the tree.
-    /// Each component of a cut joint has one term, and there is a constant term.
+    /// Each component of a cut joint has one term. One further term is constant.
     needs: Vec<Term>,
     stages: Vec<Stage>,
     /// The components in the cut joints.
@@ -74,8 +75,9 @@ impl NewtonEuler {
         NewtonEuler::along(case, &SpanningTree::with(&case.mechanism, &driven), masses, load_share)
     }
 
-    /// The equations along any tree that contains all links and all driven joints, with these masses and this fraction
-    /// of the loads.
+    /// The equations along any tree that contains all links and all driven joints.
+    /// The equations have the masses (kg) and moments of inertia (kg m^2) `masses` and the fraction `load_share` of the
+    /// loads.
     #[must_use]
     pub fn along(case: &Case, tree: &SpanningTree, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
@@ -155,7 +157,7 @@ impl NewtonEuler {
         [pairs, self.stages.len() - pairs]
     }
 
-    /// Finds the components in the cut joints, stage by stage. Returns false if they are not determined.
+    /// Finds the components in the cut joints, stage by stage. Returns false if the components are not determined.
     fn find(&mut self) -> bool {
         let NewtonEuler { stages, stands, needs, components, .. } = self;
         let width = components.len() + 1;
@@ -187,7 +189,7 @@ impl NewtonEuler {
         true
     }
 
-    /// Adds to the needs of every link the needs of the links beyond it, the leaves first.
+    /// Adds to the needs of every link the needs of the links beyond this link. The leaves are treated first.
     fn pass_on(&mut self) {
         let width = self.components.len() + 1;
         for (number, limb) in self.tree.iter().enumerate().rev() {

@@ -10,37 +10,39 @@ use linkage::math::interpolate::lagrange_weights;
 use linkage::trajectory::{ChannelKind, ChannelSubject, Stage, Unit};
 
 /// Rounding error of a speed in the solver's sweeps, in units in the last place.
-/// Measured: 12 on the crank-rocker, 2 on `ov7_base`.
+/// The measured values are 12 on the crank-rocker and 2 on `ov7_base`.
 const SPEED_ULPS: f64 = 20.0;
 /// Rounding error of a second difference before it is divided by the square of the step.
 /// The unit is epsilon times the largest angle.
-/// Four half units come from the difference itself (12.6 epsilon for a full turn; 11.7 were measured).
-/// For the links behind the crank, this is doubled.
+/// The difference itself has an error of four half units (12.6 epsilon for a full turn; 11.7 were measured).
+/// For the links behind the crank, this error is doubled.
 const DIFFERENCE_ULPS: f64 = 4.0;
 /// If the largest angle is below this (rad), this angle replaces it in the rounding error of a second difference.
-/// Unit vectors and positions are rounded even if a link has hardly turned.
+/// The replacement is needed because unit vectors and positions are rounded even if a link has hardly turned.
 /// For a quarter turn and for half a turn, 12.6 epsilon were measured on the crank-rocker and on `quick_return`.
-/// 26 were measured on `ov7_base`; 37 are allowed.
+/// On `ov7_base`, 26 epsilon were measured; 37 epsilon are allowed.
 const LEAST_TURN: f64 = 3.0 * std::f64::consts::PI;
 /// Mean of half a unit in the last place while an angle grows from zero to its present value, in units of epsilon.
-/// The rounding error of a unit vector is up to a whole epsilon, however small the angle.
+/// The rounding error of a unit vector is up to a whole epsilon, whatever the size of the angle.
 const MEAN_HALF_ULP: f64 = 0.25;
 /// Rounding error of the speed change due to an impulse, in units in the last place.
 /// It is the rounding error of a speed times the condition number of the loop that determines the impulse.
-/// On the crank-rocker in f32, 3100 and 3570 were measured at 1e-3 s and 2.5e-4 s (in the impulse build 557 and 570).
-/// The bound is about twice as large.
+/// On the crank-rocker in f32, 3100 and 3570 units were measured at 1e-3 s and 2.5e-4 s (in the impulse build 557 and
+/// 570).
+/// The bound is about twice as large as the largest measured value.
 const IMPULSE_ULPS: f64 = 8000.0;
 /// Rounding error of the speed change in a probe, in units in the last place.
-/// It is larger than for an impulse, because a probe subtracts one reading from twice another reading.
-/// 4450 and 7080 were measured; the bound is about twice as large.
+/// The error is larger than for an impulse, because a probe subtracts one reading from twice another reading.
+/// The measured values are 4450 and 7080 units; the bound is about twice as large as the larger value.
 const PROBE_ULPS: f64 = 16000.0;
 
 /// Bound on the rounding noise of a channel, in the channel's unit.
 ///
 /// An angle is a sum of rounded increments, one for each step.
 /// The error of each increment is at most half a unit in the last place of the angle so far.
-/// The sign of this error stays the same as long as speed and exponent stay the same.
-/// The bounds of lengths, forces and moments follow with the mechanism's size and mass.
+/// The sign of this error stays the same as long as speed and exponent stay the same, so the errors of successive steps
+/// add up.
+/// The bounds of lengths, forces and moments follow from the bounds of angles, with the mechanism's size and mass.
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
@@ -50,7 +52,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
 
     // Positions are world coordinates. Far from the origin, their rounding error is larger than the mechanism's size
-    // suggests.
+    // suggests, so the distance from the origin is included.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));
     let place = epsilon * reach;
     let angle = epsilon * (longest / step * (MEAN_HALF_ULP * turned).larger(1.0) + turned);
@@ -60,13 +62,13 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     let second = second * beginning(case, engine);
     let (rate, rate_of_place) = match case.is_steady() {
         true => (rate, 0.0),
-        // Rates are centred differences of poses.
+        // Rates are centred differences of poses here, so the rounding error of a difference is added.
         false => (rate + DIFFERENCE_ULPS * epsilon * turned / step, DIFFERENCE_ULPS * place / step),
     };
     let second = match engine.settings.route {
         _ if channel.stage < Stage::Reactions => second,
         Route::Differences => second,
-        // An impulse gives the difference of two speeds one step apart.
+        // An impulse gives the difference of two speeds one step apart, so the error is divided by the step.
         Route::Native => IMPULSE_ULPS * epsilon * speed / step * beginning(case, engine),
         Route::Probe => PROBE_ULPS * epsilon * speed * speed / probe_turn(engine.precision),
     };
@@ -81,7 +83,8 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
         Unit::Newton => linear * mass,
         Unit::NewtonMetre => match engine.settings.route {
             Route::Differences => linear * mass * lever(case, reach, channel.subject),
-            // An impulse corresponds to the difference of the speeds at two successive steps.
+            // An impulse corresponds to the difference of the speeds at two successive steps. Its lever arm here is
+            // `reach`.
             Route::Native | Route::Probe => linear * mass * reach,
         },
     }
@@ -89,8 +92,9 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
 
 /// Lever arm (m) of the forces in a moment.
 /// For a driving moment, the arm extends to the far end of the driving link.
-/// A prismatic joint, also one on the driving link, may transmit its force anywhere in the mechanism.
-/// For the frame, moments are taken about the origin.
+/// A prismatic joint may transmit its force anywhere in the mechanism, so its arm is the mechanism's size.
+/// The same arm is used for a driving moment if the driving link has a prismatic joint.
+/// For the frame, moments are those about the origin, so the arm is `reach`.
 fn lever(case: &Case, reach: f64, subject: ChannelSubject) -> f64 {
     match (subject.is_drive(), subject == ChannelSubject::Frame) {
         (true, _) => case.drive_arm(),
@@ -100,7 +104,7 @@ fn lever(case: &Case, reach: f64, subject: ChannelSubject) -> f64 {
 }
 
 /// Factor on the rounding error of second differences at the beginning of a free motion.
-/// There, second differences and impulses are extrapolated backwards from the first regular steps.
+/// At the beginning, second differences and impulses are extrapolated backwards from the first regular steps.
 /// The factor is therefore the sum of the absolute Lagrange weights of this extrapolation.
 fn beginning(case: &Case, engine: &Rapier) -> f64 {
     let steps = first_steps(case, engine.build == Build::Impulse) as f64;

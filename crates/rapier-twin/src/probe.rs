@@ -5,7 +5,7 @@
 //! Then the world is placed in the pose at t with these velocities, and a step of h is done.
 //! The impulses of this step give the reactions y(h) at t with an error proportional to h.
 //! A second probe with h / 2 gives the extrapolated result 2 y(h / 2) - y(h).
-//! Only poses are taken from the trajectory, not velocities or accelerations.
+//! Only poses are read from the trajectory, not velocities or accelerations.
 
 use super::ghost::Ghost;
 use super::guard::Guard;
@@ -87,7 +87,7 @@ impl<'a> Probe<'a> {
 
 /// Rotation of the fastest driving link in a tiny step (rad).
 /// In 2 y(h / 2) - y(h), the truncation error is proportional to the square of this rotation.
-/// The rounding error is inversely proportional to it. The optimum is flat.
+/// The rounding error is inversely proportional to this rotation. The sum of both errors has a flat minimum.
 pub(super) fn probe_turn(precision: Precision) -> f64 {
     match precision {
         Precision::Double => 1e-4,

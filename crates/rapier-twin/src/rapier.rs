@@ -12,7 +12,7 @@ use linkage::error::Result;
 pub enum Build {
     /// The spanning tree is a multibody; impulse joints close the loops.
     Multibody,
-    /// Every link is a separate rigid body, every joint an impulse joint.
+    /// Every link is a separate rigid body, and every joint is an impulse joint.
     Impulse,
 }
 
@@ -50,10 +50,11 @@ impl Rapier {
     /// Solver sweeps per step.
     /// With 256 sweeps, velocities of random chains of three dyads keep a first-order error.
     /// A finer step does not reveal this error.
-    /// With 512 sweeps, one channel in a hundred keeps it; with 1024, no tested channel does.
+    /// With 512 sweeps, one channel in a hundred keeps this error; with 1024 sweeps, no tested channel keeps it.
     pub const SWEEPS: usize = 1024;
-    /// Sweeps of the impulse build, where errors propagate along the chain joint by joint.
-    /// With 1024 sweeps, `crank_rocker` keeps a first-order error in its velocities; with 4096, it does not.
+    /// Sweeps per step of the impulse build, where errors propagate along the chain joint by joint.
+    /// With 1024 sweeps, `crank_rocker` keeps a first-order error in its velocities; with 4096 sweeps, the error
+    /// vanishes.
     pub const IMPULSE_SWEEPS: usize = 4096;
 
     /// The engine with the time step `step` (s) and otherwise its default settings.
@@ -73,7 +74,8 @@ impl Rapier {
         Rapier { settings: Settings { extrapolated: 0, ..settings }, ..*self }
     }
 
-    /// Both builds in double precision, and in single precision if the feature `f32` is on. The default is first.
+    /// Both builds in double precision. If the feature `f32` is on, both builds in single precision follow. The default
+    /// is first.
     #[must_use]
     pub fn all(step: f64) -> Vec<Self> {
         let of = |(build, precision)| Rapier::new(build, precision, step);
@@ -90,7 +92,7 @@ impl Rapier {
 
     /// The bare world of a case in its start pose, at rest, with the given tree.
     /// `read` must be true if the caller reads reactions.
-    /// Use this world to study Rapier itself; for a run use [`Solver::sweep`](linkage::solver::Solver::sweep).
+    /// This world serves to study Rapier itself. A run uses [`Solver::sweep`](linkage::solver::Solver::sweep) instead.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if Rapier refuses a joint.

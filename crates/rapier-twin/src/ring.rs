@@ -4,15 +4,16 @@ use std::ops::Range;
 
 use linkage::math::interpolate::{POINTS, lagrange_weights};
 
-/// Number of stored steps: six for the interpolation, and one more on either side for second differences.
-/// The rest is for readings that are dated up to two steps late, and for the first steps of a free motion.
+/// Number of stored steps. Six are for the interpolation, and one more on either side is for second differences.
+/// The remaining steps are for readings that are dated up to two steps late, and for the first steps of a free motion.
 pub(super) const NODES: usize = POINTS + 8;
 
-/// An instant closer to a step than this fraction of the step counts as that step.
-/// Rounding makes instants of the grid differ slightly from instants of steps.
+/// If an instant is closer to a step than this fraction of the step, it counts as that step.
+/// The tolerance is needed because rounding makes instants of the grid differ slightly from instants of steps.
 const ON_A_STEP: f64 = 1e-9;
 
-/// An instant between steps: the step at or before it, and the fraction of a step since then (0 to 1).
+/// An instant between steps: the step at or before it, and the fraction of a step between this step and the instant (0
+/// to 1).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) before: i64,
@@ -38,7 +39,7 @@ impl Place {
         Place { before, share: self.share + (self.before - before) as f64 }
     }
 
-    /// Weights of the six steps from [`Place::first`] on, for the instant `back` steps before this one.
+    /// Weights of the six steps from [`Place::first`] on, for the instant `back` steps before this instant.
     pub(super) fn weights(self, back: f64) -> [f64; POINTS] {
         lagrange_weights(2.0 + self.share - back)
     }
@@ -53,7 +54,7 @@ pub(super) struct Ring {
 }
 
 impl Ring {
-    /// An empty ring of rows of `width` numbers. The first row pushed is that of step `start`.
+    /// An empty ring of rows of `width` numbers. The first row that is pushed is that of step `start`.
     pub(super) fn new(width: usize, start: i64) -> Self {
         Ring { width, newest: start - 1, rows: vec![f64::NAN; NODES * width] }
     }
@@ -88,7 +89,7 @@ impl Ring {
         &mut self.rows[at..at + self.width]
     }
 
-    /// Weighted sum of a part of the rows from step `first` on.
+    /// Writes to `into` the weighted sum of the part `part` of the rows from step `first` on.
     pub(super) fn weigh(&self, first: i64, weights: &[f64], part: Range<usize>, into: &mut [f64]) {
         into.fill(0.0);
         for (k, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {

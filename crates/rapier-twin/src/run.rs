@@ -1,4 +1,4 @@
-//! One run: worlds that run in parallel in simulated time, and the values sampled from them.
+//! One run: worlds that run in parallel in simulated time, and the values sampled from these worlds.
 
 use super::branch::Branches;
 use super::free::{self, Acting};
@@ -14,9 +14,9 @@ use linkage::math::KeepNan;
 use linkage::solver::{Progress, State, Visit, check_instants};
 
 /// Number of steps after which the transient of a start or of a reversal is below rounding error.
-/// One step is enough; the rest is margin.
+/// One step is enough; the additional steps are a margin.
 const SETTLING_STEPS: i64 = 3;
-/// Upper limit of the number of steps. More steps would take minutes, and most likely a unit is wrong.
+/// Upper limit of the number of steps of a run. More steps would take minutes, and most likely a unit is wrong.
 const MAX_STEPS: f64 = 2e7;
 
 /// Solves a case: see [`Solver::sweep`](linkage::solver::Solver::sweep).
@@ -109,7 +109,7 @@ struct Run<'a> {
 impl<'a> Run<'a> {
     fn new(engine: &Rapier, case: &'a Case, start: i64) -> Result<Self> {
         let is_free = case.is_free();
-        // One step lies before the beginning of a free motion.
+        // In a free motion, one step lies before the beginning, so reports begin at `start - 1`.
         let (reactions, worlds) = Reactions::of(engine, case, if is_free { start - 1 } else { start })?;
         let acting = if is_free { Some(Acting::new(case, engine.precision, &worlds)?) } else { None };
         let (settings, steady) = (engine.settings, case.is_steady());
@@ -120,7 +120,7 @@ impl<'a> Run<'a> {
     /// Prepares for a sample at `t` (s), and returns the number of the last step that the sample needs.
     fn aim(&mut self, t: f64) -> i64 {
         let [first, last] = self.window.needs(t);
-        // In a free motion every step is needed to find motor and loads.
+        // In a free motion every step is needed to find motor and loads, so no step is skipped.
         self.needed = if self.acting.is_some() { i64::MIN } else { first };
         last
     }
@@ -130,7 +130,7 @@ impl<'a> Run<'a> {
     fn begin(&mut self, start: i64) -> Result<()> {
         if let Some(acting) = &mut self.acting {
             self.window = free::begin(self.case, acting, &mut self.worlds, &self.settings)?;
-            // One report for the step before the beginning, and one for the beginning itself.
+            // The first report is for the step before the beginning, the second report is for the beginning itself.
             self.report();
             self.report();
             return Ok(());

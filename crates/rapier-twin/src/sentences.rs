@@ -1,4 +1,4 @@
-//! Every sentence that this crate can show, in one place, to be read as a list.
+//! Every sentence that this crate can show. All sentences are in one place, so that they can be read as a list.
 
 linkage::sentences! {
     // branch.rs

@@ -1,21 +1,21 @@
 //! Directions of the rows that close a loop, chosen so that few sweeps are enough.
 //!
 //! A pin that the tree cuts has two rows.
-//! Gauss-Seidel solves them one after the other, and their coupling determines the rate of convergence.
+//! Gauss-Seidel solves the two rows one after the other, and their coupling determines the rate of convergence.
 //! Consider the line from a link's pin in the tree to its cut pin.
 //! Rotation of the link moves the cut pin across this line, not along it.
-//! The rows therefore lie along and across this line, on the more mobile of the two links.
+//! The rows are therefore laid along and across the line on the more mobile of the two links.
 //! Then each sweep leaves at most half of the error.
 //! With mobilities a and b >= a of the two links and an angle mu between their lines, the remaining fraction is a cos^2
 //! mu / (a cos^2 mu + b).
-//! In other directions it may come close to 1.
+//! In other directions than these, the remaining fraction may come close to 1.
 
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, Mechanism};
 use linkage::mechanism::{LinkId, spanning_tree::SpanningTree};
 
-/// The links of a cut pin, the more mobile link first, and the direction of its first row in that link's frame.
-/// `masses` are mass (kg) and moment of inertia (kg m^2) of every link. `None` if there is no choice.
+/// The links of a cut pin, the more mobile link first, and the direction of the first row in that link's frame.
+/// `masses` are mass (kg) and moment of inertia (kg m^2) of every link. `None` if there is no choice of directions.
 pub(super) fn steered(
     tree: &SpanningTree,
     mechanism: &Mechanism,
@@ -28,7 +28,7 @@ pub(super) fn steered(
     let links = [joint.first.link, joint.second.link];
     let arm = |link: LinkId| -> Option<(f64, Vec2)> {
         let Some(branch) = tree.branches.iter().find(|branch| branch.link == link) else {
-            // A floating link turns about its mass centre.
+            // A floating link turns about its mass centre, so its arm begins at the mass centre.
             let arm = joint.on(link)? - mechanism.links()[link].mass_centre;
             return (arm.norm() > 0.0).then(|| (arm.norm_squared() / masses[link][1], arm.normalize()));
         };

@@ -11,14 +11,14 @@ use linkage::mechanism::{LinkId, LinkPose};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Number of values per link: position of the mass centre and angle, or their rates.
+/// Number of values per link: position of the mass centre and angle, or the rates of these quantities.
 /// A row has the positions and angles of all links, then the rates of all links.
 const WIDTH: usize = 3;
 
 /// Number of steps at the beginning of a free motion whose accelerations are not those of the motion. Causes:
 /// - Separate bodies (`plain`) close the gaps of the first step in the second step.
-/// - In a multibody with loops, the first sweeps start without impulses. Later sweeps start from those of the last
-///   step.
+/// - In a multibody with loops, the first sweeps start without impulses. Later sweeps start from the impulses of the
+///   last step.
 /// - For links with an initial speed, the step before the first step is only a straight line.
 /// - The first step ignores the change of the transfer functions.
 pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
@@ -33,7 +33,7 @@ pub(super) struct Window {
     step: f64,
     substeps: usize,
     /// Whether the engine's velocities are those at the start of a step.
-    /// This holds if drives turn with constant speeds.
+    /// The velocities are those at the start if drives turn with constant speeds.
     steady: bool,
     /// The deepest requested stage; later stages are not computed.
     deepest: Stage,
@@ -42,8 +42,8 @@ pub(super) struct Window {
     ring: Ring,
     /// Velocity and angular velocity of every link while they are propagated along the tree.
     rates: Vec<(Vec2, f64)>,
-    /// Numbers of the earliest steps that may be the centre of an interpolation: `lowest` for positions, `settled` for
-    /// second differences.
+    /// Earliest steps that may be the centre of an interpolation: `lowest` for positions, `settled` for second
+    /// differences.
     /// The interpolation uses steps up to two (positions) or three (second differences) before its centre.
     lowest: i64,
     settled: i64,
@@ -56,12 +56,12 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Number of steps that a sample needs before the step at or before its instant.
+    /// Number of steps that a sample needs before the step that lies at or before the sample's instant.
     pub(super) const BEHIND: i64 = 3;
     /// Steps needed after it.
     pub(super) const AHEAD: i64 = 4;
 
-    /// An empty window of a run. The first state, pushed next, is that of step `start`.
+    /// An empty window of a run. The first state that is pushed is that of step `start`.
     pub(super) fn new(case: &Case, settings: &Settings, start: i64) -> Self {
         let links = case.mechanism.links().len();
         let (steady, deepest) = (case.is_steady(), case.wanted.deepest());
@@ -82,15 +82,16 @@ impl Window {
         }
     }
 
-    /// A window of a free motion. It begins at step 0 with the pose and the velocities of a world.
-    /// An artificial step before it leads to this pose without acceleration.
+    /// A window of a free motion. The window begins at step 0 with the pose and the velocities of a world.
+    /// An artificial step before step 0 leads to this pose without acceleration.
     pub(super) fn beginning(case: &Case, settings: &Settings, guard: &Guard) -> Self {
         // Before the beginning there is nothing to interpolate.
-        // To first order it does not matter to which instant of the step the velocities belong.
+        // To first order, the instant of the step to which the velocities belong does not matter. The window therefore
+        // has one substep.
         let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);
         (window.lowest, window.settled) = (2, 2 + first_steps(case, guard.world().tree().branches.is_empty()));
         window.rated = true;
-        // The velocities of a push belong to the step before.
+        // The velocities of a push belong to the step before, so the same state is pushed twice.
         window.push(guard, case);
         window.push(guard, case);
         window.rated = false;
@@ -101,7 +102,7 @@ impl Window {
         window
     }
 
-    /// Additional steps before the start. With several substeps, every step needs poses between steps.
+    /// Number of additional steps before the start. With several substeps, every step needs poses between steps.
     pub(super) fn extra(substeps: usize) -> i64 {
         if substeps > 1 { POINTS as i64 - 2 } else { 0 }
     }
@@ -216,7 +217,7 @@ impl Window {
     }
 
     /// Acceleration of a link's mass centre and its angular acceleration (x, y, angle).
-    /// It is taken for the step from the newest pose to the pose that `guard` has reached.
+    /// The acceleration is computed for the step from the newest pose to the pose that `guard` has reached.
     pub(super) fn next_acceleration(&self, guard: &Guard, link: LinkId) -> [f64; WIDTH] {
         let [now, before] = [0, 1].map(|back| &self.ring.row(self.newest() - back)[link.index() * WIDTH..][..WIDTH]);
         let centre = guard.centres()[link];
@@ -244,7 +245,7 @@ impl Window {
     /// Positions and rates are interpolated between steps.
     /// Accelerations are centred second differences of the positions.
     /// If drive speeds change, rates are centred first differences of the positions.
-    /// In this case the engine drives with the step's mean speed, but from the pose at the step's start.
+    /// The reason is that the engine then drives with the step's mean speed, but from the pose at the step's start.
     pub(super) fn sample(&mut self, case: &Case, t: f64, state: &mut State) {
         let place = self.place(t);
         let weights = place.weights(0.0);
@@ -252,7 +253,8 @@ impl Window {
         let part = 0..positions.len();
         self.ring.weigh(place.first(), &weights, part.clone(), positions);
         if self.deepest >= Stage::Velocities && self.steady {
-            // With several substeps the velocities of a row belong to an instant after its step.
+            // With several substeps, the velocities of a row belong to an instant after the row's step, so this delay
+            // is included.
             let late = 1.0 - 1.0 / self.substeps as f64;
             let weights = if self.substeps == 1 { weights } else { place.weights(late) };
             self.ring.weigh(place.first(), &weights, part.end..2 * part.end, rates);
@@ -265,7 +267,7 @@ impl Window {
             self.ring.weigh(place.before - Self::BEHIND, &first.map(|first| first / self.step), part.clone(), rates);
         }
         if self.deepest >= Stage::Accelerations {
-            // The first steps of a free motion are left out of the second differences, because they close gaps.
+            // The first steps of a free motion close gaps, so the second differences leave these steps out.
             let settled = place.from(self.settled);
             let weights = if settled.before == place.before { weights } else { settled.weights(0.0) };
             let mut second = [0.0; POINTS + 2];

@@ -1,4 +1,4 @@
-//! A mechanism as a Rapier world; the interface is independent of build and precision.
+//! A mechanism as a Rapier world. The interface is independent of build and precision.
 //! See docs/numerics/twins.md.
 
 use std::f64::consts::TAU;
@@ -24,7 +24,7 @@ pub enum LinkAngle {
 pub struct LinkFrame {
     /// World position of the frame's origin (m).
     pub origin: Vec2,
-    /// Unit vector of its x axis: (cos, sin) of its angle.
+    /// Unit vector of the frame's x axis: (cos, sin) of the frame's angle.
     pub direction: Vec2,
     /// Its angle.
     pub angle: LinkAngle,
@@ -35,7 +35,8 @@ impl LinkFrame {
     pub const GROUND: LinkFrame =
         LinkFrame { origin: Vec2::new(0.0, 0.0), direction: Vec2::new(1.0, 0.0), angle: LinkAngle::Whole(0.0) };
 
-    /// If the chord between two directions is shorter than this (rad), it is used in place of the rotation angle.
+    /// If the chord between two directions is shorter than this (rad), the chord is used in place of the rotation
+    /// angle.
     /// The relative error of the chord is the square of the rotation divided by 24.
     const SMALL: f64 = 0.1;
 
@@ -55,7 +56,7 @@ impl LinkFrame {
         self.origin + rotated(self.direction, local)
     }
 
-    /// Rotation of the link since the frame `before` (rad, without sign), to within 4 parts in ten thousand.
+    /// Rotation of the link since the frame `before` (rad, without sign), with a relative error of at most 4e-4.
     /// If the frames store only a direction and full turns, the result is at most half a turn.
     #[inline]
     #[must_use]
@@ -76,7 +77,8 @@ impl LinkFrame {
         if let LinkAngle::Turns(turns) = &mut self.angle
             && (self.direction.y < 0.0) != (direction.y < 0.0)
         {
-            // The direction crosses the x axis. On the negative side its angle jumps by a full turn.
+            // The direction crosses the x axis. On the negative side of this axis, the direction's angle jumps by a
+            // full turn.
             let turn = cross(self.direction, direction);
             if turn > 0.0 && direction.y < 0.0 {
                 *turns += TAU;
@@ -103,20 +105,20 @@ fn own_angle(direction: Vec2) -> f64 {
 }
 
 /// The Rapier world of a case.
-/// All links form one multibody: links in the tree are joined to each other, the other links float.
+/// All links form one multibody: links in the tree are joined to each other, the links outside the tree float.
 /// In large free motions, each link on the ground starts a separate multibody with all links beyond it.
 /// If the tree has no branches, every link is a separate body.
 /// Joints that the tree cuts are impulse joints.
-/// Every drive has a separate motor so that its impulse can be read.
-/// All numbers are f64, SI, world axes.
+/// Every drive has a separate motor so that the motor's impulse can be read.
+/// All numbers are f64, in SI units and world axes.
 pub trait World {
-    /// The spanning tree. If it has no branches, every link is a separate body.
+    /// The spanning tree. If the tree has no branches, every link is a separate body.
     fn tree(&self) -> &SpanningTree;
 
-    /// Does one time step of Rapier; frames can be read afterwards. The step may fail to close loops, and may panic.
+    /// Does one time step of Rapier and updates the frames. The step may fail to close loops, and may panic.
     fn step(&mut self);
 
-    /// Rapier's step alone: frames are not updated.
+    /// Does Rapier's step alone. The frames are not updated.
     fn bare_step(&mut self);
 
     /// Sets the time step (s).
@@ -124,11 +126,11 @@ pub trait World {
 
     /// Sets whether the velocities after a step exclude the correction of loop gaps.
     ///
-    /// If so, Rapier solves all constraints a second time after the step.
-    /// It continues with velocities along the constraints at the START of the step.
+    /// If the correction is excluded, Rapier solves all constraints a second time after the step.
+    /// Rapier continues with velocities along the constraints at the START of the step.
     /// These are not the velocities that moved the bodies.
     /// In a free motion, each step loses momentum across the constraints of one pose.
-    /// The next step regains it across the constraints of the next pose.
+    /// The next step regains this momentum across the constraints of the next pose.
     fn set_stabilised(&mut self, stabilised: bool);
 
     /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive gives its link.
@@ -140,7 +142,7 @@ pub trait World {
     /// the speed at the END of the step.
     fn set_motor(&mut self, drive: usize, target: f64, damping: f64);
 
-    /// Sets the loads on a link. They act until they are set again.
+    /// Sets the loads on a link. The loads act until they are set again.
     fn set_load(&mut self, link: LinkId, load: Wrench);
 
     /// Moves all links into the given poses; velocities stay as they are.
@@ -161,12 +163,12 @@ pub trait World {
 
     /// Speed of the joint of branch `index` of the tree at the START of the last step.
     /// (Rapier reports velocities one step late.)
-    /// For a revolute joint it is the angular velocity of the child minus that of its parent (rad/s).
-    /// For a prismatic joint it is the speed of the child along the parent's axis (m/s).
+    /// For a revolute joint, the speed is the angular velocity of the child minus that of its parent (rad/s).
+    /// For a prismatic joint, the speed is that of the child along the parent's axis (m/s).
     fn relative_speed(&self, index: usize) -> f64;
 
     /// Velocity of the mass centre (m/s) and angular velocity (rad/s) of a link outside the tree.
-    /// These velocities are also one step late. `None` for links of the tree.
+    /// Like the joint speeds, these velocities are those at the START of the last step. `None` for links of the tree.
     fn velocity(&self, link: LinkId) -> Option<(Vec2, f64)>;
 
     /// Reaction in a joint that the tree cuts, from the impulses of the last step.

@@ -1,5 +1,6 @@
 //! Path of a recording's file.
-//! A recording replaces an older recording of the same run. If the usual name belongs to another run, the recording gets another name in the same directory.
+//! A recording replaces an older recording of the same run.
+//! If the usual name belongs to another run, the recording gets a different name in the same directory.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -17,7 +18,7 @@ pub(super) const LIBRARY: &str = "linkproof ";
 /// Largest number of recordings with the same base name in a directory.
 const MOST: usize = 1000;
 
-/// Prefixes of the metadata keys of everything that the user requests in addition to the scenario's text.
+/// Prefixes of the metadata keys that describe what the user requests in addition to the scenario's text.
 const ASKED: [&str; 7] = ["modes", "parameters", "start_crank_deg", "grid_", "only", "reference", "record_hz"];
 /// Prefix of the metadata keys of the engine's settings. A proof may have found these settings.
 const ENGINE: &str = "engine";
@@ -86,7 +87,7 @@ pub(super) fn is_ours(bytes: &[u8]) -> bool {
 /// Text of the scenario, and metadata.
 type Described = (Vec<u8>, BTreeMap<String, String>);
 
-/// Scenario text and metadata of a recording; `None` if either is missing.
+/// Scenario text and metadata of a recording. `None` if the text or the metadata is missing.
 pub(super) fn described(bytes: &[u8]) -> Option<Described> {
     let (mut text, mut metadata) = (None, None);
     for (code, content) in raw::records(bytes) {
@@ -95,7 +96,8 @@ pub(super) fn described(bytes: &[u8]) -> Option<Described> {
             op::METADATA => {
                 metadata = metadata.or_else(|| raw::metadata(content).filter(|own| own.name == "linkproof"))
             }
-            // The scenario text and the metadata are at the beginning of the file.
+            // The scenario text and the metadata are at the beginning of the file, so the search ends at the first data
+            // chunk.
             op::CHUNK | op::DATA_END => break,
             _ => {}
         }

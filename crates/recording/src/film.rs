@@ -1,4 +1,4 @@
-//! Reads a recording for viewers that do not know its messages: as a moving picture, or as numbers alone.
+//! Reads a recording for viewers that do not know its messages. The result is a moving picture, or only numbers.
 
 use super::extent::{corners, placed};
 use super::recording::RecordedSide;
@@ -19,11 +19,11 @@ use std::path::Path;
 
 /// Largest message of a picture that is read (bytes), and largest number of parts in all messages.
 /// Both limits are far beyond what a viewer can show.
-/// In memory, a part takes up to a hundred times its size in the file.
+/// The limits are needed because a part in memory takes up to a hundred times its size in the file.
 const LONGEST: usize = 1 << 22;
 const PARTS: usize = 2_000_000;
 
-/// A recording as a moving picture. Times are simulated ones (s).
+/// A recording as a moving picture. Times are simulated times (s).
 #[derive(Clone, Debug)]
 pub struct Film {
     /// What to show first.
@@ -32,7 +32,7 @@ pub struct Film {
     pub parts: Vec<DrawnLink>,
     /// Times of the poses.
     pub times: Vec<f64>,
-    /// For every frame: positions (m) and angles (rad) at the times of the film.
+    /// For the frame of every link: positions (m) and angles (rad) at the times of the film.
     pub poses: BTreeMap<String, Vec<[f64; 3]>>,
     /// For every arrow: time, foot (m), and vector from foot to tip (m).
     pub arrows: BTreeMap<String, Vec<[f64; 5]>>,
@@ -43,7 +43,7 @@ pub struct Film {
 /// The drawing of a link, in the named frame.
 #[derive(Clone, Debug, Default)]
 pub struct DrawnLink {
-    /// Name of its frame: that of a link, or "world".
+    /// Name of the frame in which the drawing is given: the frame of a link, or "world".
     pub frame: String,
     /// Lines: corners (m), thickness (m), colour.
     pub lines: Vec<(Vec<[f64; 3]>, f64, [u8; 4])>,
@@ -220,7 +220,7 @@ pub fn numbers(path: &Path) -> Result<Numbers> {
     Ok(Numbers { plots: plotted(&sides, &topics), topics: topics.into_iter().collect() })
 }
 
-/// Plots of the sides, and of the errors that have a topic.
+/// Plots of the sides, and of the errors that have a topic in the recording.
 fn plotted(sides: &[(String, Trajectory)], topics: &BTreeSet<String>) -> Vec<Plot> {
     let named: Vec<RecordedSide> = sides.iter().map(|(name, trajectory)| RecordedSide { name, trajectory }).collect();
     let errors: Vec<Channel> = (named.first().iter().flat_map(|side| side.trajectory.channels()))

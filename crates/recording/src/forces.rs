@@ -14,7 +14,7 @@ const SHORTEST: f64 = 0.01;
 /// The arrows of all sides that have reactions.
 pub struct Forces<'a> {
     scene: &'a ViewerScene<'a>,
-    /// Sides with the components of each joint's force.
+    /// Sides that have reactions, each with the components of each joint's force.
     sides: Vec<(&'a PlacedSide<'a>, Vec<[&'a [f64]; 2]>)>,
     /// Length of an arrow per newton (m/N).
     pub scale: f64,
@@ -61,10 +61,10 @@ impl<'a> Forces<'a> {
         let size = self.scene.size;
         let length = (self.scale * force.norm()).larger(SHORTEST * size);
         let head = (0.3 * length).smaller(0.06 * size);
-        // Arrows are round: a thinner arrow must lie higher to be visible on a thicker one.
+        // Arrows are round. A thinner arrow must therefore lie higher to be visible on a thicker arrow.
         let (broad, z) = (side.paint.broad.sqrt(), (8.0 + 4.0 * side.paint.layer) * self.scene.layer());
         let mut color = colour(side.paint.rgba);
-        // Lighter than the links below the arrows.
+        // Arrows are more transparent than the links below them.
         color.a = 0.8;
         ArrowPrimitive {
             pose: pose(at, z, force.y.atan2(force.x)),

@@ -1,4 +1,4 @@
-//! Recordings: the results of a run as one MCAP file. Ordinary viewers replay it, and this crate reads it back.
+//! Recordings: the results of a run as one MCAP file. Ordinary viewers replay the file, and this crate reads it back.
 //!
 //! | topic | schema | when |
 //! |---|---|---|
@@ -18,16 +18,16 @@
 //! `linkproof.Point_1_2`.
 //!
 //! Log times are nanoseconds from the first instant of the recording.
-//! They are the simulated times multiplied by [`Show::slow`]; the grid has the simulated times themselves.
+//! Log times are the simulated times multiplied by [`Show::slow`]; the grid has the simulated times themselves.
 //! Nothing depends on a clock, so equal runs give equal files.
 //! The sequence number of a message is the number of its sample in ascending order of time.
-//! It relates the topics of one side to each other.
+//! Messages of one sample have the same sequence number in all topics of a side.
 //! The scenario is attached as `scenario.toml`.
 //! The metadata record `linkproof` contains versions, settings and the scales of time and of force arrows.
 //!
-//! A recording of another program can also be read.
-//! It needs `/<side>/grid` and the topics above in protobuf.
-//! The names of its fields must be the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS).
+//! A recording of another program than linkproof can also be read.
+//! Such a recording needs `/<side>/grid` and the topics above in protobuf.
+//! The names of the protobuf fields must be the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS).
 //! The field numbers are looked up in the file.
 
 mod beside;

@@ -7,7 +7,7 @@ use crate::viewers::{
 use drawing::{Fill, Mark, MarkRole, MarkShape};
 use linkage::math::Vec2;
 
-/// Opacity of filled areas: shapes beneath them remain visible.
+/// Opacity of filled areas, out of 255. Shapes beneath these areas remain visible.
 const TINT: u8 = 70;
 /// Colour of the holes in pins, on light and dark backgrounds, and radius of a hole divided by that of the pin.
 const HOLE: ([u8; 4], f64) = ([40, 40, 40, 255], 0.5);
@@ -71,21 +71,21 @@ impl Brush {
 }
 
 /// Triangles from the centre of a polygon to its sides.
-/// This is correct because every polygon of the sketch is star-shaped about its centre.
+/// This division is correct because every polygon of the sketch is star-shaped about its centre.
 fn fan(corners: &[Vec2]) -> Vec<Vec2> {
     let middle = corners.iter().sum::<Vec2>() / corners.len().max(1) as f64;
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).flat_map(|(&from, &to)| [middle, from, to]).collect()
 }
 
-/// A name at a position, at the height `z`. It is always upright and has the same size on the screen.
+/// A name at a position, at the height `z`. The name is always upright and has the same size on the screen.
 pub fn letter(text: &str, at: Vec2, z: f64) -> TextPrimitive {
     TextPrimitive {
         pose: pose(at, z, 0.0),
         billboard: true,
         font_size: 18.0,
         scale_invariant: true,
-        // Viewers draw light letters on a dark background.
+        // Viewers draw light letters on a dark background, so the letters are white.
         color: Some(Color { r: 1.0, g: 1.0, b: 1.0, a: 1.0 }),
         text: text.into(),
     }

@@ -1,9 +1,10 @@
 //! Reads the messages of an MCAP file from an untrusted source.
 //!
 //! The readers of the MCAP library trust the record lengths in a file.
-//! If these lengths are damaged, they request more memory than exists, or index beyond a record.
-//! This reader limits the length of a record to the length of the file, or to [`SMALL`] if the file is shorter.
-//! It parses only the kinds of records that messages need.
+//! If these lengths are damaged, those readers request more memory than exists, or index beyond a record.
+//! The reader in this module limits the length of a record to the length of the file.
+//! If the file is shorter than [`SMALL`], the limit is [`SMALL`].
+//! This reader parses only the kinds of records that messages need.
 
 use crate::sentences;
 use std::borrow::Cow;
@@ -56,7 +57,8 @@ fn walk(
             // The summary section after the data is skipped, because it repeats earlier records.
             LinearReadEvent::Record { opcode: op::DATA_END, .. } => is_data = false,
             LinearReadEvent::Record { opcode, data } => {
-                // The total length of the records cannot exceed the decompressed size stated in the file.
+                // The total length of the records cannot exceed the decompressed size stated in the file, so a longer
+                // file is refused.
                 seen += 9 + data.len() as u64;
                 if seen > told {
                     return Err(McapError::ChunkTooLarge(seen).into());
@@ -70,7 +72,7 @@ fn walk(
     Ok(())
 }
 
-/// The message in a record, if any; schemas and channels are stored.
+/// The message in a record, if the record contains one. Schemas and channels are stored for later messages.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 fn message<'a>(opcode: u8, data: &'a [u8], known: &mut ChannelAccumulator<'static>) -> McapResult<Option<Message<'a>>> {
     if !matches!(opcode, op::SCHEMA | op::CHANNEL | op::MESSAGE) {

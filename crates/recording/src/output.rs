@@ -30,16 +30,17 @@ impl RecordingOutput {
             .profile("")
             .library([LIBRARY, env!("CARGO_PKG_VERSION")].concat())
             .chunk_size(Some(CHUNK))
-            // With several threads, the division into chunks would depend on the number of cores.
+            // With several threads, the division into chunks would depend on the number of cores. Compression therefore
+            // uses no additional threads.
             .compression_threads(0)
-            // A seeking writer corrects the chunk's length afterwards.
-            // If it were killed before the correction, no program could open the file.
+            // A seeking writer corrects the chunk's length after the chunk is written.
+            // If such a writer were killed before the correction, no program could open the file.
             .disable_seeking(true)
             .create(NoSeek::new(BufWriter::new(file)))?;
         Ok(RecordingOutput { writer, flushed: 0, pending: 0 })
     }
 
-    /// Writes the metadata record and the scenario first, so that a truncated file also contains them.
+    /// Writes the metadata record and the scenario before all messages, so that a truncated file also contains them.
     pub fn describe(&mut self, recording: &Recording, start: f64, force_scale: Option<f64>) -> McapResult<()> {
         let mut metadata = recording.metadata.clone();
         metadata.entry("scenario".into()).or_insert_with(|| recording.name.into());
@@ -75,7 +76,8 @@ impl Sink for RecordingOutput {
     }
 
     fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()> {
-        // One chunk per second limits the loss if a run is killed. Chunks of only a few samples would not compress.
+        // One chunk per second limits the loss if a run is killed. Chunks of only a few samples would compress badly,
+        // so such chunks are not ended.
         if time / SECOND > self.flushed && self.pending > CHUNK as usize / 8 {
             self.writer.flush()?;
             (self.flushed, self.pending) = (time / SECOND, 0);

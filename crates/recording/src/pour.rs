@@ -27,7 +27,7 @@ enum Event<'a> {
 pub struct DrawnRecording<'a> {
     /// The moving mechanism, if there are positions.
     pub scene: &'a Option<ViewerScene<'a>>,
-    /// Arrows of reactions, if they are requested and known.
+    /// Arrows of reactions, if arrows are requested and reactions are known.
     pub forces: &'a Option<Forces<'a>>,
 }
 
@@ -90,7 +90,7 @@ pub fn pour(recording: &Recording, drawn: &DrawnRecording, sink: &mut impl Sink)
     Ok(())
 }
 
-/// Smallest time in the recording (s); the log time there is zero.
+/// Smallest time in the recording (s). The log time of this instant is zero.
 pub fn start(recording: &Recording) -> f64 {
     let first = times(recording).fold(f64::INFINITY, f64::smaller);
     if first.is_finite() { first } else { 0.0 }

@@ -1,11 +1,11 @@
-//! Finds the raw records of an MCAP file, with checked lengths. They describe a file before it is read.
+//! Finds the raw records of an MCAP file, with checked lengths. These records describe a file before it is read.
 
 use mcap::parse_record;
 use mcap::records::{Metadata, Record, op};
 
-/// A file of any size may have up to this number of decompressed bytes.
+/// Number of decompressed bytes that is allowed for a file of any size.
 const ANY: u64 = 128 << 20;
-/// Largest allowed ratio of decompressed bytes to file bytes. The ratio of recordings is three.
+/// Largest allowed ratio of decompressed bytes to file bytes. In recordings of this program the ratio is three.
 const EACH: u64 = 16;
 
 /// Codes and contents of the outermost records. Reading ends at the first truncated or damaged record.
@@ -24,7 +24,7 @@ pub(super) fn records(bytes: &[u8]) -> impl Iterator<Item = (u8, &[u8])> {
 /// length.
 pub(super) fn expanded(bytes: &[u8]) -> [u64; 2] {
     let chunks = records(bytes).filter(|(code, _)| *code == op::CHUNK);
-    // The times of the first and the last message precede the length.
+    // The times of the first and the last message precede the length, so the length begins at byte 16.
     let told = |content: &[u8]| content.get(16..24)?.first_chunk().map(|length| u64::from_le_bytes(*length));
     let length = bytes.len() as u64;
     let chunks = chunks.filter_map(|(_, content)| told(content)).fold(length, u64::saturating_add);
@@ -43,14 +43,14 @@ pub(super) fn is_by(bytes: &[u8], library: &str) -> bool {
 
 /// Content of the record if it is the attachment called `name`.
 pub(super) fn attachment<'a>(content: &'a [u8], name: &str) -> Option<&'a [u8]> {
-    // Two times precede the name.
+    // Two times precede the name, so the name begins at byte 16.
     let mut left = content.get(16..)?;
     let own = part::<4>(&mut left)?;
     let _kind = part::<4>(&mut left)?;
     part::<8>(&mut left).filter(|_| own == name.as_bytes())
 }
 
-/// The metadata in a record.
+/// The metadata in a record, if the record is a metadata record.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 pub(super) fn metadata(content: &[u8]) -> Option<Metadata> {
     match parse_record(op::METADATA, content).ok()? {

@@ -17,7 +17,7 @@ use std::path::Path;
 /// Values with the sequence numbers of their samples.
 type Numbered = Vec<(u32, f64)>;
 
-/// Use of one MCAP channel: its side, and the meaning of the message fields, by their numbers.
+/// Use of one MCAP channel: its side, and the meaning of each message field, by the field's number.
 struct Topic {
     side: String,
     is_grid: bool,
@@ -66,7 +66,7 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
     })
 }
 
-/// Refuses a file before decompression if its chunks expand far more than those of any recording of its size.
+/// Refuses a file before decompression if its chunks expand far more than the chunks of any recording of its size.
 fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
     let [told, most] = raw::expanded(bytes);
     if told <= most {
@@ -117,7 +117,7 @@ fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Op
         return Ok(None);
     }
     // The field `x_m` of `link/crank` is the channel `link.crank.x_m`.
-    // Fields of errors have small units in their names, so they match no channel.
+    // Fields of errors have small units in their names, so they match no channel and are not read.
     let (is_grid, subject) = (subject == "grid", subject.replacen('/', ".", 1));
     let field = |name: &String| match is_grid {
         true => Some(Field::Grid(name.clone())),
@@ -169,7 +169,8 @@ fn assemble(name: &str, mut found: Found, path: &Path) -> Result<Trajectory> {
     if times.is_empty() || !same(&cranks) {
         return Err(incomplete(&"its grid"));
     }
-    // Other programs do not write row numbers. The order of the samples then determines the rows.
+    // Programs other than linkproof do not write row numbers. Without row numbers, the order of the samples determines
+    // the rows.
     let mut order: Vec<usize> = (0..times.len()).collect();
     if same(&rows) {
         order.sort_by(|&a, &b| rows[a].1.total_cmp(&rows[b].1));

@@ -18,7 +18,8 @@ pub struct Recording<'a> {
     pub mechanism: &'a Mechanism,
     /// The trajectories: the reference first, then the engines. A side without samples is left out.
     pub sides: &'a [RecordedSide<'a>],
-    /// Engine minus reference, channel by channel, in SI units. Written for people; not read back.
+    /// Engine minus reference, channel by channel, in SI units. These errors are written for people and are not read
+    /// back.
     pub errors: Option<&'a Trajectory>,
     /// Verdicts and warnings.
     pub log: &'a [LogEntry],
@@ -29,9 +30,10 @@ pub struct Recording<'a> {
 /// How a recording is shown, and which samples it keeps. These options do not change the recorded values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Show {
-    /// Playback is slower than the simulation by this factor: seconds of log time per simulated second.
+    /// Factor by which playback is slower than the simulation: seconds of log time per simulated second.
     pub slow: f64,
-    /// Largest number of samples per simulated second; the first and the last sample are always kept. `None` keeps all.
+    /// Largest number of samples per simulated second. The first and the last sample are always kept. `None` keeps all
+    /// samples.
     pub hz: Option<f64>,
     /// Whether reactions are drawn as arrows.
     pub forces: bool,
@@ -47,7 +49,8 @@ impl Default for Show {
 /// One trajectory of a recording.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedSide<'a> {
-    /// First part of its topics and frames: "reference", "engine". It must be unique, non-empty, and without `/`.
+    /// First part of the names of the side's topics and frames: "reference", "engine". The name must be unique,
+    /// non-empty, and without `/`.
     pub name: &'a str,
     /// Its values.
     pub trajectory: &'a Trajectory,

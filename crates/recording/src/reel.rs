@@ -16,7 +16,8 @@ pub struct Reel {
     pub topics: Vec<(String, MessageKind)>,
     /// Factor by which the log time is slower than the simulation.
     pub slow: f64,
-    /// Log time of one revolution of the crank (s), or duration of the whole recording if it is shorter.
+    /// Log time of one revolution of the crank (s). If the recording is shorter than a revolution, its duration is
+    /// used.
     pub turn: f64,
     entries: Vec<Entry>,
     /// Indices of the messages of every topic, in ascending order.

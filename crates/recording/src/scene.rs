@@ -10,7 +10,8 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, LinkId, LinkPose, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Usual upper limit of the number of frames. A long recording has more frames, to keep [`FRAMES_PER_SECOND`].
+/// Usual upper limit of the number of frames. A long recording has more frames, so that it has at least
+/// [`FRAMES_PER_SECOND`].
 const FRAMES: f64 = 400.0;
 /// Lower limit of the number of frames per second of log time, if there are enough samples.
 const FRAMES_PER_SECOND: f64 = 50.0;
@@ -28,7 +29,7 @@ pub struct ViewerScene<'a> {
 }
 
 impl<'a> ViewerScene<'a> {
-    /// The scene of all sides that have samples and all positions; `None` if there is no such side.
+    /// The scene of all sides that have samples and all positions; `None` if no side has them.
     pub fn new(mechanism: &'a Mechanism, sides: &[RecordedSide<'a>]) -> Option<Self> {
         let placed = |(number, side): (usize, &RecordedSide<'a>)| {
             let column = |link: &Link, suffix| column(side.trajectory, &format!("link.{}.{suffix}", link.name));
@@ -59,13 +60,15 @@ impl<'a> ViewerScene<'a> {
     }
 
     /// Height between the sides in the drawing (m).
-    /// It is enough for a viewer's depth test but too small to be seen: a visible gap would look like a disagreement.
+    /// The height is enough for a viewer's depth test but too small to be seen: a visible gap would look like a
+    /// disagreement.
     pub fn layer(&self) -> f64 {
         0.002 * self.size
     }
 
     /// Times of the frames (s), ascending.
-    /// They are selected from the times of the first side, for playback `slow` times slower than the simulation.
+    /// The frame times are selected from the times of the first side, for playback `slow` times slower than the
+    /// simulation.
     pub fn times(&self, slow: f64) -> Vec<f64> {
         let side = &self.sides[0];
         let time = |&row: &usize| side.trajectory.times()[row];
@@ -134,7 +137,7 @@ impl<'a> ViewerScene<'a> {
 
     /// The entity with the names of the link's points.
     fn lettered(&self, mut entity: SceneEntity, link: LinkId) -> SceneEntity {
-        // The names of ground points are written below them, where no link passes.
+        // The names of ground points are written below the points, where no link passes.
         let aside = if link == GROUND { Vec2::new(0.03, -0.05) * self.size } else { Vec2::zeros() };
         let own = |names, at| names == Lettering::Point && at == link;
         let labels = self.sketch.labels.iter().filter(|label| own(label.names, label.at.link));
@@ -158,7 +161,7 @@ pub struct PlacedSide<'a> {
 }
 
 impl PlacedSide<'_> {
-    /// Row of the last sample at or before `time`, or else of the first sample.
+    /// Row of the last sample at or before `time`. If there is no such sample, the row of the first sample.
     pub fn row_at(&self, time: f64) -> usize {
         let times = self.trajectory.times();
         let after = self.rows.partition_point(|&row| times[row] <= time);

@@ -1,7 +1,7 @@
 //! Linkproof's messages: flat protobuf, one number per field, generated from the table of channels.
 //!
 //! Every field has presence (proto3 `optional`).
-//! A channel that was not computed is not declared: some viewers show an absent field as zero.
+//! A channel that was not computed is not declared, because some viewers show an absent field as zero.
 
 use super::sink::MessageKind;
 use linkage::input::Input;
@@ -25,7 +25,7 @@ pub const fn grid_fields(input: Input) -> [&'static str; 3] {
 pub enum MessageContent {
     /// Values in SI units.
     Values,
-    /// Errors in small units, in single precision: people read three digits.
+    /// Errors in small units, in single precision, which is enough because people read only three digits.
     Errors,
 }
 
@@ -83,8 +83,9 @@ pub fn numbers(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
     Ok(fields)
 }
 
-/// Longest message description that is parsed (bytes), hundreds of times as long as those of linkproof.
-/// In memory, its parts take up to a hundred times their size in the file.
+/// Upper limit of the length of a message description that is parsed (bytes).
+/// It is hundreds of times the length of linkproof's descriptions.
+/// The limit is needed because the parts of a description take up to a hundred times their file size in memory.
 const LONGEST: usize = 1 << 20;
 
 /// Names of the number fields of schemas. Each schema is parsed once.
@@ -143,7 +144,7 @@ pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&Channel
     message(&name, fields.into_iter(), number)
 }
 
-/// A message with these fields, by their numbers.
+/// A message with these fields, each given by its number and name.
 fn message(name: &str, fields: impl Iterator<Item = (u32, String)>, kind: Type) -> MessageKind {
     let field: Vec<FieldDescriptorProto> = fields
         .enumerate()

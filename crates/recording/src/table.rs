@@ -7,7 +7,7 @@ use mcap::McapResult;
 
 /// A trajectory with the topics of its columns.
 pub struct ChannelTable<'a> {
-    /// Times of its rows (s).
+    /// Times of the trajectory's rows (s).
     pub times: &'a [f64],
     /// Its topics.
     pub topics: Vec<Topic<'a>>,

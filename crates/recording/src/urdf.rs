@@ -1,12 +1,12 @@
 //! The links as a robot's description (URDF), for viewers that cannot draw scenes.
-//! It contains boxes and cylinders that move with `/tf`.
+//! The description contains boxes and cylinders that move with `/tf`.
 
 use super::shapes::rgba;
 use crate::viewers::{Color, LinePrimitive, LineType, Pose, SceneEntity, SceneUpdate, Vector3};
 use linkage::math::Vec2;
 use std::fmt::Write;
 
-/// Height of all parts divided by their thickness. The parts are flat when seen from above.
+/// Height of all parts divided by their thickness in the plane of motion. Seen from above, the parts are flat.
 const FLAT: f64 = 0.1;
 
 /// The description of the links of a scene, with the ground as the root.

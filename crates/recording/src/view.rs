@@ -28,7 +28,8 @@ pub struct View {
     pub forces: bool,
     /// Factor by which playback is slower than the simulation.
     pub slow: f64,
-    /// Log time of one revolution of the crank (s), or duration of the whole recording if it is shorter.
+    /// Log time of one revolution of the crank (s). If the recording is shorter than a revolution, its duration is
+    /// used.
     pub turn: f64,
     /// Plots, the most interesting first: the values of all sides, then their errors.
     pub plots: Vec<Plot>,
@@ -56,7 +57,7 @@ pub struct Line {
     pub side: Option<usize>,
 }
 
-/// Initial display of a recording; `None` if it has no positions.
+/// Initial display of a recording; `None` if the recording has no positions.
 #[must_use]
 pub fn view(recording: &Recording) -> Option<View> {
     as_shown(recording, |recording, drawn| {
@@ -79,7 +80,7 @@ pub fn view(recording: &Recording) -> Option<View> {
     })
 }
 
-/// Log time of one revolution in a recording of duration `lasts`.
+/// Log time of one revolution in a recording of duration `lasts`, at most `lasts`.
 pub(super) fn turn(lasts: f64, trajectory: &Trajectory) -> f64 {
     let turns = (range(trajectory.inputs()) / std::f64::consts::TAU).round();
     if turns >= 1.0 { lasts / turns } else { lasts }
@@ -137,7 +138,7 @@ fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
         let own = || trajectory.iter().filter(|(channel, column)| channel.kind.unit == unit && range(column) > 0.0);
         let least = own().map(|(channel, _)| rank(channel.kind)).min()?;
         let best = own().filter(|(channel, _)| rank(channel.kind) == least);
-        // If several are equal, the first is used, so that the choice does not depend on rounding.
+        // If several channels have equal ranges, the first is used, so that the choice does not depend on rounding.
         best.reduce(|best, next| if range(next.1) > range(best.1) { next } else { best }).map(|(channel, _)| channel)
     };
     units.into_iter().filter_map(of).take(2).collect()

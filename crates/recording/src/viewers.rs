@@ -1,7 +1,7 @@
 //! Messages that viewers of the Foxglove family can draw: scenes, frames and log lines.
 //! The messages have only the fields used here.
 //! Names and numbers of the fields are those of Foxglove's schemas (foxglove/schemas, Protobuf).
-//! The descriptors beside this file are Foxglove's.
+//! The descriptors beside this file are also Foxglove's.
 //! Tests compare messages and descriptors with Foxglove's SDK.
 
 use prost::{Enumeration, Message};
@@ -59,7 +59,7 @@ messages! {
         orientation: Option<Quaternion> = 2 (message, optional),
     }
 
-    /// A colour, 0 to 1.
+    /// A colour. Each of its components is from 0 to 1.
     #[derive(Copy)]
     Color {
         r: f64 = 1 (double),
@@ -143,7 +143,7 @@ messages! {
         entities: Vec<SceneEntity> = 2 (message, repeated),
     }
 
-    /// The pose of a frame relative to another.
+    /// The pose of a frame relative to its parent frame.
     FrameTransform {
         timestamp: Option<Timestamp> = 1 (message, optional),
         parent_frame_id: String = 2 (string),
@@ -172,7 +172,7 @@ messages! {
 pub enum LineType {
     /// From point to point.
     LineStrip = 0,
-    /// Through all points and back to the first.
+    /// A line through all points and back to the first point.
     LineLoop = 1,
 }
 

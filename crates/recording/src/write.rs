@@ -15,13 +15,13 @@ use mcap::{McapError, McapResult};
 use std::fs::File;
 use std::path::Path;
 
-/// Longest log time (s). In nanoseconds, it is a third of the largest signed 64-bit number.
+/// Upper limit of the log time (s). In nanoseconds, this limit is a third of the largest signed 64-bit number.
 const LONGEST: f64 = 3e9;
 
-/// A sample may come too early by this fraction of the sample spacing, because grids are rounded.
+/// A sample may be early by this fraction of the sample spacing, because the times of grids are rounded.
 const EARLY: f64 = 1e-6;
 
-/// Writes a recording to `path`. An older recording is replaced only by a complete one, through a temporary file.
+/// Writes a recording to `path`. An older recording is replaced only by a complete recording, through a temporary file.
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if a file cannot be written;
@@ -125,7 +125,7 @@ mod tests {
         assert_eq!(kept(&grid, 5.0), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]);
         assert_eq!(kept(&grid, 1000.0), grid);
         assert_eq!(kept(&grid, 0.1), [0.0, 1.0]);
-        // A gap does not shift later samples.
+        // A gap between samples does not shift the times at which later samples are kept.
         assert_eq!(kept(&[0.0, 0.05, 0.95, 1.0, 1.05, 2.0], 1.0), [0.0, 1.0, 2.0]);
         assert_eq!(kept(&[2.0, 1.0, 0.0, 0.5], 1.0), [2.0, 1.0, 0.0]);
         assert_eq!(kept(&[], 1.0), [0.0; 0]);

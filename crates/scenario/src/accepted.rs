@@ -1,6 +1,6 @@
-//! Accepted figures: a file beside the scenario. People review it, and later runs are judged by it.
+//! Accepted figures: a file beside the scenario. People review the file, and later runs are compared with it.
 //!
-//! The file is TOML but has another ending, because `*.toml` files are scenarios.
+//! The file is TOML but does not end in `.toml`, because `*.toml` files are scenarios.
 
 use crate::sentences;
 use std::fmt::Write;
@@ -13,7 +13,7 @@ use super::reader::TomlTable;
 use super::source::Source;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Figures of a reference: those that were accepted, or those that a run has found.
+/// Figures of a reference. The figures were either accepted by people or found by a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accepted {
     /// Name of the scenario.
@@ -54,12 +54,12 @@ pub fn beside(scenario: &Path) -> PathBuf {
     scenario.with_extension(ENDING)
 }
 
-/// Reads the accepted figures in the file at `path`. They must be those of the scenario called `name`.
+/// Reads the accepted figures in the file at `path`. The figures must be those of the scenario called `name`.
 /// `None` if the file does not exist.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] if the file cannot be read.
-/// [`ErrorKind::Input`] for a mistake in the file. The error states its position.
+/// [`ErrorKind::Input`] for a mistake in the file. The error states the position of the mistake.
 pub fn load(path: &Path, name: &str) -> Result<Option<Accepted>> {
     let text = files::text(path).map_err(|error| {
         Error::new(ErrorKind::Io, sentences::the_accepted_figures_cannot_be_read(&path.display(), &error))
@@ -174,23 +174,23 @@ fn list(values: &[f64], bound: f64) -> String {
     format!("[{}]", values.join(", "))
 }
 
-/// Numbers below this limit are written with an exponent.
+/// Numbers below this limit in magnitude are written with an exponent.
 const SMALL: f64 = 1e-4;
-/// Numbers from this limit on are written with an exponent.
+/// Numbers of at least this magnitude are written with an exponent.
 const LARGE: f64 = 1e9;
 /// Number of significant digits of a double. Further digits carry no information.
 const MOST_DIGITS: f64 = 17.0;
 
-/// Formats a number. The rounding error is at most a twentieth of the number's bound.
-/// If the bound is zero, all digits are written.
-/// If the text is read and written again, it does not change.
+/// Formats a number. The rounding error of the text is at most a twentieth of `bound`, the number's bound.
+/// If `bound` is zero, all digits are written.
+/// If the text is read and written again, the text does not change.
 fn number(value: f64, bound: f64) -> String {
     if bound == 0.0 {
         return format!("{value:?}");
     }
     let decimals = -(bound / 10.0).log10().floor();
     let magnitude = |value: f64| value.abs().log10().floor();
-    // Rounding may carry over into a further digit. The number is therefore rounded a second time.
+    // The first rounding may carry over into a further digit. The number is therefore rounded a second time.
     // The second rounding cannot carry over again.
     let rounded = digits(value, magnitude(value) + decimals).parse().unwrap_or(value);
     if rounded == 0.0 {

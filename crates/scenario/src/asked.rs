@@ -1,4 +1,4 @@
-//! The requested start, which replaces that of the file: assembly modes, and the crank angle at t = 0.
+//! The requested start, which replaces the start of the file: assembly modes, and the crank angle at t = 0.
 
 use super::start::{self, Lists};
 use crate::sentences;
@@ -10,27 +10,29 @@ use linkage::mechanism::assembly::{ConfigurationChoice, blame, blamed, first_cho
 use linkage::mechanism::pose::SidePoint;
 use linkage::mechanism::{Group, GroupId, GroupKind, JointSide, LinkId, Mechanism, Pose, StartGroup, Structure};
 
-/// A start that replaces that of the scenario file. The default replaces nothing.
+/// A start that replaces the start of the scenario file. The default replaces nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartRequest {
     /// Groups and their modes, each as `LINK,LINK=MODE` or `LINK,LINK=NUMBER`.
-    /// Links and modes have the names of the file. If the links are in another order, left and right are exchanged.
+    /// LINK and MODE are names in the file. If the links are in another order than in the file, left and right are
+    /// exchanged.
     /// NUMBER is the position in the list of [`configurations`](linkage::mechanism::assembly::configurations) at the
     /// start, counted from 1.
     pub modes: Vec<String>,
     /// Crank angle at t = 0 (rad), in place of `crank` in `[start]`.
     /// Modes of the file also apply at the requested angle.
-    /// Approximate positions (`near`) apply at the file's angle only. They choose a configuration at the file's angle,
-    /// which is followed to the requested angle.
+    /// Approximate positions (`near`) apply at the file's angle only. These positions choose a configuration at the
+    /// file's angle.
+    /// The chosen configuration is followed to the requested angle.
     pub crank: Option<f64>,
-    /// Whether the caller defines another grid.
+    /// Whether the caller defines a grid in place of the file's grid.
     /// The case then has no instants, and the drive need not reach the instants of the file's grid.
     pub without_grid: bool,
-    /// Parameters of formulas by their keys. They replace the parameters of the file.
+    /// Parameters of formulas by their keys. The parameters replace those of the file.
     pub set: Vec<(String, f64)>,
     /// Limit on the memory for the numbers of the file's tables (bytes); `None` for the default limit of a proof.
     pub memory: Option<f64>,
-    /// Whether parameters that are missing in the file are added. Otherwise they are refused.
+    /// Whether parameters that are missing in the file are added. If not, they are refused.
     pub adds_parameters: bool,
 }
 
@@ -48,7 +50,7 @@ pub(super) struct Placed {
     pub pose: Pose,
     pub choices: Vec<ConfigurationChoice>,
     pub starts: Vec<StartGroup>,
-    /// Whether the pose lies on the branch of the file's own start.
+    /// Whether the pose lies on the branch of the file's start.
     pub is_own_branch: bool,
     pub undecided: Vec<Undecided>,
 }
@@ -68,8 +70,8 @@ pub(super) struct Start<'a> {
 /// Upper limit of a crank step when a configuration is followed (rad).
 const STEP: f64 = std::f64::consts::PI / 180.0;
 
-/// If a link's unit direction vectors in two poses differ by at most this, the link has the same direction in both
-/// poses.
+/// If a link's unit direction vectors in two poses differ by at most this length, the link has the same direction in
+/// the two poses.
 const SAME: f64 = 1e-9;
 
 impl StartRequest {
@@ -80,11 +82,11 @@ impl StartRequest {
 }
 
 impl Start<'_> {
-    /// Places all groups: those in `groups` as requested, the others as the file says.
+    /// Places all groups: the groups in `groups` as requested, all other groups as the file states.
     /// `crank` is the crank angle at t = 0 (rad).
     ///
     /// # Errors
-    /// Those of [`first_choices`], with the group that causes the error.
+    /// The errors of [`first_choices`], with the group that causes the error.
     /// [`ErrorKind::Geometry`] if the file's configuration cannot be followed to the angle.
     pub fn placed(&self, crank: f64, groups: &[(GroupId, StartGroup)]) -> Result<Placed> {
         let moved = crank != self.crank;
@@ -129,8 +131,8 @@ impl Start<'_> {
         self.drives.iter().enumerate().map(angle).collect()
     }
 
-    /// Places all groups by these starts.
-    /// If undecided groups are to be listed, each of them starts in the configuration that its number selects.
+    /// Places all groups by the starts `starts`. `crank` is the crank angle (rad).
+    /// If undecided groups are to be listed, each undecided group starts in the configuration that its number selects.
     /// If all groups are decided, the pose counts as lying on the file's branch.
     fn settled(&self, crank: f64, mut starts: Vec<StartGroup>) -> Result<Placed> {
         let angles = self.angles(crank);
@@ -172,7 +174,8 @@ impl Start<'_> {
     }
 
     /// The pose of the file's configuration, followed until the crank is at `crank` (rad).
-    /// The direct path is tried first. If it fails, the crank turns the opposite way to the same angle.
+    /// The direct path is tried first. If the direct path fails, the crank turns in the opposite direction to the same
+    /// angle.
     /// A dyad keeps its mode; a higher group is followed step by step.
     fn followed(&self, own: &(Pose, Vec<ConfigurationChoice>), crank: f64) -> Option<Pose> {
         let other = crank - std::f64::consts::TAU.copysign(crank - self.crank);

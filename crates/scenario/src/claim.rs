@@ -104,7 +104,7 @@ impl Claim {
     }
 
     /// A full turn in the unit of the claim, if the claim is an angle, or a sum or difference of angles.
-    /// Values that differ by full turns are then equivalent.
+    /// Values of such a claim that differ by full turns are equivalent.
     #[must_use]
     pub fn turn(&self) -> Option<f64> {
         fn is_sum(tree: &FormulaTree) -> bool {
@@ -122,7 +122,7 @@ impl Claim {
     }
 }
 
-/// The message for an unknown name, and a help text with the nearest known name.
+/// The message for an unknown name, and a help text with the known name that is nearest to it.
 fn unknown(name: &str, all: &[Channel]) -> (String, String) {
     let known: Vec<String> = all.iter().map(Channel::to_string).collect();
     let reduced = QUANTITIES.iter().map(|own| own.name);

@@ -67,7 +67,7 @@ const AREA: f64 = 5e-3;
 const SMALLEST_AREA: f64 = 1e-5;
 /// Lower limit of a tolerance, divided by the mechanism's size.
 /// `FARTHEST` is the upper limit of an outline's extent, divided by the mechanism's size.
-/// Beyond these limits the results would be rounding errors.
+/// Beyond these two limits the results would be rounding errors.
 const FINEST: f64 = 1e-10;
 const FARTHEST: f64 = 1e6;
 /// Upper limit of the number of parts of a housing.
@@ -171,7 +171,7 @@ fn default(table: &TomlTable, points: &[Point], radius: f64) -> Result<Outline> 
     Outline::of_points(&places, radius).map_err(|flaw| flawed(table, "radius", flaw))
 }
 
-/// The outline that a link states: corners, a line, or only the radius of its capsules.
+/// The outline that the file states for a link: corners, a line, or only the radius of its capsules.
 fn of_link(mut table: TomlTable, default_radius: Option<f64>, link: &Link) -> Result<Outline> {
     let drawn = drawn(&mut table, &link.points)?;
     let solid = matches!(drawn, Some(("corners", _)));

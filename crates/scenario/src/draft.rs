@@ -14,14 +14,14 @@ use linkage::error::{Error, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, JointId, Mechanism, StartGroup, Structure};
 
-/// The mechanism of a scenario file, without the parts that have mistakes. It may be impossible to assemble.
+/// The mechanism of a scenario file, without the parts that have mistakes. The mechanism may be impossible to assemble.
 #[derive(Clone, Debug)]
 pub struct Draft {
-    /// Short name. If the file does not state a name, it is the file name without its ending.
+    /// Short name. If the file does not state a name, the short name is the file name without its ending.
     pub name: String,
     /// One line for people.
     pub title: String,
-    /// Links and joints. They may be inconsistent if the file has mistakes.
+    /// Links and joints. If the file has mistakes, links and joints may be inconsistent.
     pub mechanism: Mechanism,
     /// The groups of the mechanism, or the reason why they cannot be determined.
     pub structure: Result<Structure>,
@@ -36,7 +36,8 @@ pub struct Draft {
     pub gravity: Vec2,
     /// Crank angle at t = 0 (rad).
     pub crank: f64,
-    /// The start of each group, in the order of the structure. It is the default if the file states no valid start.
+    /// The start of each group, in the order of the structure. If the file states no valid start, the start is the
+    /// default.
     pub starts: Vec<StartGroup>,
     /// The mistakes of the file, if there are any.
     pub mistakes: Option<Error>,
@@ -46,15 +47,16 @@ impl Draft {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// If the file cannot be read, is not TOML or has another version, or if the request `asked` is wrong.
+    /// An error if the file cannot be read or is not TOML, or if the request `asked` is wrong.
+    /// Also an error if the format version of the file is not that of this program.
     pub fn load(path: &Path, asked: &StartRequest) -> Result<Draft> {
         Draft::parse(&text_of(path)?, path, asked)
     }
 
-    /// Reads the same from the text of the file.
+    /// Reads a draft from the text of the file at `path`.
     ///
     /// # Errors
-    /// Those of [`Draft::load`] that do not come from reading the file.
+    /// The errors of [`Draft::load`] that do not come from reading the file.
     pub fn parse(text: &str, path: &Path, asked: &StartRequest) -> Result<Draft> {
         let plain = Source::new(path, text);
         let tree = plain.tree()?;
@@ -63,7 +65,8 @@ impl Draft {
         let source = plain.with(parameters, keys::rows);
         let found = TomlTable::root(&source, &tree).read_on(|root| read(root, asked));
         let (draft, mistakes) = found.map_err(|error| source.located(tree.get_ref(), error))?;
-        // If a parameter has a mistake, only this mistake is reported, because it may be the cause of all others.
+        // If a parameter has a mistake, only this mistake is reported, because it may be the cause of all other
+        // mistakes.
         Ok(Draft { mistakes: fault.or(mistakes), ..draft })
     }
 }
@@ -115,7 +118,7 @@ fn read(root: &mut TomlTable, asked: &StartRequest) -> Result<Draft> {
     })
 }
 
-/// A drive of the first link hinged to the ground that determines the motion of all links.
+/// A drive of the first link hinged to the ground whose rotation determines the motion of all links.
 fn guessed(mechanism: &Mechanism, crank: f64) -> Option<Drive> {
     let joints = mechanism.joints();
     let is_hinge = |&index: &JointId| joints[index].is_pin() && joints[index].on(GROUND).is_some();
@@ -123,7 +126,8 @@ fn guessed(mechanism: &Mechanism, crank: f64) -> Option<Drive> {
     Some(Drive::prescribed(index, joints[index].other(GROUND).link, 0.0, crank, MotionLaw::ConstantSpeed(1.0)))
 }
 
-/// The mechanism without the points whose position could not be read. Joints lie only at the remaining points.
+/// The mechanism without the points whose position could not be read. Joints lie only at the points whose position
+/// could be read.
 fn with_places(mechanism: &Mechanism) -> Mechanism {
     let mut links = mechanism.links().to_vec();
     for link in &mut links {

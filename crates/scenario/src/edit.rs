@@ -7,10 +7,10 @@ use super::engine::{EngineSettings, ROWS, SECTIONS, Slot};
 use linkage::error::{Error, ErrorKind, Result};
 
 /// The text of a scenario, with the given settings as its `[engine]` section.
-/// The rest of the text does not change, and neither do its comments and its order.
+/// The rest of the text does not change, and neither do the comments and the order of the text.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if the text is not TOML, or if `engine` in it is not a section.
+/// [`ErrorKind::Input`] if the text is not TOML, or if `engine` in the text is not a section.
 pub fn with_engine(text: &str, engine: EngineSettings) -> Result<String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error| Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml(&error)))?;

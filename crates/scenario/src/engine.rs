@@ -1,7 +1,7 @@
 //! `[engine]`: engines by name, and their settings, given or free. Files and arguments pass the settings to the proof.
 //!
 //! [`ROWS`] is the only definition of a setting. Reader, writer and argument follow from a setting's row.
-//! Schema and documents follow from its key in [`SECTIONS`].
+//! Schema and documents follow from the setting's key in [`SECTIONS`].
 
 use crate::sentences;
 use std::fmt;
@@ -71,14 +71,14 @@ impl fmt::Display for EngineName {
 
 macro_rules! settings {
     ($($(#[$doc:meta])* $name:ident: $kind:ty,)*) => {
-        /// Engines and their settings, as far as they are given.
+        /// Engines and their settings. A setting that is not given is free.
         #[derive(Clone, Debug, Default, PartialEq)]
         pub struct EngineSettings {
             $($(#[$doc])* pub $name: EngineSetting<$kind>,)*
         }
 
         impl EngineSettings {
-            /// These settings. A free setting is replaced by that of `other`.
+            /// These settings. Each free setting is replaced by the same setting of `other`.
             #[must_use]
             pub fn or(&self, other: &EngineSettings) -> Self {
                 EngineSettings { $($name: self.$name.or(&other.$name).clone(),)* }
@@ -98,9 +98,10 @@ settings! {
     sweeps: usize,
     /// Number of parts into which an engine divides a step.
     substeps: usize,
-    /// Route by which reactions and balancing moment are computed.
+    /// Method by which reactions and balancing moment are computed.
     route: Route,
-    /// Number of extrapolations of the state to step size zero. With 1, a run at the given step size and a run at half of it are combined.
+    /// Number of extrapolations of the state to step size zero. With one extrapolation, a run at the given step size
+    /// and a run at half the given step size are combined.
     extrapolated: usize,
 }
 
@@ -122,8 +123,8 @@ pub enum Slot<'a> {
 /// Names and meaning of a setting.
 #[derive(Debug)]
 pub struct SettingRow {
-    /// Key of the setting in [`SECTIONS`]. If two keys can state the setting, it is the first; `None` if no file can
-    /// state it.
+    /// Key of the setting in [`SECTIONS`]. If two keys can state the setting, the first key is given. `None` if no file
+    /// can state the setting.
     pub key: Option<&'static str>,
     /// Its argument.
     pub argument: &'static str,
@@ -230,8 +231,9 @@ impl EngineSettings {
         }
     }
 
-    /// These settings, in the form that the search for the settings of a motion uses.
-    /// Extrapolation would use steps finer than a given step, so it is off by default if the step is given.
+    /// The settings in the form that the search for the settings of a motion uses.
+    /// Extrapolation would use steps finer than a given step. If the step is given, extrapolation is therefore off by
+    /// default.
     #[must_use]
     pub fn of_motion(mut self) -> Self {
         if !self.step.is_free() && self.extrapolated.is_free() {
@@ -254,7 +256,7 @@ pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     for row in ROWS {
         let Some(key) = row.key else { continue };
         match (row.slot)(&mut own) {
-            // The step has two keys, which are read above.
+            // The step has two keys, which are read above, so nothing is read here.
             Slot::Positive(_) => {}
             Slot::Engines(engines) => {
                 let engine = table.optional_choice(

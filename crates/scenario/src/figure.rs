@@ -1,4 +1,4 @@
-//! Figures of a mechanism: lengths between points, and quantities over a turn.
+//! Figures of a mechanism: lengths between points, and quantities over a turn of the crank.
 
 use super::printed::{Correction, Printed, number};
 use super::reader::TomlTable;
@@ -22,7 +22,7 @@ pub struct OracleFigure {
     pub wrong: Option<(String, FigureValue)>,
 }
 
-/// A number that a figure is compared with.
+/// A number with which a figure is compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FigureValue {
     /// Value in the figure's SI unit.
@@ -36,13 +36,13 @@ pub struct FigureValue {
 /// A figure of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MechanismFigure {
-    /// Mean over the turn of the moment of inertia reduced to the crank (kg m^2).
+    /// Mean over a turn of the crank of the moment of inertia reduced to the crank (kg m^2).
     ReducedInertiaMean,
-    /// Mean over the turn of the moment of resistance reduced to the crank (N m).
+    /// Mean over a turn of the crank of the moment of resistance reduced to the crank (N m).
     ReducedResistanceMean,
     /// Speed of the crank (rad/s) at which the motor's moment on it equals the mean resistance.
     SteadyCrankSpeed,
-    /// Speed of the motor (rad/s) that belongs to this steady crank speed.
+    /// Speed of the motor (rad/s) at the steady crank speed.
     SteadyMotorSpeed,
     /// Distance between two points at t = 0 (m).
     Distance([JointSide; 2]),
@@ -84,14 +84,14 @@ impl MechanismFigure {
     /// The figure that a claim names; `None` if the name is not that of a figure.
     ///
     /// # Errors
-    /// Message and help, if the case lacks what the figure needs.
+    /// Message and help, if the case lacks data that the figure needs.
     pub(super) fn claimed(name: &str, case: &Case) -> Option<std::result::Result<MechanismFigure, (String, String)>> {
         let name = name.strip_prefix(CLAIMED)?;
         let (_, figure) = OF_MECHANISM.iter().find(|(own, _)| *own == name)?;
         Some(figure.lacks(case).map_or(Ok(*figure), |(message, help)| Err((message.into(), help.into()))))
     }
 
-    /// Message and help, if the figure needs something that the case lacks.
+    /// Message and help, if the figure needs data that the case lacks.
     fn lacks(self, case: &Case) -> Option<(&'static str, &'static str)> {
         match self {
             MechanismFigure::SteadyCrankSpeed | MechanismFigure::SteadyMotorSpeed if case.crank().motor().is_none() => {
@@ -157,8 +157,8 @@ fn distance(entry: &mut TomlTable, case: &Case) -> Result<(MechanismFigure, Stri
         return entry.refuse("points", message, "write `points = [\"A\", \"B\"]`");
     };
     let places = [places(entry, case, first)?, places(entry, case, second)?];
-    // A distance between two points of one link is only what the file states.
-    // The distance is therefore measured between two links, where it depends on how the solver assembles them.
+    // A distance between two points of one link only repeats the file.
+    // The distance is therefore measured between two links, so that it depends on how the solver assembles these links.
     let has = |link: LinkId, of: &[JointSide]| of.iter().any(|side| side.link == link);
     let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
     let (Some(first), Some(second)) = (measured(0), measured(1)) else {
@@ -169,7 +169,7 @@ fn distance(entry: &mut TomlTable, case: &Case) -> Result<(MechanismFigure, Stri
     Ok((MechanismFigure::Distance([first, second]), names.join(" ")))
 }
 
-/// The point called `name` on every link that has it.
+/// The point called `name` on every link that has this point.
 fn places(entry: &TomlTable, case: &Case, name: &str) -> Result<Vec<JointSide>> {
     let links = || case.mechanism.links().entries();
     let on = |(link, body): (LinkId, &linkage::mechanism::Link)| {

@@ -41,7 +41,7 @@ pub const OMEGA: &str = "omega_crank";
 pub struct Formulas {
     /// Numbers with names.
     pub parameters: Vec<Parameter>,
-    /// The formulas, in the order of the file. Each formula may use those before it.
+    /// The formulas, in the order of the file. Each formula may use the formulas before it.
     pub list: Vec<Formula>,
     /// Graph of all formulas. Its inputs are the crank angle (rad, as the scenario states it) and the time (s).
     /// Two more inputs have no names: the crank's angular velocity (rad/s) and angular acceleration (rad/s^2).
@@ -55,7 +55,7 @@ pub struct Formula {
     pub name: String,
     /// Its text.
     pub text: String,
-    /// The text as it was read.
+    /// The text of the formula as a tree.
     pub tree: FormulaTree,
     /// Node of the formula in the graph.
     pub id: NodeId,
@@ -187,7 +187,7 @@ impl Formulas {
             if !graph.knows(OMEGA) {
                 graph.name(OMEGA, graph.input(2));
             }
-            // As in the file, a name refers to an earlier formula.
+            // As in the file, a name refers only to an earlier formula, so the names are updated one formula at a time.
             let mut last = None;
             for (own, formula) in list.iter().enumerate().take(of + 1).skip(first) {
                 let other = changed.iter().find(|(index, _)| *index == own).map(|(_, tree)| tree);
@@ -199,9 +199,11 @@ impl Formulas {
         })
     }
 
-    /// The formulas that a search for a mistake in the formula `of` needs, and the index of `of` among them.
-    /// They are `of`, the `beside` formulas before it, and all formulas that these use.
-    /// At most `beside` unused parameters are kept. The rest of the file is left out, so its length does not matter.
+    /// The formulas that a search for a mistake in the formula `of` needs, and the index of `of` among these formulas.
+    /// The needed formulas are `of`, the `beside` formulas before it, and all formulas that `of` and the `beside`
+    /// formulas use.
+    /// At most `beside` unused parameters are kept. All other formulas of the file are left out, so the length of the
+    /// file does not matter.
     #[must_use]
     pub fn derivation(&self, of: usize, beside: usize) -> (Formulas, usize) {
         let places = self.places(of);
@@ -231,7 +233,7 @@ impl Formulas {
         (formulas, kept.len() - 1)
     }
 
-    /// These formulas with another tree in the formula `of`. Formulas that use `of` change too.
+    /// The formulas with another tree in the formula `of`. Formulas that use `of` change too.
     /// The tree may use [`OMEGA`]. `None` if the tree uses an unknown name.
     #[must_use]
     pub fn with_tree(&self, of: usize, tree: FormulaTree) -> Option<Formulas> {
@@ -290,8 +292,8 @@ pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<TomlTable>, case: &Ca
     let mut formulas = Formulas::over(parameters);
     for mut table in tables {
         let read = faults.read(&mut table, |table| formula(table, &mut formulas, case));
-        // Later formulas may use a formula that is left out. After such a mistake, the file therefore does not count as
-        // whole.
+        // Later formulas may use a formula that is left out. After a mistake in a formula, the file therefore does not
+        // count as whole.
         faults.whole &= read.is_some();
     }
     formulas

@@ -63,7 +63,7 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
         return Err(sentences::the_list_has_more_than_values(&MOST));
     }
     let mut order: Vec<usize> = (0..values.len()).collect();
-    // The sort is stable: of equal values, the earlier one comes first.
+    // The sort is stable: of two equal values, the value that is earlier in the list comes first.
     order.sort_by(|&a, &b| values[a].partial_cmp(&values[b]).unwrap_or(Ordering::Equal));
     match order.windows(2).find(|pair| values[pair[0]] == values[pair[1]]) {
         Some(pair) => Err(sentences::values_and_of_the_list_are_the_same(&(pair[0] + 1), &(pair[1] + 1))),

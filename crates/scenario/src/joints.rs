@@ -57,7 +57,8 @@ pub fn read(tables: Vec<TomlTable>, links: &[Link], faults: &mut Faults) -> Vec<
         let read = faults.read(&mut table, |table| joint(table, links, &joints));
         joints.extend(read.filter(|joint| [joint.first, joint.second].iter().all(|side| is_somewhere(side.local))));
     }
-    // Drives and the mechanism may need a joint that is left out. The file then does not count as whole.
+    // Drives and the mechanism may need a joint that is left out. If a joint is left out, the file therefore does not
+    // count as whole.
     faults.whole &= joints.len() == count;
     joints
 }
@@ -150,7 +151,7 @@ fn prismatic(table: &mut TomlTable) -> Result<(JointKind, Option<Guise>)> {
     Ok((JointKind::Prismatic { axes: [first, second].map(direction) }, drawn))
 }
 
-/// Unit vector at `angle` (rad). Along the axes of the frame it is exact, without the rounding error of pi.
+/// Unit vector at `angle` (rad). Along the axes of the frame the vector is exact, without the rounding error of pi.
 /// A vertical guide is therefore exactly vertical.
 fn direction(angle: f64) -> Vec2 {
     let quarters = angle / FRAC_PI_2;

@@ -68,7 +68,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{ConfigurationChoice, group_of};
 use linkage::mechanism::{Mechanism, StartGroup, Structure};
 
-/// A scenario: the problem, the engine's settings, and the published numbers that it is compared with.
+/// A scenario: the problem, the engine's settings, and the published numbers with which the result is compared.
 ///
 /// ```
 /// use linkproof::Scenario;
@@ -85,7 +85,7 @@ pub struct Scenario {
     pub name: String,
     /// One line for people.
     pub title: String,
-    /// Where the dimensions come from.
+    /// Source of the dimensions, if the file states one.
     pub source: Option<String>,
     /// Path of the file as the user gave it.
     pub path: PathBuf,
@@ -95,7 +95,8 @@ pub struct Scenario {
     pub case: Case,
     /// Engines and the settings that the scenario gives.
     pub engine: EngineSettings,
-    /// If the engine's discretisation error exceeds this fraction of a channel's scale, agreement is no longer a proof.
+    /// If the engine's discretisation error, divided by a channel's scale, exceeds this limit, agreement is no longer a
+    /// proof.
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
@@ -140,7 +141,7 @@ impl Scenario {
     /// Reads the scenario file at `path` and the tables that the file names.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] if a file cannot be read, otherwise as [`Scenario::parse`].
+    /// [`ErrorKind::Io`] if a file cannot be read; all other errors are those of [`Scenario::parse`].
     pub fn load(path: impl AsRef<Path>) -> Result<Scenario> {
         Scenario::load_as(path, &StartRequest::default())
     }
@@ -157,43 +158,43 @@ impl Scenario {
         Ok(parse(text, path.as_ref(), &StartRequest::default(), Lists::No)?.0)
     }
 
-    /// Reads the scenario file at `path` with another start.
+    /// Reads the scenario file at `path` with the start `asked` in place of the file's start.
     ///
-    /// Published numbers belong to the file's branch. On another branch they are left out.
-    /// With another crank angle at t = 0, numbers that depend on this angle are also left out.
-    /// These are distances at t = 0 and values at times.
-    /// Values over the crank angle are left out in three cases:
+    /// Published numbers belong to the file's branch. If the start is on another branch, they are left out.
+    /// If the crank angle at t = 0 differs from that of the file, numbers that depend on this angle are also left out.
+    /// Such numbers are distances at t = 0 and values at times.
+    /// Values at crank angles are left out in three cases:
     /// the crank's speed changes, there are further drives, or a torsional spring counts turns from the start.
     ///
     /// # Errors
-    /// Those of [`Scenario::load`].
+    /// The errors of [`Scenario::load`].
     /// [`ErrorKind::Input`] without a position in the file if a group, its mode or its number is unknown.
     pub fn load_as(path: impl AsRef<Path>, asked: &StartRequest) -> Result<Scenario> {
         Scenario::parse_as(&text_of(path.as_ref())?, path, asked)
     }
 
-    /// Reads the same from the text of the file.
+    /// Reads a scenario from the text of the file at `path`, with the start `asked` in place of the file's start.
     ///
     /// # Errors
-    /// Those of [`Scenario::load_as`] that do not come from reading the file.
+    /// The errors of [`Scenario::load_as`] that do not come from reading the file.
     pub fn parse_as(text: &str, path: impl AsRef<Path>, asked: &StartRequest) -> Result<Scenario> {
         Ok(parse(text, path.as_ref(), asked, Lists::No)?.0)
     }
 
-    /// As [`Scenario::load_as`], for a list of configurations.
+    /// Reads the scenario file at `path` as [`Scenario::load_as`] does, for a list of configurations.
     /// A group that the file leaves undecided is placed in one of its configurations.
     /// Undecided groups are returned with the reason, in the order of the structure.
     ///
     /// # Errors
-    /// Those of [`Scenario::load_as`]. An undecided group does not cause an error.
+    /// The errors of [`Scenario::load_as`]. An undecided group does not cause an error.
     pub fn load_to_list(path: impl AsRef<Path>, asked: &StartRequest) -> Result<(Scenario, Vec<Undecided>)> {
         Scenario::parse_to_list(&text_of(path.as_ref())?, path, asked)
     }
 
-    /// Reads the same from the text of the file.
+    /// Reads a scenario from the text of the file, for a list of configurations.
     ///
     /// # Errors
-    /// Those of [`Scenario::load_to_list`] that do not come from reading the file.
+    /// The errors of [`Scenario::load_to_list`] that do not come from reading the file.
     pub fn parse_to_list(
         text: &str,
         path: impl AsRef<Path>,
@@ -204,11 +205,11 @@ impl Scenario {
         Ok((scenario, undecided))
     }
 
-    /// The scenario of a case that was built in code. It has no file and no published numbers.
+    /// The scenario of a case that was built in code. The scenario has no file and no published numbers.
     /// Its engine settings are free: the proof finds them. `name` must be usable in file names.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a name with other characters than lower-case letters, digits and `_`.
+    /// [`ErrorKind::Input`] for a name with characters other than lower-case letters, digits and `_`.
     pub fn of_case(name: &str, case: Case) -> Result<Scenario> {
         if !is_name(name) {
             let message = sentences::cannot_be_the_name_of_a_scenario(&name);
@@ -237,7 +238,7 @@ impl Scenario {
 
     /// The same scenario, restricted to the channels that `words` request. The words have the syntax of `want` in
     /// `[channels]`.
-    /// Published numbers of other channels and figures of the whole mechanism are left out.
+    /// Published numbers of channels that are not requested and figures of the whole mechanism are left out.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a word that requests nothing.
@@ -292,7 +293,7 @@ fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<
         unreachable!("what is missing has ended the reading");
     };
     let structure = structure(&stated.mechanism, drives).map_err(in_file)?;
-    // Errors of a requested start are returned without a position in the file, because the caller requests this start.
+    // Errors of a requested start are returned without a position in the file, because the caller requests the start.
     let groups = asked.groups(&stated.mechanism, &structure)?;
     let mechanism = &stated.mechanism;
     let starts = start::groups(start, stated.groups, mechanism, &structure, &groups, lists).map_err(in_file)?;
@@ -306,7 +307,7 @@ fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<
     finished(stated, structure, placed, &source, asked).map_err(in_file)
 }
 
-/// The structure of a stated mechanism. Its masses and speeds are checked first.
+/// The structure of a stated mechanism. Masses and speeds of the mechanism are checked first.
 fn structure(mechanism: &Mechanism, drives: &Drives) -> Result<Structure> {
     masses::check(mechanism, drives)?;
     masses::check_speeds(mechanism, drives)?;
@@ -338,7 +339,8 @@ fn finished(
     let mut formulas = self::formula::read(source.parameters.list().to_vec(), stated.formulas, &case, &mut faults);
     faults.end()?;
     if !asked.set.is_empty() {
-        // Published numbers are valid for the parameters of the file only, so other parameters remove them.
+        // Published numbers are valid for the parameters of the file only. If the parameters are replaced, the numbers
+        // are therefore removed.
         oracles.clear();
     }
     if !placed.is_own_branch {

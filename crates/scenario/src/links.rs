@@ -38,7 +38,7 @@ pub const SECTIONS: &[Section] = &[
     Section::at("links.*.mass_centre").with(PLACE),
 ];
 
-/// Position of a point whose position could not be read.
+/// Value that marks a point whose position could not be read.
 const NOWHERE: Vec2 = Vec2::new(f64::NAN, f64::NAN);
 
 /// Whether a position could be read.
@@ -74,7 +74,8 @@ pub fn read(ground: Option<TomlTable>, links: Option<TomlTable>, faults: &mut Fa
         faults.read(&mut table, |table| fill(table, &mut link));
         all.push(link);
     }
-    // Other sections may name a link or a point that is left out. Errors about unknown names are then not reported.
+    // Sections other than `[ground]` and `[links]` may name a link or a point that is left out. Errors about unknown
+    // names are then not reported.
     faults.names &= all.len() > 1 && all.iter().all(|link| !link.points.is_empty());
     faults.whole &= faults.names;
     all

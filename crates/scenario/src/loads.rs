@@ -117,8 +117,8 @@ fn resisting_force(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load>
     let point = (table.string("link")?, table.string("point")?);
     let force = table.si("force")?;
     let at = loaded_point(table, mechanism, point)?;
-    // A point at a ground pivot has the velocity zero plus rounding error. The rounding error would decide the
-    // direction of the force.
+    // A point at a ground pivot has the velocity zero plus rounding error. Such a point is refused, because the
+    // rounding error would decide the direction of the force.
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
     if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
         return table.refuse(
@@ -212,7 +212,7 @@ fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: u32) -> Result<()>
         return Err(row.fault(message).help(sentences::WRITE_THE_POINTS_IN_ASCENDING));
     }
     // Degrees are rounded when they are converted to radians.
-    // This must not move a point at the end of the period into the next period.
+    // The margin 1e-12 therefore refuses a point at the end of the period even if rounding has moved it below the end.
     if last - first > TAU * f64::from(turns) * (1.0 - 1e-12) {
         let message = sentences::the_table_is_longer_than_its_period(&(360 * u64::from(turns)));
         return Err(row.fault(message).help(sentences::A_TABLE_REPEATS_AFTER_A_TURN));
@@ -241,14 +241,14 @@ fn moving(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<Li
     Ok(link)
 }
 
-/// A link that can turn.
+/// A link that can turn, from the key `name`.
 fn turning(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<LinkId> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
         return table.refuse("link", sentences::THE_GROUND_DOES_NOT_TURN, sentences::NAME_A_MOVING_LINK);
     }
-    // A link that cannot turn has the angular velocity zero plus rounding error. The rounding error would decide the
-    // sense of the moment.
+    // A link that cannot turn has the angular velocity zero plus rounding error. Such a link is refused, because the
+    // rounding error would decide the sense of the moment.
     if !mechanism.can_turn(link) {
         let message = sentences::link_does_not_turn_prismatic(&name);
         return table.refuse("link", message, sentences::NAME_A_LINK_THAT_TURNS);

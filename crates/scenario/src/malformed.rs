@@ -46,7 +46,8 @@ fn duplicate(text: &str, place: Places, span: Range<usize>) -> Error {
 }
 
 /// Position of the first occurrence of the duplicate key at `span`.
-/// If an earlier key is renamed and the error disappears, this key is the first occurrence: it is in the same table.
+/// Each earlier key is renamed in turn. If the error disappears, the renamed key is the first occurrence, because it is
+/// in the same table.
 fn first_of(text: &str, span: &Range<usize>) -> Option<usize> {
     const OTHER: &str = "another-key";
     let key = &text[span.clone()];

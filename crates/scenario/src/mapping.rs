@@ -1,4 +1,4 @@
-//! Mapping files: they map the numbers of another program's table to the channels of a mechanism.
+//! Mapping files. A mapping file maps the numbers of another program's table to the channels of a mechanism.
 
 use crate::sentences;
 use std::path::Path;
@@ -9,7 +9,7 @@ use super::words::suggestion;
 use formula::FormulaFault;
 use linkage::error::{Error, ErrorKind, Place, Result};
 
-/// The meaning of the numbers of a table.
+/// The mapping of the numbers of a table to instants and channels.
 #[derive(Clone, Debug, Default)]
 pub struct Mapping {
     /// The instants of the rows, under names such as `time_s`, as in the measurements of a scenario.
@@ -20,10 +20,10 @@ pub struct Mapping {
     pub allowed: Vec<Allowed>,
 }
 
-/// A channel, and the arithmetic expression of table columns that gives it.
+/// A channel, and the arithmetic expression of table columns that gives the channel.
 #[derive(Clone, Debug)]
 pub struct Mapped {
-    /// The channel in its unit, such as `link.rocker.angle_deg`; or a name of [`INSTANTS`].
+    /// The channel in the unit of its name, such as `link.rocker.angle_deg`; or a name of [`INSTANTS`].
     pub name: String,
     /// An arithmetic expression of the table's columns.
     pub text: String,
@@ -34,31 +34,31 @@ pub struct Mapped {
 /// An allowed difference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Allowed {
-    /// A channel, or a word for several channels; `None` for all.
+    /// A channel, or a word for several channels; `None` for all channels.
     pub of: Option<String>,
     /// How much.
     pub size: Size,
 }
 
-/// How an allowed difference is stated.
+/// An allowed difference, by the quantity to which it refers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Size {
     /// In the channel's unit.
     Absolute(f64),
-    /// As a fraction of the channel's scale.
+    /// The difference as a fraction of the channel's scale.
     Relative(f64),
-    /// As a fraction of each value.
+    /// The difference as a fraction of each value.
     OfValue(f64),
 }
 
-/// A key of allowed differences, and its kind.
+/// A key of allowed differences, and the kind of difference that the key states.
 type Sized = (&'static str, fn(f64) -> Size);
 
 /// All keys of allowed differences, in the order of the kinds.
 const SIZES: [Sized; 3] = [("abs", Size::Absolute), ("rel", Size::Relative), ("rel_value", Size::OfValue)];
 
 impl Size {
-    /// Index of the kind, from 0: in units, as a fraction of the scale, as a fraction of each value.
+    /// Index of the kind of difference, from 0: in units, as a fraction of the scale, as a fraction of each value.
     #[must_use]
     pub fn kind(self) -> usize {
         self.parts().0
@@ -73,7 +73,7 @@ impl Size {
     }
 }
 
-/// Names for the instants of rows. Each has its factor to SI, and whether it is a crank angle.
+/// Names for the instants of rows. Each name has its factor to SI, and a flag that says whether it is a crank angle.
 pub const INSTANTS: [(&str, f64, bool); 4] = [
     ("time_s", 1.0, false),
     ("time_ms", 1e-3, false),
@@ -85,7 +85,7 @@ impl Mapped {
     /// Parses `EXPR=NAME`, as an argument gives it; `what` names the text in messages.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if there is no `=`, or if one of its sides is empty.
+    /// [`ErrorKind::Input`] if there is no `=`, or if EXPR or NAME is empty.
     pub fn parse(text: &str, what: &str) -> Result<Self> {
         let place = Place { file: what.into(), text: text.into(), span: 0..text.len() };
         let parts = text.rsplit_once('=').map(|(left, right)| (left.trim(), right.trim()));
@@ -133,7 +133,7 @@ impl Mapping {
     ///
     /// # Errors
     /// [`ErrorKind::Io`] if the file cannot be read.
-    /// [`ErrorKind::Input`] for a mistake in the file. The error states its position.
+    /// [`ErrorKind::Input`] for a mistake in the file. The error states the position of the mistake.
     pub fn load(path: &Path) -> Result<Self> {
         let text = files::read_text(path).map_err(|error| {
             Error::new(ErrorKind::Io, sentences::the_mapping_cannot_be_read(&path.display(), &error))
@@ -144,7 +144,7 @@ impl Mapping {
         read(&mut TomlTable::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
     }
 
-    /// Adds the content of another mapping.
+    /// Adds the content of the mapping `other` to this mapping.
     pub fn extend(&mut self, other: Mapping) {
         self.at.extend(other.at);
         self.channels.extend(other.channels);
@@ -165,7 +165,7 @@ impl Mapping {
         self.at.is_empty() && self.channels.is_empty() && self.allowed.is_empty()
     }
 
-    /// The text of a mapping file with the same content.
+    /// The text of a mapping file with the same content as this mapping.
     #[must_use]
     pub fn text(&self) -> String {
         let mut document = toml_edit::DocumentMut::new();

@@ -1,8 +1,9 @@
-//! Masses that do not fit their mechanism. The usual cause is a wrong unit.
+//! Checks masses that do not fit their mechanism. The usual cause is a wrong unit.
 //!
 //! A double has sixteen digits.
-//! A mass that is too far away or too heavy leaves too few digits for the other quantities.
-//! Its rounding error would then hide the rest of the mechanism from the solvers and the engines.
+//! A mass that is too far away or too heavy leaves too few digits for the other quantities of the mechanism.
+//! Its rounding error would then hide the rest of the mechanism from the solvers and the engines, so the mass is
+//! refused.
 
 use crate::sentences;
 use linkage::drive::{Drive, Drives};
@@ -23,7 +24,7 @@ const LIGHT: f64 = 299_792_458.0;
 /// Checks that no point of a driving link is faster than light, neither under the law of motion nor at the start.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for such a speed.
+/// [`ErrorKind::Input`] for a point faster than light.
 pub fn check_speeds(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
     for drive in drives.iter() {
         let speed = drive.top_speed().abs().larger(drive.initial_speed().abs());
@@ -68,7 +69,7 @@ pub fn check(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
     }
     let inertia = |link: &Link| link.inertia + link.mass * size * size;
     let motors: f64 = drives.iter().map(Drive::moving_inertia).sum();
-    // The sum is formed anew for every link. A difference of two sums would lose all significant digits here.
+    // The sum is formed anew for every link, because a difference of two sums would lose all significant digits.
     let others = |link: &Link| moving().filter(|other| other.name != link.name).map(inertia).sum::<f64>() + motors;
     let Some(link) = moving().max_by(|a, b| inertia(a).total_cmp(&inertia(b))) else { return Ok(()) };
     let (own, others) = (inertia(link), others(link));

@@ -55,7 +55,7 @@ pub const SECTIONS: &[Section] = &[
 
 /// The drives of the mechanism: the crank first, then the further drives.
 /// The crank has the angle `start` at t = 0 (rad) and gets the motor, if there is one.
-/// Every further drive states its start itself. `None` after a mistake.
+/// Every further drive states its start itself. After a mistake, the result is `None`.
 pub fn drives(
     tables: Vec<TomlTable>,
     motor: Option<TomlTable>,
@@ -73,8 +73,8 @@ pub fn drives(
             Ok(drive)
         };
         drives.extend(faults.read(&mut table, own));
-        // An earlier drive may move the link that carries a later drive. After a mistake, the file does not count as
-        // whole.
+        // An earlier drive may move the link that carries a later drive. After a mistake in a drive, the file therefore
+        // does not count as whole.
         faults.whole &= drives.len() > index;
     }
     let motor = motor.map(|mut motor| faults.read(&mut motor, motor::read));
@@ -91,7 +91,8 @@ fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()
         return Ok(());
     }
     let all = || before.iter().chain([drive]);
-    // Several drives are coupled by the crank angle, which determines the time only at constant speeds.
+    // Several drives are coupled by the crank angle. The crank angle determines the time only at constant speeds, so
+    // changing speeds are refused.
     if all().any(|drive| drive.constant_speed().is_none()) {
         let message = sentences::ONE_OF_SEVERAL_DRIVES_HAS_A_SPEED;
         return table.unsupported("law", message, sentences::GIVE_ALL_DRIVES_CONSTANT_SPEEDS);
@@ -103,7 +104,7 @@ fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()
     Ok(())
 }
 
-/// Reads a drive. `before` are the drives already read.
+/// Reads a drive. `before` are the drives already read. `start` is the input of the drive at t = 0.
 /// If the mechanism is `whole`, all its joints are known.
 fn drive(table: &mut TomlTable, mechanism: &Mechanism, before: &[Drive], start: f64, whole: bool) -> Result<Drive> {
     let name = table.string("joint")?;
@@ -161,7 +162,8 @@ fn drive(table: &mut TomlTable, mechanism: &Mechanism, before: &[Drive], start: 
     Ok(drive)
 }
 
-/// The motion of a drive: its link follows `law`, or is free from t = 0 on with `law` as its nominal motion.
+/// The motion of a drive. The link of the drive either follows `law`, or is free from t = 0 on with `law` as its
+/// nominal motion.
 fn motion(table: &mut TomlTable, law: MotionLaw) -> Result<DriveMotion> {
     let initial = table.optional_si("initial_speed")?;
     match table.optional_string("motion")?.as_deref() {

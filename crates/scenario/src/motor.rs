@@ -81,7 +81,7 @@ fn linear(table: &mut TomlTable) -> Result<MotorLaw> {
     Ok(MotorLaw::Linear { at_rest, slope: table.si("slope")? })
 }
 
-/// The breakdown point is given by its slip or by its speed. Catalogues differ in this.
+/// The breakdown point is given by its slip or by its speed, because catalogues give either of the two.
 fn kloss(table: &mut TomlTable) -> Result<MotorLaw> {
     let breakdown_torque = table.si("breakdown_torque")?;
     let synchronous_speed = table.si("synchronous_speed")?;

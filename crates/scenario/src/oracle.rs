@@ -93,7 +93,8 @@ pub const SECTIONS: &[Section] = &[
 /// Numbers of one source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Oracle {
-    /// The name that the scenario states, or else the file name of the table (`positions.csv`).
+    /// The name that the scenario states. If the scenario states no name, it is the file name of the table
+    /// (`positions.csv`).
     /// Numbers in the scenario itself are named `inline 1`, `inline 2`, ...
     pub name: String,
     /// Source of the numbers. If the numbers have a known error, the text also states the reason for the error.
@@ -118,15 +119,17 @@ pub enum OracleBasis {
 }
 
 impl Oracle {
-    /// The part of the oracle that is still valid if the case starts at another crank angle of the same branch.
+    /// The part of the oracle that is still valid if the case starts at a crank angle other than that of the file, on
+    /// the same branch.
     /// `None` if no part is valid.
     pub(super) fn at_another_start(mut self, case: &Case) -> Option<Oracle> {
         self.figures.retain(|figure| !matches!(figure.figure, MechanismFigure::Distance(_)));
-        // With another start angle, the motion is a different function of time.
+        // If the start angle differs from that of the file, the motion is a different function of time, so values at
+        // times are removed.
         self.series.retain(|series| series.instants().all(|at| at.time().is_none()));
-        // Three things make values depend on more than the crank angle.
-        // A further drive or a changing speed couples the crank angle to the time.
-        // A torsional spring couples it to the turns since the start.
+        // Values at crank angles are removed if they also depend on the time or on the turns since the start.
+        // A further drive or a changing speed makes values depend on the time.
+        // A torsional spring makes values depend on the turns since the start.
         let winds = |load: &linkage::drive::Load| load.nature().twist.is_some();
         if !case.is_steady() || !case.drives.further().is_empty() || case.loads.iter().any(winds) {
             self.series.clear();

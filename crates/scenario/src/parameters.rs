@@ -1,4 +1,4 @@
-//! Parameters: named numbers, which other numbers and formulas may use.
+//! Parameters: named numbers that are used in numbers and formulas of the file.
 
 use super::unit::{self, NamedUnit};
 use super::words::suggestion;
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// A number with a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// The key with its unit, such as `a_mm`. In formulas, this name denotes the number without conversion.
+    /// The key with its unit, such as `a_mm`. In formulas, the key denotes the number without conversion.
     pub key: String,
     /// The number as it was given, in the unit of the key.
     pub given: f64,
@@ -21,8 +21,8 @@ impl Parameter {
         Parameter { key: key.into(), given, unit: unit::ending(key).map(|(_, unit)| unit) }
     }
 
-    /// The key without its unit, such as `a`. In formulas, this name denotes the number in SI. `None` for a key without
-    /// a unit.
+    /// The key without its unit, such as `a`. In formulas, the short name denotes the number in SI. `None` for a key
+    /// without a unit.
     #[must_use]
     pub fn short(&self) -> Option<&str> {
         self.unit.map(|unit| &self.key[..self.key.len() - unit.suffix.len() - 1])
@@ -93,9 +93,9 @@ impl Parameters {
 }
 
 /// The number that `text` gives for a key. The text is an arithmetic expression of numbers and parameters.
-/// A parameter's short name denotes its value in the key's unit, if both measure the same quantity (`length_mm = "2 *
-/// a"`).
-/// Otherwise it denotes its value in SI.
+/// A parameter's short name denotes its value in the key's unit, if parameter and key measure the same quantity
+/// (`length_mm = "2 * a"`).
+/// If the quantities differ, the short name denotes the value in SI.
 ///
 /// # Errors
 /// The mistake in the text, with its position.
@@ -133,7 +133,7 @@ pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std:
 /// Names that have a fixed meaning in every formula.
 pub const INPUTS: [&str; 2] = ["phi", "t"];
 
-/// Message and help, if a name cannot be that of a parameter or formula.
+/// Message and help, if `name` cannot be the name of a parameter or formula.
 pub(super) fn fault_of_name(name: &str) -> Option<(String, &'static str)> {
     const HELP: &str = sentences::NAMES_BEGIN_WITH_A_LETTER;
     let mut bytes = name.bytes();

@@ -13,14 +13,15 @@ use linkage::trajectory::{self, CHANNELS, Channel, ChannelKind};
 pub struct Printed {
     /// The number, in the printed unit.
     pub value: f64,
-    /// Number of printed decimals. It is negative if digits before the decimal point are missing (1.5e3 has -2).
+    /// Number of printed decimals. The number is negative if digits before the decimal point are missing (1.5e3 has
+    /// -2).
     pub digits: i32,
     /// Largest distance of the true number from the printed one, in the printed unit.
     half_unit: f64,
 }
 
 impl Printed {
-    /// A number with a given count of decimals. Its text does not matter.
+    /// A number with a given count of decimals, whatever its text.
     #[must_use]
     pub fn with_digits(value: f64, digits: i32) -> Printed {
         // The printed decimal number is also rounded to binary. The factor (1 + 1e-9) covers only that rounding.
@@ -34,7 +35,7 @@ impl Printed {
         Printed { value, digits: -(2.0 * error).log10().round() as i32, half_unit: error }
     }
 
-    /// Reads a decimal number with an optional exponent. Any other text is refused, also an empty cell.
+    /// Reads a decimal number with an optional exponent. Any other text is refused, and so is an empty cell.
     #[must_use]
     pub fn cell(text: &str) -> Option<TableCell> {
         let begins = text.strip_prefix(['+', '-']).unwrap_or(text);
@@ -97,7 +98,7 @@ pub struct PrintedChannel {
 impl PrintedChannel {
     /// The channel called `name`. The ending of the name may be a printed unit: `x_mm` for `x_m`, `angle_deg` for
     /// `angle_rad`.
-    /// Otherwise the name is that of the channel in SI.
+    /// If the ending is no printed unit, the name is that of the channel in SI.
     #[must_use]
     pub fn named(name: &str) -> Option<PrintedChannel> {
         if let Some(base) = name.strip_suffix(&format!(".{MAGNITUDE}")) {
@@ -172,7 +173,7 @@ impl Correction {
     }
 }
 
-/// Reads the anchor under the key `finding`, which needs the key `right` beside it.
+/// Reads the anchor under the key `finding`. If this key is present, the key `right` is required too.
 pub(super) fn finding(entry: &mut TomlTable) -> Result<Option<String>> {
     let finding = entry.optional_string("finding")?;
     let help = sentences::A_NUMBER_KNOWN_TO_BE_WRONG;
@@ -184,7 +185,8 @@ pub(super) fn finding(entry: &mut TomlTable) -> Result<Option<String>> {
     }
 }
 
-/// Refuses a correct number that is too close to the printed number. A single number could then agree with both.
+/// Refuses a correct number that is too close to the printed number, because a single number could then agree with both
+/// numbers.
 pub(super) fn check_apart(entry: &TomlTable, printed: &Printed, right: &Printed) -> Result<()> {
     if (printed.value - right.value).abs() > printed.half_unit() + right.half_unit() {
         return Ok(());

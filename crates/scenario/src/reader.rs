@@ -1,5 +1,5 @@
 //! Typed reading of a spanned TOML table. A reader knows its dotted path and returns typed values.
-//! It remembers the requested keys. At the end it refuses all keys that were not requested.
+//! The reader remembers the requested keys. At the end the reader refuses all keys that were not requested.
 //!
 //! A table that is read by [`TomlTable::read`] reports all mistakes of its keys and values at once.
 
@@ -43,16 +43,17 @@ pub struct TomlTable<'a> {
     places: BTreeMap<&'a str, usize>,
     used: BTreeSet<&'a str>,
     asked: Vec<String>,
-    /// Whether reading goes on after a mistake.
+    /// Whether the reading continues after a mistake.
     goes_on: bool,
     faults: Vec<Error>,
-    /// Errors about names that are not defined in any other table.
+    /// Errors about names that no table of the file defines.
     unknown_names: Vec<Error>,
     /// If one spelling of a key is present, this list contains all spellings of that key.
     settled: Vec<String>,
-    /// Spellings of each missing key, and the help for it.
+    /// Spellings of each missing key, and the help for this key.
     missing: Vec<(Vec<String>, Option<&'static str>)>,
-    /// Keys that lead to this table, with `*` for names. They are the path of its section in the table of keys.
+    /// Keys that lead to this table, with `*` for names. These keys are the path of the table's section in the table of
+    /// keys.
     section: String,
     /// Rows of this table's section in the table of keys.
     rows: &'static [FileKey],
@@ -69,8 +70,8 @@ impl<'a> TomlTable<'a> {
             .iter()
             .map(|(key, value)| Entry { key: key.get_ref().as_ref(), key_span: key.span(), value })
             .collect();
-        // The entries are sorted by their position in the file.
         // The parser moves a table whose header comes after that of one of its children.
+        // The entries are therefore sorted by their position in the file.
         entries.sort_by_key(|entry| entry.key_span.start);
         let places = entries.iter().enumerate().map(|(place, entry)| (entry.key, place)).collect();
         TomlTable {
@@ -133,7 +134,7 @@ impl<'a> TomlTable<'a> {
         if self.path.is_empty() { error } else { error.key(self.path.clone()) }
     }
 
-    /// An error of a kind about the value of `key`.
+    /// An error of the given kind about the value of `key`.
     /// `key` is the exact spelling, or the name of a quantity without the unit.
     pub fn wrong(&self, kind: ErrorKind, key: &str, message: impl Into<String>) -> Error {
         let (key, place) = self.spot(key);
@@ -150,7 +151,7 @@ impl<'a> TomlTable<'a> {
         Err(self.wrong(ErrorKind::Unsupported, key, message).help(help))
     }
 
-    /// A setting with the value that was read from `key`. The setting is free if there is no value.
+    /// A setting with the value that was read from `key`. If there is no value, the setting is free.
     pub fn given<T>(&self, key: &str, value: Option<T>) -> EngineSetting<T> {
         value.map_or(EngineSetting::Free, |value| {
             let (key, place) = self.spot(key);
@@ -178,10 +179,11 @@ impl<'a> TomlTable<'a> {
 
     fn fault_at(&self, key: &str, value: &Spanned<DeValue>, fault: &FormulaFault) -> Error {
         let (mut span, text) = (value.span(), value.get_ref().as_str().unwrap_or_default());
-        // The value appears literally in the file, unless it contains escapes.
+        // If the value contains no escapes, its text occurs literally in the file, and the position in this text is
+        // used.
         if let Some(offset) = self.source.text[span.clone()].find(text) {
             let start = span.start + offset;
-            // A fault beyond the end of the text is shown at its last character.
+            // A fault beyond the end of the text is located at the last character of the text.
             let (from, to) = (fault.at.start.min(text.len().saturating_sub(1)), fault.at.end);
             span = start + from..start + to.max(from);
         }
@@ -214,7 +216,7 @@ impl<'a> TomlTable<'a> {
     }
 
     /// The result of `read` for the value of `key`, if the key is present.
-    /// If `read` refuses the value, `stand_in` replaces the result. Without `stand_in` the reading ends.
+    /// If `read` refuses the value, `stand_in` replaces the result. If there is no `stand_in`, the reading ends.
     fn scalar<T>(
         &mut self,
         key: &str,
@@ -351,8 +353,8 @@ impl<'a> TomlTable<'a> {
     }
 
     /// Elements of an array of tables; empty if the key is missing.
-    /// The path of an element contains its name (`joints.A`). Without a name it contains its number from 1
-    /// (`oracle[2]`).
+    /// The path of an element contains its name (`joints.A`). The path of an element without a name contains its number
+    /// from 1 (`oracle[2]`).
     pub fn tables(&mut self, key: &str) -> Result<Vec<TomlTable<'a>>> {
         let Some(value) = self.take(key) else { return Ok(Vec::new()) };
         let Some(array) = value.get_ref().as_array() else {
@@ -377,7 +379,7 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// As [`TomlTable::table_or_tables`], but at least one table is required.
+    /// The same as [`TomlTable::table_or_tables`], but at least one table is required.
     pub fn needed_tables(&mut self, key: &str) -> Result<Vec<TomlTable<'a>>> {
         let tables = self.table_or_tables(key)?;
         if tables.is_empty() { Ok(vec![self.table(key)?]) } else { Ok(tables) }
@@ -395,7 +397,7 @@ impl<'a> TomlTable<'a> {
     fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<TomlTable<'a>> {
         match value.get_ref() {
             DeValue::Table(table) => {
-                // A key that no reader requested literally is a user-defined name.
+                // A key that no reader requested literally is a user-defined name, so `*` replaces it in the path.
                 let own = if self.asked.iter().any(|own| own == key) { key } else { "*" };
                 let section = if self.section.is_empty() { own.into() } else { format!("{}.{own}", self.section) };
                 Ok(TomlTable { name: key.into(), path, ..TomlTable::new(self.source, section, value.span(), table) })
@@ -454,7 +456,7 @@ impl Needed {
         }
     }
 
-    /// Help text: how to correct the value that was found at a dotted path.
+    /// Help text that says how to correct the value that was found at a dotted path.
     fn help(self, path: &str, found: &DeValue) -> String {
         let help = match (self, found) {
             (Needed::Text, DeValue::Integer(_) | DeValue::Float(_)) => sentences::PUT_THE_TEXT_IN_QUOTES,

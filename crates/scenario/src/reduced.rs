@@ -1,7 +1,7 @@
 //! Quantities reduced to the crank, as arithmetic expressions of channels. A claim may also name these quantities.
 //!
-//! They follow from twice the kinetic energy and from the balance of powers of a motion that a solver or engine has
-//! found.
+//! The quantities follow from twice the kinetic energy and from the balance of powers of a motion that a solver or
+//! engine has found.
 //! Each solver or engine finds velocities, accelerations and the drive's moment by its own equations.
 
 use crate::sentences;
@@ -11,7 +11,7 @@ use linkage::mechanism::{GROUND, Link};
 
 /// A quantity that is an arithmetic expression of channels.
 pub(super) struct Quantity {
-    /// Its name in a claim, unit included.
+    /// Name of the quantity in a claim, unit included.
     pub(super) name: &'static str,
     /// Symbol of its unit.
     pub(super) unit: &'static str,
@@ -21,7 +21,7 @@ pub(super) struct Quantity {
 /// The arithmetic expression, or a message and help.
 type Found = Result<FormulaTree, (String, String)>;
 
-/// All reduced quantities. They do not include motor, reducer and flywheel.
+/// All reduced quantities. The quantities do not include motor, reducer and flywheel.
 pub(super) const QUANTITIES: [Quantity; 2] = [
     // I* = sum of m (v / omega)^2 + J (omega_link / omega)^2.
     Quantity { name: "drive.reduced_inertia_kg_m2", unit: "kg m^2", tree: inertia },

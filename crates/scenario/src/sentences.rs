@@ -1,4 +1,4 @@
-//! Every sentence that this crate can show, in one place, to be read as a list.
+//! All messages that this crate can show, in one file, so that they can be read as a list.
 
 linkage::sentences! {
     // accepted.rs

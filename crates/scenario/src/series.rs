@@ -1,5 +1,5 @@
 //! Values of one channel from an oracle, and the channels that an oracle may name.
-//! Every value holds at a crank angle or at a time.
+//! Every value is valid at a crank angle or at a time.
 
 use crate::sentences;
 use std::fmt;
@@ -29,8 +29,8 @@ pub struct OracleSeries {
     pub points: Vec<OraclePoint>,
     /// Values known to be wrong, each with a separate finding.
     pub expected: Vec<ExpectedCell>,
-    /// If all values are wrong: the finding that explains it, and the values.
-    /// The values are then listed here and not in the two lists above.
+    /// If all values are wrong: the finding that explains the error, and the values.
+    /// The values are then listed here and not in `points` and `expected`.
     pub wrong: Option<(String, Vec<ExpectedCell>)>,
 }
 
@@ -40,7 +40,7 @@ pub struct OraclePoint {
     /// Where the value holds.
     pub at: When,
     /// Largest rounding error of the instant (rad or s), if a table prints the instant.
-    /// It is 0 for numbers in the scenario itself.
+    /// The rounding error is 0 for numbers in the scenario itself.
     pub at_error: f64,
     /// Value in the channel's SI unit.
     pub value: f64,
@@ -53,21 +53,21 @@ pub struct OraclePoint {
 /// Where a value holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum When {
-    /// At a crank angle (rad, as the scenario measures it).
-    /// If forces determine the motion, the value holds for the nominal motion.
+    /// At a crank angle (rad, as the scenario measures the angle).
+    /// If forces determine the motion, the value is valid for the nominal motion.
     Crank(f64),
     /// At a time (s) of the motion of the scenario.
     Time(f64),
 }
 
 impl When {
-    /// The crank angle (rad), if the value holds at a crank angle.
+    /// The crank angle (rad), if the value is valid at a crank angle.
     #[must_use]
     pub fn crank(self) -> Option<f64> {
         if let When::Crank(crank) = self { Some(crank) } else { None }
     }
 
-    /// The time (s), if the value holds at a time.
+    /// The time (s), if the value is valid at a time.
     #[must_use]
     pub fn time(self) -> Option<f64> {
         if let When::Time(time) = self { Some(time) } else { None }
@@ -90,7 +90,7 @@ pub struct ExpectedCell {
     pub point: OraclePoint,
     /// The correct value.
     pub right: OraclePoint,
-    /// Anchor of its finding in `docs/findings.md`.
+    /// Anchor of the finding that explains the error, in `docs/findings.md`.
     pub finding: String,
 }
 
@@ -130,7 +130,7 @@ impl OracleSeries {
 
 impl Known<'_> {
     /// The same channels for a table whose known error is `slack`.
-    /// `digits` is the table's number of decimals if the table does not print trailing zeros.
+    /// If the table does not print trailing zeros, `digits` is its number of decimals.
     pub fn of_table(self, digits: Option<i32>, slack: f64) -> Self {
         Known { digits, slack, ..self }
     }
@@ -171,7 +171,8 @@ impl Known<'_> {
     }
 }
 
-/// A time may exceed the last instant by this fraction: the rounding error of a conversion between units.
+/// A time may exceed the last instant by this fraction of the last instant: the rounding error of a conversion between
+/// units.
 const ROUNDING: f64 = 1e-12;
 
 const HELP: &str = sentences::A_NUMBER_HOLDS_AT_A_CRANK;
@@ -232,7 +233,7 @@ impl Rows {
     }
 
     /// The instant of a row in a motion with this [`end`], and the largest error of the instant (rad or s).
-    /// A rounded time may lie slightly beyond the motion. It is then moved to the end of the motion.
+    /// If a rounded time lies slightly beyond the motion, it is moved to the end of the motion.
     ///
     /// # Errors
     /// A message for a time outside the motion.
@@ -268,8 +269,8 @@ pub(super) fn end(case: &Case) -> Option<f64> {
     is_solved.then(|| case.grid.ascending().last().map_or(0.0, |&row| case.grid.times[row]))
 }
 
-/// Checks that the motion of the case is solved at this time (s).
-/// The time must be within the run up to `end`, and the law of motion must be defined there.
+/// Checks that the motion of the case is solved at the time `time` (s).
+/// The time must be within the run up to `end`, and the law of motion must be defined at this time.
 fn checked(case: &Case, end: Option<f64>, time: f64) -> std::result::Result<(), String> {
     Grid::of_times(case.crank(), vec![time]).check(case.crank())?;
     let Some(end) = end else { return Ok(()) };

@@ -29,7 +29,7 @@ impl<T> EngineSetting<T> {
         EngineSetting::Given(value, SettingOrigin::Code)
     }
 
-    /// This setting. If it is free, `other` is returned.
+    /// This setting, or `other` if this setting is free.
     pub fn or<'a>(&'a self, other: &'a EngineSetting<T>) -> &'a EngineSetting<T> {
         if self.is_free() { other } else { self }
     }

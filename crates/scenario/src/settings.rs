@@ -17,7 +17,7 @@ pub const SECTIONS: &[Section] = &[
     )]),
 ];
 
-/// The words of `[channels]`; at least one.
+/// The words of `[channels]`. At least one word is required.
 pub fn wanted(table: &mut TomlTable) -> Result<Vec<String>> {
     let names = table.strings("want")?;
     table.finish()?;
@@ -63,10 +63,10 @@ pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>
     Ok(channels)
 }
 
-/// Default of [`engine_rel`]. It is chosen, not derived.
+/// Default of [`engine_rel`]. The value is a choice and has no derivation.
 pub const ENGINE_REL: f64 = 1e-2;
 
-/// If the engine's error bound exceeds this fraction of a channel's scale, agreement is no longer a proof.
+/// If the engine's error bound, divided by a channel's scale, exceeds this limit, agreement is no longer a proof.
 pub fn engine_rel(table: &mut TomlTable) -> Result<f64> {
     let share = table.optional_number("engine_rel")?.unwrap_or(ENGINE_REL);
     table.finish()?;

@@ -1,4 +1,4 @@
-//! The file of a scenario: positions in it, and its spanned tree.
+//! The file of a scenario: positions in the file, and its spanned tree.
 //! If an error of the `linkage` crate names a key, this module finds the key's position.
 
 use crate::sentences;
@@ -19,13 +19,14 @@ use linkage::mechanism::{LONGEST_NAME, is_unseen};
 const LONGEST_TEXT: usize = 10_000;
 
 /// Upper limit of the number of characters that begin a value or a table, including decimal points.
-/// Every value takes some 200 bytes of memory, whatever its length in the file.
-/// The memory is therefore known before it is used.
+/// Every value needs some 200 bytes of memory, whatever its length in the file.
+/// The limit therefore also limits the memory, before the memory is used.
 const MOST_VALUES: usize = 2_000_000;
 
 /// Upper limit of the number of parts of a file: tables, such as points, links, joints, loads and formulas.
 /// Published numbers are not counted as parts.
-/// Some computations take a time that grows with the square of this number. At the limit they take seconds.
+/// Some computations need a time that grows with the square of the number of parts. At the limit these computations
+/// need seconds.
 const MOST_PARTS: usize = 30_000;
 const UNCOUNTED: &str = "oracle";
 
@@ -47,7 +48,7 @@ pub struct Source<'a> {
     pub text: &'a str,
     /// Parameters that the numbers of the file may use.
     pub parameters: Parameters,
-    /// The rows of the table of keys for a section, by its path; empty for files that are not scenarios.
+    /// The rows of the table of keys for a section, by the path of the section; empty for files that are not scenarios.
     pub rows: fn(&str) -> &'static [key::FileKey],
     /// A second copy of the text, which all positions share.
     shared: Arc<str>,
@@ -82,7 +83,7 @@ impl<'a> Source<'a> {
     }
 
     /// `error` and the errors that were found with it.
-    /// If an error has a key but no position, it gets the position of the key.
+    /// If any of these errors has a key but no position, it gets the position of the key.
     pub fn located(&self, tree: &DeTable, error: Error) -> Error {
         error.each_in_order(|error| {
             if error.place().is_some() {
@@ -93,7 +94,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// Limits the number of values, so that the memory is sufficient to read the text.
+    /// Limits the number of values, so that the memory is sufficient to parse the text.
     fn check_size(&self) -> Result<()> {
         let mut signs = self.text.bytes().enumerate().filter(|(_, byte)| b",=[{.".contains(byte));
         let Some((at, _)) = signs.nth(MOST_VALUES) else { return Ok(()) };
@@ -154,7 +155,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Position of a key. If the key does not exist, it is the position of the nearest existing parent.
+/// Position of a key. If the key does not exist, the position is that of the nearest existing parent.
 /// Elements of an array are found by their name (`joints.A`), Assur groups by their links.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 fn locate(tree: &DeTable, key: &KeyPath) -> Range<usize> {

@@ -76,7 +76,7 @@ pub fn stated<'a>(tables: Vec<TomlTable<'a>>, mechanism: &Mechanism, faults: &mu
 
 /// The start that the file requests for each group, in the order of the structure.
 /// `start` is the table that contains the groups.
-/// Groups in `asked` may be missing, because their start is requested elsewhere.
+/// The file may omit groups in `asked`, because the caller requests their start.
 pub fn groups(
     start: &TomlTable,
     stated: Vec<StatedGroup>,
@@ -94,7 +94,7 @@ pub fn groups(
     }
     faults.end()?;
     let given: Vec<bool> = wanted.iter().map(Option::is_some).collect();
-    // A list of configurations does not require a choice of configurations.
+    // If configurations are to be listed, missing assembly modes are no error, because no choice is required.
     if lists == Lists::No {
         missing(start, &given, mechanism, structure, asked)?;
     }
@@ -112,7 +112,7 @@ fn missing(
     let is_asked = |index: GroupId| asked.iter().any(|(other, _)| *other == index);
     let open = structure.groups.entries().zip(given).filter(|((index, _), given)| !**given && !is_asked(*index));
     let missing: Vec<&Group> = open.map(|((_, group), _)| group).collect();
-    // A group without named modes is not reported here. The search for the first pose reports it.
+    // A group without named modes is not reported here, because the search for the first pose reports it.
     let named = |group: &&&Group| !modes_of(group.kind).is_empty();
     let names: Vec<String> =
         missing.iter().filter(named).map(|group| format!("({})", group.names(mechanism))).collect();
@@ -125,8 +125,8 @@ fn missing(
     Err(start.fault(message).help(help).key("start.groups"))
 }
 
-/// The error for missing assembly modes in a file that also has other mistakes.
-/// `None` if it cannot be known whether modes are missing.
+/// The error for missing assembly modes in a file that also has mistakes of another kind.
+/// `None` if these mistakes make it impossible to know whether modes are missing.
 pub fn also_missing(
     start: &TomlTable,
     stated: &[StatedGroup],
@@ -233,7 +233,7 @@ fn foreign_mode(table: &TomlTable, asked: AssemblyMode, group: &Group) -> Error 
     table.wrong(ErrorKind::Input, "mode", message).help(help)
 }
 
-/// Reads an approximate position. Returns its table, the name of the point, and the coordinates (m).
+/// Reads an approximate position. Returns the table of the position, the name of the point, and the coordinates (m).
 fn rough_place(mut table: TomlTable) -> Result<(TomlTable, String, Vec2)> {
     let (name, place) = table.read(|table| {
         let name = table.string("point")?;

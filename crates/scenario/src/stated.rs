@@ -39,13 +39,13 @@ pub const SECTIONS: &[Section] = &[Section::at("").with(&[
     optional("formula", ValueKind::Tables, "none").means("derived formulas, and the quantities that they claim to be"),
 ])];
 
-/// The sections of a file. Sections that can only be read with the whole case are still tables.
+/// The sections of a file. Sections whose content depends on the whole case are still tables.
 /// A part with a mistake is left out or replaced by an empty default.
 pub struct FileSections<'a> {
     pub name: String,
     pub title: String,
     pub source: Option<String>,
-    /// Links and joints. After a mistake they are only fit for display.
+    /// Links and joints. After a mistake, links and joints are only suitable for display.
     pub mechanism: Mechanism,
     /// Drives of the mechanism; `None` after a mistake.
     pub drives: Option<Drives>,
@@ -72,11 +72,11 @@ impl<'a> FileSections<'a> {
     /// Reads every section. Mistakes of all sections are noted in `root`.
     ///
     /// # Errors
-    /// A file that this version cannot read at all.
+    /// An error in a file that this version cannot read at all.
     pub fn read(root: &mut TomlTable<'a>, asked: &StartRequest) -> Result<FileSections<'a>> {
         check_format(root)?;
         let (name, title, source) = (name(root), root.string("title"), root.optional_string("source"));
-        // All sections are fetched before they are read. A misspelt section name would otherwise cause further errors.
+        // All sections are fetched before they are read. Otherwise a misspelt section name would cause further errors.
         let (ground, links, joints) = (root.table("ground"), root.table("links"), root.tables("joints")?);
         let (drives, motor) = (root.needed_tables("drive"), root.optional_table("motor")?);
         let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
@@ -84,7 +84,8 @@ impl<'a> FileSections<'a> {
         let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
         let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
         let formulas = root.tables("formula")?;
-        // The parameters were read first, because all other sections may use them.
+        // The parameters were read first, because all other sections may use them. The section is only marked as
+        // requested here.
         root.optional_table("parameters")?;
         let mut faults = Faults::none();
         let has_all = ground.is_ok() && links.is_ok() && drives.is_ok() && start.is_ok();
@@ -115,8 +116,8 @@ impl<'a> FileSections<'a> {
         let drives = drives
             .ok()
             .and_then(|drives| motion::drives(drives, motor, &mechanism, asked.crank.unwrap_or(crank), &mut faults));
-        // The remaining sections depend on numbers of the mechanism and of the drive.
-        // After a mistake in these numbers, the file does not count as whole.
+        // The sections after this line depend on numbers of the mechanism and of the drive.
+        // After a mistake in these numbers, the file therefore does not count as whole.
         faults.whole &= faults.is_empty();
         let clearance =
             clearance.and_then(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));
@@ -153,8 +154,8 @@ impl<'a> FileSections<'a> {
 }
 
 impl FileSections<'_> {
-    /// The error for missing assembly modes in a file that also has other mistakes.
-    /// `None` if the other mistakes may be the reason.
+    /// The error for missing assembly modes in a file that also has mistakes of another kind.
+    /// `None` if these mistakes may be the reason for the missing modes.
     pub fn missing_modes(&self, asked: &StartRequest) -> Option<Error> {
         let (start, drives) = (self.start.as_ref()?, self.drives.as_ref()?);
         let asked = |structure: &Structure| asked.groups(&self.mechanism, structure).unwrap_or_default();
@@ -163,7 +164,7 @@ impl FileSections<'_> {
     }
 }
 
-/// Builds the mechanism. After a mistake, only its names are usable.
+/// Builds the mechanism. After a mistake, only the names of the mechanism are usable.
 fn mechanism(links: Vec<Link>, joints: Vec<Joint>, faults: &mut Faults) -> Mechanism {
     if !(faults.is_empty() && faults.whole) {
         return Mechanism::unchecked(links, joints);

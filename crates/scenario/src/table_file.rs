@@ -1,4 +1,5 @@
-//! Tables of published numbers: CSV files with a header. They are read as text, because the printed digits matter.
+//! Tables of published numbers: CSV files with a header. The tables are read as text, because the printed digits
+//! matter.
 
 use crate::sentences;
 use std::ops::Range;
@@ -16,7 +17,7 @@ use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Place, Result};
 use linkage::mechanism::is_unseen;
 
-/// Crank angles (rad), or times (s), that differ by less than this belong to the same row.
+/// Crank angles (rad), or times (s), that differ by less than this limit belong to the same row.
 const SAME: f64 = 1e-9;
 
 /// Memory for a row of a table during reading (bytes): the row's position in the text, and its instant.
@@ -167,7 +168,7 @@ fn whole_column(table: &mut TomlTable, printed: &[Printed]) -> Result<Option<(St
     Ok(Some((finding, right)))
 }
 
-/// Known error of the published numbers, in the printed unit. The file must explain the error.
+/// Known error of the published numbers, in the printed unit. The file must explain the known error.
 fn slack(oracle: &mut TomlTable) -> Result<f64> {
     let Some(slack) = oracle.optional_number("slack")? else {
         return match oracle.has("why") {
@@ -241,7 +242,8 @@ impl<'a> Rows<'a> {
         (0..self.records.len()).map(|row| self.number(row, column)).collect()
     }
 
-    /// The numbers of a column. They have at least `digits` decimals, if given, otherwise as many as the column shows.
+    /// The numbers of a column. If `digits` is given, the numbers have at least `digits` decimals. If `digits` is
+    /// `None`, the column shows the number of decimals.
     fn printed(&self, column: usize, digits: Option<i32>) -> Result<Vec<Printed>> {
         let cells = self.numbers(column)?;
         Ok(match digits {
@@ -252,7 +254,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// The other columns that contain numbers, whether the oracle reads them or not.
+    /// The columns other than `column` that contain numbers, whether the oracle reads them or not.
     fn others(&self, column: usize) -> impl Iterator<Item = Vec<columns::TableCell>> {
         let others = (0..self.records.header.len()).filter(move |other| *other != column);
         let rows = || 0..self.records.len();
@@ -286,7 +288,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// The span of a cell in its line. If quotes hide where the cells end, it is the whole line.
+    /// The span of a cell in its line. If quotes hide where the cells end, the span is the whole line.
     fn place(&self, row: usize, column: usize) -> Place {
         let mut span = self.records.line(row);
         let parts: Vec<&str> = self.source.text.get(span.clone()).unwrap_or("").split(',').collect();

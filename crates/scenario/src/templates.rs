@@ -9,7 +9,7 @@ use linkage::error::{Error, ErrorKind, Result};
 /// A template of a mechanism.
 #[derive(Debug)]
 pub struct Template {
-    /// Name by which it is requested.
+    /// Name by which the template is requested.
     pub name: &'static str,
     text: &'static str,
 }
@@ -20,7 +20,7 @@ macro_rules! templates {
     };
 }
 
-/// All templates, in the order of lists. A new template is a file in `templates/` and a name here.
+/// All templates, in the order of lists. A new template needs a file in `templates/` and its name in this list.
 pub static TEMPLATES: &[Template] = templates![
     "four-bar",
     "slider-crank",
@@ -57,9 +57,9 @@ fn set(value: &mut Value, to: impl Into<Value>) {
     *value.decor_mut() = decor;
 }
 
-/// A number as people write it: without a decimal point if it is whole.
+/// A number as people write it. A whole number has no decimal point.
 fn written(number: f64) -> Value {
-    // Below 2^53 every whole number is exact.
+    // Below 2^53, about 9e15, every whole number is exact, so it is written as an integer.
     let whole = (number.fract() == 0.0 && number.abs() < 9e15).then(|| format!("{number:.0}").parse::<i64>());
     match whole {
         Some(Ok(whole)) => whole.into(),
@@ -98,8 +98,8 @@ impl Template {
         all.iter().map(|(key, number)| format!("{key} = {number}")).collect::<Vec<_>>().join(", ")
     }
 
-    /// The text of a scenario: the template with other dimensions.
-    /// Its name is `name` if a scenario may have that name.
+    /// The text of a scenario: the template with `dimensions` in place of its dimensions.
+    /// If a scenario may have the name `name`, this is the name of the scenario.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a dimension that the template does not have.
@@ -122,7 +122,7 @@ impl Template {
     fn lacks(&self, key: &str) -> Error {
         let all = parameters(&self.document());
         let keys = || all.iter().map(|(key, _)| key.as_str());
-        // The same key with its unit is a better guess than the nearest spelling.
+        // The same key with its unit is a better guess than the nearest spelling, so this key is tried first.
         let with_unit = keys().find(|own| own.strip_prefix(key).is_some_and(|unit| unit.starts_with('_')));
         let near = with_unit.or_else(|| nearest(key, keys()));
         let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));

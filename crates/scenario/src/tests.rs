@@ -1,4 +1,4 @@
-//! The scenarios of the repository, checked from outside: printed first rows, hand computation, and random damage.
+//! The scenarios of the repository are checked from outside: printed first rows, hand computation, and random damage.
 
 use std::path::{Path, PathBuf};
 
@@ -72,7 +72,8 @@ fn ov7_base_is_read_completely() {
 #[test]
 fn crank_rocker_starts_where_two_circles_meet() {
     let scenario = load("crank_rocker.toml");
-    // By hand: |B - A| = 0.34707193189181 and |B - C| = 0.25 about A = (0.025995627740337, 0), C = (0.15, 0.015).
+    // Lengths computed by hand: |B - A| = 0.34707193189181 and |B - C| = 0.25 for A = (0.025995627740337, 0), C =
+    // (0.15, 0.015).
     let (a, c) = (Vec2::new(0.025_995_627_740_337, 0.0), Vec2::new(0.15, 0.015));
     let b = start_point(&scenario, "B");
     assert!(((b - a).norm() - 0.347_071_931_891_81).abs() < 1e-15 && ((b - c).norm() - 0.25).abs() < 1e-15);
@@ -103,7 +104,7 @@ fn crank_rocker_starts_where_two_circles_meet() {
     let (finding, right) = printed[0].wrong.as_ref().unwrap();
     assert!(finding.starts_with("crank_rocker") && right.digits == 12 && right.value == 0.025_995_627_740);
     assert!(printed[2].wrong.is_none());
-    // O is on the ground and the crank, A on the crank and the coupler.
+    // O is on the ground and the crank, A is on the crank and the coupler.
     // The distance is measured from the ground to the coupler.
     let [ground, coupler] = [0, 2].map(|link| JointSide {
         link: LinkId(link),
@@ -194,7 +195,7 @@ fn cells_known_to_be_wrong_keep_their_finding() {
     let points = &oracle.series[0].points;
     assert_eq!((points.len(), points[0].digits, points[1].digits, points[1].at), (2, 1, 2, When::Crank(1.0)));
     assert!((points[0].value - 10f64.to_radians()).abs() < 1e-15);
-    // Trailing zeros were not printed: 7 has the digits of 9.25, and 12.5 has three.
+    // Trailing zeros were not printed: 7 has as many decimals as 9.25, and 12.5 has three significant digits.
     assert!((points[1].bound / 0.005f64.to_radians() - 1.0).abs() < 2e-9);
     // The angle 0 may have been rounded to one decimal, like 0.5 in the same column.
     // The angle 1e0 may have been rounded to one digit.

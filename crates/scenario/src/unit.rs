@@ -6,10 +6,11 @@ use std::f64::consts::{PI, TAU};
 /// One unit of a family.
 #[derive(Debug, PartialEq)]
 pub struct NamedUnit {
-    /// Ending of keys in this unit, without the underscore that joins it.
+    /// Ending of keys in this unit, without the underscore before the ending.
     pub suffix: &'static str,
     factor: f64,
-    // Divisor, kept separate from the factor. 150 / 1000 is the double nearest to 0.15, but 150 * 0.001 need not be.
+    // Divisor, kept separate from the factor, because 150 / 1000 is the double nearest to 0.15, but 150 * 0.001 need
+    // not be this double.
     divisor: f64,
 }
 
@@ -25,15 +26,16 @@ impl NamedUnit {
     }
 }
 
-/// Units that measure one quantity, SI first.
+/// Units that measure one quantity, the SI unit first.
 #[derive(Debug)]
 pub struct UnitFamily {
     /// The quantity with its article, for messages.
     pub noun: &'static str,
     /// Units, the SI unit first.
     pub units: &'static [NamedUnit],
-    /// Upper limit of the magnitude in SI, far beyond any real machine. A larger number is a mistake in the unit.
-    /// Up to this limit, solvers and engines can still handle products with other quantities.
+    /// Upper limit of the magnitude in SI, far beyond any real machine. A number above the limit is a mistake in the
+    /// unit.
+    /// Up to this limit, solvers and engines can still handle products with other quantities of the file.
     pub most: f64,
 }
 
@@ -119,7 +121,7 @@ static UNSUPPORTED: [(&str, &str, &str); 17] = [
     ("N_mm", "newton millimetres", "1 N·mm = 1e-3 N·m"),
 ];
 
-/// Name and size of an unsupported unit that a key ends in.
+/// Name and size of the unsupported unit at the end of a key.
 #[must_use]
 pub fn unsupported(suffix: &str) -> Option<(&'static str, &'static str)> {
     let named = |(own, ..): &&(&str, &str, &str)| own.eq_ignore_ascii_case(suffix);
@@ -145,13 +147,13 @@ pub static ALL: [&UnitFamily; 15] = [
     &POWER,
 ];
 
-/// The longest unit at the end of a key, with the first family that has this unit.
+/// The longest unit at the end of a key, with the first family that contains this unit.
 #[must_use]
 pub fn ending(key: &str) -> Option<(&'static UnitFamily, &'static NamedUnit)> {
     let all = ALL.iter().flat_map(|family| family.units.iter().map(move |unit| (*family, unit)));
     let ends =
         |unit: &NamedUnit| key.strip_suffix(unit.suffix).is_some_and(|rest| rest.len() > 1 && rest.ends_with('_'));
-    // Of several units with the same length, the first is kept.
+    // Of several units with the same length, the first unit is kept.
     all.filter(|(_, unit)| ends(unit)).rev().max_by_key(|(_, unit)| unit.suffix.len())
 }
 

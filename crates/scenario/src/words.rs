@@ -1,18 +1,18 @@
-//! Words for messages: lists, and the known name nearest to a misspelt one.
+//! Words for messages: lists, and the known name that is nearest to a misspelt name.
 
 use crate::sentences;
 use strsim::osa_distance;
 
 /// Upper limit of the length of a word that is checked for misspelling (characters).
-/// The cost grows with the product of both lengths.
+/// The cost grows with the product of the lengths of word and candidate.
 const LONGEST: usize = 100;
 /// Upper limit of the number of candidates that are compared with a wrong word and shown.
 const MOST: usize = 1000;
 
-/// The candidate nearest to `word`, if its distance is small enough.
+/// The candidate nearest to `word`, if its edit distance from `word` is small enough.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // In a name of one or two letters, a different letter is a different name, not a misspelling.
+    // In a name of one or two letters, a different letter makes a different name, so no misspelling is assumed.
     let length = word.chars().count();
     if length > LONGEST {
         return None;
@@ -38,7 +38,8 @@ pub fn choice<'a>(words: impl IntoIterator<Item = &'a str>, quote: &str) -> Stri
     }
 }
 
-/// "did you mean" with the nearest candidate, or else the list of all candidates.
+/// "did you mean" with the candidate that is nearest to `word`. If no candidate is near enough, the list of all
+/// candidates.
 #[must_use]
 pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>, quote: &str) -> String {
     let candidates: Vec<&str> = candidates.into_iter().take(MOST + 1).collect();
@@ -61,7 +62,8 @@ pub fn names<T>(words: Words<T>) -> Vec<&'static str> {
     words.iter().map(|(word, _)| *word).collect()
 }
 
-/// The nearest of a few words, if it is near enough, and the list of all words.
+/// Help for an unknown word: the list of all allowed words, and the allowed word nearest to the unknown word if this
+/// allowed word is near enough.
 #[must_use]
 pub fn suggested(word: &str, words: &[&str]) -> String {
     let near = nearest(word, words.iter().copied()).map(|near| sentences::did_you_mean_3(&near));

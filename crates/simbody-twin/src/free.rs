@@ -20,7 +20,7 @@ use linkage::solver::State;
 /// Those of [`check_inertias`], and failures of Simbody at the start.
 pub(super) fn start(case: &Case, settings: IntegrationSettings) -> Result<(Linkage, LinkageRun)> {
     check_inertias(case, "Simbody")?;
-    // A model driven at the initial speeds gives the initial rates of all other links.
+    // A model driven at the initial speeds gives the initial rates of all links that are not driven.
     let driven = Linkage::new(case, 1.0, None)?;
     let told = |failure| driven.stopped(case, &failure);
     let rates: Vec<f64> = {

@@ -1,5 +1,6 @@
 //! Simbody as an engine: bodies on mobilizers, loops closed by constraints, an integrator that controls its error.
-//! It shares no code with the other engines. From the case it uses only geometry, masses, drive and the pose at t = 0.
+//! This engine shares no code with the other engines. From the case it uses only geometry, masses, drive and the pose
+//! at t = 0.
 //! See docs/numerics/twins.md.
 
 mod free;
@@ -19,12 +20,12 @@ use linkage::trajectory::{Channel, ChannelKind, Stage};
 use linkage::work::{Count, WorkTally};
 use model::Linkage;
 
-/// If a joint's opening in the start pose exceeds this fraction of the mechanism's size, the case is rejected.
-/// The limit is far above rounding error, and a smaller opening does not affect the results.
+/// If a joint's opening in the start pose, divided by the mechanism's size, exceeds this limit, the case is rejected.
+/// The limit is far above rounding error. An opening below the limit does not affect the results.
 const LARGEST_GAP: f64 = 1e-9;
 /// Number of internal steps allowed per radian of crank angle at the default accuracy.
-/// If two instants are less than a radian apart, the same number is allowed between them.
-/// `ov7_base` takes 200 steps, and 14 000 at an accuracy of 1e-14.
+/// If two instants are less than a radian apart, the same number is allowed between the two instants.
+/// `ov7_base` takes 200 steps, and 14 000 steps at an accuracy of 1e-14.
 /// Without a limit the integrator would take hours in tiny steps near a dead point.
 const MAX_STEPS: f64 = 2000.0;
 
@@ -35,10 +36,10 @@ pub struct Simbody {
 }
 
 impl Simbody {
-    /// Default accuracy. It gives steps of about a degree of the crank, so projections start close to their assembly
-    /// mode.
+    /// Default accuracy. The default gives steps of about a degree of the crank, so projections start close to the pose
+    /// in the same assembly mode.
     pub const ACCURACY: f64 = 1e-8;
-    /// Constraint tolerance as a fraction of the mechanism's extent from the origin.
+    /// Constraint tolerance divided by the mechanism's extent from the origin.
     /// Under prescribed motion the pose follows from the constraints alone, so a looser tolerance has no benefit.
     /// Projections aim at a tenth of the tolerance. Rounding errors prevent a smaller tolerance.
     /// With a tolerance of 1e-14, projections fail on `fourth_class`.
@@ -91,7 +92,8 @@ impl Engine for Simbody {
     }
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
-        // Simbody has no sweeps, no substeps and no extrapolation, and only one method for reactions.
+        // Only the resolution is used: Simbody has no sweeps, no substeps and no extrapolation, and only one method for
+        // reactions.
         let Settings { resolution: accuracy, sweeps: _, substeps: _, route: _, extrapolated: _ } = settings;
         Box::new(Simbody { accuracy })
     }
@@ -165,7 +167,7 @@ impl Solver for Simbody {
         let (total, mut done) = (ends[0] + ends[1], 0.0);
         let backwards: Vec<usize> = before.iter().rev().copied().collect();
         let mut state = State::at_rest(case);
-        // Resistances are forces inside Simbody. The other loads are applied when reactions are read.
+        // Resistances are forces inside Simbody. The loads other than resistances are applied when reactions are read.
         let others = case.with(|parts| parts.loads = other_loads(case))?;
         let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
         let mut tally = WorkTally::default();
@@ -229,7 +231,7 @@ fn tolerance(case: &Case) -> f64 {
     Simbody::TOLERANCE * case.start.0.iter().fold(size, |most: f64, pose| most.larger(pose.origin.norm()))
 }
 
-/// Checks that the start pose is closed. Otherwise Simbody would assemble a nearby pose without a message.
+/// Checks that the start pose is closed. If the pose were open, Simbody would assemble a nearby pose without a message.
 fn check_start(case: &Case) -> Result<()> {
     let closure = case.start.closure(&case.mechanism);
     if closure <= LARGEST_GAP * case.mechanism.size() {

@@ -36,7 +36,7 @@ impl Linkage {
     /// Drives then turn in the opposite direction and resistance acts with the motion; everything else is the same.
     ///
     /// In a free motion, `rates` gives the rates of all bodies' coordinates at t = 0.
-    /// If `rates` is `None`, the initial speeds of free links are prescribed, so they turn like driven links.
+    /// If `rates` is `None`, the initial speeds of free links are prescribed, so free links turn like driven links.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a number that Simbody cannot use.
@@ -63,7 +63,7 @@ impl Linkage {
                 resistance: if case.is_free() { 0.0 } else { sense * resistance(case, branch.link) },
                 coordinate: coordinate(found, branch, &case.start.0),
                 rate: rates.map_or(0.0, |rates| rates[index]),
-                // Only laws of constant speed occur here. Other laws were rejected earlier.
+                // Only laws of constant speed occur here, because all other laws were rejected earlier.
                 law: drive
                     .and_then(|drive| law(case, branch, drive, rates.is_some()))
                     .map(|rate| Law { rate: sense * rate }),
@@ -180,8 +180,8 @@ fn joint(found: &mechanism::Joint, branch: &TreeBranch) -> SimbodyJoint {
     }
 }
 
-/// Mass and moment of inertia of a link. Simbody cannot accelerate a free body without them.
-/// A link that lacks them gets substitutes, which do not affect its reactions.
+/// Mass and moment of inertia of a link. Simbody cannot accelerate a free body without mass and inertia.
+/// A link without mass or inertia gets substitutes, which do not affect the reactions of the link.
 pub(super) fn inertia(case: &Case, link: LinkId) -> Inertia {
     let body = &case.mechanism.links()[link];
     let [extra_mass, extra_inertia] = stand_in(case, link);

@@ -1,6 +1,7 @@
 //! Accuracy of Simbody's results at a given constraint tolerance.
 //!
-//! Under prescribed motion the pose follows from the constraints alone, and every state is projected onto them.
+//! Under prescribed motion the pose follows from the constraints alone, and every state is projected onto the
+//! constraints.
 //! The error of the pose is at most the tolerance of the projection times a factor that depends on the pose.
 //! The integrator's error before the projection does not matter.
 
@@ -9,20 +10,20 @@ use linkage::case::Case;
 use linkage::math::KeepNan;
 use linkage::trajectory::{ChannelKind, ChannelSubject, Unit};
 
-/// Factor by which the pose amplifies a constraint error: 1 / sin of the angle between two links, which is 10 at 6
-/// degrees.
+/// Factor by which the pose amplifies a constraint error. The factor is 1 / sin of the angle between two links, which
+/// is 10 at 6 degrees.
 const POSE: f64 = 10.0;
 /// Rounding errors in the tree and in the projection, in units in the last place.
 const ULPS: f64 = 20.0;
 
 /// Bound on the error of a channel, in the channel's unit.
-/// It depends on the constraint tolerance `tolerance` (m) and the integrator's accuracy.
+/// The bound depends on the constraint tolerance `tolerance` (m) and the integrator's accuracy `accuracy`.
 ///
 /// In a free motion the integrator contributes too: each step may have an error (rad) equal to the accuracy.
 /// Every output time ends a step. With dense output times a smaller accuracy therefore hardly reduces the errors.
-/// On the shipped run-ups the errors are 5e-9 to 5e-7 of the scale at an accuracy of 1e-8.
+/// On the shipped run-ups the errors are 5e-9 to 5e-7 of the channel's scale at an accuracy of 1e-8.
 ///
-/// A constraint error rotates a link by an angle equal to that error divided by the link's length.
+/// A constraint error rotates a link by an angle equal to the constraint error divided by the link's length.
 /// The rotation is largest for the shortest link.
 /// The pose amplifies an error of the angles again in the velocities, and once more in accelerations and forces.
 /// Rates of constraints are kept below the tolerance times the drive's speed. Accelerations follow from positions and
@@ -36,8 +37,8 @@ pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &Chan
     let mass: f64 =
         case.mechanism.links().ids().skip(1).map(|link| inertia(case, link)).map(|own| own.mass + own.extra_mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
-    // Positions are world coordinates. Far from the origin their rounding errors exceed those of lengths in the
-    // mechanism.
+    // Positions are world coordinates. Far from the origin the rounding errors of positions exceed those of lengths in
+    // the mechanism, so the bound includes the distance from the origin.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));
 
     let place = POSE * tolerance + ULPS * f64::EPSILON * reach;

@@ -66,7 +66,7 @@ impl RawBody {
     }
 }
 
-/// The type `linkproof_run` of the shim. Only C++ uses its contents.
+/// The type `linkproof_run` of the shim. Only C++ uses the contents of this type.
 #[repr(C)]
 struct RawRun {
     private: [u8; 0],
@@ -143,10 +143,11 @@ fn plain(words: &str) -> String {
 }
 
 /// Computes the forces and moments that act on the bodies in addition to gravity.
-/// The first argument has positions and velocities of all bodies. Its accelerations and forces are 0.
+/// The first argument has positions and velocities of all bodies. The accelerations and forces in the first argument
+/// are 0.
 /// The second argument receives three numbers for every body: the force at the mass centre (N, world axes) and the
-/// moment about it (N m).
-/// These numbers are 0 on entry.
+/// moment about the mass centre (N m).
+/// The numbers of the second argument are 0 on entry.
 pub type Act = Box<dyn FnMut(&[BodyState], &mut [[f64; 3]])>;
 
 /// The data for Simbody's callback.
@@ -155,9 +156,10 @@ struct Acting {
     count: usize,
 }
 
-/// Passes a call from Simbody on to Rust. If the Rust code panics, the loads are set to NaN, which ends the run.
+/// Passes a call from Simbody on to Rust. If the Rust code panics, the loads are set to NaN, so Simbody ends the run.
 unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: *mut f64) {
-    // SAFETY: `user` is the box that the run keeps as long as it exists, and Simbody calls from one thread at a time.
+    // SAFETY: `user` is the box that the run keeps as long as the run exists, and Simbody calls from one thread at a
+    // time.
     // The numbers of bodies and of loads (three per body) are those with which the run was built.
     let (acting, bodies, loads) = unsafe {
         let acting = &mut *user.cast::<Acting>();
@@ -173,7 +175,8 @@ unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: 
 /// A run of a linkage, forwards in time.
 pub struct LinkageRun {
     raw: NonNull<RawRun>,
-    /// The callback's data. It is boxed so that its address stays fixed, because Simbody has a pointer to it.
+    /// The callback's data. The data are boxed so that their address stays fixed, because Simbody has a pointer to the
+    /// data.
     _acting: Option<Box<Acting>>,
     state: SimbodyState,
     time: f64,
@@ -195,8 +198,9 @@ impl LinkageRun {
         let call = kept.is_some().then_some(acting as Callback);
         told(|text, size| {
             let IntegrationSettings { accuracy, tolerance, time_scale, .. } = settings;
-            // SAFETY: pointers and counts are those of slices that outlive the call, and the shim copies what it keeps.
-            // The model has checked that bodies and loops refer only to bodies before them.
+            // SAFETY: pointers and counts are those of slices that outlive the call, and the shim copies the data that
+            // it keeps.
+            // The model has checked that every body and every loop refers only to bodies that were added before it.
             // The callback's data is kept until the run is freed.
             // The shim writes at most `size` bytes of text.
             unsafe {
@@ -223,8 +227,8 @@ impl LinkageRun {
             loops: vec![LoopState::default(); loops.len()],
         };
         let mut run = LinkageRun { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
-        // Reading the state detects a free mobilizer without inertia. Simbody accepts it, but its acceleration is not
-        // finite.
+        // Simbody accepts a free mobilizer without inertia, but its acceleration is not finite. The state is therefore
+        // read here, and a number that is not finite is an error.
         run.read(false)?;
         Ok(run)
     }
@@ -232,14 +236,15 @@ impl LinkageRun {
     /// Integrates to exactly `time` (s). After a failure the run can no longer be used.
     ///
     /// # Errors
-    /// A time before the time already reached; any failure in Simbody. The error has Simbody's message, the time
-    /// reached and all gaps at that time.
+    /// A `time` before the time already reached; any failure in Simbody. The error has Simbody's message, the time
+    /// reached and all gaps at the time reached.
     pub fn advance(&mut self, time: f64) -> Result<(), Failure> {
         if !(time >= self.time && time.is_finite()) {
             return Err(Failure::of(sentences::is_asked_for_after(&time, &self.time)));
         }
         let (raw, (steps, time_scale)) = (self.raw.as_ptr(), self.pace);
-        // If the number is too large for an integer, the cast gives the largest integer.
+        // If the number of steps is too large for an integer, the cast gives the largest integer, so the limit stays
+        // valid.
         let intervals = (time - self.time) / time_scale;
         let steps = (steps as f64 * if intervals < 1.0 { 1.0 } else { intervals }) as usize;
         // SAFETY: the run is alive and has no other user. The shim writes at most `size` bytes of text.
@@ -249,9 +254,9 @@ impl LinkageRun {
         Ok(())
     }
 
-    /// Sets the loads on every body. The next readings of reactions include these loads.
-    /// A load is the force at the mass centre (N, world axes) and the moment about it (N m). Initially all loads are
-    /// zero.
+    /// Sets the loads on every body. Reactions that are read afterwards include these loads.
+    /// A load is the force at the mass centre (N, world axes) and the moment about the mass centre (N m). Initially all
+    /// loads are zero.
     /// Loads do not affect the motion, because every degree of freedom is prescribed.
     ///
     /// # Errors
@@ -263,8 +268,8 @@ impl LinkageRun {
         if !loads.as_flattened().iter().all(|number| number.is_finite()) {
             return Err(Failure::of(sentences::A_LOAD_IS_NOT_FINITE));
         }
-        // SAFETY: the run is alive and has no other user. There are three numbers for every body, and the shim copies
-        // them.
+        // SAFETY: the run is alive and has no other user. `loads` has three numbers for every body, and the shim copies
+        // these numbers.
         unsafe { linkproof_simbody_load(self.raw.as_ptr(), loads.as_ptr().cast()) };
         Ok(())
     }
@@ -278,8 +283,8 @@ impl LinkageRun {
         let SimbodyState { bodies, loops } = &mut self.state;
         let raw = self.raw.as_ptr();
         // SAFETY: the run is alive and has no other user.
-        // The vectors are as long as the bodies and loops from which the run was built, and the shim fills all of them.
-        // It writes at most `size` bytes of text.
+        // The vectors are as long as the bodies and loops from which the run was built, and the shim fills all vectors.
+        // The shim writes at most `size` bytes of text.
         let read = told(|text, size| unsafe {
             linkproof_simbody_read(raw, reactions.into(), bodies.as_mut_ptr(), loops.as_mut_ptr(), text, size)
         });
@@ -297,7 +302,7 @@ impl LinkageRun {
         unsafe { linkproof_simbody_steps(self.raw.as_ptr()) }
     }
 
-    /// Adds the integrator's present time and gaps to a failure.
+    /// Adds the time that the integrator has reached, and the gaps at that time, to a failure.
     fn located(&self, failure: Failure) -> Failure {
         let (mut time, mut gaps) = (0.0, vec![0.0; self.state.loops.len()]);
         let raw = self.raw.as_ptr();

@@ -1,4 +1,4 @@
-//! The description of a linkage. It is checked before any part of it reaches C++.
+//! The description of a linkage. The description is checked before any part of it reaches C++.
 
 use crate::ffi::{Act, LinkageRun, RawBody};
 use crate::parts::{Failure, Inertia, IntegrationSettings, LoopClosure, SimbodyBody, SimbodyJoint};
@@ -64,11 +64,12 @@ impl SimbodyModel {
         Ok(number)
     }
 
-    /// Assembles the linkage at time 0 and starts its run.
+    /// Assembles the linkage at time 0 and starts the run of the linkage.
     ///
     /// # Errors
     /// Settings out of their ranges, and errors of Simbody.
-    /// For example, the model may not assemble from the given coordinates, or a free mobilizer may carry no inertia.
+    /// Simbody fails, for example, if the model cannot be assembled from the given coordinates, or if a free mobilizer
+    /// carries no inertia.
     pub fn run(&self, settings: IntegrationSettings) -> Result<LinkageRun, Failure> {
         self.run_under(settings, None)
     }
@@ -76,7 +77,7 @@ impl SimbodyModel {
     /// The same as [`SimbodyModel::run`], with forces from `act` on the bodies.
     ///
     /// # Errors
-    /// Those of [`SimbodyModel::run`].
+    /// The errors of [`SimbodyModel::run`].
     pub fn run_under(&self, settings: IntegrationSettings, act: Option<Act>) -> Result<LinkageRun, Failure> {
         let IntegrationSettings { accuracy, tolerance, time_scale, .. } = settings;
         if !(accuracy > 0.0 && accuracy < 1.0) {

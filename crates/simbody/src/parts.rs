@@ -6,17 +6,18 @@ use std::fmt;
 pub const GROUND: usize = 0;
 
 /// The joint between a body and its parent.
-/// Positions (m) and unit vectors of axes are in the frame of the body they belong to.
+/// Positions (m) and unit vectors of axes are in the frame of the body to which they belong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SimbodyJoint {
-    /// A revolute joint: its coordinate is the angle of the child relative to its parent (rad).
+    /// A revolute joint. Its coordinate is the angle of the child relative to its parent (rad).
     Pin {
         /// Position on the parent (m).
         on_parent: [f64; 2],
         /// Position on the child (m).
         on_child: [f64; 2],
     },
-    /// A prismatic joint: its coordinate is the distance along the axis from the parent's point to the child's (m).
+    /// A prismatic joint. Its coordinate is the distance along the axis from the parent's point to the child's point
+    /// (m).
     Slider {
         /// Position on the parent (m).
         on_parent: [f64; 2],
@@ -24,7 +25,7 @@ pub enum SimbodyJoint {
         on_child: [f64; 2],
         /// Axis in the parent's frame.
         axis_parent: [f64; 2],
-        /// The same axis in the child's frame.
+        /// Axis in the child's frame.
         axis_child: [f64; 2],
     },
 }
@@ -39,15 +40,17 @@ pub struct Inertia {
     /// Moment of inertia about the mass centre (kg m^2).
     pub inertia: f64,
     /// Additional mass at the mass centre, only for the integrator (kg).
-    /// Gravity does not act on this mass. When reactions are read, applied forces balance its inertia.
-    /// This is exact if every degree of freedom is prescribed, because accelerations then do not depend on masses.
+    /// Gravity does not act on this mass. When reactions are read, applied forces balance the inertia of this mass.
+    /// The result is exact if every degree of freedom is prescribed, because accelerations then do not depend on
+    /// masses.
     /// The mass is needed because Simbody cannot move a free mobilizer without inertia.
     pub extra_mass: f64,
-    /// Additional moment of inertia, only for the integrator (kg m^2). It is treated like the additional mass.
+    /// Additional moment of inertia, only for the integrator (kg m^2). The additional moment of inertia is treated like
+    /// the additional mass.
     pub extra_inertia: f64,
 }
 
-/// A prescribed coordinate: its start value plus `rate` times the time.
+/// A prescribed coordinate. The coordinate is its start value plus `rate` times the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Law {
     /// Rate of the coordinate (rad/s or m/s).
@@ -57,7 +60,7 @@ pub struct Law {
 /// A body of the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimbodyBody {
-    /// The parent body, which was added before, or [`GROUND`].
+    /// The parent body. It is a body that was added before, or [`GROUND`].
     pub parent: usize,
     /// The joint to the parent.
     pub joint: SimbodyJoint,
@@ -67,8 +70,8 @@ pub struct SimbodyBody {
     pub resistance: f64,
     /// Coordinate of the body's joint at time 0 (rad or m).
     pub coordinate: f64,
-    /// Rate of the coordinate at time 0 (rad/s or m/s). It is used only if the coordinate is not prescribed.
-    /// Rates that violate the loop constraints are projected onto them.
+    /// Rate of the coordinate at time 0 (rad/s or m/s). The rate is used only if the coordinate is not prescribed.
+    /// Rates that violate the loop constraints are projected onto these constraints.
     pub rate: f64,
     /// Prescribed motion of the coordinate, if any.
     pub law: Option<Law>,
@@ -80,7 +83,7 @@ pub struct SimbodyBody {
 pub struct LoopClosure {
     /// First and second body.
     pub bodies: [usize; 2],
-    /// The joint's position on each body, in the frame of that body (m).
+    /// Position of the joint on each of the two bodies, in the frame of the respective body (m).
     pub places: [[f64; 2]; 2],
 }
 
@@ -93,8 +96,8 @@ pub struct IntegrationSettings {
     pub tolerance: f64,
     /// Characteristic time of the motion (s). Rates of constraint errors are kept below `tolerance` / `time_scale`.
     pub time_scale: f64,
-    /// Number of internal steps allowed per time scale. If two instants are closer together, it is allowed between
-    /// them.
+    /// Number of internal steps allowed per time scale. If two instants are less than a time scale apart, the same
+    /// number is allowed between the two instants.
     /// Without a limit the integrator would take hours in tiny steps near a dead point.
     pub steps: usize,
 }
@@ -112,7 +115,7 @@ pub struct Failure {
     pub message: String,
     /// Time reached (s), if a run had started.
     pub time: Option<f64>,
-    /// Gap of every loop at that time (m).
+    /// Gap of every loop at the time reached (m).
     pub gaps: Vec<f64>,
 }
 

@@ -43,7 +43,7 @@ fn the_library_is_a_simbody_3() {
 #[test]
 fn forces_in_a_parallelogram_are_those_of_statics() {
     // The coupler of 3 kg only translates, on a circle of radius 1 at 4 rad/s. Its acceleration is a = -16 e.
-    // The forces of its two joints add up to m (a - g).
+    // The forces of the coupler's two joints add up to m (a - g).
     // The force of each joint follows from the moments about the coupler's middle and about the second pivot.
     // The second crank turns uniformly, and its weight acts at half its length.
     let (start, rate, t) = (0.7, 4.0, 0.2);
@@ -53,7 +53,7 @@ fn forces_in_a_parallelogram_are_those_of_statics() {
     let angle = start + rate * t;
     let (cos, sin) = (angle.cos(), angle.sin());
     let total = [3.0 * -16.0 * cos, 3.0 * (-16.0 * sin + G)];
-    // The coupler does not turn, so the y components in its two joints are equal.
+    // The coupler does not turn, so the y components of force in its two joints are equal.
     // The x component on the second crank balances the moment of the crank's weight.
     let half = total[1] / 2.0;
     let on_second = [(-half * cos - 1.0 * G * cos / 2.0) / sin, -half];
@@ -79,7 +79,7 @@ fn extra_mass_of_a_massless_coupler_is_not_in_its_reactions() {
     let mut run = parallelogram(coupler, 0.7, 4.0, 0.0).run(IntegrationSettings::default()).unwrap();
     run.advance(0.2).unwrap();
     let state = run.read(true).unwrap();
-    // A massless rod between two joints transmits a force only along its length. The force supports the weight of the
+    // A massless rod between two joints transmits a force only along its length. This force supports the weight of the
     // second crank.
     let angle: f64 = 1.5;
     let along = G * angle.cos() / 2.0 / angle.sin();
@@ -108,7 +108,8 @@ fn all_links_may_be_massless() {
 
 #[test]
 fn a_slider_carries_force_and_moment_across_its_axis() {
-    // A block of 2 kg on a guide inclined by 0.3 rad moves at 1.5 m/s. Its mass centre is away from the joint's point.
+    // A block of 2 kg on a guide inclined by 0.3 rad moves at 1.5 m/s. Its mass centre is at a distance from the
+    // joint's point.
     let (angle, axis) = (0.3_f64, [0.3_f64.cos(), 0.3_f64.sin()]);
     let joint =
         SimbodyJoint::Slider { on_parent: [0.1, 0.2], on_child: [0.0, 0.1], axis_parent: axis, axis_child: [1.0, 0.0] };
@@ -152,9 +153,9 @@ fn a_linkage_that_cannot_be_closed_is_refused() {
 
 #[test]
 fn the_run_ends_at_the_dead_point() {
-    // Crank 1, coupler 1.5, rocker 1, base 3.
+    // The lengths are: crank 1, coupler 1.5, rocker 1, base 3.
     // The linkage can be assembled only if the distance between crank pin and rocker pivot is at most 2.5.
-    // This limit is reached at the crank angle whose cosine is 0.625.
+    // The distance reaches 2.5 at the crank angle whose cosine is 0.625.
     let start = 0.2_f64;
     let crank_pin = [start.cos(), start.sin()];
     let reach: f64 = (3.0 - crank_pin[0]).hypot(crank_pin[1]);

@@ -30,7 +30,7 @@ impl Live {
     /// Listens at an address, and accepts viewers from now on.
     ///
     /// # Errors
-    /// If the program cannot listen at this address.
+    /// An error is returned if the program cannot listen at this address.
     pub(super) fn at(address: &str) -> Result<Live> {
         let wrong = |found: &std::io::Error| {
             Error::new(ErrorKind::Io, sentences::viewers_cannot_be_served_at(&address, &found))
@@ -47,7 +47,7 @@ impl Live {
     }
 
     /// Shows the reference alone, before the proof is finished.
-    /// An error of this step is ignored here, because the proof reports its reason.
+    /// An error of this step is ignored, because the proof reports the reason of the error.
     pub(in crate::cli) fn show_reference(&self, record: &RecordArgs, scenario: &Scenario, reference: Reference) {
         let reel = || {
             let case = scenario.case.scene()?.case;
@@ -62,7 +62,7 @@ impl Live {
     /// Shows the contents that a recording of the proof would have.
     ///
     /// # Errors
-    /// If these contents cannot be recorded.
+    /// An error is returned if these contents cannot be recorded.
     pub(in crate::cli) fn show_proof(&self, record: &RecordArgs, scenario: &Scenario, proof: &Proof) -> Result<()> {
         record.reel(scenario, proof).map(|reel| self.stage.show(reel))
     }
@@ -92,16 +92,17 @@ impl Live {
     /// `begin` is called when the server reacts to signals.
     ///
     /// # Errors
-    /// If no handler for the signals can be installed.
+    /// An error is returned if no handler for the signals can be installed.
     pub(in crate::cli) fn serve(&self, begin: impl FnOnce()) -> Result<()> {
         let (tell, told) = mpsc::channel();
         ctrlc::set_handler(move || {
-            // The waiting thread needs only the first signal; later ones have no receiver.
+            // The waiting thread needs only the first signal; later signals have no receiver, so a failure to send is
+            // ignored.
             let _ = tell.send(());
         })
         .map_err(|found| Error::new(ErrorKind::Io, sentences::ctrl_cannot_be_waited_for(&found)))?;
         begin();
-        // The handler never drops the other end of the channel.
+        // The handler never drops its end of the channel, so receiving cannot fail.
         let _ = told.recv();
         Ok(())
     }
@@ -110,7 +111,8 @@ impl Live {
 /// Accepts viewers, each on a separate thread.
 fn let_in(listener: &TcpListener, stage: &Arc<Stage>) {
     for stream in listener.incoming() {
-        // The server holds two references to the stage, and every viewer holds one.
+        // The server holds two references to the stage, and every viewer holds one reference, so the number of
+        // references gives the number of viewers.
         let is_full = Arc::strong_count(stage) >= MOST + 2;
         match stream {
             Ok(stream) if !is_full => serve_one(stream, Arc::clone(stage)),

@@ -94,7 +94,7 @@ impl<'a> Viewer<'a> {
         self.tell_state(reel.is_some(), "")
     }
 
-    /// Switches to new content, if there is any.
+    /// Switches to new content, if new content exists.
     fn look_at_the_stage(&mut self) -> Spoken {
         let shown = self.stage.shown();
         if shown.changes == self.shown.changes {
@@ -118,7 +118,8 @@ impl<'a> Viewer<'a> {
         }
         let mut clock = None;
         for told in due.messages.map(|index| reel.message(index)) {
-            // Viewers date messages by the server's clock, not by the messages' log times.
+            // Viewers date messages by the server's clock, not by the messages' log times. The server's clock is
+            // therefore sent before the messages of each log time.
             if clock != Some(told.time) {
                 self.send(live::time(told.time))?;
                 clock = Some(told.time);

@@ -27,12 +27,12 @@ pub(in crate::cli) struct Args {
     pub grid: GridArgs,
     #[command(flatten)]
     pub start: StartArgs,
-    /// Multiply every bound by this factor, to see how close a proof is to its bounds; 0 keeps the verdicts and prints
-    /// every residual beside its bound
+    /// Multiply every bound by this factor, to see how close a proof is to its bounds. The factor 0 keeps the verdicts
+    /// and prints every residual beside its bound
     #[arg(long, hide = true, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::not_negative)]
     pub tolerance_scale: Option<f64>,
-    /// Write the settings that the proof has found to the `[engine]` section of the scenario file. They hold for the
-    /// mechanism of the file, so options that change parameters, modes or the start are not allowed
+    /// Write the settings that the proof has found to the `[engine]` section of the scenario file. The settings are
+    /// valid only for the mechanism of the file, so options that change parameters, modes or the start are not allowed
     #[arg(long, conflicts_with_all = ["set", "mode", "start_crank_deg"])]
     pub write: bool,
     #[command(flatten)]
@@ -40,8 +40,8 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub live: LiveArgs,
     /// Request only these channels: a stage (positions), a subject (point.P, joint.B, drive), a subject's stage
-    /// (point.P.positions) or a channel (joint.B.fx_N). Quantities that they do not depend on are not computed;
-    /// published numbers of other channels are left out. May be given several times
+    /// (point.P.positions) or a channel (joint.B.fx_N). Quantities that these channels do not depend on are not
+    /// computed; published numbers of channels that are not requested are omitted. May be given several times
     #[arg(long, value_name = "WORD")]
     pub only: Vec<String>,
     /// Show everything: structure, settings, every quantity, every check

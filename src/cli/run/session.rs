@@ -83,7 +83,7 @@ impl<'a> Session<'a> {
                 return;
             }
         };
-        // A failed recording does not affect the proof.
+        // A failed recording does not affect the proof, so its error is reported separately.
         let recording = self.record(&scenario, &proof).unwrap_or_else(|error| {
             self.failed(file, &error);
             None

@@ -32,16 +32,16 @@ pub(super) struct Args {
     /// Synthesis file
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Seed of the random numbers [default: the file's]
+    /// Seed of the random numbers [default: the seed in the file]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Random candidates [default: the file's]
+    /// Random candidates [default: the number in the file]
     #[arg(long, value_name = "N")]
     candidates: Option<usize>,
-    /// Best candidates to refine [default: the file's]
+    /// Best candidates to refine [default: the number in the file]
     #[arg(long, value_name = "N")]
     refined: Option<usize>,
-    /// Evaluations of each refinement [default: the file's]
+    /// Evaluations of each refinement [default: the number in the file]
     #[arg(long, value_name = "N")]
     evaluations: Option<usize>,
     /// Threads; the result does not depend on them [default: the number of cores]
@@ -56,7 +56,7 @@ pub(super) struct CheckArgs {
     /// Synthesis file
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Scenario of the same structure
+    /// Scenario with the structure that the synthesis file describes
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
     #[command(flatten)]
@@ -75,7 +75,8 @@ pub(super) fn search(args: &Args) -> Result<()> {
     let found = synthesize::search(&task, args.threads, &mut |part| bar.at(part))?;
     drop(bar);
     let values = redraw::round_values(&task, &found.values);
-    // The scenario is written and read back first; the reported figures are measured on the scenario as read.
+    // The scenario is written and read back before the report. The reported figures are therefore those of the written
+    // scenario.
     let place = drawing.path.with_file_name(format!("{}.toml", task.name));
     let bare = Scenario::parse(&redraw::redrawn(&task, &drawing.text, &values, "")?, &place)?;
     let own = Task { case: bare.case, ..task.clone() };

@@ -33,7 +33,7 @@ pub(super) fn why(proof: &Proof, tell: Tell) -> String {
     format!("<div id=\"why\">\n{}</div>", paragraphs(&told))
 }
 
-/// All other findings; empty if there are none.
+/// All findings other than those of `why`; empty if no such findings exist.
 pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     let mut told = String::new();
     if proof.engines.len() > 1 {

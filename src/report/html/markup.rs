@@ -14,7 +14,7 @@ pub(in crate::report) fn escaped(text: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            // HTML does not allow these characters, not even as entities.
+            // HTML does not allow these characters, not even as entities, so these characters are replaced.
             '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' => out.push('\u{fffd}'),
             _ => out.push(letter),
         }

@@ -108,13 +108,13 @@ fn element(mark: &Mark, unit: f64) -> String {
     }
 }
 
-/// The path through some points, in units.
+/// The path through some points, in picture units.
 pub(super) fn path(points: impl Iterator<Item = [f64; 2]>, closed: bool) -> String {
     let points: Vec<String> = points.map(|[x, y]| format!("{} {}", number(x), number(y))).collect();
     format!("M{}{}", points.join("L"), if closed { "Z" } else { "" })
 }
 
-/// A length in units, to four decimals.
+/// A length in picture units, to four decimals.
 fn number(value: f64) -> String {
     let text = format!("{value:.4}");
     let short = text.trim_end_matches('0').trim_end_matches('.');

@@ -12,7 +12,7 @@ pub(super) struct Placed<'a> {
     pub(super) mechanism: &'a Mechanism,
     /// Columns of each moving link: angle and coordinates of the mass centre.
     links: Vec<[&'a [f64]; 3]>,
-    /// First and second derivatives of these columns; a derivative is present only if all links have it.
+    /// First and second derivatives of the columns in `links`; a derivative is present only if all links have it.
     rates: Vec<Vec<[&'a [f64]; 3]>>,
 }
 
@@ -21,6 +21,7 @@ const SUFFIXES: [[&str; 3]; 3] =
     [["angle_rad", "x_m", "y_m"], ["omega_rad_s", "vx_m_s", "vy_m_s"], ["alpha_rad_s2", "ax_m_s2", "ay_m_s2"]];
 
 impl<'a> Placed<'a> {
+    /// The mechanism with the positions of all its links in a trajectory.
     /// `None` if the channels lack the position of a link, or if the grid has no instant.
     pub(super) fn of(mechanism: &'a Mechanism, trajectory: &'a Trajectory) -> Option<Self> {
         let columns = |suffixes: [&str; 3]| -> Option<Vec<[&'a [f64]; 3]>> {

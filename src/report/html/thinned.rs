@@ -1,4 +1,4 @@
-//! The instants that a page shows, and the errors of engines at all of them.
+//! The instants that a page shows, and the errors of engines at all these instants.
 
 use std::collections::BTreeSet;
 
@@ -23,8 +23,8 @@ pub(super) struct Thinned {
 }
 
 impl Thinned {
-    /// The instants of a page: all, or as many as fit.
-    /// If not all fit, the page has evenly chosen instants, and the instants with extreme values and errors.
+    /// The instants of a page: all instants, or as many as fit.
+    /// If not all instants fit, the page has evenly chosen instants, and the instants with extreme values and errors.
     /// `beside` is the number of single-precision values in a row in addition to channels and errors.
     pub(super) fn of(proof: &Proof, errors: &[Errors], beside: usize) -> Thinned {
         let reference = &proof.reference_trajectory;
@@ -50,7 +50,7 @@ pub(super) fn is_wide(channel: &Channel) -> bool {
     channel.kind.stage == Stage::Positions
 }
 
-/// Bytes of base64 that an instant takes.
+/// Bytes of base64 that an instant needs.
 fn bytes_of_row(reference: &Trajectory, errors: &[Errors], beside: usize) -> usize {
     let values: usize = reference.channels().iter().map(|own| if is_wide(own) { 8 } else { 4 }).sum();
     let errors: usize = errors.iter().flatten().map(|own| if own.is_some() { 4 } else { 0 }).sum();

@@ -39,7 +39,7 @@ pub(super) fn checks(proof: &Proof) -> String {
     let share = |own: &JudgedNumber| if own.bound > 0.0 { own.value / own.bound } else { f64::from(own.value > 0.0) };
     let mut all = judged::of(proof);
     all.retain(|own| own.sort != Sort::Channel);
-    // At equal ratios, checks come first.
+    // At equal ratios, checks come before forces.
     all.sort_by_key(|own| own.sort != Sort::Check);
     all.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let rows = all.into_iter().map(|own| {

@@ -55,7 +55,7 @@ pub(crate) fn outcomes(text: &str) -> Vec<StressOutcome> {
     sealed.filter(|own| own.digest == digest(&own.outcome)).map(|own| own.outcome).collect()
 }
 
-/// Whether a file holds results of this family.
+/// Whether a file contains results of this family.
 pub(crate) fn is_kept(bytes: &[u8], family: &StressFamily) -> bool {
     serde_json::from_slice::<Document<Value>>(bytes).is_ok_and(|own| own.family == family.name)
 }

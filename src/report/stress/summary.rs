@@ -20,7 +20,7 @@ pub(crate) struct Tally {
     pub(crate) panics: usize,
     /// Results of solvers and engines by verdict, in the order of [`PointEnd::ALL`].
     pub(crate) verdicts: [usize; PointEnd::ALL.len()],
-    /// Number of channels that exceed their bounds although no verdict reports it.
+    /// Number of channels that exceed their bounds although no verdict reports this excess.
     pub(crate) silent: usize,
 }
 

@@ -1,7 +1,7 @@
 //! Determines which source file of the workspace uses which other source file.
 //!
 //! Paths are followed through modules, imports and re-exports to the file that defines the named item. Code under
-//! `#[cfg(test)]` does not count: tests may use anything.
+//! `#[cfg(test)]` does not count, because tests may use anything.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -21,7 +21,7 @@ struct Module {
     imports: BTreeMap<String, Vec<String>>,
     /// Modules from which all names are brought in.
     globs: Vec<Vec<String>>,
-    /// Paths in the code: those of private imports, and those written out.
+    /// Paths in the code: the paths of private imports, and the paths written out.
     paths: Vec<Vec<String>>,
     /// Macros that the module calls.
     macros: BTreeSet<String>,

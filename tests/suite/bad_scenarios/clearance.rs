@@ -1,5 +1,5 @@
 //! Errors in `[clearance]`.
-//! The good scenario has no such section; the tests append it.
+//! The good scenario has no section `[clearance]`; the tests append one.
 
 use super::{Bad, GOOD, INPUT, assert_refused, parse};
 
@@ -25,7 +25,7 @@ fn a_good_section_is_read() {
     let scenario = parse(&with(text), super::TABLE).unwrap_or_else(|error| panic!("{error}"));
     let asked = scenario.clearance.unwrap();
     assert_eq!((asked.wanted, asked.area, asked.bodies.len()), (Some(1e-3), 1e-2, 4));
-    // Crank and rocker are not joined.
+    // Crank and rocker are not joined, so their distance is checked.
     // Coupler and rocker are checked against the wall; the crank is exempt.
     assert_eq!(asked.pairs, [[0, 2], [1, 3], [2, 3]]);
     assert_eq!(asked.bodies[2].outline.radius(), 5e-3);

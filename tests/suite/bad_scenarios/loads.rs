@@ -1,4 +1,4 @@
-//! Errors in `[[loads]]`. The good scenario has one load, so these are the second.
+//! Errors in `[[loads]]`. The good scenario has one load, so each tested load is the second load.
 
 use super::{Bad, GOOD, INPUT, assert_refused};
 

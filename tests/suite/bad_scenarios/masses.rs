@@ -8,7 +8,7 @@ fn mass_centres_and_inertias_beyond_the_mechanism_are_refused() {
     let words: &[&str] = &["link \"crank\"", "times the largest link", "check the unit", "add a point there"];
     let key = "links.crank.mass_centre";
     assert_refused(GOOD, &Bad { edits: &[far], kind: INPUT, at: "mass_centre", key, words });
-    // A second mass, for comparison.
+    // A second mass, with which the first mass is compared.
     let rod = (
         "[links.rocker.points]",
         "[links.rocker]\nmass_kg = 1\nmass_centre = { x_mm = 0, y_mm = 0 }\n[links.rocker.points]",
@@ -29,9 +29,9 @@ fn large_and_heavy_links_within_precision_are_accepted() {
         super::parse(&GOOD.replacen(from, to, 1), super::TABLE).unwrap_or_else(|error| panic!("{to}: {error}"))
     };
     taken("{ x_mm = 13, y_mm = 0 }", "{ x_m = 300, y_m = 0 }");
-    // A point at the position of the mass centre makes the link as large as the distance of its mass centre.
+    // A point at the position of the mass centre makes the link as large as the distance of the mass centre.
     let point = "mass_centre = { x_mm = 13, y_mm = 0 }\n[links.crank.points]";
     taken(point, "mass_centre = { x_m = 1300, y_m = 0 }\n[links.crank.points]\nG = { x_m = 1300, y_m = 0 }");
-    // No other link has a mass, so this value swamps no digits.
+    // No link except the crank has a mass, so this value swamps no digits.
     taken("inertia_kg_m2 = 0.0002", "inertia_kg_m2 = 2e14");
 }

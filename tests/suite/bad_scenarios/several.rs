@@ -1,5 +1,5 @@
-//! Several mistakes in one file: each is reported at its location.
-//! A mistake that only follows from another is not reported.
+//! Several mistakes in one file: each mistake is reported at its location.
+//! A mistake that only follows from an earlier mistake is not reported.
 
 use std::fmt::Write;
 
@@ -45,7 +45,7 @@ fn mistakes_in_different_tables_are_reported_together() {
         ("links = [\"crank\", \"coupler\"]", "links = [\"crank\", \"cuopler\"]", "joints.A.links", "cuopler"),
         ("speed_rpm = 130", "speed_rpm = 0\ncolour = 1", "drive.speed_rpm", "speed_rpm = 0"),
         // The edit of the drive makes two mistakes.
-        // This edit only adds an empty line; it is listed for the second of them.
+        // The edit of `[gravity]` only adds an empty line; it is listed for the second mistake of the drive.
         ("[gravity]", "\n[gravity]", "drive.colour", "colour"),
         ("x_m_s2 = 0\n", "", "gravity", "[gravity]"),
         ("link = \"rocker\"", "link = \"rockre\"", "loads[1].link", "rockre"),
@@ -79,20 +79,20 @@ fn mistakes_in_published_numbers_are_reported_together() {
     ]);
 }
 
-/// An error that depends on an unreadable part is not reported: correcting the part may correct it.
+/// An error that depends on an unreadable part is not reported, because correcting the part may correct the error.
 #[test]
 fn consequences_of_a_mistake_are_not_reported() {
     for (edits, key) in [
-        // The joint C and the load refer to the link.
+        // The joint C and the load refer to the link, but only the link is reported.
         (
             &[("[links.rocker.points]\nC = { x_mm = 0, y_mm = 0 }", "[links.rocker.points]\nC = 5")][..],
             "links.rocker.points.C",
         ),
         (&[("B = { x_mm = 250, y_mm = 0 }", "B = { x_mm = 250, z_mm = 0 }")], "links.rocker.points.B.y_mm"),
-        // The drive refers to the joint.
+        // The drive refers to the joint, but only the joint is reported.
         (&[("name = \"O\"\ntype = \"revolute\"", "name = \"O\"\ntype = \"revolut\"")], "joints.O.type"),
         (&[("name = \"O\"\n", "")], "joints[1]"),
-        // The grid, the engine's step and the groups depend on the drive.
+        // The grid, the engine's step and the groups depend on the drive, but only the drive is reported.
         (&[("speed_rpm = 130", "speed_rpm = 1e308")], "drive.speed_rpm"),
         (&[("[[joints]]", "[[joint]]")], "joint"),
         (&[("[links.crank]\n", "[link.crank]\n")], "link"),
@@ -106,7 +106,7 @@ fn consequences_of_a_mistake_are_not_reported() {
     }
 }
 
-/// Twenty mistakes are shown; the rest are counted, however many there are.
+/// Twenty mistakes are shown; the remaining mistakes are counted, however many there are.
 #[test]
 fn many_mistakes_are_counted() {
     let many = (0..500).fold(String::new(), |mut text, k| {

@@ -19,7 +19,7 @@ fn sliders() {
     const GUIDE: &str = "links = [\"ground\", \"slider\"]\npoints = [\"O\", \"B\"]";
     const OTHER: &str =
         "name = \"B\"\ntype = \"prismatic\"\naxis_deg = 0\nlinks = [\"rod\", \"slider\"]\npoints = [\"B\", \"C\"]";
-    // The slider has this point; the rod does not.
+    // The slider has the point named in this edit; the rod does not have this point.
     const POINT: (&str, &str) = ("[links.slider.points]\nB =", "[links.slider.points]\nC =");
     const PLACE: (&str, &str) = ("points = [\"O\", \"B\"]", "points = [\"O\", \"C\"]");
     const PIN: &str = "name = \"B\"\ntype = \"revolute\"\nlinks = [\"rod\", \"slider\"]";
@@ -49,7 +49,7 @@ fn sliders() {
             words: &["axes of its two prismatic joints are parallel", "check the axes"],
         },
         Bad {
-            // The rod also slides on the ground, which gives a loop of three prismatic joints.
+            // The rod slides on the ground in addition to its joints, which gives a loop of three prismatic joints.
             edits: &[
                 (PIN, OTHER),
                 POINT,
@@ -77,7 +77,7 @@ fn sliders() {
         bad!("link = \"rod\"" => "link = \"slider\"", INPUT, at "link = \"slider\"", key "loads[1].link",
             ["\"slider\" does not turn", "name a link that turns"]),
     ]);
-    // The guide is the same if the ground is named second.
+    // The guide stays the same if the ground is named second.
     let turned = SLIDER.replace(GUIDE, "links = [\"slider\", \"ground\"]\npoints = [\"B\", \"O\"]");
     assert_ne!(turned, SLIDER);
     let [one, other] = [SLIDER, &turned].map(|text| parse(text, TABLE).unwrap().case.start.clone());

@@ -17,7 +17,7 @@ fn channels() -> usize {
 }
 
 /// A four-bar without published numbers, so that a changed length does not change its verdict.
-/// Its figures are accepted.
+/// The figures of this four-bar are accepted.
 fn accepted() -> Place {
     let place = Place::new();
     let text = fs::read_to_string(place.path(SCENARIO)).unwrap();
@@ -146,7 +146,7 @@ fn a_figure_within_its_bound_has_not_moved() {
     assert_eq!(check(&place).code, 0);
 }
 
-/// Only the root mean square has changed: a motion may keep its extremes and its few stored instants.
+/// Only the root mean square has changed, because a motion may keep its extremes and its few stored instants.
 #[test]
 fn a_changed_root_mean_square_is_reported() {
     let place = accepted();
@@ -274,7 +274,7 @@ fn unproven_figures_are_accepted_only_on_request() {
     let outcome = check(&place);
     assert_eq!(outcome.code, 1);
     assert!(outcome.stdout.contains("the proof was accepted as disagree and still is"), "{}", outcome.stdout);
-    // The original scenario is proven again, but the stored figures come from the scenario that disagrees.
+    // The original scenario is proven again, but the stored figures come from the scenario with the verdict disagree.
     fs::write(place.path(SCENARIO), text).unwrap();
     assert_eq!(check(&place).code, 3);
     place.ok(&format!("accept {SCENARIO}"));

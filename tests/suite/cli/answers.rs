@@ -32,7 +32,7 @@ fn point(at: Vec2) -> Value {
     json!([at.x, at.y])
 }
 
-/// A parallelogram that passes its change point smoothly; beside that point nothing is proven.
+/// A parallelogram that passes its change point smoothly; beside the change point nothing is proven.
 fn smooth() -> String {
     let mut spec = four_bar([0.4, 0.1, 0.4, 0.1], false);
     (spec.start, spec.dt) = (60f64.to_radians(), None);
@@ -72,7 +72,7 @@ fn a_clearance_is_reported_in_json_csv_and_text() {
         let time = |crank: f64| json!(scenario.case.crank().time_of(crank));
         let meeting = |meeting: Option<Meeting>| {
             meeting.map(|own| {
-                // The bodies are apart up to the first angle, and meet at the second.
+                // The bodies are apart up to the first angle, and meet at the second angle.
                 assert!((own.cranks[0] - found.range[0]).abs() <= (own.cranks[1] - found.range[0]).abs());
                 let [until, at] = own.cranks;
                 json!({"clear_until_rad": until, "crank_rad": at, "t_s": time(at), "place_m": point(own.place)})
@@ -99,7 +99,7 @@ fn a_clearance_is_reported_in_json_csv_and_text() {
             assert!(value - error <= area.least && area.most <= value + error, "{name}: {row}");
             assert_eq!([&row["least_m2"], &row["most_m2"]], [&json!(area.least), &json!(area.most)]);
         }
-        // The first meeting is the first in the direction of the drive, which may be backwards.
+        // The first meeting is the earliest one in the direction of the drive, which may be backwards.
         for (key, all) in [("first_collision", false), ("first_too_near", true)] {
             let gone = |own: &Meeting| (own.cranks[1] - found.range[0]).abs();
             let each =
@@ -130,7 +130,7 @@ fn in_text(place: &Place, name: &str, asked: &ClearanceQuestion, found: &design:
         let row = rows.iter().find(|row| row.starts_with(&[first.as_str(), names[1]]));
         let row = row.unwrap_or_else(|| panic!("{names:?} in {text}"));
         assert_eq!(row[2], format!("{:.4}", 1e3 * pair.smallest.distance), "{text}");
-        // The last column is the first collision, if there is one.
+        // The last column is the first collision, and is empty without a collision.
         if let Some(meeting) = pair.collision {
             assert_eq!(row[row.len() - 1], format!("{:.4}", meeting.cranks[1].to_degrees()), "{text}");
         }
@@ -195,7 +195,8 @@ fn a_range_is_reported_in_json() {
         for (index, (row, group)) in told["groups"].as_array().unwrap().iter().zip(&range.groups).enumerate() {
             let ValueAtCrank { crank, value } = group.determinant;
             assert_eq!(row["least_determinant"], json!({"crank_rad": crank, "determinant": value}));
-            // The determinant of a dyad is the sine of its transmission angle.
+            // The determinant of a dyad is the sine of its transmission angle, so the reported angle is compared with
+            // it.
             if let Some(angle) = row["least_transmission_angle_rad"].as_f64() {
                 assert_within!((angle.sin() - value.abs()).abs(), 1e-15, "{name}");
             }
@@ -232,7 +233,7 @@ fn bearings_are_reported_in_json() {
         assert_eq!([&told["lever_m"], &told["stress_Pa"]], [&json!(0.012), &json!(150e6)]);
         assert_eq!(told["shaking_force"], peak(peaks.shaking_force, "N"));
         assert_eq!(told["balancing_moment"], peak(peaks.balancing_moment, "N_m"));
-        // The other side has the same reactions and moments, none of them larger.
+        // Side 2 has the same reactions and moments, and no larger ones.
         let solved = NewtonSolver.solve(&scenario.case).unwrap();
         let sizes = |names: &[String]| -> Vec<f64> {
             let columns: Vec<&[f64]> = names.iter().map(|name| solved.named(name).unwrap()).collect();
@@ -401,7 +402,7 @@ fn a_choice_of_a_motor_is_reported_in_json() {
     }
 }
 
-/// Solvers that read an exported case start where it starts.
+/// Solvers that read an exported case start in the start pose of the original case.
 /// The test checks masses, states, drives and loads of cases with springs, motors and a backward drive.
 #[test]
 fn a_case_is_exported_in_json() {
@@ -499,7 +500,7 @@ fn a_comparison_is_reported_in_json() {
     let scale = own["scale"].as_f64().unwrap();
     assert!(scale > 10.0 * rms && scale <= ends[1] - ends[0] + ends[1].abs(), "{scale}");
     assert_eq!(told["jumps_back_in_row"], Value::Null);
-    // The 51st row of the table is earlier than the one before.
+    // The 51st row of the table is earlier than the 50th row.
     let told = written(&mut (0..50).chain(20..200), &|_| 0.0);
     assert_eq!(told["jumps_back_in_row"], 51);
 }

@@ -115,7 +115,7 @@ fn failing_peers_become_points_and_never_crash_the_bench() {
         let told = of(name)["failed"].as_str().unwrap_or_default();
         assert!(told.contains(reason), "{name}: {told}");
     }
-    // The channels that the peer gives are right; the missing ones are reported.
+    // The channels that the peer gives are right; the missing channels are reported.
     let half = of("half");
     assert!(half["max"].as_f64().unwrap() < 1e-9 && half["without"].as_str().unwrap().contains("more"), "{half}");
     let absent = found["scenarios"][0]["absent"].as_array().unwrap();

@@ -36,7 +36,7 @@ fn the_crankcase_is_reported_as_clear() {
 #[test]
 fn a_collision_is_an_outcome_and_no_error() {
     let place = Place::new();
-    // Swept areas do not matter here, and are the most expensive part.
+    // Swept areas do not matter in this test, and are the most expensive part.
     let rough = |wanted: &str| format!("wanted_mm = {wanted}\narea_rel = 0.01");
     place.edited(
         "crankcase.toml",
@@ -49,11 +49,11 @@ fn a_collision_is_an_outcome_and_no_error() {
     let found: Value = serde_json::from_str(&std::fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
     let first = &found["scenarios"][0]["first_collision"];
     assert_eq!(first["bodies"], serde_json::json!(["piston", "head"]));
-    // The crown reaches 201 mm: 40 sin a + sqrt(132^2 - 40^2 cos^2 a) + 30 = 201.
+    // The expected crank angle a puts the crown at 201 mm: 40 sin a + sqrt(132^2 - 40^2 cos^2 a) + 30 = 201.
     let crank = first["at"]["crank_rad"].as_f64().unwrap();
     let height = 40.0 * crank.sin() + (132.0f64.powi(2) - (40.0 * crank.cos()).powi(2)).sqrt() + 30.0;
     assert_within!((height - 201.0).abs(), 1e-6, "{first}");
-    // The distance is less than the wanted one, but there is no collision.
+    // The distance is less than the required distance, but there is no collision.
     place.edited("crankcase.toml", "near.toml", &[("wanted_mm = 0.4", &rough("0.6"))]);
     let outcome = place.run("clearance scenarios/near.toml");
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);

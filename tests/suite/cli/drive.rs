@@ -86,7 +86,7 @@ fn graphs_as_svg() {
     assert!(text.contains("no motor"), "{text}");
     let (words, curves) = drawn(&std::fs::read_to_string(place.path("ov7.svg")).unwrap());
     assert!(curves == 3 && words.contains("-330°") && words.contains("mean 0") && !words.contains("e-18"), "{words}");
-    // In clockwise motion the steady speed is negative, so the slowest point is the upper one.
+    // In clockwise motion the steady speed is negative, so the slowest point is the upper of the two marked points.
     place.edited("crank_rocker.toml", "back.toml", &[("speed_rpm = 130", "speed_rpm = -130")]);
     let (words, curves) = drawn(&place.ok("drive scenarios/back.toml --svg -"));
     let there = ["slowest -12.11 at -10.1°", "greatest 0.4641 at -30.6°", "mean 17.78", "mean over time -14.26"];

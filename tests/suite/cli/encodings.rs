@@ -1,4 +1,4 @@
-//! Files in the formats of other programs: encodings, decimal commas, semicolons.
+//! Files in the formats of foreign programs: encodings, decimal commas, semicolons.
 
 use std::fs;
 

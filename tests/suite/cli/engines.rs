@@ -1,4 +1,4 @@
-//! `run` with several engines and other settings, and `tune`.
+//! `run` with several engines and various settings, and `tune`.
 
 use std::fs;
 
@@ -13,7 +13,8 @@ fn all_engines_are_reported_side_by_side() {
     let run = &document["runs"][0];
     let names = texts(&run["engines"], "name");
     assert!(names.starts_with(&rapiers()), "{names:?}");
-    // Single precision proves less, so the result is inconclusive even if the other engines agree.
+    // Single precision proves less than double precision, so the result is inconclusive even if the engines in double
+    // precision agree.
     // In any build, no engine may disagree.
     let single = cfg!(feature = "f32");
     let expected = if single { (3, Some("inconclusive")) } else { (0, Some("agree")) };

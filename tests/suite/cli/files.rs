@@ -1,4 +1,4 @@
-//! Files that commands write are complete or absent, whatever other processes write in the same place.
+//! Files that commands write are complete or absent, whatever other processes write in the same directory.
 #![cfg(unix)]
 
 use std::fs;
@@ -11,7 +11,7 @@ use super::tools::Place;
 
 const QUICK: &str = "run scenarios/pendulum.toml --route differences";
 
-/// Names of the files in a directory of a place, except scenarios.
+/// Names of the files in a directory of the test, except scenarios.
 fn files(place: &Place, directory: &str) -> Vec<String> {
     let entries = fs::read_dir(place.path(directory)).unwrap();
     let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
@@ -20,7 +20,7 @@ fn files(place: &Place, directory: &str) -> Vec<String> {
     names
 }
 
-/// Symptom: two runs to one path shared `NAME.mcap.partial`, and one ended with AGREE and a corrupt file.
+/// Symptom: two runs to one path shared `NAME.mcap.partial`, and one run ended with AGREE and a corrupt file.
 #[test]
 fn regress_runs_to_one_path_do_not_mix() {
     let place = Place::new();

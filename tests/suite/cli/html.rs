@@ -33,7 +33,7 @@ fn singles(column: &Value) -> Vec<f64> {
 }
 
 /// Asserts that the page loads nothing except the empty icon.
-/// The namespace of SVG is only a name.
+/// The namespace of SVG is only a name, so it does not count as loaded.
 fn assert_alone(page: &str) {
     for word in ["src=", "@import", "url(", "fetch(", "XMLHttpRequest", "import("] {
         assert!(!page.contains(word), "{word}");
@@ -123,7 +123,7 @@ fn scenario_texts_are_escaped_on_the_page() {
     for markup in ["<b>", "alert(1)</script>", "<!-- "] {
         assert!(!page.contains(markup), "{markup}");
     }
-    // Two scripts, and each ends where it should.
+    // The page has two scripts, and each script ends where it should.
     assert_eq!([page.matches("<script").count(), page.matches("</script>").count()], [2, 2]);
     assert_eq!(data(&page)["motion"]["links"][0]["name"], "rod");
     assert_alone(&page);
@@ -204,7 +204,7 @@ fn every_drive_with_a_moment_is_on_the_page_with_its_channel() {
     }
 }
 
-/// A number, or the first of a column.
+/// A number, or the first number of a column.
 fn first(column: &Value) -> f64 {
     column.as_f64().unwrap_or_else(|| singles(column)[0])
 }
@@ -215,7 +215,8 @@ fn a_page_has_loads_and_the_vectors_of_the_plans() {
     place.ok("run scenarios/rotary_engine.toml --no-record --budget 1e5 --html page.html");
     let data = data(&fs::read_to_string(place.path("page.html")).unwrap());
     let loads = &data["loads"];
-    // Loads: a gas force of 300 N that turns with the cylinder and points towards its pivot, and weights.
+    // The loads are a gas force of 300 N and weights.
+    // The gas force turns with the cylinder and points towards the cylinder's pivot.
     // Springs and dampers have only a magnitude.
     let force = &loads["arrows"][0];
     assert_eq!(force["name"], "force at B on piston");

@@ -1,5 +1,5 @@
 //! Compares every number of `run --json` with the number in the proof.
-//! The test fails for a numerical field that is missing here, and for a different number.
+//! The test fails for a numerical field that this file lacks, and for a different number.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -90,7 +90,7 @@ fn checks(what: &str, rows: &Value, own: &[Check]) {
 }
 
 fn engine(what: &str, row: &Value, own: &EngineProof) {
-    // Engines that control their error have an accuracy instead of a step.
+    // Engines that control their error have an accuracy instead of a step, so their field has a different name.
     let size = if own.info.controls_error { "accuracy" } else { "dt_s" };
     is_said(what, row, &BTreeMap::from([(size, own.info.settings.resolution)]));
     assert_eq!((row["name"].as_str(), row["verdict"].as_str()), (Some(own.info.name), Some(own.verdict.word())));
@@ -154,7 +154,7 @@ fn proven(what: &str, run: &Value, proof: &Proof) {
 }
 
 /// One case has a prescribed motion and a finding.
-/// The other moves under forces, so its times are not its crank angles.
+/// The second case moves under forces, so its times are not its crank angles.
 #[test]
 fn every_number_of_the_json_is_that_of_the_proof() {
     let place = Place::new();
@@ -167,9 +167,9 @@ fn every_number_of_the_json_is_that_of_the_proof() {
     }
 }
 
-/// Features that the two cases above lack: a grid that begins late, another engine, and engines that agree against the
-/// reference.
-/// Also exhausted work, and loads that are omitted.
+/// Features that the two cases above lack: a grid that begins late, a different engine, and engines that agree against
+/// the reference.
+/// Exhausted work, and loads that are omitted, are tested too.
 #[test]
 fn rare_parts_of_a_proof_are_exact_in_the_json() {
     let load = |name: &str, edit: [&str; 2]| {

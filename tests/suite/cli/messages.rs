@@ -131,7 +131,7 @@ fn every_help_shows_valid_examples() {
             let words = line.trim().trim_start_matches("linkproof ").split("  ").next().unwrap();
             let words = words.replace("scenarios/*.toml", "scenarios/crank_rocker.toml scenarios/ov7_base.toml");
             let outcome = place.run(&words);
-            // Single precision proves less, so a proof with all engines is inconclusive.
+            // Single precision proves less than double precision, so a proof with all engines is inconclusive.
             let code = if cfg!(feature = "f32") && words.contains("--engine all") { 3 } else { 0 };
             assert_eq!((outcome.code, outcome.stderr.as_str()), (code, ""), "{words}: {}", outcome.stdout);
             count += 1;
@@ -202,7 +202,7 @@ fn a_scenario_is_never_used_as_an_output_file() {
     let (scenario, other) = ("scenarios/crank_rocker.toml", "scenarios/ov7_base.toml");
     let before = fs::read(place.path(other)).unwrap();
     for command in [
-        // A shell expands `--json scenarios/*.toml` to this.
+        // A shell expands `--json scenarios/*.toml` to these arguments.
         format!("run --no-record --json {other} {scenario}"),
         format!("solve {scenario} --with assur --csv {other}"),
         format!("inspect {scenario} --json {other}"),

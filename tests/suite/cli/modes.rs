@@ -27,7 +27,7 @@ fn a_dyad_starts_in_the_requested_mode() {
     let away = |a: f64, b: f64| ((a - b).sin()).abs() + (1.0 - (a - b).cos());
     let right = rocker(&place, "--mode coupler,rocker=right");
     assert_within!(away(right, mirrored(left)), 1e-12, "{right} {left}");
-    // With the links in the other order, left and right are exchanged.
+    // With the links in the reverse order, left and right are exchanged.
     // Configurations are numbered as in `inspect --modes`.
     assert_eq!(rocker(&place, "--mode rocker,coupler=left"), right);
     assert_eq!(rocker(&place, "--mode coupler,rocker=2"), right);
@@ -104,8 +104,8 @@ fn invalid_modes_are_refused() {
 #[test]
 fn inspect_reports_how_unambiguous_the_start_is() {
     let place = Place::new();
-    // `inspect` reports the distance of point E from its approximate position, in the selected and in the next
-    // configuration.
+    // `inspect` reports the distance of point E from its approximate position, in the selected configuration and in the
+    // next configuration of the list.
     // Both distances must follow from the positions that `--modes` lists.
     let found: Value = serde_json::from_str(&place.ok("inspect scenarios/fourth_class.toml --modes --json -")).unwrap();
     let at = |mode: usize| {
@@ -215,11 +215,12 @@ fn a_group_of_six_links_starts_from_a_rough_drawing() {
             let name = format!("point.{point}.{axis}_m");
             let (own, other) = (assur.column(&name), newton.column(&name));
             own.iter().zip(&other).for_each(|(a, b)| assert_within!((a - b).abs(), 1e-12, "{name}"));
-            // The approximate positions may be off by half the shortest link, as promised.
+            // The approximate positions may be off by half the shortest link, as the documentation promises.
             assert_within!((own[0] * 1e3 - drawn).abs(), 45.0, "{name}: {} for {drawn}", own[0]);
         }
     }
-    // Three points are enough, as docs/scenario.md states: the other links follow from their joints.
+    // Three points are enough, as docs/scenario.md states: the poses of the links without such a point follow from
+    // their joints.
     six(&place, &near(&[drawn[0], drawn[1], drawn[3]]));
     let few = Table::of(&place.ok("solve scenarios/six.toml --with assur --crank-deg 0:10:5"));
     for point in ["B", "D", "F"] {
@@ -250,7 +251,7 @@ fn a_group_of_six_links_lists_its_followed_configuration() {
         for (key, column) in [("angle_rad", "angle_rad"), ("omega_rad_s", "omega_rad_s")] {
             let name = format!("link.{}.{column}", link["name"].as_str().unwrap());
             let (own, newton) = (link[key].as_f64().unwrap(), table.column(&name)[0]);
-            // Rounding of angular velocities up to ten times the crank's.
+            // The bound allows for the rounding of angular velocities up to ten times that of the crank.
             assert_within!((own - newton).abs(), 1e-10, "{name}: {own} {newton}");
         }
     }

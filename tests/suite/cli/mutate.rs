@@ -55,7 +55,7 @@ fn regress_without_a_planted_fault_nothing_is_proven() {
     assert!(outcome.stdout.starts_with("SHARED FAULTS NOT FOUND"), "{}", outcome.stdout);
 }
 
-/// In a proof that already disagrees, every planted fault would count as found.
+/// In a proof that already disagrees, every planted fault would count as found, so the command refuses it.
 #[test]
 fn regress_a_proof_that_disagrees_without_a_fault_is_refused() {
     let place = Place::new();
@@ -121,7 +121,7 @@ fn mistakes_in_formulas_are_found_and_counted_separately() {
 }
 
 /// The tolerance of a formula hides small mistakes.
-/// For each mistake, the command reports the smallest fraction of it that is still found.
+/// For each mistake, the command reports the smallest fraction of the mistake that is still found.
 #[test]
 fn the_smallest_detected_formula_mistake_is_reported() {
     let place = Place::new();
@@ -138,7 +138,7 @@ fn a_file_without_formulas_reports_nothing_planted() {
     let outcome = place.run("mutate scenarios/pendulum.toml --party formulas --no-sizes");
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
     assert!(outcome.stdout.starts_with("NOTHING PLANTED"), "{}", outcome.stdout);
-    assert!(outcome.unbroken().contains("its formulas claim no exact value"), "{}", outcome.stdout);
-    // If another kind of fault is requested too, the missing formula mistakes do not change the result.
+    assert!(outcome.unbroken().contains("no formula of the scenario claims an exact value"), "{}", outcome.stdout);
+    // If `--kind` requests a second kind of fault, the missing formula mistakes do not change the result.
     place.ok("mutate scenarios/pendulum.toml --kind gravity-sign --kind formula --party assur --no-sizes");
 }

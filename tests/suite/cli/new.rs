@@ -88,7 +88,7 @@ fn lengths_that_do_not_fit_are_written_and_reported() {
     }
 }
 
-/// After `new --shipped`, the files named by the other examples of the help exist.
+/// After `new --shipped`, the files that the remaining examples of the help name exist.
 #[test]
 fn help_examples_run_in_an_empty_directory() {
     let place = Place::empty();
@@ -122,8 +122,9 @@ fn steps(template: &str, foot: &str) -> (Vec<f64>, Vec<f64>) {
     (table.column(&format!("point.{foot}.x_m")), table.column(&format!("point.{foot}.y_m")))
 }
 
-/// Number of crank degrees at which the foot is on the ground: its height is at most `share` of its stride.
-/// Also the distance that the foot travels during these degrees.
+/// Number of crank degrees at which the foot is on the ground, and the distance that the foot travels during these
+/// degrees.
+/// The foot is on the ground if its height is at most `share` of its stride.
 fn on_the_ground(x: &[f64], y: &[f64], share: f64) -> (usize, f64) {
     let lowest = |values: &[f64]| values.iter().copied().reduce(KeepNan::smaller).unwrap();
     let span = |values: &[f64]| values.iter().copied().reduce(KeepNan::larger).unwrap() - lowest(values);
@@ -132,7 +133,7 @@ fn on_the_ground(x: &[f64], y: &[f64], share: f64) -> (usize, f64) {
     (flat.len(), span(&flat) / span(x))
 }
 
-/// Jansen's foot is on the ground for almost half a revolution, and covers most of its stride there.
+/// Jansen's foot is on the ground for almost half a revolution, and covers most of its stride during this time.
 #[test]
 fn jansens_leg_walks() {
     let (x, y) = steps("jansen", "S");
@@ -141,8 +142,8 @@ fn jansens_leg_walks() {
 }
 
 /// The patent's table: with the leg drawn in, the foot is at (0, 0).
-/// Half a revolution earlier, it is one unit (100 mm) ahead.
-/// Between these two poses it is on the ground.
+/// Half a revolution earlier, the foot is one unit (100 mm) ahead.
+/// Between these two poses the foot is on the ground.
 #[test]
 fn klanns_leg_walks() {
     let (x, y) = steps("klann", "P33");

@@ -1,4 +1,4 @@
-//! Outputs that cannot be written: detected before the work, or reported by name, and never left incomplete.
+//! Outputs that cannot be written are detected before the work or reported by name, and are never incomplete.
 #![cfg(unix)]
 
 use std::fs;
@@ -42,7 +42,7 @@ const FILES: [(&str, &str); 28] = [
     ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 --json", "--json"),
 ];
 
-/// Names of the entries in a place, without the scenarios.
+/// Names of the entries in the directory of the test, without the scenarios.
 fn left(place: &Place) -> Vec<String> {
     let names = fs::read_dir(place.path("")).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<String> = names.filter(|name| name != "scenarios").collect();

@@ -17,7 +17,7 @@ fn plans_as_text_json_and_drawing() {
     assert_eq!(json["velocity"]["scale_per_mm"], 0.02);
     let omega = json["singular_points"][0]["links"][0]["omega_rad_s"].as_f64().unwrap();
     assert_within!((omega - 2.03890).abs(), 0.5e-5, "{omega}");
-    // The text is printed besides the drawing.
+    // The command prints the text in addition to the drawing.
     let plan = "plan scenarios/ov7_base.toml --crank-deg -30";
     assert_eq!(place.ok(&format!("{plan} --svg plans.svg")), place.ok(plan));
     let drawing = fs::read_to_string(place.path("plans.svg")).unwrap();
@@ -33,7 +33,8 @@ fn diagrams_as_text_json_csv_and_drawing() {
     let json = place.run(&format!("{of} --divisions 24 --json -")).json();
     assert_eq!(json["methods"][0]["points"].as_array().unwrap().len(), 24);
     let csv = place.ok(&format!("{of} --csv -"));
-    // One header line; twelve midpoints and twelve ends of chords; thirteen ends for each of the two integrations.
+    // The file has one header line, twelve midpoints and twelve ends of chords, and thirteen ends for each of the two
+    // integrations.
     assert_eq!(csv.lines().count(), 1 + 12 + 12 + 13 + 13);
     assert!(roxmltree::Document::parse(&place.ok(&format!("{of} --svg -"))).is_ok());
 }
@@ -51,7 +52,7 @@ fn invalid_requests_are_refused() {
     place.refused(&format!("{of} point.B.x_m --divisions 2"), &["2 parts", "4 to 1000"]);
 }
 
-/// Symptom: the plan of a link with 10 000 points requested 2.3 GB, and that of a link with 500 took 79 s.
+/// Symptom: the plan of a link with 10 000 points requested 2.3 GB, and the plan of a link with 500 points took 79 s.
 #[test]
 fn a_link_with_more_points_than_a_plan_can_show_is_refused() {
     let place = Place::new();

@@ -1,4 +1,4 @@
-//! A recording replaces an older one of the same run, and no other.
+//! A recording replaces an older recording of the same run, and no recording of a different run.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -38,7 +38,8 @@ fn log_times_follow_the_times_of_the_instants() {
             assert_eq!(message.log_time, message.publish_time);
             topics.entry(message.channel.topic.clone()).or_default().push(message.log_time);
         }
-        // The instants are 0, 50 and 200 ms after the first; frames of the picture lie in between too.
+        // The instants are 0, 50 and 200 ms after the first instant; the recording also has frames of the picture
+        // between these instants.
         let instants = [0, 50_000_000, 200_000_000].map(|time| slow * time);
         let of_instants = topics.values().filter(|times| times.as_slice() == instants).count();
         assert!(of_instants >= 5, "{topics:?}");
@@ -76,7 +77,7 @@ fn other_settings_get_a_separate_file_name() {
         let line = format!("\n           pendulum.mcap belongs to another run and is kept: {why}");
         assert!(told.contains(&format!("recording  out/{name} (")) && told.contains(&line), "{arguments}: {told}");
     }
-    // First a different scenario of the same name, then a changed one.
+    // The test uses first a different scenario of the same name, then a changed scenario.
     place.edited("pendulum.toml", "pendulum.toml", &[("title = \"", "title = \"Another, ")]);
     let told = place.ok(RUN);
     assert!(told.contains("out/pendulum-6.mcap") && told.contains("its scenario text differs"), "{told}");

@@ -9,7 +9,7 @@ use linkproof::{Options, Proof, Scenario, Verdict, prove};
 
 use super::tools::Place;
 
-/// Three scenarios: one agrees, one has a wrong published number, one cannot be read.
+/// Three scenarios: the first agrees, the second has a wrong published number, the third cannot be read.
 fn place() -> Place {
     let place = Place::new();
     place.edited("crank_rocker.toml", "wrong.toml", &[("name = \"crank_rocker\"", "name = \"wrong\"")]);
@@ -49,7 +49,7 @@ fn junit_has_a_suite_per_scenario_and_a_case_per_result() {
         kinds
     };
     assert_eq!((kinds(1), kinds(2)), (vec!["failure".to_string()], vec!["error".to_string()]));
-    // As many cases as the JSON has channels and checks.
+    // The report has as many cases as the JSON has channels and checks.
     let json: serde_json::Value = serde_json::from_str(&fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
     let run = &json["runs"][0];
     let engine = &run["engines"][0];
@@ -58,7 +58,7 @@ fn junit_has_a_suite_per_scenario_and_a_case_per_result() {
     let cases = suites[0].children().filter(|node| node.has_tag_name("testcase")).count();
     assert_eq!(cases, wanted);
     assert_eq!(suites[0].attribute("tests"), Some(cases.to_string().as_str()));
-    // Equal runs give equal bytes: no times, no random names.
+    // Equal runs give equal bytes: the report contains no times and no random names.
     place.run(&format!("run {FILES} --no-record --budget 1e5 --junit again.xml"));
     assert_eq!(fs::read_to_string(place.path("again.xml")).unwrap(), text);
 }
@@ -89,7 +89,8 @@ fn verdicts(proof: &Proof) -> Vec<(String, String, &Verdict)> {
     all
 }
 
-/// Three proofs: one disagrees in many numbers and has a finding, one proves nothing, and in one the engines failed.
+/// Three proofs: the first disagrees in many numbers and has a finding, the second proves nothing, and in the third the
+/// engines failed.
 fn proofs() -> [Proof; 3] {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
     let scenario = Scenario::load(&path).unwrap();
@@ -146,7 +147,7 @@ fn reports_have_every_verdict_with_judge_and_reason() {
         let numbers = ["agree", "expected", "disagree", "inconclusive"].map(count).map(|count| count.to_string());
         assert!(row.ends_with(&format!(" | {} |", numbers.join(" | "))), "{row} {numbers:?}");
     }
-    // Each section lists ten reasons and counts the others.
+    // Each section lists ten reasons and counts the remaining reasons.
     let sections: Vec<&str> = text.split("\n### ").skip(1).collect();
     assert_eq!(sections.len(), 3);
     for ((section, proof), errors) in sections.iter().zip(&proofs).zip([0, 0, 1]) {
@@ -158,8 +159,8 @@ fn reports_have_every_verdict_with_judge_and_reason() {
     }
 }
 
-/// If the engine of a scenario failed, or the scenario cannot be read, the report has an entry for it.
-/// This also holds if no channel is wrong.
+/// If the engine of a scenario failed, or the scenario cannot be read, the report has an entry for the scenario.
+/// The report has this entry even if no channel is wrong.
 #[test]
 fn an_error_is_reported_without_any_verdict() {
     let mut outcomes = Outcomes::told_by(Advice::to_string);

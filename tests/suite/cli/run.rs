@@ -67,7 +67,7 @@ fn both_scenarios_agree_and_the_json_is_as_documented() {
                 "basis:text bound:number channel:text discretisation:number iteration:number left_out:number";
             let limit = if channel["limit"].is_null() { "null" } else { "number" };
             let rest = "origin:text q75:number q99:number reason:null reference:number rms:number rounding:number scale:number source:text unit:text verdict:text worst_crank_rad:number worst_t_s:number";
-            // The order is null if rounding hides it.
+            // The order of convergence is null if rounding hides it.
             let order = if channel["observed_order"].is_null() { "null" } else { "number" };
             assert_eq!(keys(channel), format!("{promised} limit:{limit} max:number observed_order:{order} {rest}"));
             assert_eq!(channel["verdict"], "agree", "{channel}");
@@ -307,7 +307,7 @@ fn invalid_steps_are_refused_at_once() {
 fn a_proof_is_reported_even_if_its_recording_fails() {
     let place = Place::new();
     fs::write(place.path("plain"), "a file, not a directory").unwrap();
-    // An error that can be known in advance is reported before the work.
+    // An error that can be known in advance is reported before any proof is run.
     let outcome =
         place.refused("run scenarios/crank_rocker.toml --record plain/below --json -", &["plain/below", "--no-record"]);
     assert_eq!(outcome.stdout, "");
@@ -360,8 +360,9 @@ fn unrequested_channels_are_neither_compared_nor_checked() {
 }
 
 /// One factor scales all bounds.
-/// With stricter bounds, numbers disagree.
-/// With a factor of zero, the report prints every channel and check with its bound, and the verdicts are as usual.
+/// With a factor below 1, numbers disagree.
+/// With a factor of zero, the report prints every channel and check with its bound, and the verdicts are those of the
+/// factor 1.
 #[test]
 fn the_tolerance_scale_applies_to_every_bound() {
     let place = Place::new();

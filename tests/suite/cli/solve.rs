@@ -26,7 +26,7 @@ fn header(links: &[&str], points: &[&str], joints: &[&str]) -> Vec<String> {
     names
 }
 
-/// The documented columns of a table, in its order.
+/// The documented columns of a table, in the table's order.
 fn documented(header: &[String], names: &[String]) -> Vec<String> {
     header.iter().filter(|own| names.contains(own)).cloned().collect()
 }
@@ -119,7 +119,7 @@ fn val_ov7_base_positions_row_by_row() {
             let row =
                 cranks.iter().position(|own| (own.to_degrees() - crank).abs() < 1e-9).expect("the angle is solved");
             for (at, name) in printed.header.iter().enumerate().skip(1) {
-                // P2x_mm is the x of point 2 in millimetres, with two decimals.
+                // The column P2x_mm is the x coordinate of point 2 in millimetres, with two decimals.
                 let (point, axis) = (&name[1..2], &name[2..3]);
                 let own = table.column(&format!("point.{point}.{axis}_m"))[row] * 1e3;
                 let cell: f64 = printed.rows[k][at].parse().unwrap();
@@ -169,7 +169,7 @@ fn only_engines_take_a_step() {
     place.refused("solve scenarios/crank_rocker.toml --with assur --dt 1e-3", &words);
 }
 
-/// The settings that `tune --write` writes to `[engine]` hold for `solve` too; options replace them.
+/// The settings that `tune --write` writes to `[engine]` apply to `solve` too; options replace these settings.
 #[test]
 fn engine_settings_of_the_file_apply_unless_overridden() {
     let place = Place::new();

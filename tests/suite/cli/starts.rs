@@ -78,7 +78,7 @@ fn grids_in_files_may_list_values() {
     assert_eq!(place.ok("solve scenarios/listed.toml --with newton"), by_option);
     listed("angles_deg = [0, 10]");
     place.refused("run scenarios/listed.toml --no-record", &["listed.toml", "grid", "the motion is free", "times_s"]);
-    // An invalid grid in the file does not block the one that replaces it.
+    // An invalid grid in the file does not block the grid that replaces it.
     place.ok("solve scenarios/listed.toml --with assur --times 0,0.1,0.3");
 }
 
@@ -110,7 +110,7 @@ fn published_numbers_apply_only_to_their_branch() {
     let place = Place::new();
     let run =
         |options: &str| place.run(&format!("run scenarios/{options} --no-record --json -")).json()["runs"][0].clone();
-    // The distance of two points at t = 0 belongs to the start.
+    // The distance of two points at t = 0 belongs to the start, so it is not counted.
     let published = |proof: &Value| {
         let checks = proof["checks"].as_array().unwrap().iter();
         let stays = |check: &&Value| !check["name"].as_str().unwrap().contains("distance");
@@ -160,8 +160,8 @@ fn regress_an_ambiguous_start_does_not_block_its_resolution() {
     assert!(chosen.contains("2, right, chosen by the scenario"), "{chosen}");
 }
 
-/// Two cases: a group with up to six configurations, and a group whose configuration depends only on the mode of
-/// another group.
+/// Two cases: a group with up to six configurations, and a group whose configuration depends only on the mode of an
+/// earlier group.
 #[test]
 fn all_configurations_of_an_open_group_are_listed() {
     let place = Place::new();

@@ -13,7 +13,7 @@ fn files(place: &Place, directory: &str) -> BTreeMap<String, Vec<u8>> {
     entries.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
 }
 
-/// The part of the last line that says what was run.
+/// The part of the last line that states what was run.
 fn run_of(told: &str) -> &str {
     told.lines().last().unwrap()
 }
@@ -29,7 +29,7 @@ fn a_run_is_independent_of_threads_and_can_be_resumed() {
     assert_eq!(whole.keys().filter(|name| name.starts_with("length_ratio.")).count(), 3, "{:?}", whole.keys());
     assert!(whole == files(&place, "two"), "other bytes from two threads");
 
-    // The table has the numbers of the JSON, to its digits.
+    // The table has the numbers of the JSON, rounded to the digits of the table.
     let json: Value = serde_json::from_slice(&whole["length_ratio.json"]).unwrap();
     let mut table = csv::Reader::from_reader(&whole["length_ratio.csv"][..]);
     let header = table.headers().unwrap().clone();
@@ -95,14 +95,15 @@ fn an_unusable_directory_is_reported_before_any_run() {
     fs::write(place.path("file"), "").unwrap();
     place.refused("stress speed --quick --out file", &["file", "is not a directory"]);
     place.refused("stress speed --quick --out file/below", &["--out", "; expected a directory"]);
-    // A directory at the path of a result.
+    // A directory lies at the path of a result.
     fs::create_dir_all(place.path("out/speed.json")).unwrap();
     place.refused("stress speed --quick --out out", &["speed.json"]);
     place.refused("stress sped --quick --out out", &["sped", "speed"]);
     place.refused("stress speed --quick --out out --jobs 0", &["a whole number of at least 1"]);
 }
 
-/// If an engine cannot move the mechanism, it fails; this is a result with a reason, not an error of the command.
+/// If an engine cannot move the mechanism, the engine fails.
+/// Such a failure is a result with a reason, not an error of the command.
 #[test]
 fn failures_are_results_with_reasons() {
     let place = Place::new();

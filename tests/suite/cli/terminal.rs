@@ -6,7 +6,8 @@ use assert_cmd::Command;
 
 use super::tools::{Place, listed};
 
-/// Scenarios that agree, one with a wrong published number, and one with an open step.
+/// Scenarios that agree, a scenario with a wrong published number, and a scenario with a step so coarse that the
+/// verdict is open.
 const FILES: [&str; 7] = [
     "crank_rocker",
     "ov7_new_tabulated",
@@ -93,7 +94,7 @@ fn formula_reports_fit_80_columns() {
 }
 
 /// The short report shows both values at the worst instant, with the digits in which they differ.
-/// It also has everything needed to act.
+/// The report also has everything that the user needs to act.
 #[test]
 fn a_disagreement_keeps_its_reasons_in_the_short_report() {
     let place = place();

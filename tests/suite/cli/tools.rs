@@ -43,7 +43,7 @@ impl Place {
         fs::write(self.path(&format!("scenarios/{to}")), text).unwrap();
     }
 
-    /// Runs `linkproof` here; blanks separate the arguments.
+    /// Runs `linkproof` in this directory; blanks separate the arguments.
     pub fn run(&self, arguments: &str) -> Outcome {
         let mut command = Command::cargo_bin("linkproof").unwrap();
         let output = command.current_dir(self.0.path()).args(arguments.split_whitespace()).output().unwrap();
@@ -122,7 +122,8 @@ impl Table {
 }
 
 /// The commands that a help lists.
-/// Continuation lines are skipped because they are indented further, and arguments because they begin with a sign.
+/// Continuation lines are skipped because they are indented further than commands.
+/// Arguments are skipped because they begin with a sign.
 pub fn listed(help: &str) -> impl Iterator<Item = &str> {
     let above = help.split("\nOptions:").next().unwrap_or_default().lines();
     above

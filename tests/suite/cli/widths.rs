@@ -1,4 +1,4 @@
-//! Every command on every shipped file at 80 columns: no line is wider.
+//! Every command on every shipped file at 80 columns: no line is wider than 80 columns.
 
 use std::fs;
 use std::thread;
@@ -11,7 +11,7 @@ use super::tools::{Place, listed};
 const COLUMNS: usize = 80;
 
 /// Runs a command at 80 columns and checks the width of both streams.
-/// Lines that a message quotes from a file are not broken, so they may be wider.
+/// Lines that a message quotes from a file are not broken, so these lines may be wider.
 fn assert_fits(place: &Place, arguments: &str) {
     let mut command = Command::cargo_bin("linkproof").unwrap();
     let command = command.current_dir(place.path("")).env("COLUMNS", "80").args(arguments.split_whitespace());

@@ -44,7 +44,7 @@ pub fn damaged(seed: u64, index: u64) -> Damaged {
         }
         _ => SHIPPED[random.index(SHIPPED.len())].clone(),
     };
-    // Published numbers are long and would get most of the damage, so half of the files lose them.
+    // Published numbers are long and would get most of the damage, so they are removed from half of the files.
     if random.yes()
         && let Some(end) = text.find("[[oracle]]")
     {
@@ -142,7 +142,7 @@ fn damage(random: &mut RandomSource, text: &mut String) -> String {
             let all = texts(text);
             let Some(at) = one(random, all.clone()) else { return "nothing".into() };
             let old = text[at.clone()].to_string();
-            // Replacing a name by another name of the file separates links, or joins links that should be separate.
+            // Replacing a name by a second name of the file separates links, or joins links that should be separate.
             let new = match random.index(2) {
                 0 => text[all[random.index(all.len())].clone()].to_string(),
                 _ => TEXTS[random.index(TEXTS.len())].to_string(),
@@ -179,7 +179,7 @@ fn damage(random: &mut RandomSource, text: &mut String) -> String {
             format!("{old} -> {new}")
         }
         12 => {
-            // Moves a section heading, so that a section ends too early or runs into the next.
+            // Moves a section heading, so that a section ends too early or runs into the following section.
             let heads: Vec<usize> =
                 text.lines().enumerate().filter(|(_, line)| line.starts_with('[')).map(|l| l.0).collect();
             let Some(line) = (!heads.is_empty()).then(|| heads[random.index(heads.len())]) else {

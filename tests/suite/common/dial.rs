@@ -22,7 +22,7 @@ macro_rules! assert_within {
 }
 pub(crate) use assert_within;
 
-/// The factor: 1 unless the environment states another.
+/// The factor: 1 unless the environment states a different factor.
 fn scale() -> f64 {
     static SCALE: LazyLock<f64> = LazyLock::new(|| match std::env::var("LINKPROOF_TOLERANCE_SCALE") {
         Ok(text) => {

@@ -1,7 +1,7 @@
-//! Properties that must hold for any input, however bad.
+//! Properties that every input must satisfy, however bad the input is.
 //! The property tests and the fuzz targets in `fuzz/` share the same bodies.
 //!
-//! Each body panics if a property does not hold.
+//! Each body panics if a property is violated.
 //! Termination and memory are monitored from outside.
 
 use std::io::Cursor;
@@ -72,7 +72,8 @@ pub fn formula(text: &str) {
     }
 }
 
-/// Any links and joints: either their structure is refused, or its driving links and groups fulfil their definitions.
+/// Any links and joints: either their structure is refused, or the structure's driving links and groups fulfil their
+/// definitions.
 pub fn structure(bytes: &[u8]) -> Result<()> {
     let mut from = Unstructured::new(bytes);
     let Ok((mechanism, drives)) = mechanism(&mut from)? else { return Ok(()) };
@@ -141,7 +142,7 @@ fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<DrawnJoint, 
                 Ok(JointSide { link, local: links[link].points[usize::from(from.arbitrary::<bool>()?)].local })
             };
             // Links with close numbers are joined more often than links with distant numbers.
-            // Otherwise hardly any structure decomposes into groups.
+            // Without this preference, hardly any structure decomposes into groups.
             let first = from.int_in_range(0..=moving)?;
             let second = match from.arbitrary()? {
                 true => (first + from.int_in_range(0..=3usize)?) % (moving + 1),
@@ -169,8 +170,8 @@ fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<DrawnJoint, 
 }
 
 /// The bytes of a recording: they are refused, or every side is a trajectory.
-/// If the first byte is even, the rest is the file.
-/// If it is odd, the rest determines topics and messages of a complete file.
+/// If the first byte is even, the remaining bytes are the file.
+/// If the first byte is odd, the remaining bytes determine topics and messages of a complete file.
 pub fn recording(bytes: &[u8]) -> Result<()> {
     let Some((first, rest)) = bytes.split_first() else { return Ok(()) };
     let file = match first % 2 {
@@ -194,7 +195,7 @@ pub fn recording(bytes: &[u8]) -> Result<()> {
     Ok(())
 }
 
-/// A file with topics, descriptors and messages of any kind, most of them nearly right.
+/// A file with topics, descriptors and messages of any kind; most of these parts are nearly right.
 fn drawn_file(from: &mut Unstructured) -> Result<Vec<u8>> {
     let options = mcap::WriteOptions::new().compression(None).chunk_size(None);
     let mut file = options.create(Cursor::new(Vec::new())).expect("memory can be written");

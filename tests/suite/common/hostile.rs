@@ -57,7 +57,7 @@ pub struct Attack {
     pub files: Vec<(String, Vec<u8>)>,
     pub arguments: Vec<String>,
     pub standard_input: Vec<u8>,
-    /// Files that the command may replace, because the program made them or the arguments name them.
+    /// Files that the command may replace, because the program made these files or the arguments name them.
     pub may: Vec<String>,
 }
 

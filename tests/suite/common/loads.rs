@@ -89,7 +89,7 @@ pub fn loads(random: &mut RandomSource, case: &Case, count: usize, sizes: Sizes)
     text
 }
 
-/// A load table over two turns of the crank, with values up to `size`.
+/// A load table over two revolutions of the crank, with values up to `size`.
 fn table(random: &mut RandomSource, names: &[&str], size: f64) -> String {
     let row = |random: &mut RandomSource, k: usize| {
         let mut row = format!("crank_deg = {:?}", -400.0 + 110.0 * k as f64 + random.number(0.0, 100.0));

@@ -1,5 +1,5 @@
 //! Parquet files that announce more than they contain.
-//! No writer produces them, so they are assembled byte by byte.
+//! No writer produces such files, so they are assembled byte by byte.
 
 /// A file with one column `a` of 64-bit integers: its announced sizes, and the bytes of its pages.
 #[derive(Clone)]
@@ -56,7 +56,7 @@ impl Announced {
 
     /// A valid file of `rows` equal numbers in a few bytes: a dictionary with one value, and one run of that value.
     pub fn run(rows: i64) -> Self {
-        // Bit width zero, then the header of a run: twice its length.
+        // The body is the bit width zero, then the header of a run, which is twice the length of the run.
         let body = [vec![0], varint((rows as u64) << 1)].concat();
         let length = body.len() as i64;
         Announced {

@@ -53,8 +53,8 @@ fn along(first: f64, second: f64) -> JointKind {
     JointKind::Prismatic { axes: [unit(first), unit(second)] }
 }
 
-/// The same case with the two links of each joint named in the other order.
-/// The mode of an RPR dyad states which link of the pair is ahead, so it changes too.
+/// The same case with the two links of each joint named in the reverse order.
+/// The mode of an RPR dyad states which link of the pair is ahead, so the mode changes too.
 pub fn swapped(case: &Case) -> Case {
     let swap = |joint: &Joint| {
         let kind = match joint.kind {

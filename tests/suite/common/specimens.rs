@@ -45,7 +45,8 @@ impl Specimen {
 /// `dropped` counts the rejected candidates, by reason.
 pub fn specimen(seed: u64, index: u64, dropped: &mut BTreeMap<String, usize>) -> Specimen {
     let mut random = RandomSource::of_sample(seed, index);
-    // The kind of motion is chosen before the rejections, because free candidates are rejected more often than others.
+    // The kind of motion is chosen before the rejections, because free candidates are rejected more often than
+    // prescribed ones.
     let is_free = random.number(0.0, 1.0) < 0.4;
     loop {
         match drawn(&mut random, index, is_free) {
@@ -73,7 +74,7 @@ fn drawn(random: &mut RandomSource, index: u64, is_free: bool) -> Result<Specime
     let mut speed = TAU / 60.0 * random.decades(0.1, 3000.0);
     let swing = (spec.gravity.norm() / (0.3 * size)).sqrt();
     if is_free {
-        // At a lower speed, a free motion would hardly differ from one that starts at rest.
+        // At a lower speed, a free motion would hardly differ from a motion that starts at rest.
         speed = if falls { swing } else { speed.larger(0.5 * swing) };
     }
     spec.speed = if random.yes() { speed } else { -speed };
@@ -83,7 +84,7 @@ fn drawn(random: &mut RandomSource, index: u64, is_free: bool) -> Result<Specime
         spec.grid.1 *= -1.0;
     }
     let (force, moment) = natural(&spec)?;
-    // Half of the free mechanisms have a flywheel; without it, the links whirl a light crank around.
+    // Half of the free mechanisms have a flywheel; without a flywheel, the links whirl a light crank around.
     if let Some((_, _, inertia)) = spec.links[0].mass.as_mut()
         && is_free
         && random.yes()
@@ -141,7 +142,7 @@ fn each(spec: &Spec, mut visit: impl FnMut(&Case, &State)) -> Result<(), String>
 
 /// Size of the reactions (N) and of the balancing moment (N m) from inertia and weight.
 /// The function takes the largest reaction and the moment at each instant, and returns their medians over the motion.
-/// Medians are used because both grow towards the ends of a limited range.
+/// Medians are used because reactions and moment grow towards the ends of a limited range.
 fn natural(spec: &Spec) -> Result<(f64, f64), String> {
     let (mut forces, mut moments) = (Vec::new(), Vec::new());
     each(spec, |_, state| {
@@ -156,7 +157,7 @@ fn natural(spec: &Spec) -> Result<(f64, f64), String> {
 }
 
 /// Checks that springs and dampers always stay longer than `least` (m).
-/// Where their end points coincide, their direction is undefined.
+/// Where the end points of a spring or damper coincide, its direction is undefined.
 fn apart(spec: &Spec, least: f64) -> Result<(), String> {
     let mut shortest = f64::MAX;
     each(spec, |case, state| {

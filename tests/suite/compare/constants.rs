@@ -1,5 +1,5 @@
 //! Constant columns.
-//! If the file prints zeros in short form, they are exact; otherwise their number of digits is unknown.
+//! If the file prints zeros in short form, the zeros are exact; otherwise their number of digits is unknown.
 
 use super::digits::Format;
 use super::{scenario, solved};
@@ -32,7 +32,7 @@ fn words(name: &str, columns: &[(&str, Format, Option<f64>)]) -> Vec<&'static st
 const NINE: Format = Format::General(9);
 
 /// Constant columns: a joint without a guide, links that only translate, a constant speed.
-/// They are printed as `0`, as `0.0` by Python, and as `30`.
+/// The constant values are printed as `0`, as `0.0` by Python, and as `30`.
 #[test]
 fn structural_constants_agree_in_every_format() {
     for (format, constant) in [(NINE, NINE), (Format::Shortest, Format::Shortest), (Format::Fixed(6), Format::Fixed(0))]
@@ -55,8 +55,8 @@ fn structural_constants_agree_in_every_format() {
     }
 }
 
-/// If all columns have nine digits, a force printed as `0` is an exact zero, so it was forgotten.
-/// If columns are rounded to whole numbers, it may be any force below 0.5.
+/// If all columns have nine digits, a force printed as `0` is an exact zero, so the force was forgotten.
+/// If columns are rounded to whole numbers, the force may have any value below 0.5.
 #[test]
 fn wrong_constants_disagree_only_where_they_are_exact() {
     let of = |format, constant| {
@@ -72,6 +72,6 @@ fn wrong_constants_disagree_only_where_they_are_exact() {
     };
     assert_eq!(of(NINE, NINE), ["agree", "agree", "disagree", "disagree"]);
     assert_eq!(of(Format::Shortest, Format::Shortest), ["agree", "agree", "disagree", "disagree"]);
-    // The other columns have nine decimals, the constant ones have none.
+    // The columns that vary have nine decimals, the constant columns have none.
     assert_eq!(of(Format::Fixed(9), Format::Fixed(0))[..3], ["agree", "agree", "inconclusive"]);
 }

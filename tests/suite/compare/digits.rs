@@ -1,5 +1,5 @@
 //! Correct tables as programs print them: each column with different digits, times rounded.
-//! All are accepted, and an error of a few units of the last digit is found.
+//! All correct tables are accepted, and an error of a few units of the last digit is found.
 
 use std::fmt::Write;
 
@@ -166,7 +166,7 @@ fn correct_tables_are_never_refused_for_any_digits() {
         }
     }
     println!("{tables} tables, {agreed} of {channels} columns agree");
-    // Times in whole milliseconds leave many columns undecided; other formats leave hardly any.
+    // Times in whole milliseconds leave many columns undecided; hardly any column is undecided with finer times.
     assert!(agreed * 10 >= channels * 8, "{agreed} of {channels}");
 }
 
@@ -224,7 +224,7 @@ fn rounded_instants_excuse_only_the_change_within_them() {
                 let row = (37 * (index + 1)) % speed.len();
                 let half = 0.5 * times.0.unit(times.1 * printed.at[row]) / times.1;
                 // The error is three units of the last digit plus twice the change within the rounding of the instant.
-                // One such change may be legitimate.
+                // The correct number may differ by one such change.
                 printed.columns[index].2[row] += 3e-9 + 2.0 * speed[row].abs() * half + 1e3 * half * half;
                 wrong.push(row);
             }

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use crate::cli::tools::Place;
 use crate::common::parquet::{Announced, GZIP};
 
-/// Directory of files written by other versions and other programs.
+/// Directory of files written by earlier versions and by foreign programs.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/suite/compare");
 
 fn place() -> Place {
@@ -162,7 +162,7 @@ fn compare_reports_invalid_input() {
     place.refused("compare scenarios/crank_rocker_runup.toml some.csv --map t=crank_rad --map phi3=link.rocker.angle_rad --by crank", &["free"]);
 }
 
-/// Tables as other programs print them: nine digits throughout, or times with fifteen digits and numbers with nine.
+/// Tables as foreign programs print them: nine digits throughout, or times with fifteen digits and numbers with nine.
 #[test]
 fn rounded_instants_and_the_digits_of_each_column_are_in_the_bound() {
     let place = place();
@@ -190,7 +190,7 @@ fn nan_does_not_agree_and_missing_cells_are_counted() {
         assert!(told.starts_with("AGREE: all 15 channels agree at 41 times, 45 of 615 values"), "{marker}: {told}");
         assert!(told.contains("left out: up to 38 instants"), "{marker}: {told}");
     }
-    // A row is used only if every column of the mapping has a number in it.
+    // A row is used only if every column of the mapping has a number in this row.
     fs::write(place.path("some.csv"), "t_s,a,b\n0,0,\n0.01,1,60\n").unwrap();
     let line = "compare scenarios/crank_rocker.toml some.csv --map ln(a-2)+b=link.rocker.angle_deg --rel 100";
     place.refused(line, &["line 3 of the table", "ln(-1) is undefined"]);
@@ -260,7 +260,7 @@ fn compressed_parquet_files_are_read_or_refused_by_name() {
 }
 
 /// A pipe delivers every byte only once.
-/// The first four bytes show whether the table is Parquet.
+/// The program therefore reads the first four bytes to see whether the table is Parquet, and keeps them.
 #[test]
 fn a_table_comes_through_a_pipe_with_all_its_bytes() {
     let place = place();

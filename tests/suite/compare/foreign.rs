@@ -1,4 +1,4 @@
-//! Real output of other programs in `examples/foreign`: correct tables agree, and faults in wrong tables are found.
+//! Real output of foreign programs in `examples/foreign`: correct tables agree, and faults in wrong tables are found.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -53,9 +53,9 @@ fn three_programs_agree_within_their_tolerances() {
         let found = compared(map, table, &[]);
         let channels = &found.pairs[0].channels;
         assert_eq!(found.verdict.word(), "agree", "{map}: {:?}", found.verdict);
-        // In each table, some error must come near its tolerance, otherwise the test would prove nothing.
+        // In each table, some error must come near its tolerance, because otherwise the test would prove nothing.
         // The errors of closed formulas are only about the rounding error of their digits, so a smaller ratio is enough
-        // there.
+        // for tables of closed formulas.
         let near = if map.starts_with("pylinkage") { 0.01 } else { 0.3 };
         assert!(channels.iter().any(|own| own.worst.unwrap().used() > near), "{map}");
         let mapping = Mapping::load(&path(&format!("{map}.map.toml"))).unwrap();

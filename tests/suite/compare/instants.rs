@@ -1,6 +1,6 @@
 //! Columns of instants as they occur in practice.
-//! They may be in another order, repeated, in other units, concatenated, or under other names.
-//! Each is judged correctly, or refused with its location.
+//! The instants may be in a different order, repeated, in different units, concatenated, or under different names.
+//! Each column is judged correctly, or refused with its location.
 
 use std::fmt::Write;
 use std::fs;
@@ -71,7 +71,7 @@ fn instant_columns_are_recognised_by_name_and_unit() {
     for name in ["Crank [deg]", "crank angle (deg)"] {
         assert_eq!(compared(&place, &text(name, &rows(|at| 360.0 * at / TURN))).0, 0, "{name}");
     }
-    // Unsupported units of an instant, and names that may denote another quantity.
+    // Unsupported units of an instant, and names that may denote a quantity other than time.
     for name in ["t [min]", "T", "temperature [s]"] {
         let (code, told) = compared(&place, &text(name, &rows(|at| at)));
         assert!(
@@ -79,7 +79,7 @@ fn instant_columns_are_recognised_by_name_and_unit() {
             "{name}: {told}"
         );
     }
-    // If a table also has a column with the exact name `time_s`, this column is used.
+    // If a table also has a column with the exact name `time_s`, the program uses the column `time_s`.
     let both: Vec<Row> =
         rows(|at| at).into_iter().map(|(at, angle, omega)| (format!("{at},7"), angle, omega)).collect();
     assert_eq!(compared(&place, &text("time_s,Time [ms]", &both)).0, 0);
@@ -90,12 +90,12 @@ fn instants_in_another_unit_disagree_and_the_unit_is_named() {
     let place = Place::new();
     let (code, told) = compared(&place, &text("t_s", &rows(|at| 1e3 * at)));
     assert!(code == 1 && told.contains("milliseconds taken for seconds"), "{told}");
-    // Motion cannot be solved at instants this far away.
+    // The motion cannot be solved at instants as far away as those of this table.
     let (code, told) = compared(&place, &text("t_s", &rows(|at| 1e9 * at)));
     assert!(code == 2 && told.contains("check the unit of the instants"), "{told}");
 }
 
-/// Rows of the same instant with different numbers are reported, and no other cause is invented.
+/// Rows of the same instant with different numbers are reported, and no cause is invented.
 #[test]
 fn contradictory_rows_of_one_instant_are_reported() {
     let place = Place::new();
@@ -133,7 +133,7 @@ fn rows_without_an_instant_are_refused_with_their_line() {
 }
 
 /// A motion law has an end, and a free motion has a beginning.
-/// Instants outside are refused, but the last may be outside by its rounding error.
+/// Instants outside this range are refused, but the last instant may be outside by its rounding error.
 #[test]
 fn instants_beyond_a_law_are_refused_except_for_rounding() {
     let place = Place::new();

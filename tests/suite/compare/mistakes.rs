@@ -14,7 +14,8 @@ type Mistake = (&'static str, fn(&mut Columns), &'static [&'static str]);
 
 struct Columns {
     time: Vec<f64>,
-    /// Angle, angular velocity and angular acceleration of a link, motion of its mass centre, and the driving moment.
+    /// Angle, angular velocity and angular acceleration of a link, motion of the link's mass centre, and the driving
+    /// moment.
     all: Vec<(String, Vec<f64>)>,
     /// Angle of another link.
     other: Vec<f64>,
@@ -116,7 +117,7 @@ fn words(found: &PartyComparison) -> Vec<String> {
 }
 
 /// All planted mistakes are found.
-/// Wrongly named ones are counted, and printed with --nocapture.
+/// Wrongly named mistakes are counted, and printed with --nocapture.
 #[test]
 fn every_planted_mistake_is_found_and_most_are_named() {
     let (mut named, mut all) = (0, 0);
@@ -149,7 +150,7 @@ fn every_planted_mistake_is_found_and_most_are_named() {
 }
 
 /// If a term of a quantity is missing, no change of the mechanism explains the difference.
-/// Least squares finds such terms from the other quantities of the table.
+/// Least squares finds such a term from the remaining quantities of the table.
 #[test]
 fn a_missing_term_is_named() {
     let scenario = scenario("crank_rocker");
@@ -196,7 +197,7 @@ fn a_mistake_is_named_in_inexact_numbers() {
 }
 
 /// The error of a numerical method is not a mistake.
-/// The report says so, and the table agrees within the allowed difference.
+/// The report states that the error is numerical, and the table agrees within the allowed difference.
 #[test]
 fn a_small_error_without_a_simple_cause_gets_no_cause() {
     let scenario = scenario("crank_rocker");

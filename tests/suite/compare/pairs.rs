@@ -65,7 +65,7 @@ fn a_wrong_mapping_is_refused_with_its_position() {
     assert!(format!("{:?}", error.advice()).contains("link.rocker.angle_rad"), "{:?}", error.advice());
 }
 
-/// Numbers with few digits agree within half a unit of the last digit; the same holds for times.
+/// Numbers with few digits agree within half a unit of the last digit; times also agree within half a unit.
 #[test]
 fn digits_of_numbers_and_of_instants_are_in_the_bound() {
     let scenario = scenario("crank_rocker");
@@ -119,8 +119,8 @@ fn two_tables_need_an_allowance() {
     assert_eq!([verdict(1e-6, &rel(1e-5)), verdict(1e-4, &rel(1e-5))], ["agree", "disagree"]);
 }
 
-/// Every third instant is enough to interpolate the others.
-/// The bound contains the interpolation error, and is not much larger.
+/// Every third instant is enough to interpolate the remaining instants.
+/// The bound contains the interpolation error, and is not much larger than this error.
 #[test]
 fn the_interpolation_error_is_in_the_bound() {
     let right = solved(&scenario("crank_rocker"));
@@ -179,7 +179,7 @@ fn uncertain_instants_of_both_tables_widen_the_bound() {
     }
 }
 
-/// The verdict on a number does not depend on the other columns.
+/// The verdict on a number does not depend on the columns of other numbers.
 #[test]
 fn a_number_is_judged_by_its_own_channel_alone() {
     let scenario = scenario("fourth_class");
@@ -204,8 +204,8 @@ fn a_number_is_judged_by_its_own_channel_alone() {
     }
 }
 
-/// If a channel consists of rounding error, its uncertainty comes from the other channels, even if the table lacks
-/// them.
+/// If a channel consists of rounding error, its uncertainty comes from the remaining channels of the solution, even if
+/// the table lacks these channels.
 #[test]
 fn a_zero_of_rounding_size_agrees_with_and_without_others() {
     let scenario = scenario("compressor");

@@ -40,7 +40,7 @@ const CRANK_ROCKER: &[Fault] = &[
     ("crank_rocker", "mass_kg = 34.7", "mass_kg = 34.8", "mass of coupler: 34.8 kg"),
 ];
 
-/// Faults of every kind in other scenarios, prescribed and free.
+/// Faults of every kind, in prescribed and in free motions.
 const OTHERS: &[Fault] = &[
     ("crank_rocker", "y_m_s2 = -9.81", "y_m_s2 = 9.81", "gravity: of the opposite sign"),
     ("crank_rocker", "x_m_s2 = 0\ny_m_s2 = -9.81", "x_m_s2 = -9.81\ny_m_s2 = 0", "gravity: x and y exchanged"),
@@ -103,8 +103,8 @@ const OTHERS: &[Fault] = &[
     ("five_bar_on_a_spring", "stiffness_N_m_rad = 4", "stiffness_N_m_rad = 0", "load 1, torsion spring: missing"),
 ];
 
-/// This fault costs more than all others.
-/// The same kind of fault is tested here in a prescribed motion, and in `cases.rs` in this scenario.
+/// This fault costs more than all remaining faults, so it is tested only at night.
+/// An ordinary run tests the same kind of fault in a prescribed motion, and in `cases.rs` in this scenario.
 const BY_NIGHT: &[Fault] =
     &[("five_bar_on_a_spring", "mode = \"left\"", "mode = \"right\"", "another configuration of rod_1, rod_2: right")];
 

@@ -7,7 +7,7 @@ use assert_cmd::Command;
 
 use super::{draw, texts};
 
-/// A four-bar template with these replacements.
+/// A four-bar template with the given replacements.
 fn edited(directory: &Path, edits: &[(&str, &str)]) -> String {
     let path = directory.join("own.toml");
     let path = path.to_str().unwrap();
@@ -21,7 +21,7 @@ fn edited(directory: &Path, edits: &[(&str, &str)]) -> String {
     path.into()
 }
 
-/// The picture of such a file, and the text on standard error.
+/// The picture of an edited file, and the text on standard error.
 fn drawn(edits: &[(&str, &str)], arguments: &[&str]) -> (String, String) {
     let directory = tempfile::tempdir().unwrap();
     let file = edited(directory.path(), edits);
@@ -44,8 +44,8 @@ const DASHED: &str = "stroke-dasharray=\"2 1.4\"";
 const DRIVE: &str = "[drive]\njoint = \"O\"\nspeed_rpm = \"speed_rpm\"\n";
 const ALL: [&str; 8] = ["1", "2", "3", "A", "B", "C", "E", "O"];
 
-/// For each mistake: the words on standard error, the remaining labels, and whether the positions of all links are
-/// certain.
+/// For each mistake: the words on standard error, the labels that are still drawn, and whether the positions of all
+/// links are certain.
 #[test]
 fn readable_parts_are_drawn_and_every_mistake_reported() {
     let without = |names: &[&str]| -> Vec<&str> { ALL.into_iter().filter(|own| !names.contains(own)).collect() };

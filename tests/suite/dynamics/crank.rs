@@ -1,4 +1,4 @@
-//! A crank alone: all its motions have closed forms.
+//! A crank alone: all motions of the crank have closed forms.
 
 use crate::common::assert_within;
 use linkage::math::KeepNan;
@@ -15,7 +15,7 @@ use linkage::mechanism::LinkId;
 use scenario::Scenario;
 
 /// A bar of 2 kg and 0.05 kg m^2 about its mass centre, which is `centre` from the pivot.
-/// It starts in the direction `start` (deg).
+/// The bar starts in the direction `start` (deg).
 fn bar(centre: f64, start: f64, gravity: bool) -> Case {
     let field = if gravity { "[gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n" } else { "" };
     let text = format!(
@@ -107,10 +107,11 @@ fn the_averaged_model_needs_one_falling_straight_line() {
     let free = [&linear, &lossy].map(|motor| Averaged::of(motor, 0.5, 0.0).unwrap());
     free.iter().for_each(|free| assert_within!((free.steady_speed - 20.0).abs(), 1e-12, "{free:?}"));
     assert_within!((free[1].time_constant / free[0].time_constant - 1.0 / 0.9).abs(), 1e-14);
-    // If the resistance drives the crank, losses act in the other direction above 20 rad/s.
+    // If the resistance drives the crank, losses act in the opposite direction above 20 rad/s.
     assert_within!((Averaged::of(&linear, 0.5, -2.0).unwrap().steady_speed - 21.0).abs(), 1e-12);
     assert_eq!(Averaged::of(&lossy, 0.5, -2.0), None);
-    // No steady motion: a resistance above the starting moment, no mass, no slope, or a curved characteristic.
+    // The motion has no steady state in these cases: a resistance above the starting moment, no mass, no slope, or a
+    // curved characteristic.
     assert_eq!(Averaged::of(&linear, 0.5, 40.1), None);
     assert_eq!(Averaged::of(&linear, 0.0, 1.0), None);
     let bent = [
@@ -153,7 +154,7 @@ fn a_pendulum_swings_in_its_known_time() {
             let side = if half % 2 == 0 { 1.0 } else { -1.0 };
             let expected = (-90.0f64).to_radians() + side * degrees.to_radians();
             // At a reversal the angle is stationary in time, so this check proves the amplitude.
-            // The check of the quarter period below proves the period.
+            // The check of the angle after a quarter period proves the period.
             assert_within!((at.crank - expected).abs(), 1e-11, "{degrees} {half}: {at:?}");
         }
         let quarters: Vec<f64> = (0..10).map(|k| period * (f64::from(k) + 0.25)).collect();

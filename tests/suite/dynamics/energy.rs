@@ -22,7 +22,7 @@ fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> [f64; 2] {
 }
 
 /// Without motor and loads the energy is constant.
-/// It is checked over a hundred turns, at some thousand instants.
+/// The energy is checked over a hundred revolutions, at some thousand instants.
 #[test]
 fn conservative_mechanisms_keep_their_energy() {
     for (name, speed) in [("crank_rocker", 30.0), ("compressor", 40.0), ("six_bar_slider", 100.0), ("ov7_base", -97.0)]
@@ -30,7 +30,7 @@ fn conservative_mechanisms_keep_their_energy() {
         let case = shipped(&format!("{name}.toml")).case;
         let case = case.with(|parts| parts.loads.clear()).unwrap().with_motor(None).unwrap();
         let model = ReducedModel::of(&case).unwrap();
-        // Long enough for a hundred turns; the speed varies about its initial value.
+        // The times are long enough for a hundred revolutions; the speed varies about its initial value.
         let times: Vec<f64> = (0..=4000).map(|k| f64::from(k) * 0.1 * TAU / f64::abs(speed)).collect();
         let (mut found, end) = motion(&model, speed, &times, 3e-15).unwrap();
         assert_eq!(end, RunUpEnd::Reached, "{name}");
@@ -79,7 +79,7 @@ fn a_resistance_dissipates_exactly_its_work() {
         let turned: Vec<f64> = kinks.into_iter().filter(|_| crosses(&model, previous.crank, at.crank)).collect();
         way += match turned.first() {
             None => (now - last).abs(),
-            // Between these two instants, the rocker passes the extreme position near them and returns.
+            // Between these two instants, the rocker passes its nearest extreme position and returns.
             Some(_) => {
                 let extreme = kinks.into_iter().min_by(|a, b| (a - now).abs().total_cmp(&(b - now).abs())).unwrap();
                 (extreme - last).abs() + (extreme - now).abs()

@@ -10,7 +10,7 @@ use linkage::drive::{Load, Motor, MotorLaw};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::LinkId;
 
-/// From half a millisecond to half a second: the run-up of the published problem.
+/// Times from half a millisecond to half a second: the run-up of the published problem.
 fn times() -> Vec<f64> {
     (0..=500).map(|k| f64::from(k) * 1e-3).collect()
 }
@@ -21,7 +21,7 @@ fn val_crank_rocker_reduced_means_and_maximum() {
     for solver in analytic::all() {
         let means = means::means_over_turn(&case, solver).unwrap();
         assert_within!((means.inertia - 0.164_846_013).abs(), 5.1e-10, "{}: {}", solver.name(), means.inertia);
-        // Over a turn, gravity does no work, and the rocker travels its swing of 32 deg twice.
+        // Over a revolution, gravity does no work, and the rocker travels its swing of 32 deg twice.
         let closed = 100.0 * 2.0 * 32.0 / 360.0;
         assert_within!((means.resistance - closed).abs(), 1e-11, "{}: {:e}", solver.name(), means.resistance - closed);
     }
@@ -41,7 +41,7 @@ fn val_crank_rocker_reduced_means_and_maximum() {
 }
 
 /// The authors' means are sums over 361 values, so both 0 deg and 360 deg are counted.
-/// Their sum for the reduced inertia omits the crank's inertia.
+/// The authors' sum for the reduced inertia omits the crank's inertia.
 #[test]
 fn val_crank_rocker_printed_means_count_one_position_twice() {
     let case = shipped("crank_rocker.toml").case;
@@ -98,7 +98,7 @@ fn the_run_up_in_time_ends_in_the_steady_motion() {
     let model = ReducedModel::of(&case).unwrap();
     let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
     assert_eq!((found.len(), end), (501, RunUpEnd::Reached));
-    // Deviations from the steady motion decay within a tenth of a revolution, so it is reached at 0.1 s.
+    // Deviations from the steady motion decay within a tenth of a revolution, so the steady motion is reached at 0.1 s.
     let late: Vec<_> = found.iter().filter(|at| at.t >= 0.1 && at.crank < TAU).collect();
     assert!(late.len() > 300);
     let cranks: Vec<f64> = late.iter().map(|at| at.crank).collect();
@@ -113,8 +113,8 @@ fn the_run_up_in_time_ends_in_the_steady_motion() {
     assert_within!((found[1].crank - found[0].crank - TAU).abs(), 1e-11, "{:e}", found[1].crank - found[0].crank - TAU);
 }
 
-/// Compares the default accuracy with one a hundred times tighter, and with a grid ten times finer, so that all steps
-/// differ.
+/// Compares the default accuracy with an accuracy a hundred times tighter, and with a grid ten times finer, so that all
+/// steps differ.
 #[test]
 fn run_up_is_exact_to_1e_10() {
     let case = shipped("crank_rocker.toml").case;
@@ -144,8 +144,8 @@ fn slope_of_the_inertia_is_its_derivative() {
             let crank = start + case.crank().sense() * f64::from(k) * 0.2;
             let rows = model.rows(&[crank - step, crank, crank + step]).unwrap();
             let slope = (rows[2].inertia - rows[0].inertia) / (2.0 * step);
-            // Error of central differences: the third derivative (some hundred times the inertia) times 1e-10 / 6, plus
-            // rounding error divided by 2e-5.
+            // The bound is the error of central differences: the third derivative (some hundred times the inertia)
+            // times 1e-10 / 6, plus rounding error divided by 2e-5.
             assert_within!(
                 (slope - rows[1].slope).abs(),
                 1e-6 * rows[1].inertia.larger(1e-9),

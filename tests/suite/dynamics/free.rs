@@ -92,7 +92,7 @@ fn the_double_pendulum_obeys_lagranges_equations() {
     let rates = |[a, b, u, v]: [f64; 4]| {
         let (c, s) = ((a - b).cos(), (a - b).sin());
         // The first equation is (4/3) a'' + (1/2) cos(a - b) b'' = -(1/2) sin(a - b) b'^2 - (3/2) (g / l) sin a.
-        // The second equation has the same form; both are divided by m l^2.
+        // The second equation has the same form; both equations are divided by m l^2.
         let (p, q, r) = (4.0 / 3.0, 0.5 * c, 1.0 / 3.0);
         let first = -0.5 * s * v * v - 1.5 * g / l * a.sin();
         let second = 0.5 * s * u * u - 0.5 * g / l * b.sin();
@@ -143,7 +143,7 @@ pub(super) fn energies(case: &Case, found: &Trajectory) -> Vec<f64> {
 }
 
 /// Both sides over ten seconds of a motion that becomes chaotic.
-/// The two paths may separate, but the energy of each must stay constant.
+/// The solutions of the two sides may separate, but the energy of each solution must stay constant.
 #[test]
 fn several_degrees_of_freedom_conserve_energy() {
     let case = shipped("double_pendulum.toml").case;
@@ -176,7 +176,7 @@ fn twin_run_ups_are_of_order_one_and_extrapolate_accurately() {
     let begun = scenario.case.on(Grid::of_times(scenario.case.crank(), begun)).unwrap();
     let angle = |channel: &Channel| channel.kind.unit == Unit::Radian;
     let force = |channel: &Channel| channel.kind.stage >= Stage::Reactions;
-    // The impulse build needs thousands of sweeps, so it runs only a fifth of the time.
+    // The impulse build needs thousands of sweeps, so it simulates only a fifth of the time.
     for (name, route, case) in [
         ("rapier", Route::Differences, &scenario.case),
         ("rapier", Route::Native, &scenario.case),
@@ -226,15 +226,15 @@ fn the_twin_keeps_the_velocities_that_moved_it() {
     assert_within!(worst, 3e-5, "{worst:e}");
 }
 
-/// Without rotor and flywheel, the crank is almost massless at one angle, and the motion there is so fast that it lasts
-/// about one step.
+/// Without rotor and flywheel, the crank is almost massless at one angle.
+/// The motion at this angle is so fast that it lasts about one step.
 /// The proof must be inconclusive; a disagreement would be wrong.
 #[test]
 fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     let mut scenario = shipped("crank_rocker_runup.toml");
     let motor = Motor { inertia: Default::default(), ..scenario.case.crank().motor().unwrap().clone() };
     scenario.case = scenario.case.with_motor(Some(motor)).unwrap();
-    // The published numbers hold for a different motor.
+    // The published numbers are valid for a different motor, so they are removed.
     scenario.oracles.clear();
     let proof = prove(&scenario, &Options::default().engine(EngineName::Rapier).step(1e-4)).unwrap();
     assert!(matches!(proof.verdict, Verdict::Inconclusive { .. }), "{:?}", proof.verdict);
@@ -248,7 +248,7 @@ fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     assert!(proof.engine().channels.iter().all(|channel| channel.verdict.word() != "disagree"));
 }
 
-/// A crank released with an initial speed: in both builds all links start with velocities that match it.
+/// A crank released with an initial speed: in both builds all links start with velocities that match this speed.
 #[test]
 fn the_twin_starts_at_a_given_speed() {
     let mut scenario = shipped("crank_rocker_runup.toml");
@@ -262,7 +262,7 @@ fn the_twin_starts_at_a_given_speed() {
     assert_within!((column(&reference, "link.crank.omega_rad_s")[0] - 9.0).abs(), 1e-14);
     // Measured: 8.5e-6 and 3.1e-4.
     // The separate bodies of the impulse build start with a gap in every joint.
-    // This gap causes a larger error than extrapolation removes.
+    // The gap causes an error that is larger than the error that extrapolation removes.
     for (name, bound) in [("rapier", 2e-5), ("impulse", 1e-3)] {
         let engine = twin(name, |settings| Settings { extrapolated: 1, ..settings });
         let found = worst(&reference, &solve(engine.as_ref(), &case), |_| true);
@@ -285,7 +285,8 @@ fn invalid_requests_to_a_free_motion_are_refused() {
         assert!(error.message().contains(words), "{}: {error}", solver.name());
         assert!(error.way_out().unwrap().contains("torque"), "{error}");
     }
-    // Two more refusals: an instant before the start of a free motion, and a link without inertia in some engines.
+    // Two more inputs are refused: an instant before the start of a free motion, and a link without inertia in some
+    // engines.
     let mut links = case.mechanism.links().to_vec();
     let coupler = case.mechanism.link_named("coupler").unwrap();
     links[coupler].inertia = 0.0;

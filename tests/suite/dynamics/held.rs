@@ -1,5 +1,5 @@
 //! Free motions that are solved, not refused.
-//! They have loads that depend on a direction of motion, higher groups, or load tables over whole revolutions.
+//! The motions have loads that depend on a direction of motion, higher groups, or load tables over whole revolutions.
 
 use analytic::range::Range;
 use analytic::{AssurSolver, NewtonSolver};
@@ -42,7 +42,7 @@ fn largest_change(values: &[f64]) -> f64 {
     values.iter().map(|value| (value - values[0]).abs()).fold(0.0, f64::larger)
 }
 
-/// A class III group on one crank with dampers; side 1 then cannot use the reduction to the crank.
+/// A class III group on one crank with dampers, so that side 1 cannot use the reduction to the crank.
 #[test]
 fn a_higher_group_moves_under_a_damper() {
     let case = shipped("ov7_new_runup.toml").case;
@@ -56,7 +56,7 @@ fn a_higher_group_moves_under_a_damper() {
     assert!(worst(&plain, &damped, |_| true) > 1e-3);
 }
 
-/// The class III group between two free cranks, with gravity as the only load: its energy is constant.
+/// The class III group between two free cranks, with gravity as the only load: the energy of the mechanism is constant.
 #[test]
 fn a_higher_group_moves_between_two_free_cranks() {
     let text = shipped("class3_group.toml").text;
@@ -189,7 +189,7 @@ fn resisting_forces_dissipate_force_times_path() {
     both("several", &loaded(&resisted, &more), 1e-10);
 }
 
-/// A sufficiently large resisting force stops its point, and both sides report this.
+/// A sufficiently large resisting force stops its point, and both sides report the stop.
 #[test]
 fn a_force_against_a_point_can_hold_it() {
     let case = shipped("double_pendulum.toml").case;
@@ -214,8 +214,8 @@ fn a_piston_starts_from_its_dead_centre_against_a_force() {
 }
 
 /// The rocker starts at the end of its swing, as the piston in the previous test starts at its dead centre.
-/// The resistance on the rocker cannot hold the crank there; it acts against the motion that the rocker is about to
-/// begin.
+/// The resistance on the rocker cannot hold the crank in this pose.
+/// The resistance acts against the motion that the rocker is about to begin.
 #[test]
 fn a_rocker_starts_from_its_dead_centre_against_a_moment() {
     let text = shipped("crank_rocker_runup.toml").text;

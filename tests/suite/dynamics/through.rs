@@ -72,7 +72,7 @@ fn chains_of_four_bars_swing_through_their_change_points() {
             let off = exact.iter().zip(angle).map(|([exact, _], angle)| (exact - angle).abs()).fold(0.0, f64::larger);
             println!("{pairs} {}: energy {:.1e} of its range, angle {off:.1e} rad", side.name(), drift / range);
             assert_within!(drift / range, 1e-9, "{pairs} {}: {drift}", side.name());
-            // The coordinates of ten pairs are ten times as large, and so is their rounding error.
+            // The coordinates of ten pairs are ten times as large as those of one pair, and so is their rounding error.
             assert_within!(off, 1e-9 * (pairs as f64), "{pairs} {}: {off}", side.name());
         }
         let apart = apart(&found, |_| true);
@@ -82,7 +82,7 @@ fn chains_of_four_bars_swing_through_their_change_points() {
 }
 
 /// Largest difference between the sides in the channels that `of` selects.
-/// It is divided by the largest value of the quantity, or by 1 in its unit if that is larger.
+/// The difference is divided by the largest value of the quantity, or by 1 in its unit if 1 is larger.
 fn apart(found: &[Trajectory; 2], of: impl Fn(&Channel) -> bool) -> f64 {
     let largest = |unit: Unit| {
         let own = found[0].iter().filter(move |(channel, _)| channel.kind.unit == unit);
@@ -97,8 +97,8 @@ fn apart(found: &[Trajectory; 2], of: impl Fn(&Channel) -> bool) -> f64 {
 }
 
 /// One parallelogram, computed by hand.
-/// The rod does not rotate, so each of its ends carries half of its weight and inertia.
-/// The other forces follow from the moments on a bar about its pivot.
+/// The rod does not rotate, so each end of the rod carries half of its weight and inertia.
+/// The remaining forces follow from the moments on a bar about its pivot.
 #[test]
 fn reactions_of_one_four_bar_match_the_hand_calculation() {
     let case = shipped("n_four_bar_1.toml").case;
@@ -129,9 +129,9 @@ fn reactions_of_one_four_bar_match_the_hand_calculation() {
     }
 }
 
-/// With two parallelograms, the bars contradict each other where they are level: reactions have a pole there, but the
-/// motion does not.
-/// The middle bar carries two half rods, each end bar carries one.
+/// With two parallelograms, the bars contradict each other in level poses: reactions have a pole there, but the motion
+/// does not.
+/// The middle bar carries two half rods, each end bar carries one half rod.
 #[test]
 fn reactions_may_have_a_pole_at_a_change_point() {
     let case = chain::four_bars(2, 1.0, 0.1);
@@ -186,7 +186,7 @@ fn drift(case: &Case, found: &Trajectory) -> f64 {
 }
 
 /// Mechanisms that no fault report names: kites, antiparallelograms, and lengths whose longest two sum to as much as
-/// the other two.
+/// the shortest two.
 /// The energy is constant, and the sides agree.
 #[test]
 fn other_change_point_mechanisms_pass_by_momentum() {
@@ -235,7 +235,7 @@ fn a_loaded_parallelogram_passes_its_change_points() {
     }
 }
 
-/// A motion that reverses next to a change point, before or behind it.
+/// A motion that reverses next to a change point, before or behind the change point.
 /// Near the change point, the equations of the pose are not used.
 #[test]
 fn motions_may_reverse_beside_a_change_point() {
@@ -257,7 +257,7 @@ fn motions_may_reverse_beside_a_change_point() {
 }
 
 /// A four-bar driven at constant speed, at crank angles in degrees.
-/// It passes change points if `through`.
+/// The four-bar passes change points if `through`.
 fn driven(lengths: [f64; 4], left: bool, start: f64, through: bool, cranks: &[f64]) -> Case {
     let mut spec = four_bar(lengths, left);
     spec.start = start.to_radians();
@@ -270,7 +270,7 @@ fn driven(lengths: [f64; 4], left: bool, start: f64, through: bool, cranks: &[f6
 }
 
 /// In a prescribed motion, the scenario states whether change points are passed.
-/// If it does not, they are errors.
+/// If the scenario does not state this, change points are errors.
 #[test]
 fn a_drive_passes_change_points_only_on_request() {
     let cranks: Vec<f64> = (0..200).map(|k| 61.3 + 5.7 * f64::from(k)).collect();
@@ -284,7 +284,7 @@ fn a_drive_passes_change_points_only_on_request() {
             assert_within!(off, 1e-8, "{lengths:?} {left}: {off}");
             for side in SIDES {
                 assert!(side.solve(&driven(lengths, left, 60.0, false, &cranks)).is_err(), "{}", side.name());
-                // The same angles in reverse, and a motion back and forth.
+                // The grid is tested with the same angles in reverse, and with a motion back and forth.
                 let back: Vec<f64> = cranks.iter().map(|crank| 120.0 - crank).collect();
                 let there = solve(side, &driven(lengths, left, 60.0, true, &back));
                 assert_eq!(there.times().len(), back.len());
@@ -298,7 +298,8 @@ fn a_drive_passes_change_points_only_on_request() {
     }
 }
 
-/// Velocities and accelerations are computed at the change point itself, but reactions with a pole there are not.
+/// Velocities and accelerations are computed at the change point itself, but reactions that have a pole at the change
+/// point are not.
 #[test]
 fn a_change_point_itself_has_velocities_and_accelerations() {
     let case = driven([0.3, 0.2, 0.2, 0.3], true, 90.0, true, &[179.0, 180.0, 181.0]);
@@ -310,7 +311,7 @@ fn a_change_point_itself_has_velocities_and_accelerations() {
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
         let found = solve(side, &case.wanting(wanted));
         // The expected limit is the mean over the neighbouring poses.
-        // The sides compute it from the branch equation, with the second derivatives of |AB|^2.
+        // The sides compute the limit from the branch equation, with the second derivatives of |AB|^2.
         let omega = column(&found, "link.rocker.omega_rad_s");
         assert_within!((omega[1] - 0.5 * (omega[0] + omega[2])).abs(), 1e-3, "{omega:?}");
     }
@@ -342,7 +343,8 @@ fn the_benchmark_agrees_with_rapier() {
 }
 
 /// A class III group that is singular where its two equal leads are level with the plate.
-/// It is tested alone, and behind a parallelogram whose change points are 4.8 deg away from the group's change point.
+/// The group is tested alone, and behind a parallelogram whose change points are 4.8 deg away from the group's change
+/// point.
 /// Around each change point, the solution uses a window of crank angles.
 /// Reactions have poles at the change points of the group and of the parallelogram.
 #[test]
@@ -362,8 +364,8 @@ fn higher_groups_pass_their_change_points() {
             let all = apart(&found, |_| true);
             println!("free {}: motion {motion:.1e}, all {all:.1e}", case.is_free());
             assert_within!(motion, smooth, "{motion}");
-            // With reactions, the bound is wider: near a pole, their relative error is the error of the crank angle
-            // divided by the distance to the pole.
+            // With reactions, the bound is wider: near a pole, the relative error of a reaction is the error of the
+            // crank angle divided by the distance to the pole.
             assert_within!(all, poles, "{all}");
             if case.is_free() {
                 for found in &found {
@@ -371,12 +373,12 @@ fn higher_groups_pass_their_change_points() {
                 }
             }
         }
-        // Without the key, the motion is refused.
+        // Without the key `through`, the motion is refused.
         let plain = driven.replace("through = \"smooth\"\n", "");
         let case = Scenario::parse(&plain, Path::new("through.toml")).unwrap_or_else(|error| panic!("{error}")).case;
         // The different steps put instants at different distances from the change point.
-        // Near it, the wrong branch, which keeps the sign of the determinant, is as close as the branch that continues
-        // the motion.
+        // The wrong branch keeps the sign of the determinant.
+        // Near the change point, the wrong branch is as close as the branch that continues the motion.
         for steps in [20.0f64, 30.0, 60.0, 37.0, 100.0, 200.0, 300.0, 731.0, 2000.0] {
             let times = (0..).map(|k| 0.6 * f64::from(k) / steps).take_while(|&t| t <= 0.6).collect();
             let case = case.on(Grid::of_times(case.crank(), times)).unwrap();
@@ -389,7 +391,7 @@ fn higher_groups_pass_their_change_points() {
 }
 
 /// With several driving links, singular poses are not isolated angles.
-/// Both sides refuse to pass them, in free motion too.
+/// Both sides refuse to pass singular poses, in free motion too.
 #[test]
 fn several_driving_links_do_not_pass_change_points() {
     let other = "[links.other]\nmass_kg = 1\ninertia_kg_m2 = 0.083\nmass_centre = { x_m = 0.5, y_m = 0 }\n\
@@ -437,7 +439,8 @@ fn parallel_cranks(through: &str, want: &str, step: f64) -> Case {
 }
 
 /// Symptom: if an instant of the grid was exactly at a change point, 16 of 51 numbers of the engine disagreed.
-/// Cause: the engine's equations have many solutions there, and its rates at this instant were judged.
+/// Cause: the engine's equations have many solutions at a change point, and the engine's rates at this instant were
+/// judged.
 #[test]
 fn regress_an_instant_exactly_at_a_change_point_is_passed() {
     let case = parallel_cranks(SMOOTH, MOTION, 10.0);
@@ -453,12 +456,13 @@ fn regress_an_instant_exactly_at_a_change_point_is_passed() {
     assert_ne!(proof.verdict.word(), "disagree", "{:?}", proof.verdict);
     let engine = &proof.engines[0];
     let of = |name: &str| engine.channels.iter().find(|own| own.residual.channel.to_string() == name).unwrap().left_out;
-    // Rates are left out only at these two instants; positions are judged everywhere.
+    // Rates are left out only at the two change points; positions are judged everywhere.
     assert_eq!([of("point.P.x_m"), of("point.P.vx_m_s"), of("point.P.ax_m_s2")], [0, 2, 2]);
 }
 
 /// Symptom: the error at a change point said "shorten the grid" or "change a length", but did not mention `through`.
-/// If a load does work on the other branch, reactions have a pole at that instant, and the error states this too.
+/// If a load does work on the branch that is not followed, reactions have a pole at the change point, and the error
+/// states this pole too.
 #[test]
 fn the_error_at_a_change_point_suggests_the_key_through() {
     for step in [10.0, 7.0] {

@@ -1,5 +1,5 @@
 //! Accuracy of Rapier's twin at a step of 0.08 deg of the crank.
-//! These are the figures of `docs/rapier.md`, with the numbers of sweeps given there.
+//! The tested figures are those of `docs/rapier.md`, with the numbers of sweeps given in that page.
 
 use analytic::AssurSolver;
 use linkage::case::{Case, Wanted};
@@ -16,7 +16,7 @@ use crate::common::by_night;
 use crate::common::{assert_within, shipped};
 use linkage::mechanism::JointId;
 
-/// Enough sweeps for all shipped mechanisms, because they have a flywheel (story 14).
+/// Number of sweeps that is enough for all shipped mechanisms, because they have a flywheel (story 14).
 const SWEEPS: usize = 256;
 
 fn whole(name: &str) -> Case {
@@ -59,7 +59,7 @@ fn regress_61_errors_of_every_route_are_as_measured() {
     }
 }
 
-/// The same quantity of every state of a solver, in the order of the grid.
+/// One quantity of every state of a solver, in the order of the grid.
 fn of_states(solver: &dyn Solver, case: &Case, of: impl Fn(&State) -> f64) -> Vec<f64> {
     let mut found = vec![f64::NAN; case.grid.len()];
     let mut visit = |row: usize, state: &State| {
@@ -159,7 +159,7 @@ fn regress_70_two_substeps_meet_all_accuracy_goals_at_once() {
     assert_within!(largest, 1e-7, "{largest:e}");
 }
 
-/// The value 1e-7 was printed for a crank of half the length, for which the same step leaves a smaller gap.
+/// The value 1e-7 was printed for a crank of half the length, for which the same step opens the loop less.
 #[test]
 fn regress_64_half_the_crank_leaves_gaps_below_1e_7() {
     let whole_crank = whole("crank_rocker");
@@ -179,7 +179,7 @@ fn regress_64_half_the_crank_leaves_gaps_below_1e_7() {
 
 /// Story 62.
 /// At a step of 0.08 deg of the crank, mechanisms of all classes, also with sliders, converge with order 2.
-/// This is tested for angles, and for reactions by centred differences.
+/// The test checks angles, and reactions by centred differences.
 /// With extrapolation, the errors of angles are below 1e-7, and those of reactions below 1e-5.
 #[test]
 fn regress_62_orders_and_extrapolation_of_all_classes() {
@@ -221,7 +221,7 @@ fn regress_63_extrapolation_raises_the_order_by_one() {
     for residual in residuals(&truth, &runs[1]).unwrap() {
         let kind = residual.channel.kind;
         let noise = engine.at(4.0 * engine.settings().resolution).noise(&case, kind);
-        // In accelerations the third-order term is so small that the next order dominates.
+        // In accelerations the third-order term is so small that the fourth-order term dominates, so they are skipped.
         if kind.stage == Stage::Accelerations || residual.rms <= 100.0 * noise {
             continue;
         }
@@ -238,7 +238,7 @@ fn regress_63_extrapolation_raises_the_order_by_one() {
 /// a tree is cut at the crank.
 /// Cause: too few sweeps for a light crank before a heavy coupler.
 /// Remedy: a flywheel on the crank, which has no effect at constant speed.
-/// With it, 32 sweeps must be as accurate as 1024.
+/// With the flywheel, 32 sweeps must be as accurate as 1024 sweeps.
 #[test]
 fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
     let case = whole("crank_rocker");
@@ -258,7 +258,7 @@ fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
 #[test]
 #[cfg(feature = "f32")]
 fn regress_60_single_precision_is_within_its_rounding_bound() {
-    // Parts of a turn at a few instants are enough: this tests rounding error, not convergence.
+    // Parts of a revolution at a few instants are enough, because the test concerns rounding error, not convergence.
     let parts = [
         ("crank_rocker", 0.0, 1.0),
         ("crank_rocker", 0.0, 0.25),
@@ -272,11 +272,12 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         let turn = std::f64::consts::TAU / base.crank().at(0.0).rate.abs();
         let times = (0..=45).map(|k| turn * (from + (to - from) * f64::from(k) / 45.0)).collect();
         let case = base.on(linkage::case::Grid::of_times(base.crank(), times)).unwrap();
-        // Rows of ill-conditioned loops have more weight in an impulse.
-        // The constants of the routes by impulses were found on the crank-rocker, so only it uses all routes.
+        // Rows of ill-conditioned loops have more weight in an impulse than rows of well-conditioned loops.
+        // The constants of the routes by impulses were found on the crank-rocker, so only the crank-rocker uses all
+        // routes.
         let routes: &[Route] = if name == "crank_rocker" { &Route::ALL } else { &[Route::Differences, Route::Native] };
         for (single, double) in [("rapier-f32", "rapier"), ("impulse-f32", "impulse")] {
-            // Short grids use small steps too; long grids do only with more draws.
+            // Short grids use small steps too; long grids use small steps only with more draws than in an ordinary run.
             let steps = if to - from < 0.5 || by_night() { &[1e-3, 2.5e-4][..] } else { &[1e-3] };
             for (&route, &step) in routes.iter().flat_map(|route| steps.iter().map(move |step| (route, step))) {
                 let engines = [double, single].map(|name| {
@@ -294,7 +295,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
                     *most = most.larger(residual.max / noise);
                     // The bound is proportional to epsilon, so a bound that is valid in single precision is also valid
                     // in double precision.
-                    // The exception is the rotation of a probe.
+                    // Only the rotation of a probe has a bound that is not proportional to epsilon.
                     if route != Route::Probe {
                         let [own, single] =
                             [0, 1].map(|k| engines[k].noise(&case, kind) / super::epsilon(engines[k].as_ref()));
@@ -312,9 +313,9 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         }
     }
     // The bounds are tight: for each bound, the error of some channel is at least a fiftieth of the bound.
-    // The bound of a slide's moment assumes all masses at the mechanism's size.
-    // The guided links of `quick_return` and `scotch_yoke` are lighter and nearer, so a thousandth is enough for this
-    // bound.
+    // The bound of a slide's moment assumes all masses at a distance of the mechanism's size.
+    // The guided links of `quick_return` and `scotch_yoke` are lighter and nearer than that, so a thousandth of this
+    // bound is enough.
     used.iter().for_each(|(what, share)| println!("{what:?}: {share:.1e}"));
     for (what, share) in &used {
         let least = if (what.0, what.1) == (Stage::Reactions, "N m") { 1e-3 } else { 1.0 / 50.0 };

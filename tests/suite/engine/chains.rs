@@ -11,7 +11,7 @@ use super::solve;
 use crate::common::assert_within;
 use crate::common::spec::{Dyad, Pin, Spec, SpecimenLink, four_bar};
 
-/// A four-bar, followed by four more dyads; twelve links including the ground.
+/// A four-bar, followed by four dyads; twelve links including the ground.
 /// Each dyad is a parallelogram with a slightly longer coupler.
 fn twelve_links() -> Spec {
     let (base, coupler, rocker) = (0.45, 0.47, 0.3);
@@ -52,7 +52,7 @@ fn worst(truth: &Trajectory, run: &Trajectory, stages: impl Fn(Stage) -> bool) -
 }
 
 /// Story 68.
-/// Errors of the impulse build spread along a chain from joint to joint, and sweeps must reduce them.
+/// Errors of the impulse build spread along a chain from joint to joint, and sweeps must reduce these errors.
 /// For twelve links, the default number of sweeps gives the formal order in all channels.
 #[test]
 fn regress_68_twelve_links_converge_in_the_impulse_build() {

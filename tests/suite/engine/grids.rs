@@ -1,4 +1,4 @@
-//! The same run, sampled at different instants.
+//! One run, sampled at different instants.
 
 use linkage::case::{Case, Grid};
 use linkage::engine::Settings;
@@ -40,7 +40,7 @@ fn differ(dense: &Trajectory, other: &Trajectory, row: impl Fn(usize) -> usize) 
 fn regress_20_samples_on_steps_do_not_depend_on_the_grid() {
     let case = case();
     for engine in stepping(DT) {
-        // The bits are equal for any number of sweeps, so few are enough.
+        // The bits are equal for any number of sweeps, so few sweeps are enough.
         let engine = engine.with(Settings { sweeps: 64, ..engine.settings() });
         let dense = solve(engine.as_ref(), &at(&case, (0..=600).map(|k| f64::from(k) * DT).collect()));
         let sparse = solve(engine.as_ref(), &at(&case, (0..=20).map(|k| f64::from(k) * 30.0 * DT).collect()));
@@ -87,7 +87,7 @@ fn regress_22_instants_before_the_start_are_as_good_as_others() {
         let run = solve(engine.as_ref(), &whole);
         let half = solve(engine.as_ref(), &at(&case, (0..=300).map(|k| f64::from(k) * DT).collect()));
         // The two runs reverse at different poses.
-        // Their difference must be less than the sum of their rounding errors.
+        // The difference of the runs must be less than the sum of their rounding errors.
         for (channel, values) in half.iter() {
             let (noise, whole_values) = (engine.noise(&whole, channel.kind), run.column(channel).unwrap());
             for (a, b) in values.iter().zip(&whole_values[300..]) {

@@ -32,7 +32,7 @@ fn alone() -> String {
     cut(&text, "[[start.groups]]", "[grid]")
 }
 
-/// A second pendulum on the first.
+/// A second pendulum that hangs on the first pendulum.
 const SECOND: [(&str, &str); 3] = [
     (
         "[links.pendulum.points]\nN = { x_m = 0, y_m = 0 }\n",
@@ -52,11 +52,11 @@ const ONLY_ITS_FORCE: (&str, &str) = ("[grid]", "[channels]\nwant = [\"joint.N\"
 
 /// Story 71.
 /// Symptom: if a free link hangs on a link of a loop, Rapier's force at its hinge is wrong by newtons.
-/// All other results are right.
-/// In a chain without a loop, this also happens if no other reaction is requested.
+/// All results except this force are right.
+/// In a chain without a loop, the force is also wrong if no second reaction is requested.
 /// Cause: the world that reports this force cuts the hinge, and the hanging link was a separate body beside the
 /// multibody.
-/// Rapier never rotates such a body.
+/// Rapier never rotates such a separate body.
 /// The link is now a floating link of the multibody.
 #[test]
 fn regress_71_a_link_hanging_on_a_loop_has_the_right_reaction() {
@@ -80,9 +80,10 @@ fn regress_71_a_link_hanging_on_a_loop_has_the_right_reaction() {
 }
 
 /// Story 72.
-/// Symptom: a free link that hangs on a moving link starts with that link's speed, although it should start at rest.
-/// With an initial speed, it starts with the sum of the two speeds.
-/// Cause: the motors that set the start velocities turn a link relative to the other link of its joint.
+/// Symptom: a free link that hangs on a moving link starts with the moving link's speed, although it should start at
+/// rest.
+/// With an initial speed, the free link starts with the sum of the two speeds.
+/// Cause: the motors that set the start velocities rotate a link relative to the second link of its joint.
 /// The initial speed, however, is relative to the world.
 #[test]
 fn regress_72_a_hanging_link_starts_with_its_own_speed() {
@@ -107,7 +108,8 @@ fn regress_72_a_hanging_link_starts_with_its_own_speed() {
             for (link, speed) in ["pendulum", "second"].into_iter().zip(&speeds) {
                 let omega = Channel::named(&format!("link.{link}.omega_rad_s")).unwrap();
                 let off = (found.column(&omega).unwrap()[0] - speed).abs();
-                // The speed changes in one step, because the accelerations are about 100 rad/s^2.
+                // The bound allows for the change of speed in one step, because the accelerations are about 100
+                // rad/s^2.
                 assert_within!(off, 2e-2, "{name}, {}: {link}", engine.name());
             }
         }

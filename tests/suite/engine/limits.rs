@@ -47,15 +47,16 @@ fn assert_helpful(error: &linkage::Error) {
     assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
     assert!(error.message().contains("crank angle"), "{error}");
     assert!(error.input().is_some() && error.time().is_some(), "{error:?}");
-    // A smaller step does not help an engine that chooses its steps itself, so another remedy is allowed.
+    // A smaller step does not help an engine that chooses its steps itself, so the message may name a second remedy.
     let helps = |way: String| way.contains("smaller time step") || way.contains("can be assembled");
     assert!(error.way_out().is_some_and(helps), "{error}");
 }
 
 /// Story 41.
 /// Symptom: gaps of metres and forces of 1e12 N beyond a pose that cannot be assembled.
-/// Cause: the engine does not detect this by itself.
-/// The links of the dyad reach 0.45 m; beyond acos(0.0475 / 0.24) = 78.6 deg, its outer joints are farther apart.
+/// Cause: the engine does not detect such a pose by itself.
+/// The links of the dyad reach 0.45 m.
+/// Beyond acos(0.0475 / 0.24) = 78.6 deg, the outer joints of the dyad are farther apart than 0.45 m.
 #[test]
 fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle() {
     let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
@@ -90,13 +91,13 @@ fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
     assert!(error.message().contains("crank angle 261.34"), "{error}");
 }
 
-/// Symptom: 2 deg from the dead point of a class III group, both builds jumped to the other branch without a message.
+/// Symptom: 2 deg from the dead point of a class III group, both builds jumped to the wrong branch without a message.
 /// Cause: the loops had opened by only 0.2 %.
 /// A run that reaches the end must stay on its branch; a run that changes branch must be stopped.
 #[test]
 fn regress_higher_groups_do_not_change_branch_unnoticed() {
     const FROM_THE_END: f64 = 2.0;
-    /// If the distance from the exact motion (deg) is larger than this, the configuration is a different one.
+    /// If the distance from the exact motion (deg) is larger than this value, the configuration is a wrong one.
     /// The value is twice the largest error found at steps of 4 deg.
     const FAR: f64 = 17.0;
     let (mut stopped, mut through) = (0, 0);

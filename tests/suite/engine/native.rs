@@ -11,7 +11,8 @@ use crate::common::spec::{Spec, four_bar};
 use crate::common::{assert_within, shipped, states};
 use linkage::mechanism::LinkId;
 
-/// Number of steps before the first reading is used; in the first step, the closure force is only about half its value.
+/// Number of steps before the first reported value is used.
+/// In the first step, the closure force is only about half its final value.
 const SETTLED: usize = 20;
 
 struct Reading {
@@ -32,7 +33,7 @@ pub fn moving(case: &Case, build: Build, tree: SpanningTree, dt: f64) -> Box<dyn
     world
 }
 
-/// Readings after every step up to `end` (s).
+/// Reported values after every step up to `end` (s).
 fn read(case: &Case, build: Build, tree: &SpanningTree, dt: f64, end: f64) -> Vec<Reading> {
     let mut world = moving(case, build, tree.clone(), dt);
     let mut readings = Vec::new();
@@ -45,7 +46,7 @@ fn read(case: &Case, build: Build, tree: &SpanningTree, dt: f64, end: f64) -> Ve
     readings
 }
 
-/// Every build with a tree; for the multibody, several trees, so that each joint is cut in one of them.
+/// Every build with a tree; for the multibody, several trees, so that each joint is cut in one of the trees.
 fn builds(case: &Case) -> Vec<(Build, SpanningTree)> {
     let mut builds = vec![(Build::Impulse, SpanningTree::none(&case.mechanism))];
     builds.extend(
@@ -89,7 +90,8 @@ fn hanging(swapped: bool) -> Spec {
 /// Story 10.
 /// Symptom: a hanging weight gives a force of the right magnitude in a wrong direction.
 /// In the impulse build the magnitude is wrong too (1148 N for a weight of 566 N).
-/// Cause: the impulse of a joint acts on its first body, and is given in that body's axes at the start of the step.
+/// Cause: the impulse of a joint acts on the joint's first body, and is given in the axes of this body at the start of
+/// the step.
 /// Between separate bodies, Rapier also orthogonalises the rows of the joint.
 #[test]
 fn regress_10_a_weight_at_rest_is_reported_in_world_axes_whichever_body_is_first() {
@@ -97,8 +99,8 @@ fn regress_10_a_weight_at_rest_is_reported_in_world_axes_whichever_body_is_first
         let case = hanging(swapped).scenario().unwrap().case;
         for build in builds(&case) {
             let found = errors(&case, &build, 1e-3, 0.1, 0.0);
-            // At this speed the first-order error, about the rotation in one step, is 1e-9; 6e-10 and 3e-9 were
-            // measured.
+            // At the speed of this test, the first-order error, which is about the rotation in one step, is 1e-9; 6e-10
+            // and 3e-9 were measured.
             found.iter().for_each(|error| assert_within!(*error, 1e-8, "{build:?}: {found:?}"));
         }
         let joint = SpanningTree::of(&case.mechanism).cut[0];
@@ -115,7 +117,7 @@ fn regress_10_a_weight_at_rest_is_reported_in_world_axes_whichever_body_is_first
 fn regress_11_native_force_and_torque_converge_with_first_order() {
     let moving = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
     let rocker = shipped("crank_rocker.toml").case;
-    // The resistance jumps where the rocker reverses, which would hide the order of convergence.
+    // The resistance jumps where the rocker reverses, which would hide the order of convergence, so it is removed.
     let rocker = rocker.with(|parts| parts.loads.clear()).unwrap();
     for case in [moving, rocker] {
         for build in builds(&case) {
@@ -158,9 +160,9 @@ fn regress_12_velocities_are_one_step_late() {
 }
 
 /// Story 13.
-/// Symptom: a speed above an eighth of a revolution per step is cut to that value, without a message.
+/// Symptom: a speed above an eighth of a revolution per step is cut to an eighth, without a message.
 /// Cause: Rapier's limit on bodies that do not `allow_fast_rotation`.
-/// Here the crank of the impulse build rotates by 0.9 rad per step; the limit is 0.785 rad.
+/// The crank of the impulse build rotates by 0.9 rad per step in this test; the limit is 0.785 rad.
 #[test]
 fn regress_13_fast_cranks_are_not_capped() {
     let mut spec = four_bar([0.4, 0.1, 0.35, 0.3], true);

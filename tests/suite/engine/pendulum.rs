@@ -1,5 +1,6 @@
 //! The engine's set-up, tested on a free compound pendulum with a period in closed form.
-//! Without a drive, the free motion of the multibody shows its order, which is one, and its default damping.
+//! Without a drive, the free motion of the multibody shows its order of convergence, which is one, and its default
+//! damping.
 
 use crate::common::assert_within;
 use linkage::math::KeepNan;
@@ -30,7 +31,7 @@ struct Pendulum {
 }
 
 /// A pendulum held at its amplitude, built and started as in the twin.
-/// If `damped`, it keeps Rapier's default damping.
+/// If `damped`, the pendulum keeps Rapier's default damping.
 fn pendulum(dt: f64, damped: bool) -> Pendulum {
     let mut world = PhysicsWorld::new();
     world.gravity = Vector::new(0.0, -GRAVITY);
@@ -75,7 +76,7 @@ impl Pendulum {
     }
 
     /// Mean of `turns` periods, from passages through the lowest point from left to right.
-    /// Linear interpolation between steps is accurate enough, because the angle has no curvature there.
+    /// Linear interpolation between steps is accurate enough, because the angle has no curvature at the lowest point.
     fn period(&mut self, dt: f64, turns: usize) -> f64 {
         let (mut passages, mut last, mut steps) = (Vec::new(), AMPLITUDE, 0.0);
         while passages.len() <= turns {
@@ -111,7 +112,7 @@ fn val_elliptic_integral_period_of_a_compound_pendulum() {
 /// Symptom: free motion is far less accurate than driven motion with the same step.
 /// Cause: free motion is of first order.
 /// A quarter of a period after the start, the pendulum is at its lowest point.
-/// There the extrapolation 2y - x is much more accurate than y.
+/// At the lowest point, the extrapolation 2y - x is much more accurate than y.
 #[test]
 fn regress_31_free_motion_is_of_first_order() {
     let quarter = exact_period() / 4.0;
@@ -130,7 +131,7 @@ fn regress_31_free_motion_is_of_first_order() {
 /// Story 32.
 /// Symptom: a free mechanism comes to rest.
 /// Cause: by default, every pin has a damping of 0.1 N m s/rad.
-/// The amplitude of small swings decays as exp(-c t / 2 J).
+/// With this damping, the amplitude of small swings decays as exp(-c t / 2 J).
 /// Without damping the amplitude is constant, to the first order of the integrator.
 #[test]
 fn regress_32_the_default_damping_must_be_removed() {

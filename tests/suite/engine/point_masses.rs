@@ -1,4 +1,4 @@
-//! Links without a moment of inertia or without a mass, in free motion, as many textbooks have them.
+//! Links without a moment of inertia or without a mass, in free motion, as in many textbooks.
 
 use std::path::Path;
 
@@ -50,8 +50,10 @@ fn approaches(what: &str, case: &Case, step: f64, bound: f64) {
     let known = states(&AssurSolver, case, &times).unwrap_or_else(|error| panic!("{what}: {error}"));
     for name in ["rapier", "impulse"] {
         for route in [Route::Differences, Route::Native] {
-            // With the engine `impulse` and its own impulses, the massless crank takes 40 times as long as all other cases.
-            // This engine is therefore tested on it by one route; with more draws, by both routes.
+            // With the engine `impulse` and its own impulses, the massless crank takes 40 times as long as all
+            // remaining cases.
+            // An ordinary run therefore tests this engine on the massless crank by one route; with more draws, by both
+            // routes.
             if name == "impulse" && route == Route::Native && what == "crank" && !by_night() {
                 continue;
             }
@@ -69,7 +71,8 @@ fn approaches(what: &str, case: &Case, step: f64, bound: f64) {
             for (what_of, coarse, fine) in [("alpha", coarse[0], fine[0]), ("force", coarse[1], fine[1])] {
                 let message = format!("{what}: {name} {route:?} {what_of}: {coarse:e} {fine:e}");
                 assert_within!(fine, bound, "{message}");
-                // Halving the step must halve the error; below a tenth of the bound, rounding may prevent this.
+                // Halving the step must halve the error; below a tenth of the bound, rounding may prevent this, so such
+                // an error passes.
                 assert!(fine <= 0.65 * coarse || fine <= 0.1 * bound, "{message}");
             }
         }
@@ -96,8 +99,8 @@ fn massless_links_move_under_forces() {
     approaches("crank", &with("crank_rocker_runup.toml", &crank), 2e-5, 3e-3);
 }
 
-/// Symptom: without a motor, reactions read from the engine contained a driving moment.
-/// This moment was 1e-4 of the moment that holds the mechanism at rest.
+/// Symptom: without a motor, reactions that the engine reports contained a driving moment.
+/// This moment was 1e-4 of the moment that keeps the mechanism at rest.
 /// Cause: Rapier keeps the impulse of a motor that has been switched off.
 #[test]
 fn regress_a_free_link_without_motor_has_no_driving_moment() {

@@ -58,14 +58,14 @@ fn regress_51_slide_speeds_are_one_step_late() {
                     let Some([_, is, _]) = truth[n].slide(joint) else { continue };
                     let was = truth[n - 1].slide(joint).unwrap()[1];
                     let speed = sign * twin.relative_speed(index);
-                    // The first steps have a transient.
+                    // The first steps have a transient, so they are not compared.
                     if n > 20 {
                         (now, late, size) =
                             (now.larger((speed - is).abs()), late.larger((speed - was).abs()), size.larger(is.abs()));
                     }
                 }
             }
-            // A step turns the crank by 0.01 rad.
+            // The crank rotates by 0.01 rad in a step.
             // A lag of one step therefore changes a speed by about 1 %; the engine's error is about 1e-4.
             assert!(now >= 5e-3 * size, "{}: {now:e}, {late:e} of {size}", sample.name);
             assert_within!(late, 1e-3 * size, "{}: {now:e}, {late:e} of {size}", sample.name);
@@ -89,7 +89,7 @@ fn regress_52_links_in_sliders_turn_together() {
         for (state, &crank) in states(solver.as_ref(), &case, &case.grid.times).unwrap().iter().zip(&case.grid.inputs) {
             for link in case.mechanism.links().ids().skip(1) {
                 let turned = state.angles[link] - case.start.0[link].angle;
-                // Half a unit in the last place of the largest angle for each step, as in story 1.
+                // The bound is half a unit in the last place of the largest angle for each step, as in story 1.
                 let bound = 0.5 * f64::EPSILON * 128.0 * (crank / SPEED / 1e-3);
                 let error = (turned - (crank - case.crank().start)).abs();
                 assert_within!(error, bound, "{} link {link} at {crank}: {error:e}", solver.name());
@@ -103,7 +103,7 @@ fn regress_52_links_in_sliders_turn_together() {
 /// At a step of 1e-4 s, the measured largest errors over half the range in any channel are 1.4e-6, 8.3e-6, 7.8e-7,
 /// 2.0e-5 and 1.7e-6.
 /// (The fourth mechanism makes only a quarter revolution, so its ranges are small.)
-/// The bounds are a tenth larger.
+/// The bounds are a tenth larger than these errors.
 #[test]
 fn regress_53_errors_of_sliders_are_as_measured() {
     let measured = [1.4e-6, 8.3e-6, 7.8e-7, 2.0e-5, 1.7e-6];
@@ -120,7 +120,7 @@ fn regress_53_errors_of_sliders_are_as_measured() {
 }
 
 /// Story 54.
-/// Symptom: the error shows only when a run follows another branch.
+/// Symptom: the error shows only when a run follows the wrong branch.
 /// Cause: at the start, a slide has the wrong sign if the tree's parent is the joint's second link.
 /// The first step closes the loop again, which hides the fault.
 #[test]
@@ -138,7 +138,7 @@ fn regress_54_the_twin_starts_in_the_start_pose() {
                     for point in &body.points {
                         let gap =
                             twin.point(JointSide { link, local: point.local }) - case.start.0[link].point(point.local);
-                        // Bound: rounding error of a chain of three links, each shorter than 0.5 m.
+                        // The bound is the rounding error of a chain of three links, each shorter than 0.5 m.
                         assert_within!(gap.norm(), 1e-15, "{} {} {}: {gap}", sample.name, body.name, point.name);
                     }
                 }

@@ -1,4 +1,4 @@
-//! Several substeps per step: their effect in Rapier, and the values that can be read from it.
+//! Several substeps per step: their effect in Rapier, and the values that Rapier reports with substeps.
 
 use analytic::AssurSolver;
 use linkage::case::{Case, Grid};
@@ -11,10 +11,10 @@ use super::{epsilon, has_formal_order, solve};
 use crate::common::assert_within;
 use crate::common::spec::four_bar;
 
-/// Enough sweeps for this four-bar in both builds.
+/// Number of sweeps that is enough for this four-bar in both builds.
 const SWEEPS: usize = 1024;
 
-/// A quarter revolution; of its instants, only the first lies on a step.
+/// A case over a quarter revolution; only the first instant of the grid lies on a step.
 fn case() -> Case {
     let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
     let cranks = (0..=18).map(|k| f64::from(5 * k).to_radians()).collect();
@@ -30,7 +30,7 @@ fn engine(name: &str, route: Route, substeps: usize) -> Box<dyn Engine> {
 /// Story 65.
 /// Symptom: with two substeps, velocities converge with order one only, and the crank of the impulse build lags.
 /// Cause: velocities and impulses belong to the start of the last substep, not of the step.
-/// Also, a separate body rotates by atan(omega dt) in every substep.
+/// A second cause is that a separate body rotates by atan(omega dt) in every substep.
 /// The order must be the same as without substeps, in every channel and by every route.
 #[test]
 fn regress_65_substeps_keep_the_formal_order_by_every_route() {
@@ -64,7 +64,7 @@ fn regress_66_the_motor_holds_its_speed_with_substeps() {
 }
 
 /// Story 67.
-/// Two substeps reduce the errors in angles to a quarter, as half the step does.
+/// Two substeps reduce the errors in angles to a quarter, as a step of half the size does.
 /// Errors of native reactions fall to 0.63 of their value in the multibody build, and to 0.50 in the impulse build.
 /// Reactions by a probe are no worse than without substeps; the tiny steps of a probe are not divided.
 #[test]

@@ -81,7 +81,7 @@ fn a_hook_applies_exactly_once_plain_and_extrapolated() {
         let right = kept(engine.as_ref());
         let wrong = kept(&Wrapped { hook: More(5.0), inner: engine.with(engine.settings()) });
         for ((channel, right), (_, wrong)) in right.iter().zip(wrong.iter()) {
-            // Forces on the frame are sums of other forces, so they are not compared.
+            // Forces on the frame are sums of joint forces, so they are not compared.
             if channel.kind.subject != ChannelSubject::Frame {
                 let more = if channel.to_string() == "joint.O.fx_N" { 5.0 } else { 0.0 };
                 let is_once = right.iter().zip(wrong).all(|(right, wrong)| (wrong - right - more).abs() <= 1e-9);
@@ -91,7 +91,7 @@ fn a_hook_applies_exactly_once_plain_and_extrapolated() {
     }
 }
 
-/// Only methods that follow from other methods have a default.
+/// Only methods that follow from methods without a default have a default.
 /// A wrapper that forgets a method therefore does not compile.
 #[test]
 fn engine_and_solver_have_only_derived_default_methods() {

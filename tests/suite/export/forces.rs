@@ -34,7 +34,7 @@ fn force(node: Node, length: f64, rate: f64) -> f64 {
     bias[0] + bias[1] * length + bias[2] * rate
 }
 
-/// Angles and speeds of all links at the start.
+/// Angles and angular speeds of all links at the start.
 fn turning(case: &Case) -> (Vec<f64>, Vec<f64>) {
     let state = start(case);
     (state.angles.to_vec(), state.motions.iter().map(|motion| motion.omega).collect())
@@ -54,7 +54,7 @@ fn a_motor_with_losses_is_two_actuators() {
             force(node, 0.0, omega).clamp(range[0], range[1])
         };
         let expected = motor.moment_on_crank(omega);
-        // Bound relative to the motor's torque at rest, 40 N m.
+        // The bound is relative to the motor's torque at rest, 40 N m.
         assert_within!((of(drives) + of(brakes) - expected).abs(), 40.0 * 1e-12, "{omega}");
     }
     let armature: f64 = find(&document, "joint", "O").attribute("armature").unwrap().parse().unwrap();
@@ -76,7 +76,7 @@ fn torsional_springs_and_dampers_have_their_moments() {
             linkage::drive::LoadState { motions: &state.motions, angles: &angles, start: &case.start.0, crank: 0.0 };
         load.act(&setting, &mut |action| moment = if action.link == links[1] { action.moment } else { moment });
         let name = format!("load.{}", index + 1);
-        // A load on one hinge acts on the joint; a load on several needs a tendon.
+        // A load on one hinge acts on the joint; a load on several hinges needs a tendon.
         let actuator = find(&document, "general", &name);
         let [length, rate] = match actuator.attribute("joint") {
             Some(joint) => {

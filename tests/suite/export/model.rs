@@ -87,7 +87,7 @@ fn number(node: Node, name: &str) -> f64 {
     numbers(node, name)[0]
 }
 
-/// A vector of the plane: its third component is zero.
+/// A vector of the plane, whose third component is zero.
 fn flat(node: Node, name: &str) -> Vec2 {
     let all = numbers(node, name);
     assert!(all.len() == 3 && all[2] == 0.0, "{name} = {all:?}");
@@ -233,7 +233,7 @@ impl Document {
         }
     }
 
-    /// Motions of all bodies in the keyframe, each computed from that of its parent.
+    /// Motions of all bodies in the keyframe, each computed from the motion of the body's parent.
     pub fn motions(&self) -> Vec<Motion> {
         let mut motions: Vec<Motion> = Vec::new();
         for (body, &rate) in self.bodies.iter().zip(&self.rates) {

@@ -3,7 +3,7 @@ use crate::cli::tools::Place;
 use scenario::{Formulas, Scenario};
 
 /// The scenario with the formula `step` replaced by `text`.
-/// Only the formula `claim` keeps its claim; it may be the same formula.
+/// Only the formula `claim` keeps its claim; `claim` may be the same formula as `step`.
 fn with_mistake(scenario: &Scenario, step: &str, text: &str, claim: &str) -> Scenario {
     let mut formulas = Formulas::over(scenario.formulas.parameters.clone());
     for own in &scenario.formulas.list {
@@ -25,8 +25,8 @@ fn said(scenario: &Scenario, claim: &str) -> String {
     cause.map_or("nothing".into(), |cause| cause.to_string())
 }
 
-/// Typical human mistakes with the names that a teacher would give them.
-/// They were collected before any test was run.
+/// Typical human mistakes with the names that a teacher would give these mistakes.
+/// The list was collected before any test was run.
 #[test]
 fn mistakes_from_notebooks_are_found_and_named() {
     let mut reader = csv::Reader::from_reader(include_bytes!("mistakes.csv").as_slice());
@@ -101,10 +101,10 @@ fn half_a_reaction_on_the_crank_is_recognised() {
     let whole = with_mistake(&scenario, "T", "-r*(P*sin(phi) - rod_y*cos(phi))", "T");
     assert_eq!(judged(&whole).verdict.word(), "agree");
     let half = with_mistake(&scenario, "T", "-r*P*sin(phi)", "T");
-    // The guide's thrust has the same magnitude, so the diagnosis may name it.
+    // The guide's thrust has the same magnitude as the missing component, so the diagnosis may name the thrust.
     let found = said(&half, "T");
     assert!(found.contains("a missing term, in T: `+ r*rod_y*cos(phi)`"), "{found}");
-    // Now the component along the stroke is missing instead.
+    // In this second case, the component along the stroke is missing.
     let half = with_mistake(&scenario, "T", "r*rod_y*cos(phi)", "T");
     let found = said(&half, "T");
     assert!(found.contains("a missing term, in T: `- r*P*sin(phi)`"), "{found}");

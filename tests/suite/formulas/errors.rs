@@ -12,7 +12,7 @@ struct Error<'a> {
     step: &'a str,
     claim: &'a str,
     expression: &'a str,
-    /// Further change: a parameter, `r_mm=4`; another channel, `channel=NAME`; or `exact`.
+    /// A change in addition to the mistake: a parameter, `r_mm=4`; a different channel, `channel=NAME`; or `exact`.
     /// `exact` removes the stated error of an approximation.
     change: &'a str,
 }

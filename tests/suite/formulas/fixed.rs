@@ -91,7 +91,7 @@ fn a_formula_right_only_at_the_instants_fails_by_its_rate() {
         };
         sides.iter().map(|(_, all)| of(all)).collect()
     };
-    // The grid has steps of 4 deg, where this wave and its curvature are zero.
+    // The grid has steps of 4 deg, and the added wave and its curvature are zero at every step.
     let wave = rewritten(&scenario, "x", "r*cos(phi) + sqrt(l^2 - r^2*sin(phi)^2) + 1e-3*sin(45*phi)");
     assert_eq!(orders(&wave), vec![vec![(0, true), (1, false), (2, true)]; 2]);
     let mut instant = rewritten(&scenario, "x", "r*cos(pi/3) + sqrt(l^2 - r^2*sin(pi/3)^2)");

@@ -4,7 +4,7 @@ use prover::check::FormulaCause;
 
 use super::{files, is_wrong, judged, load, rewritten};
 
-/// Textbook results over whole turns, by value and by derivative, on both sides.
+/// Textbook results over whole revolutions, by value and by derivative, on both sides.
 #[test]
 fn the_library_is_right() {
     let mut claims = 0;
@@ -21,8 +21,8 @@ fn the_library_is_right() {
 }
 
 /// Names that a diagnosis may give each kind of slip.
-/// "Per radian" is also accepted where a power and a moment are confused: they differ by the crank's speed, as rates
-/// per second and per radian do.
+/// "Per radian" is also accepted where a power and a moment are confused.
+/// Power and moment differ by the crank's speed, as rates per second and per radian do.
 const NAMED: &[(&str, &[&str])] = &[
     ("sign", &["a sign"]),
     ("unit", &["a unit", "per radian"]),
@@ -38,7 +38,7 @@ const NAMED: &[(&str, &[&str])] = &[
 ];
 
 /// Each claim of the library has a twin with one slip.
-/// All twins disagree, and the diagnosis names that slip in nine of ten.
+/// All twins disagree, and the diagnosis names the slip in nine of ten twins.
 #[test]
 fn an_altered_copy_of_every_claim_disagrees_and_is_explained() {
     let mut reader = csv::Reader::from_reader(include_bytes!("spoiled.csv").as_slice());

@@ -7,7 +7,7 @@ use scenario::{Claim, Formulas, Scenario};
 use super::{files, judged, load, rewritten};
 use crate::cli::tools::Place;
 
-/// A shipped scenario with only these formulas.
+/// A shipped scenario with only the given formulas.
 /// Formulas whose name begins with `f` claim the piston's position.
 fn with_formulas(formulas: impl Iterator<Item = (String, String)>) -> Scenario {
     let mut scenario = load(&files()[0].with_file_name("slider_crank_centric.toml"));
@@ -61,7 +61,7 @@ fn chained_formulas_do_not_double_the_work() {
 }
 
 /// All wrong formulas of a file share one work limit.
-/// Formulas left without a search are reported.
+/// Formulas for which no work remains are reported.
 #[test]
 fn many_wrong_formulas_share_one_limit() {
     let text = |index: usize| format!("{}+{index}", vec!["sin(phi)*cos(phi)"; 400].join("+"));
@@ -70,7 +70,7 @@ fn many_wrong_formulas_share_one_limit() {
     assert_eq!((found.judgement.causes.len(), found.judgement.unsought.len()), (6, 6));
 }
 
-/// Formulas that the wrong formula does not use add no work to its search.
+/// Formulas that the wrong formula does not use add no work to the search for its cause.
 #[test]
 fn unused_formulas_add_no_work_to_a_search() {
     let of = |count: usize| {

@@ -65,7 +65,7 @@ to_deg = 405
 step_deg = "90/ratio"
 "#;
 
-/// A short name has the unit of the key if it measures the same quantity, otherwise the SI unit.
+/// A short name has the unit of the key if the short name measures the same quantity as the key, otherwise the SI unit.
 /// Keys are plain numbers.
 #[test]
 fn numbers_may_be_expressions_of_parameters() {

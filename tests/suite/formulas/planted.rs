@@ -8,7 +8,7 @@ use crate::common::draws;
 use crate::common::sketch::RandomSource;
 
 /// A random slip in a part of a formula, with a description.
-/// `None` if this part does not allow that kind of slip.
+/// `None` if the part does not allow the chosen kind of slip.
 fn spoiled(part: &FormulaTree, names: &[String], random: &mut RandomSource) -> Option<(&'static str, NodeShape)> {
     use Operator::{Minus, Plus, Power};
     let call = |function: Function, parts: &[FormulaTree]| NodeShape::Call(function, parts.to_vec());
@@ -37,7 +37,7 @@ fn spoiled(part: &FormulaTree, names: &[String], random: &mut RandomSource) -> O
 }
 
 /// Names that a diagnosis may give a planted slip.
-/// For example, -sqrt(x) is both another branch and a sign error.
+/// For example, the slip -sqrt(x) is both a different branch and a sign error.
 fn of_kind(planted: &str) -> &'static [SlipKind] {
     match planted {
         "sign" => &[SlipKind::Sign],
@@ -62,8 +62,8 @@ fn at<'a>(tree: &'a mut FormulaTree, place: &[usize]) -> &'a mut FormulaTree {
     place.iter().fold(tree, |tree, &index| &mut tree.parts_mut()[index])
 }
 
-/// Largest change of a formula's value over the grid, divided by its largest value.
-/// Infinite if the changed formula is undefined anywhere.
+/// Largest change of a formula's value over the grid, divided by the largest value of the formula.
+/// The result is infinite if the changed formula is undefined anywhere.
 fn change(right: &Scenario, wrong: &Scenario, name: &str) -> f64 {
     let grid = &right.case.grid;
     let values = |scenario: &Scenario| -> Vec<f64> {

@@ -26,7 +26,7 @@ fn found(scenario: &Scenario, quantity: &str) -> Vec<[f64; 3]> {
 }
 
 /// The reduced equation of motion computes I* from transfer functions.
-/// The quantities here come from the kinetic energy and the power that each side finds.
+/// The quantities of this test come from the kinetic energy and the power that each side finds.
 #[test]
 fn reduced_quantities_match_the_equation_of_motion() {
     for name in ["crank_rocker", "crank_rocker_runup", "class3_group", "compressor", "ov7_base", "quick_return"] {
@@ -48,13 +48,13 @@ fn reduced_quantities_match_the_equation_of_motion() {
     }
 }
 
-/// A formula may claim a figure of the mechanism, such as the published mean over a turn.
+/// A formula may claim a figure of the mechanism, such as the published mean over a revolution.
 #[test]
 fn figures_of_the_mechanism_may_be_claimed() {
     let place = Place::new();
     let check = |formula: &str| format!("check scenarios/crank_rocker.toml {formula} --channel figure.");
     place.ok(&format!("{}reduced_inertia_mean_kg_m2 --error 5e-7", check("0.164846")));
-    // The rocker moves over 32 degrees and back, against a moment of 100 N m.
+    // The rocker rotates over 32 degrees and back, against a moment of 100 N m.
     let exact = place.ok(&format!("{}reduced_resistance_mean_N_m", check("100*64/360")));
     assert!(!exact.contains("derivative"), "{exact}");
     let outcome = place.run(&format!("{}reduced_resistance_mean_N_m*2", check("17.7778")));
@@ -76,8 +76,8 @@ fn meaningless_claims_are_refused_with_a_reason() {
     }
 }
 
-/// At instants when the crank is at rest, the division by its speed is impossible.
-/// Such instants are left out; if there are no other instants, nothing is proven.
+/// At instants when the crank is at rest, the division by the crank's speed is impossible.
+/// Such instants are left out; if the crank is at rest at all instants, nothing is proven.
 #[test]
 fn a_crank_at_rest_has_no_reduced_inertia() {
     let place = Place::new();

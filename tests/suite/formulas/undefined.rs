@@ -61,8 +61,8 @@ fn regress_undefined_constants_are_refused_in_every_input() {
     }
 }
 
-/// An operation outside its domain that depends on the crank angle or the time disagrees at the first instant without a
-/// value.
+/// An operation outside its domain may depend on the crank angle or the time.
+/// The formula then disagrees at the first instant without a value.
 /// The message names the operation and its location, even in a step of the derivation.
 #[test]
 fn operations_outside_their_domain_disagree_with_a_position() {
@@ -101,7 +101,7 @@ fn operations_outside_their_domain_disagree_with_a_position() {
 }
 
 /// A pole between two instants is not an operation outside its domain.
-/// A formula that is right at every instant is right; its bound is wider near the pole.
+/// A formula that is right at every instant is right, but the bound of the formula is wider near the pole.
 /// If rounding hides a pole at an instant, nothing is proven.
 #[test]
 fn poles_between_instants_and_poles_that_rounding_hides() {
@@ -114,7 +114,7 @@ fn poles_between_instants_and_poles_that_rounding_hides() {
         assert!(found.judgement.undefined("formula").is_none(), "{text}");
         found.judgement.sides[Reference::Assur][0][0].clone()
     };
-    // The instants are at whole degrees; this divisor is zero between 57 and 58 deg.
+    // The instants are at whole degrees; the divisor of this formula is zero between 57 and 58 deg.
     let crossing = outcome("phi*180/pi*(phi - 1)/(phi - 1)");
     assert_eq!((crossing.outcome(), crossing.lost), (FormulaOutcome::Right, 0));
     // At 90 and 270 deg, rounding error leaves no known digit of the tangent or of a product with the tangent.

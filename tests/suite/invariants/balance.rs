@@ -40,7 +40,7 @@ impl Instant<'_> {
     }
 
     /// Forces of the joints on `link` (0 for the ground).
-    /// A joint acts on both links at its point on its second link.
+    /// A joint acts on both of its links at the joint's point on the second link.
     fn on(&self, link: LinkId) -> Vec<Action> {
         let here = self.here();
         let joints = self.case.mechanism.joints().iter().zip(here.forces.iter().zip(&here.moments));
@@ -162,7 +162,7 @@ fn joints_hold_together_and_guides_push_across_their_axes_only() {
             let sides = [joint.first, joint.second].map(|side| (&here.motions[side.link], side.local));
             let places = sides.map(|(motion, local)| motion.point(local));
             let (gap, turn) = joint.opening(places, sides.map(|(motion, _)| motion.direction));
-            // Rounding error of coordinates up to REACH; it grows from dyad to dyad.
+            // The bound is the rounding error of coordinates up to REACH; this error grows from dyad to dyad.
             let rounding = 10.0 * f64::EPSILON * at.around.condition;
             within("gap", gap, REACH * rounding)?;
             within("turn of a guide", turn, rounding)?;

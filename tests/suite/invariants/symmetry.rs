@@ -14,12 +14,12 @@ use crate::common::spec::{Spec, Start};
 use crate::common::states;
 
 /// Bound on the rounding difference between the solutions of one problem in two forms.
-/// It is relative to the size of the compared quantity times the square of the condition.
-/// The largest measured difference is a tenth of it.
+/// The bound is relative to the size of the compared quantity times the square of the condition number.
+/// The largest measured difference is a tenth of the bound.
 const ROUNDING: f64 = 1e-12;
 
 /// States of both problems over the grid of the first problem.
-/// The second problem's crank angles are those of the first times `sense`.
+/// The crank angles of the second problem are those of the first problem times `sense`.
 fn pairs(solver: &dyn Solver, sample: &DyadSpecimen, two: &Case, sense: f64) -> Vec<(State, State)> {
     let one = &sample.scenario.case;
     let times = one.grid.inputs.iter().map(|crank| two.crank().time_of(crank * sense));
@@ -28,7 +28,7 @@ fn pairs(solver: &dyn Solver, sample: &DyadSpecimen, two: &Case, sense: f64) -> 
     ours.into_iter().zip(theirs).collect()
 }
 
-/// Expected state of the second problem, computed from the state of the first.
+/// Expected state of the second problem, computed from the state of the first problem.
 struct Expected {
     place: Box<dyn Fn(Vec2) -> Vec2>,
     angle: Box<dyn Fn(f64) -> f64>,
@@ -186,7 +186,8 @@ fn swapping_the_links_of_a_joint_flips_only_its_force() {
     });
 }
 
-/// Changes the mode of the group that has `joint` as an inner or outer joint, if `matters` accepts its kind.
+/// Changes the mode of the group that has `joint` as an inner or outer joint, if `matters` accepts the kind of the
+/// group.
 fn turn_modes(case: &Case, spec: &mut Spec, joint: JointId, matters: impl Fn(GroupKind) -> bool) {
     for group in case.structure.groups.iter().filter(|group| matters(group.kind)) {
         let has = |start: &Start| {

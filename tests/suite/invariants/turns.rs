@@ -1,4 +1,4 @@
-//! Whole turns: the pose repeats every 360 degrees, and the angles count the turns.
+//! Whole revolutions: the pose repeats every 360 degrees, and the angles count the revolutions.
 
 use linkage::math::KeepNan;
 use std::f64::consts::TAU;
@@ -10,12 +10,12 @@ use crate::common::{assert_within, states};
 use linkage::mechanism::LinkId;
 
 /// Base, crank, coupler and rocker of mechanisms whose crank rotates fully.
-/// Also the revolutions of coupler and rocker per revolution of the crank.
+/// The last two numbers are the revolutions of coupler and rocker per revolution of the crank.
 const TURNING: [([f64; 4], [f64; 2]); 4] = [
     // Crank-rocker: the shortest link is the crank.
     ([0.4, 0.1, 0.35, 0.3], [0.0, 0.0]),
     ([0.15, 0.026, 0.347, 0.25], [0.0, 0.0]),
-    // Drag link: the base is the shortest link, and all links turn.
+    // Drag link: the base is the shortest link, and all links rotate fully.
     ([0.1, 0.3, 0.35, 0.4], [1.0, 1.0]),
     ([0.2, 0.5, 0.45, 0.6], [1.0, 1.0]),
 ];
@@ -54,8 +54,8 @@ fn three_turns(lengths: [f64; 4], turning: [f64; 2], left: bool, speed: f64, ste
             }
         }
         for pair in found.windows(2) {
-            // No link of these mechanisms turns more than eight times as fast as the crank.
-            // A larger step of an angle is an error of a whole turn.
+            // No link of these mechanisms rotates more than eight times as fast as the crank.
+            // A larger step of an angle is therefore an error of a whole revolution.
             let limit = (8.0 * step_deg.to_radians()).smaller(TAU * 0.75);
             let jumps = (1..4).map(|link| (pair[1].angles[LinkId(link)] - pair[0].angles[LinkId(link)]).abs());
             assert_within!(jumps.fold(0.0, f64::larger), limit, "{} {lengths:?}", solver.name());

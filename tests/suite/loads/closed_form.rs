@@ -74,7 +74,7 @@ fn val_a_force_that_follows_the_rod() {
 
 #[test]
 fn val_a_table_repeats_after_its_turns() {
-    // Linear from 0 to 80 N in the first turn, and back in the second.
+    // The load rises linearly from 0 to 80 N in the first revolution, and falls back to 0 in the second revolution.
     let load = "[[loads]]\ntype = \"force\"\nlink = \"slider\"\npoint = \"B\"\nturns = 2\n\
                 table = [{ crank_deg = 0, x_N = 0, y_N = 0 }, { crank_deg = 360, x_N = 80, y_N = 0 }]";
     balances(load, 10.0, |phi| {
@@ -87,7 +87,7 @@ fn val_a_table_repeats_after_its_turns() {
 fn val_a_force_against_the_motion_of_the_slider() {
     let load = "[[loads]]\ntype = \"resisting_force\"\nlink = \"slider\"\npoint = \"B\"\nforce_N = 30";
     balances(load, 10.0, |phi| {
-        // At the dead points the slider is at rest, so the force has no direction.
+        // At the dead points the slider is at rest, so the force has no direction and the moment is zero.
         if phi.sin().abs() < 1e-9 { 0.0 } else { 30.0 * slide(phi)[1].abs() }
     });
 }

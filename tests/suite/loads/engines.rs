@@ -9,7 +9,7 @@ use crate::common::shipped;
 #[test]
 fn val_the_press_agrees_by_every_route() {
     let mut scenario = shipped("loaded_slider.toml");
-    // One instant every ten degrees is enough for a test.
+    // One instant every ten degrees is enough for this test.
     let cranks: Vec<f64> = (0..=36).map(|k| f64::from(10 * k).to_radians()).collect();
     let grid = linkage::case::Grid::of_inputs(scenario.case.crank(), cranks);
     scenario.case = scenario.case.on(grid).unwrap();

@@ -61,7 +61,7 @@ fn reduced_moments_of_varying_loads_match_the_reactions() {
     let case = case.with(|parts| parts.loads.extend(more)).unwrap();
     let model = ReducedModel::of(&case).unwrap();
     // The period is two revolutions, because one load table extends over two revolutions.
-    // That table has three points per period; the press's table has nine points per revolution.
+    // The table over two revolutions has three points per period; the press's table has nine points per revolution.
     // The rocker reverses at points of the press's table.
     assert_eq!((model.kinks().period, model.kinks().cranks.len()), (Some(2.0 * TAU), 3 + 18));
     let times: Vec<f64> = (0..=400).map(|k| f64::from(k) * 1e-3).collect();

@@ -33,7 +33,7 @@ fn with_numbers() -> Vec<PathBuf> {
     all.filter(|path| loaded(path).oracles.iter().any(|own| own.source.starts_with(SOURCE))).collect()
 }
 
-/// Collects the keys at `path`; if a value is a text, with its word.
+/// Collects the keys at `path`; if the value of a key is a text, the key is collected with this word.
 fn collect(table: &dyn TableLike, path: &[&str], found: &mut BTreeSet<(String, String)>) {
     let Some((first, rest)) = path.split_first() else {
         for (key, item) in table.iter() {

@@ -1,5 +1,5 @@
 //! Momentum and power, computed from the sampled channels alone.
-//! Masses and loads are those of the case; the formulas for loads are written independently here.
+//! Masses and loads are those of the case; this file has its own formulas for loads, independent of the solvers.
 
 use linkage::case::{Case, Wanted};
 use linkage::drive::load::Acts;
@@ -11,8 +11,8 @@ use linkproof::Scenario;
 
 use super::{files, loaded};
 
-/// Upper limit of the imbalance, relative to the largest force, moment or power in it.
-/// It allows for rounding error, and for the error of a side at a change point.
+/// Upper limit of the imbalance, relative to the largest force, moment or power in the balance.
+/// The limit allows for rounding error, and for the error of a side at a change point.
 const BOUND: f64 = 1e-8;
 
 /// One row of a trajectory.
@@ -106,7 +106,7 @@ impl Row<'_> {
                 Load::TorsionSpring { links, stiffness, free_angle } => {
                     let angle = |link: LinkId| self.link(link).turn[0];
                     let begun = self.case.start.0[links[1]].angle - self.case.start.0[links[0]].angle;
-                    // At t = 0 the angle is in (-pi, pi].
+                    // At t = 0 the angle is in (-pi, pi], so `turns` counts revolutions from this interval.
                     let turns = ((begun - std::f64::consts::PI) / std::f64::consts::TAU).ceil();
                     let twist = angle(links[1]) - angle(links[0]) - turns * std::f64::consts::TAU;
                     let moment = stiffness * (twist - free_angle);
@@ -131,8 +131,9 @@ impl Row<'_> {
     }
 
     /// Five imbalances, each divided by its largest term.
-    /// Two compare the sampled shaking force and moment with the reactions, two compare them with the momentum.
-    /// The fifth is the total power of drives, loads, weights and inertia.
+    /// Two imbalances compare the sampled shaking force and moment with the reactions, and two compare them with the
+    /// momentum.
+    /// The fifth imbalance is the total power of drives, loads, weights and inertia.
     fn imbalances(&self) -> [f64; 5] {
         let (case, loads, torques) = (self.case, self.loads(), self.torques());
         let sampled = (self.pair("frame", ["fx_N", "fy_N"]), self.read("frame.moment_N_m"));
@@ -161,7 +162,7 @@ impl Row<'_> {
         let on_frame = loads.iter().filter(|own| own.0 == GROUND);
         on_frame.for_each(|(_, place, own, couple)| take(*own, cross(*place, *own) + couple));
         let by_reactions = [force.norm() / largest, moment.abs() / turning];
-        // The same sums from the momentum: F = sum of m (g - a) + loads.
+        // The sums of forces and moments, computed from the momentum: F = sum of m (g - a) + loads.
         let (mut force, mut moment, mut power) = (sampled.0, sampled.1, 0.0);
         let (mut largest, mut turning, mut strongest) = (largest, turning, 0.0f64);
         let mut work = |own: f64| {
@@ -232,7 +233,7 @@ fn sampled_channels_balance_momentum_and_power() {
         let case = scenario.case.wanting(Wanted::ALL);
         for side in analytic::all() {
             let found = worst(&case, &side.solve(&case).unwrap());
-            // Written so that NaN fails.
+            // The condition is written so that NaN fails.
             assert!(found.iter().all(|own| *own <= BOUND), "{}, {}: {found:?}", scenario.name, side.name());
         }
     }
@@ -246,7 +247,7 @@ fn regress_a_sampling_error_of_one_percent_is_found() {
     for scenario in scenarios().into_iter().filter(|own| names.contains(&own.name.as_str())) {
         let case = scenario.case.wanting(Wanted::ALL);
         let right = analytic::all()[0].solve(&case).unwrap();
-        // Channels that are zero throughout are skipped: a factor does not change them.
+        // Channels that are zero throughout are skipped, because a factor does not change zeros.
         for (channel, _) in right.iter().filter(|(_, values)| values.iter().any(|value| value.abs() > 1e-6)) {
             let name = channel.to_string();
             match worst(&case, &spoiled(&right, &name)).iter().any(|own| !(*own <= BOUND)) {

@@ -6,11 +6,11 @@ use std::f64::consts::TAU;
 use design::diagram::{CrankGraph, GraphPoint, Graphs};
 use design::draw;
 
-/// A cosine with mean 3 N over one turn from 90 deg on, in the direction `way`.
+/// A cosine with mean 3 N over one revolution from 90 deg on, in the direction `way`.
 fn cosine(amplitude: f64, way: f64) -> Graphs {
     let start = TAU / 4.0;
     let points = (0..=360).map(|k| way * TAU * f64::from(k) / 360.0).map(|x| [start + x, 3.0 + amplitude * x.cos()]);
-    // The first mark lies outside the drawn turn.
+    // The first mark lies outside the drawn revolution.
     let marks = [("least", -TAU / 2.0, -1.0), ("greatest", 0.0, 1.0)];
     let marks = marks.map(|(word, x, side)| GraphPoint { at: [start + way * x, 3.0 + side * amplitude], word });
     let (points, size) = (points.collect(), 3.0 + amplitude);
@@ -62,7 +62,7 @@ fn rounding_is_drawn_as_a_constant() {
     assert!(graphs.graphs[0].is_constant());
     let text = draw::graphs(&graphs, "constant");
     assert!(text.contains(">constant 3.000<") && !text.contains("<circle") && !text.contains("least"), "{text}");
-    // A constant zero: the values are rounding errors around zero, but the graph's scale is 3.
+    // The test uses a constant zero: the values are rounding errors around zero, but the graph's scale is 3.
     let graph = &mut graphs.graphs[0];
     graph.points.iter_mut().for_each(|point| point[1] -= 3.0);
     graph.marks.iter_mut().for_each(|mark| mark.at[1] -= 3.0);

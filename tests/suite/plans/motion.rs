@@ -18,8 +18,9 @@ fn motion(name: &str, channel: &str, divisions: usize) -> MotionDiagram {
     MotionDiagram::of(&case, &AssurSolver, &course, divisions).unwrap()
 }
 
-/// The pin of a uniformly turning crank moves sinusoidally.
-/// The chord method reduces the velocity by the factor sin(h/2)/(h/2), and the acceleration by its square.
+/// The pin of a uniformly rotating crank moves sinusoidally.
+/// The chord method reduces the velocity by the factor sin(h/2)/(h/2), and the acceleration by the square of this
+/// factor.
 #[test]
 fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
     for n in [12, 24, 48] {
@@ -30,7 +31,8 @@ fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
             let found = diagram.found.iter().find(|found| found.method == method).unwrap();
             let exact = &diagram.exact[method.gives()];
             for (&row, value) in found.rows.iter().zip(&found.values) {
-                // Rounding error of positions (1e-15 of their range), divided by the interval once or twice.
+                // The bound is the rounding error of positions (1e-15 of their range), divided by the interval once or
+                // twice.
                 let bound = 1e-15 * (n * n) as f64 * diagram.half_range(method.gives());
                 assert_within!((value - factor * exact[row]).abs(), bound, "{n} {method:?}");
             }
@@ -40,8 +42,9 @@ fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
 
 #[test]
 fn the_error_of_all_four_methods_is_of_second_order() {
-    // The number of divisions makes the next term of the error, of fourth order, negligible.
-    // The motion of the class IV group changes much more sharply than the others, so it needs more divisions.
+    // The number of divisions makes the fourth-order term of the error negligible.
+    // The motion of the class IV group changes much more sharply than the remaining motions, so it needs more
+    // divisions.
     for (name, channel, divisions) in [
         ("crank_rocker", "point.B.x_m", 48),
         ("crank_rocker", "link.rocker.angle_rad", 48),
@@ -62,7 +65,7 @@ fn the_error_of_all_four_methods_is_of_second_order() {
 }
 
 /// The example of a published graphical course: a piston of the two-stage compressor.
-/// Chords give its velocity and acceleration from its displacement; graphical integration gives the reverse.
+/// Chords give velocity and acceleration of the piston from its displacement; graphical integration gives the reverse.
 /// All three quantities follow the authors' closed form (phi clockwise from +y).
 /// The test computes all four methods by hand from that closed form.
 #[test]
@@ -84,7 +87,7 @@ fn chord_errors_of_a_piston_match_the_closed_form() {
         for which in 0..3 {
             let gap = |row: usize| (diagram.exact[which][row] - at(angle(row))[which]).abs();
             let worst = (0..diagram.cranks.len()).map(gap).fold(0.0, f64::larger);
-            // Rounding error of lengths of 0.3 m, and of the values computed from these lengths.
+            // The bound is the rounding error of lengths of 0.3 m, and of the values computed from these lengths.
             assert_within!(worst, 1e-12 * scale(which), "{worst:e}");
         }
         let h = TAU / n as f64;
@@ -102,7 +105,8 @@ fn chord_errors_of_a_piston_match_the_closed_form() {
             .iter()
             .map(|found| {
                 for (k, value) in found.values.iter().enumerate() {
-                    // At most the rounding error of displacements (1e-16 of 0.3 m), divided by the square of the step.
+                    // The bound is at most the rounding error of displacements (1e-16 of 0.3 m), divided by the square
+                    // of the step.
                     let bound = 1e-12 * scale(found.method.gives());
                     assert_within!((value - by_hand(found.method, k)).abs(), bound, "{:?} {k}", found.method);
                 }
@@ -122,7 +126,8 @@ fn chord_errors_of_a_piston_match_the_closed_form() {
 fn a_link_that_turns_uniformly_has_no_error() {
     let diagram = motion("crank_rocker", "link.crank.angle_rad", 12);
     for found in &diagram.found {
-        // The angle grows by 2 pi. Its rounding error is divided by the interval once or twice.
+        // The angle grows by 2 pi. The rounding error of the angle is divided by the interval once or twice, so no
+        // order is found.
         assert!(found.orders == [None; 2], "{found:?}");
         assert_within!(found.largest, 1e-11, "{found:?}");
         assert_within!(found.share, 1e-11, "{found:?}");
@@ -144,7 +149,8 @@ fn diagrams_are_well_formed_and_carry_their_errors() {
             )));
         }
         let circles = document.descendants().filter(|node| node.has_tag_name("circle")).count();
-        // One circle at every midpoint, one at every end except the first, and one in each of two captions.
+        // The drawing has one circle at every midpoint, one at every end except the first, and one in each of two
+        // captions.
         assert_eq!(circles, 2 * n + 2);
     }
 }

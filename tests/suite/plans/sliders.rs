@@ -40,7 +40,7 @@ fn points_in_fixed_guides_move_along_them() {
             for plan in [&plans.velocity, &plans.acceleration] {
                 let vector = plan.vector(&format!("{}_{point}", plan.quantity.symbol())).unwrap();
                 assert!(vector.meaning.contains(", along the guide "), "{}", vector.meaning);
-                // Promised accuracy of the solvers' velocities and accelerations.
+                // The bound is the promised accuracy of the solvers' velocities and accelerations.
                 assert_within!(cross(axis, vector.value).abs(), 1e-11 * longest(plan), "{name} {point} at {degrees}");
             }
         }
@@ -53,8 +53,9 @@ fn points_in_fixed_guides_move_along_them() {
 /// The test uses neither the solvers' derivatives nor the slide's channels.
 #[test]
 fn relative_and_coriolis_parts_match_numerical_derivatives() {
-    // Rounding error of five positions (1e-16 of each) divided by h^2, and truncation error of order h^4.
-    // Both are below 1e-8 of the derivative.
+    // The errors are the rounding error of five positions (1e-16 of each) divided by h^2, and the truncation error of
+    // order h^4.
+    // Both errors are below 1e-8 of the derivative.
     let h = 2e-3f64;
     let mut worst = 0.0f64;
     for (name, joint, point, under) in MOVING {
@@ -141,7 +142,7 @@ fn links_that_never_turn_have_no_relative_vectors() {
 }
 
 /// A slider-crank with point names that collide with the plan's names for points under a sliding point.
-/// Its rod slides through a block that only rotates.
+/// The rod of this slider-crank slides through a block that only rotates.
 #[test]
 fn contours_of_a_swinging_block_close_with_unique_letters() {
     let text = r#"
@@ -212,7 +213,7 @@ step_deg = 0.5
     }
 }
 
-/// A drawn guide is as long as the slide's travel over the grid, and has the direction of its axis.
+/// A drawn guide is as long as the slide's travel over the grid, and has the direction of the slide's axis.
 #[test]
 fn guides_in_the_diagram_span_the_travel() {
     for name in SLIDERS {
@@ -227,7 +228,7 @@ fn guides_in_the_diagram_span_the_travel() {
             let (_, slide) = trajectory.iter().find(|(own, _)| own.to_string() == channel).unwrap();
             let (low, high) = slide.iter().fold((f64::MAX, f64::MIN), |(l, h), s| (l.smaller(*s), h.larger(*s)));
             // The extreme position may lie between two angles of the grid, a degree apart.
-            // The error is then at most 1e-4 of the travel.
+            // The length of the guide is then wrong by at most 1e-4 of the travel.
             let near = |end: Vec2, way: f64| ((end - guide.origin).dot(&guide.axis) - way).abs() <= 1e-4 * (high - low);
             assert!(near(guide.ends[0], low) && near(guide.ends[1], high), "{name} {}", joint.name);
             assert_within!(cross(guide.axis, guide.at - guide.origin).abs(), 1e-12);

@@ -1,5 +1,5 @@
 //! The Newton-Euler equations along the spanning tree against the dense system of all links.
-//! The two share only the components of the joints.
+//! The two methods share only the components of the joints.
 
 use crate::common::assert_within;
 use std::path::{Path, PathBuf};
@@ -28,8 +28,8 @@ fn shipped() -> Vec<(String, Case)> {
     files.iter().map(case).collect()
 }
 
-/// The equations along the tree in use, and along every other tree with all links and all driven joints.
-/// The other trees are those of a set in which every joint belongs to some tree.
+/// The equations along the tree in use, and along further trees with all links and all driven joints.
+/// The further trees are chosen so that every joint belongs to some tree.
 fn along_all_trees(case: &Case) -> Vec<(SpanningTree, NewtonEuler)> {
     let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
     let masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
@@ -129,7 +129,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
 
     /// For every shipped mechanism, the solution satisfies the equations of all links to rounding error.
-    /// It equals the solution of the dense system to the accuracy of the dense system.
+    /// The solution equals that of the dense system to the accuracy of the dense system.
     #[test]
     fn the_tree_solution_equals_the_dense_solution(numbers in prop::collection::vec(-1.0f64..1.0, 97)) {
         for (name, case) in shipped() {
@@ -169,8 +169,8 @@ proptest! {
 }
 
 /// The tested cases include several drives, open chains and loads.
-/// They include prismatic joints as cut joints and as joints of the tree.
-/// Some of their equations are solved in pairs, others all at once.
+/// The cases include prismatic joints as cut joints and as joints of the tree.
+/// Some equations of these cases are solved in pairs, and some are solved all at once.
 #[test]
 fn every_kind_of_joint_is_tested() {
     let mut seen = [0; 7];

@@ -20,10 +20,10 @@ use crate::common::assert_within;
 const SLOW: f64 = 30.0;
 /// The first instant (s).
 const START: f64 = 0.5;
-/// Tolerance: the engine's error at the end is 1e-6, and pictures are in single precision.
+/// Tolerance of the picture: the engine's error at the end is 1e-6, and pictures are in single precision.
 const NEAR: f64 = 5e-6;
 
-/// Two turns that start at a later time, played slowly.
+/// Two revolutions that start at a later time than zero, played slowly.
 fn run() -> Run {
     let times: Vec<f64> = (0..=80).map(|k| START + TAU / OMEGA * f64::from(k) / 40.0).collect();
     let entry = |time: f64, level: Level, text: &str| LogEntry { time, level, text: text.into() };
@@ -107,7 +107,7 @@ fn every_arrow_is_the_reaction_at_its_joint() {
     let size = run.mechanism.size();
     let forces = |time: u64| reactions(&run.mechanism, &at(time)).0;
     let largest = log_times(&run).into_iter().flat_map(forces).map(|force| force.norm()).fold(0.0, f64::larger);
-    // The longest arrow has 0.4 of the mechanism's size.
+    // The longest arrow has a length of 0.4 of the mechanism's size.
     let scale = 0.4 * size / largest;
     let told: f64 = metadata(&bytes)["force_scale_m_per_N"].parse().unwrap();
     assert_within!((told / scale - 1.0).abs(), NEAR, "{told} {scale}");
@@ -155,7 +155,7 @@ fn log_messages_have_their_time_and_level() {
     assert_eq!(load(&path).unwrap()[0].1.times(), run.reference.times());
 }
 
-/// Other programs read a recording by the numbers of its sides, rows and fields.
+/// Foreign programs identify the contents of a recording by the numbers of its sides, rows and fields.
 #[test]
 fn samples_are_numbered_from_zero_and_fields_from_one() {
     let (_directory, _, bytes) = written(&run());
@@ -173,7 +173,7 @@ fn samples_are_numbered_from_zero_and_fields_from_one() {
 }
 
 /// A grid may list its instants in any order.
-/// Samples are written and numbered in the order of time, and are read back in the grid's order.
+/// Samples are written and numbered in the order of time, and are loaded again in the grid's order.
 #[test]
 fn unordered_rows_are_numbered_by_their_times() {
     let times: Vec<f64> = (0..40).map(|k| START + TAU / OMEGA * f64::from((7 * k + 3) % 40) / 40.0).collect();
@@ -225,7 +225,8 @@ fn a_film_has_motion_forces_and_curves_of_its_recording() {
             assert!(own.iter().zip(wanted).all(|(a, b)| near(*a, b)), "{}: {own:?} {wanted:?}", entity.id);
         }
     }
-    // Values of the curves: those of the sides exactly, those of the errors in single precision and small units.
+    // The curves have the values of the sides exactly, and the values of the errors in single precision and small
+    // units.
     assert!(film.view.plots.len() >= 2);
     for (plot, values) in film.view.plots.iter().zip(&film.values) {
         assert_eq!(plot.lines.len(), values.len());
@@ -246,7 +247,7 @@ fn a_film_has_motion_forces_and_curves_of_its_recording() {
 }
 
 /// The drive's torque is plotted first, then the largest reaction.
-/// One turn lasts half of the recording.
+/// One revolution lasts half of the recording.
 #[test]
 fn a_view_starts_with_the_main_plots_and_shows_everything() {
     let run = run();
@@ -291,8 +292,8 @@ fn a_view_starts_with_the_main_plots_and_shows_everything() {
     }
 }
 
-/// The later side is thinner, so that both sides are visible. Pins are rings.
-/// The robot description has the same parts.
+/// The side drawn later is thinner than the side drawn first, so that both sides are visible. Pins are rings.
+/// The robot description has the same parts as the picture.
 #[test]
 fn both_sides_are_visible_and_the_robot_has_the_same_parts() {
     let (_directory, path, bytes) = written(&run());
@@ -356,7 +357,8 @@ fn both_sides_are_visible_and_the_robot_has_the_same_parts() {
                 let [a, b] = [k, (k + 1) % count].map(|k| Vec2::new(line.points[k].x, line.points[k].y));
                 let (at, turn, shape) = parts.next().unwrap();
                 let size = numbers(shape.attribute("size").unwrap());
-                // A box along the segment; at each end it is longer by half of its thickness.
+                // The segment is drawn as a box along it; at each end the box is longer than the segment by half of its
+                // thickness.
                 let ends = [-0.5, 0.5].map(|share| {
                     Vec2::new(at[0], at[1]) + rotated(unit(turn[2]), Vec2::new((size[0] - line.thickness) * share, 0.0))
                 });
@@ -374,7 +376,7 @@ fn both_sides_are_visible_and_the_robot_has_the_same_parts() {
     }
 }
 
-/// Fifty frames per second of log time, if there are enough instants, and always the last instant.
+/// The recording has fifty frames per second of log time, if there are enough instants, and always the last instant.
 #[test]
 fn slow_motion_has_more_frames_and_ends_with_the_last_instant() {
     let times = turn(1_600);
@@ -408,7 +410,7 @@ fn every_second_has_its_own_chunk() {
     }
 }
 
-/// If the sides have fewer samples, the errors have equally few.
+/// If the sides have fewer samples than instants of the grid, the errors have equally few.
 #[test]
 fn errors_are_thinned_like_their_sides() {
     let mut run = Run::over(turn(101));
@@ -433,7 +435,7 @@ fn a_recording_with_an_incomplete_column_is_refused() {
     for (topic, words) in
         [("/engine/point/B", "lacks samples of point.B.x_m"), ("/engine/grid", "lacks samples of its grid")]
     {
-        // The same file with one message removed.
+        // The second file is the first file with one message removed.
         let other = directory.path().join("other.mcap");
         let mut writer = mcap::Writer::new(fs::File::create(&other).unwrap()).unwrap();
         let mut left = 5;

@@ -79,7 +79,7 @@ fn slider_channels_are_read_back_from_one_topic_per_joint() {
 }
 
 /// Every mark of the diagram is at its position in the frame of its link.
-/// A guide is as long as its slide's travel.
+/// A guide is as long as the travel of its slide.
 #[test]
 fn every_mark_is_drawn_in_the_frame_of_its_link() {
     for name in SLIDERS {
@@ -123,7 +123,7 @@ fn every_mark_is_drawn_in_the_frame_of_its_link() {
             }
             assert!(lines.next().is_none(), "{name} {id}");
             let pins = body.marks.iter().filter(|mark| mark.role == MarkRole::Pin).count();
-            // A disc and the hole in it.
+            // Each pin has a cylinder for the disc and a cylinder for the hole in the disc.
             assert_eq!(entity.cylinders.len(), 2 * pins, "{name} {id}");
             let frame = entity.frame_id.as_str();
             let own =

@@ -1,4 +1,4 @@
-//! Thousands of bad scenarios: no panic, no hang, and every error message names its key.
+//! Thousands of bad scenarios: no panic, no hang, and every error message names the key of the error.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -14,7 +14,7 @@ use crate::common::draws;
 use crate::common::entries;
 use crate::common::many::{each, number};
 
-/// Limits of a proof, in instants and in revolutions: large enough to run every part of it.
+/// Limits of a proof, in instants and in revolutions: large enough to run every part of the proof.
 const INSTANTS: usize = 5;
 const TURNS: f64 = 1.5;
 /// Work limit of the search for settings, in steps.
@@ -72,7 +72,7 @@ fn shortened(mut scenario: Scenario) -> Option<Scenario> {
 
 /// A part of the bad scenarios, for a quick test.
 /// `LINKPROOF_BAD_FROM` and `LINKPROOF_BAD_SCENARIOS` select scenarios by number.
-/// `LINKPROOF_BAD_TO` names a directory to which they are written.
+/// `LINKPROOF_BAD_TO` names a directory to which the selected scenarios are written.
 #[test]
 fn bad_scenarios_end_with_a_message_and_a_position() {
     let count = number("LINKPROOF_BAD_SCENARIOS").unwrap_or(draws(100) as u64);

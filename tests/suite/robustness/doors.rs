@@ -26,8 +26,8 @@ const FEW: u64 = 16 * DOORS.len() as u64;
 /// Two threads use processor time twice as fast.
 const MEMORY: u64 = 2_000_000;
 const SECONDS: u64 = 60;
-/// If a command takes longer than this elapsed time (s), it is stopped.
-/// The slowest command takes a small fraction of it.
+/// If a command takes longer than this elapsed time (s), the command is stopped.
+/// The slowest command takes a small fraction of this time.
 const PATIENCE: u64 = 900;
 
 static GOOD: LazyLock<Good> = LazyLock::new(|| {
@@ -106,7 +106,7 @@ fn ending(own: &Attack) -> Result<(i32, f64), String> {
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
     let (input, mut to) = (own.standard_input.clone(), child.stdin.take().unwrap());
-    // If the command does not read its input, it closes the pipe, and the write fails.
+    // If the command does not read its input, it closes the pipe, and the write fails; this failure is ignored.
     let feed = std::thread::spawn(move || drop(to.write_all(&input)));
     let output = child.wait_with_output().unwrap();
     feed.join().unwrap();
@@ -179,7 +179,8 @@ const NO_PATHS: &str = "KEY=NUMBER REFERENCE ENGINE S ACCURACY N ROUTE TIMES STE
     TEMPLATE MM MPA POINT PIXELS X,Y KG_PER_M K RPM SHELL PAGE[#SECTION] WITH COMMAND";
 /// Options that name a file to be written, whatever exists there.
 const WRITTEN: [&str; 3] = ["--output", "--run-up", "--write-map"];
-/// Options that name a directory. The program chooses the file names in it, and therefore inspects existing files.
+/// Options that name a directory. The program chooses the file names in this directory, and therefore inspects existing
+/// files.
 const MADE: [&str; 4] = ["bench --output", "man --output", "run --output", "stress --output"];
 /// Arguments that read no untrusted input, only a directory for files that the program writes.
 const NO_INPUT: [&str; 1] = ["new --shipped"];

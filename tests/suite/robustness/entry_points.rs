@@ -43,7 +43,7 @@ fn damaged_texts_are_scenarios_or_errors_with_a_position() {
 }
 
 /// Inputs found by fuzzing, by target: `fuzz/finds/TARGET/NAME`.
-/// docs/stories.md describes them.
+/// docs/stories.md describes these inputs.
 #[test]
 fn inputs_found_by_fuzzing_stay_fixed() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/finds");

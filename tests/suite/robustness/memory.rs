@@ -14,7 +14,7 @@ use prover::run::memory;
 use crate::common::{by_night, shipped};
 
 /// Peak memory (bytes) of a command, which must succeed.
-/// It is read every few milliseconds.
+/// The memory is measured every few milliseconds.
 fn peak(arguments: &[&str]) -> f64 {
     let mut command = Command::cargo_bin("linkproof").unwrap();
     command.args(arguments).stdout(Stdio::null()).current_dir(env!("CARGO_MANIFEST_DIR"));
@@ -69,7 +69,7 @@ fn a_run_beyond_the_memory_limit_does_not_begin() {
         help.contains("fewer instants") && help.contains("fewer channels") && help.contains("more memory"),
         "{help}"
     );
-    // Without the option, the limit is 4 GB.
+    // Without an option for the memory, the limit is 4 GB.
     let scenario = shipped("ov7_base.toml");
     let long = |instants: u32| {
         let mut scenario = scenario.clone();

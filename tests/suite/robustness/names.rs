@@ -96,7 +96,7 @@ fn no_text_may_hold_invisible_characters() {
     }
 }
 
-/// A refused text is shown shortened and without its dangerous characters.
+/// A refused text is shown shortened and without the dangerous characters of the text.
 #[test]
 fn messages_show_no_terminal_control_characters() {
     let place = Place::new();
@@ -116,7 +116,8 @@ fn messages_show_no_terminal_control_characters() {
     place.refused("run bad.toml --no-record", &["not a regular file"]);
     #[cfg(unix)]
     place.refused("run /dev/zero --no-record", &["/dev/zero", "64 MiB"]);
-    // The message cuts the formula within a character: one of two bytes, or an invisible one of three bytes.
+    // The message cuts the formula within a character: a character of two bytes, or an invisible character of three
+    // bytes.
     for letter in ["\u{e9}", "\u{202e}"] {
         for start in ["", "p", "ph"] {
             let text = format!("{start}{}", letter.repeat(12_000));
@@ -180,7 +181,7 @@ fn allowed_text_breaks_no_output() {
     assert_eq!(new, expected.collect::<BTreeSet<String>>());
 }
 
-/// Paths of all files below a directory, relative to it.
+/// Paths of all files below a directory, relative to this directory.
 fn files(root: &Path) -> BTreeSet<String> {
     let (mut found, mut open) = (BTreeSet::new(), vec![root.to_path_buf()]);
     while let Some(directory) = open.pop() {

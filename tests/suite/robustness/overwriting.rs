@@ -1,5 +1,5 @@
 //! Commands replace only files that the user named, or that this program wrote.
-//! The test runs every command that chooses a file name, with various files of the user at that path.
+//! The test runs every command that chooses a file name, with various files of the user at the chosen path.
 #![cfg(unix)]
 
 use std::collections::BTreeSet;
@@ -13,14 +13,14 @@ use crate::cli::tools::{Outcome, Place, listed};
 /// Reaction of a command to a file of the user at its output path.
 #[derive(Clone, Copy, PartialEq)]
 enum Then {
-    /// The command writes nothing there, and reports the file with exit code 2.
+    /// The command writes nothing to the path, and reports the file with exit code 2.
     Refuses,
     /// The command keeps the file, continues, and reports the file.
     Keeps,
 }
 
 /// A command, the file whose name it chooses, and its reaction to a file of the user at that path.
-/// The last field says whether the file is `SEALED`: the command then also recognises its output after an edit.
+/// The last field states whether the file is `SEALED`: if so, the command also recognises its output after an edit.
 type Writer = (&'static str, &'static str, Then, bool);
 
 const BENCH: &str = "bench scenarios/five_bar.toml --out out --quick --engine rapier --only positions --budget 1e4";
@@ -79,12 +79,12 @@ const NAMED: [&str; 17] = [
     "tune",
 ];
 
-/// A directory in which all of these commands can run.
+/// A directory in which all tested commands can run.
 fn place() -> Place {
     let place = Place::new();
     place.ok(&format!("{RUN} --record seen"));
     fs::remove_file(place.path("seen/pendulum.foxglove.json")).unwrap();
-    // Stand-ins for Rerun's library and viewer that do only what this program needs.
+    // Stand-ins for Rerun's library and viewer that do only what `linkproof` needs.
     let script = "#!/bin/sh\nif [ \"$1\" = -m ]; then exit 0; fi\nprintf 'RRF2 linkproof pendulum' > \"$3\"\n";
     fs::write(place.path("rerun"), script).unwrap();
     fs::set_permissions(place.path("rerun"), fs::Permissions::from_mode(0o755)).unwrap();
@@ -92,7 +92,7 @@ fn place() -> Place {
 }
 
 /// Runs a command with `what` at its output path.
-/// Asserts that the command reports it, and checks the exit code.
+/// Asserts that the command reports `what`, and checks the exit code.
 fn meets(place: &Place, (command, file, then, _): Writer, what: &str) -> Outcome {
     let outcome = place.run(command);
     let told = format!("{}{}", outcome.stdout, outcome.stderr);
@@ -145,7 +145,7 @@ fn foreign_files_are_replaced_only_if_named() {
         meets(&place, writer, "a pipe");
         remove();
         no_more("what was refused");
-        // First nothing is at the output path, then the output of the first run.
+        // At the first run nothing is at the output path, at the second run the output of the first run.
         let first = place.run(command);
         assert_eq!(first.code, 0, "{command}: {}", first.stderr);
         let own = fs::read(&at).unwrap();
@@ -189,7 +189,7 @@ fn an_older_output_is_replaced_by_a_new_one() {
 }
 
 /// Symptom: a dangling symbolic link was replaced, and a file appeared at a path that the user had not named.
-/// If the user names a symbolic link, the command writes to its target, as other programs do.
+/// If the user names a symbolic link, the command writes to the target of the link, as most programs do.
 #[test]
 fn a_named_symlink_is_followed_even_to_a_missing_file() {
     for (command, file) in [
@@ -261,7 +261,7 @@ fn files_are_written_only_through_the_common_function() {
             }
         }
     }
-    // Files for peers and viewers are in directories created for them.
+    // Files for peers and viewers are in directories created for them, so the code that writes these files is exempt.
     let made = ["peer", "process", "viewer"].map(|file| format!("crates/lab/src/outside/{file}.rs"));
     let known = made.into_iter().chain(["crates/files/src/lib.rs".into()]).collect();
     assert_eq!(found, known);

@@ -46,7 +46,7 @@ fn a_small_file_that_claims_a_large_size_is_not_decompressed() {
         told.contains("zeros.mcap has") && told.contains("claims to unpack to 31") && told.contains("134 MB"),
         "{told}"
     );
-    // A similar file within the limit is read to its end.
+    // A similar file within the limit is decompressed to its end.
     assert!(refusal(&zeros(20)).contains("contains no trajectory"));
 }
 

@@ -1,6 +1,6 @@
-//! Correct mechanisms with one extreme number, so that the other numbers lose digits.
+//! Correct mechanisms with one extreme number, so that the remaining numbers lose digits.
 //!
-//! Each was found among 10 000 bad scenarios: it loads, and the proof disagreed.
+//! Each mechanism was found among 10 000 bad scenarios: it loads, and the proof disagreed.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use linkage::mechanism::Mechanism;
 use linkproof::{Options, Proof, Verdict, prove};
 use scenario::Scenario;
 
-/// Proof of a shipped scenario without its published numbers, with edits and another grid, and with little work.
+/// Proof of a shipped scenario without its published numbers, with edits and a changed grid, and with little work.
 fn proven(file: &str, edits: &[(&str, &str)], grid: &str) -> Proof {
     prove(&shortened(file, edits, grid), &Options::default().budget(2e4)).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -67,7 +67,8 @@ fn a_distant_mass_centre_costs_joint_accuracy() {
 }
 
 /// Symptom: the balancing moments from equilibrium and from powers differed by a factor of 1e14.
-/// Cause: powers were divided by the nominal speed, but the speed of a free motion may be far from it.
+/// Cause: powers were divided by the nominal speed, but the speed of a free motion may differ greatly from the nominal
+/// speed.
 #[test]
 fn powers_of_a_free_motion_are_divided_by_its_actual_speed() {
     for nominal in ["1e-30", "1e-6", "1e4"] {

@@ -1,4 +1,4 @@
-//! Instants many revolutions away have the same values as nearby ones, and not every revolution is computed.
+//! Instants many revolutions away have the same values as nearby instants, and not every revolution is computed.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use linkage::work::{Count, counted};
 
 use crate::common::{assert_within, shipped};
 
-/// Asserts that `far` repeats `near`, except for the revolutions that its angles count.
+/// Asserts that `far` repeats `near`, except for the revolutions that the angles of `far` count.
 fn assert_repeats(near: &Trajectory, far: &Trajectory, turns: f64, what: &str) {
     for ((channel, near), (_, far)) in near.iter().zip(far.iter()) {
         let scale = near.iter().fold(1e-3, |most: f64, value| if value.abs() > most { value.abs() } else { most });
@@ -22,7 +22,7 @@ fn assert_repeats(near: &Trajectory, far: &Trajectory, turns: f64, what: &str) {
             if channel.kind.unit == Unit::Radian {
                 assert_within!((gone / TAU).abs() % turns.abs(), 0.0, "{what}: {channel} turns {}", gone / TAU);
             }
-            // The crank angle itself has lost digits: after 1e5 turns its rounding error is 1e-10 rad.
+            // The crank angle itself has lost digits: after 1e5 revolutions its rounding error is 1e-10 rad.
             assert_within!((far - near - gone).abs() / scale, 1e-7, "{what}: {channel} {near} {far}");
         }
     }
@@ -61,7 +61,7 @@ fn several_drives_are_followed_turn_by_turn() {
     let case = shipped("five_bar.toml").case;
     let times: Vec<f64> = vec![0.0, 40.0 * TAU / case.crank().top_speed().abs()];
     let far = case.on(Grid::of_times(case.crank(), times.clone())).unwrap();
-    // The same path, followed in small steps.
+    // The same motion, followed in small steps.
     let pieces: Vec<f64> = (0..=4000).map(|k| times[1] * f64::from(k) / 4000.0).collect();
     let close = case.on(Grid::of_times(case.crank(), pieces)).unwrap();
     for solver in analytic::all() {

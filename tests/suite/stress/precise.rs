@@ -37,7 +37,7 @@ fn closed_form_and_all_equations_agree_to_the_last_digit() {
     }
 }
 
-/// A slider-crank by textbook formulas, in doubles.
+/// A slider-crank by textbook formulas, computed in doubles.
 #[test]
 fn a_slider_crank_matches_the_textbook() {
     let (r, l, omega, mass) = (0.05, 0.17, 30.0, 2.0);

@@ -1,4 +1,4 @@
-//! Scenarios of crank-rocker and slider-crank from their closed forms, followed over a whole turn.
+//! Scenarios of crank-rocker and slider-crank from their closed forms, followed over a whole revolution.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -23,7 +23,7 @@ fn case(text: &str) -> Case {
     Scenario::parse(text, Path::new("found.toml")).unwrap_or_else(|error| panic!("{error}\n{text}")).case
 }
 
-/// Checks that two angles (rad) are the same, except for whole turns.
+/// Checks that two angles (rad) are the same, except for whole revolutions.
 fn same_angle(a: f64, b: f64, within: f64) -> bool {
     let apart = (a - b).rem_euclid(TAU);
     apart.smaller(TAU - apart) <= within
@@ -52,7 +52,7 @@ fn the_published_crank_rocker_equals_the_shipped_scenario() {
 }
 
 /// The mechanism has exactly the requested extreme positions.
-/// The range of motion, which checks them, uses arc length and independent equations.
+/// The range of motion, which checks these positions, uses arc length and independent equations.
 #[test]
 fn crank_rockers_have_the_requested_extreme_positions() {
     let mut proven = 0;
@@ -86,8 +86,8 @@ fn crank_rockers_have_the_requested_extreme_positions() {
         let least = range.groups[GroupId(0)].determinant;
         assert_within!((least.value.abs().asin() - found.transmission).abs(), 1e-6, "{least:?} {found:?}");
         assert!(same_angle(least.crank, found.transmission_at, 1e-6));
-        // Between the extreme positions, the crank turns through pi + theta in one direction and pi - theta in the
-        // other.
+        // Between the extreme positions, the crank rotates through pi + theta in one direction and through pi - theta
+        // in the opposite direction.
         let way = (rocker.extremes[0].crank - rocker.extremes[1].crank).abs();
         let slower = way.larger(TAU - way);
         assert_within!((slower / (TAU - slower) - found.time_ratio).abs(), 1e-7);
@@ -134,7 +134,7 @@ fn slider_cranks_have_the_requested_stroke() {
     }
 }
 
-/// If the rod is slightly shorter than the shortest rod found, the crank does not turn fully.
+/// If the rod is slightly shorter than the shortest rod found, the crank does not rotate fully.
 #[test]
 fn below_the_shortest_rod_the_crank_does_not_turn_fully() {
     let found = SliderCrank::of(0.1, 0.03, Given::Rod(0.0675)).unwrap();

@@ -17,7 +17,7 @@ fn top() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/ov7_drives")
 }
 
-/// The task of a drive with the dimensions of a scenario, and the motion it achieves.
+/// The task of a drive with the dimensions of a scenario, and the motion that the drive achieves.
 fn measured(task: &str, scenario: Scenario) -> (Task, Achieved) {
     let TaskFile { task, .. } = TaskFile::load(&top().join(format!("{task}_task.toml"))).unwrap();
     let task = Task { case: scenario.case, ..task };
@@ -30,8 +30,10 @@ fn designed(name: &str) -> (Task, Achieved) {
 }
 
 /// The figures in docs/synthesis.md, rounded up (the transmission angle down).
-/// They are: largest motion in a dwell and largest travel in a wrong direction (shares of the stroke), distance of
-/// extreme positions and shortfall of dwells (deg), smallest transmission angle (deg).
+/// The first two figures are the largest motion in a dwell and the largest travel in a wrong direction (fractions of
+/// the stroke).
+/// The last three figures are the distance of extreme positions and the shortfall of dwells (deg), and the smallest
+/// transmission angle (deg).
 const STATED: [(&str, [f64; 5]); 3] = [
     ("needle_bar", [0.0088, 0.0001, 0.2, 0.0, 33.0]),
     ("sinker", [0.0181, 0.0002, 0.8, 0.0, 38.1]),
@@ -100,7 +102,7 @@ fn the_rated_curve_is_the_motion_of_the_lever() {
 }
 
 /// The published drives of the eyelet needles keep the published timing approximately.
-/// Sign and zero follow the conventions of that timing.
+/// Sign and zero of the output follow the conventions of the published timing.
 #[test]
 fn the_published_eyelet_needle_drives_keep_their_timing() {
     let (task, new) = measured("eyelet_needle", shipped("ov7_new.toml"));

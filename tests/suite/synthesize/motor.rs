@@ -11,7 +11,8 @@ fn motors() -> Vec<design::drive::motor::CatalogueMotor> {
     catalogue::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("catalogues/motors.toml")).unwrap()
 }
 
-/// The authors neglect the crank's mass; with the same assumption, the greatest moment equals the recomputed value.
+/// The authors neglect the crank's mass.
+/// Without the crank's mass, the greatest moment equals the recomputed value.
 #[test]
 fn the_peak_moment_without_the_crank_mass_is_as_recomputed() {
     let mut text = shipped("crank_rocker.toml").text;
@@ -33,7 +34,7 @@ fn the_published_motor_is_selected() {
     let scenario = shipped("crank_rocker.toml");
     let choice = MotorChoice::of(&scenario.case, &motors(), 0.92).unwrap();
     eprintln!("{choice:?}");
-    // Printed: 36.98 N m * 13.61 1/s = 0.503 kW; divided by 0.92, 0.547 kW.
+    // The printed values are 36.98 N m * 13.61 1/s = 0.503 kW, and 0.547 kW after division by 0.92.
     assert_within!((choice.power / 1e3 - 0.503).abs(), 0.01, "{}", choice.power);
     assert_within!((choice.asked / 1e3 - 0.547).abs(), 0.01, "{}", choice.asked);
     let rpm = 60.0 / std::f64::consts::TAU;
@@ -42,9 +43,9 @@ fn the_published_motor_is_selected() {
     assert_within!((choice.geared.ratio - 2745.0 / 130.0).abs(), 1e-12);
     // The values are printed to three digits, and all digits agree.
     assert!((choice.power - 503.0).abs() < 1.0 && (choice.asked - 547.0).abs() < 1.0);
-    // Steady speed from mean values without losses: published 14.332 rad/s with the motor law rounded to 22.51 - 0.0716
-    // omega.
-    // With all digits of the law it is 14.322 rad/s.
+    // The steady speed from mean values without losses is published as 14.332 rad/s, with the motor law rounded to
+    // 22.51 - 0.0716 omega.
+    // With all digits of the law the steady speed is 14.322 rad/s.
     let lossless = linkage::drive::Motor { efficiency: 1.0, ..choice.geared.clone() };
     assert_within!(
         (lossless.steady_speed(choice.mean).unwrap() - 14.3217).abs(),

@@ -75,7 +75,7 @@ fn the_search_finds_the_lengths_of_the_closed_form() {
     let found = search(&task, 2, &mut |_| {}).unwrap();
     assert_within!(found.cost, 1e-7, "{found:?}");
     assert!(found.cost < found.random_cost, "{found:?}");
-    // Many pairs of lengths give the same swing, and along them the time ratio hardly depends on the lengths.
+    // Many pairs of lengths give the same swing, and the time ratio is nearly the same for all these pairs.
     // If the crank changes by 0.5 mm, the crank angle between the extreme positions changes by only 0.064 deg.
     // The refinement stops before it corrects such a small change.
     let expected = [known.crank, known.coupler, known.stretched.crank];
@@ -129,9 +129,9 @@ fn the_written_scenario_has_the_values_found() {
     assert_eq!(scenario.case.mechanism.links()[LinkId(0)], drawing.case.mechanism.links()[LinkId(0)]);
 }
 
-/// Symptom: the scenario found disagreed in 210 of 339 numbers, and did not load in another directory.
-/// Cause: the scenario found still contained the published numbers of the original scenario, and references to their
-/// tables.
+/// Symptom: the scenario found disagreed in 210 of 339 numbers, and did not load in a second directory.
+/// Cause: the scenario found still contained the published numbers of the original scenario, and references to the
+/// tables of these numbers.
 #[test]
 fn regress_numbers_of_the_drawing_are_not_written() {
     let TaskFile { mut task, drawing } = task(TASK);
@@ -159,7 +159,7 @@ fn regress_numbers_of_the_drawing_are_not_written() {
 #[test]
 fn the_measured_phases_end_at_the_extreme_positions() {
     let TaskFile { task, .. } = task(TASK);
-    // The turn begins in the stretched position.
+    // The revolution begins in the stretched position.
     let case = task.case.with(|parts| {
         parts.drives.crank_mut().zero = 33.610_819_789_881_56f64.to_radians();
         let angles = parts.drives.world_angles(parts.drives.crank().start);

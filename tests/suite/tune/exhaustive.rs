@@ -23,11 +23,11 @@ pub const REFERENCES: [&str; 8] = [
 ];
 
 /// Largest step in the search, in degrees of the crank.
-/// With this step a turn has twelve steps, and six-point interpolation spans half a turn.
+/// With this step a revolution has twelve steps, and six-point interpolation spans half a revolution.
 const COARSEST_DEG: f64 = 30.0;
 /// If the error of a step exceeds the required error by this factor, larger steps are not run.
 /// Errors grow with the step, except where parts of opposite sign cancel at one instant.
-/// Such cancellation never reaches this factor at all instants of all channels.
+/// Such cancellation never reduces the error by this factor at all instants of all channels.
 const HOPELESS: f64 = 30.0;
 
 /// The settings in the exhaustive search.
@@ -84,9 +84,9 @@ fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
     rows
 }
 
-/// Searches every row of the space from the finest affordable step to larger ones.
+/// Searches every row of the space from the finest affordable step to larger steps.
 /// Returns the cheapest settings of each row that cost less than `below` and have at most the error `within`.
-/// The cheapest of all comes last.
+/// The cheapest settings of all rows come last.
 /// Also returns the number of runs.
 pub fn cheaper(
     scenario: &Scenario,

@@ -1,9 +1,9 @@
 //! Independent geometry of the variants: poses from the given angles, transmission angles by the law of cosines.
-//! It uses no code of the solvers.
+//! The geometry uses no code of the solvers.
 //!
 //! With the guide's direction t and normal n, the slider stays on its line where n . (B - A) = n . B0 - l1 sin(a -
 //! theta).
-//! Divided by l2, this is the cosine of the angle between rod and normal.
+//! This expression divided by l2 is the cosine of the angle between rod and normal.
 //! The angle at D between link 3 and rocker 4 has the cosine (l3^2 + l4^2 - |C O2|^2) / 2 l3 l4.
 //! Either dyad is singular where its cosine is 1 or -1.
 
@@ -48,7 +48,7 @@ pub fn variants(csv: &str) -> Vec<Variant> {
     csv.lines().skip(1).map(line).collect()
 }
 
-/// Directions in which beta, gamma and phi are measured; 1 is the direction in our reading.
+/// Directions in which beta, gamma and phi are measured; 1 is the direction in the project's interpretation.
 pub type Senses = [f64; 3];
 pub const OURS: Senses = [1.0; 3];
 
@@ -78,7 +78,7 @@ fn degrees(angle: f64) -> Vec2 {
     unit(angle.to_radians())
 }
 
-/// A value below this limit counts as singular: it is the rounding error of a sine and a few products.
+/// A value below this limit counts as singular, because the limit is the rounding error of a sine and a few products.
 const SINGULAR: f64 = 1e-12;
 
 impl Linkage {
@@ -116,7 +116,8 @@ impl Linkage {
     }
 
     /// Cosines of the transmission angles at crank angle `crank` (deg).
-    /// The first is that of the angle between rod and normal, the second that of the angle between link 3 and rocker.
+    /// The first cosine is that of the angle between rod and normal, the second that of the angle between link 3 and
+    /// rocker.
     /// If the first dyad is beyond a limit, the second cosine is infinite.
     pub fn cosines(&self, crank: f64) -> [f64; 2] {
         let [l1, l2, l3] = self.variant.lengths;
@@ -143,8 +144,8 @@ impl Linkage {
     }
 
     /// Interval of crank angles (deg) around `from` in which both transmission angles stay above `least` (deg).
-    /// `None` if they stay above it over a whole turn.
-    /// The search uses steps of 0.01 deg; a peak between two steps exceeds them by less than 1e-7.
+    /// `None` if both angles stay above `least` over a whole revolution.
+    /// The search uses steps of 0.01 deg; a peak between two steps exceeds the values at these steps by less than 1e-7.
     pub fn interval(&self, from: f64, least: f64) -> Option<[f64; 2]> {
         const STEP: f64 = 0.01;
         let bound = least.to_radians().cos();
@@ -166,7 +167,7 @@ impl Linkage {
     }
 
     /// The next crank angle (deg) at which the cosine of the slider's dyad reaches 1 without exceeding it.
-    /// There, crank and rod are perpendicular to the guide, and two branches cross.
+    /// At this crank angle, crank and rod are perpendicular to the guide, and two branches cross.
     pub fn change_point(&self, from: f64, sense: f64) -> Option<f64> {
         let [l1, l2, _] = self.variant.lengths;
         let line = self.slide?.line;
@@ -180,7 +181,8 @@ impl Linkage {
     }
 
     /// Smallest transmission angle (deg) of each dyad between two crank angles (deg).
-    /// Steps of 0.05 deg find the smallest value; a golden section search between its neighbours refines it.
+    /// Steps of 0.05 deg find the smallest value; a golden section search between the neighbouring steps refines this
+    /// value.
     pub fn least(&self, [from, to]: [f64; 2]) -> [f64; 2] {
         let count = ((to - from) / 0.05).ceil().larger(1.0);
         let at = |k: f64| from + (to - from) * (k / count).clamp(0.0, 1.0);

@@ -30,7 +30,8 @@ fn counts(plans: &[Plan]) -> String {
     )
 }
 
-/// For all eight combinations of directions of the three angles: the number of variants with a slider that turn fully.
+/// For all eight combinations of directions of the three angles: the number of variants with a slider whose crank
+/// rotates fully.
 fn senses(plans: &[Plan]) -> String {
     let mut text = String::from("| beta | gamma | phi | turn fully, of those with a slider |\n|---|---|---|---|\n");
     let variants: Vec<&Variant> =
@@ -39,7 +40,7 @@ fn senses(plans: &[Plan]) -> String {
         let senses: Senses = [4, 2, 1].map(|bit| if k & bit == 0 { 1.0 } else { -1.0 });
         let turns = |v: &&&Variant| Linkage::of(v, senses).interval(v.alpha, 0.0).is_none();
         let count = variants.iter().filter(turns).count();
-        // In our reading, beta is measured clockwise, and gamma and phi counter-clockwise.
+        // In the project's interpretation, beta is measured clockwise, and gamma and phi counter-clockwise.
         let words = [-senses[0], senses[1], senses[2]].map(|s| if s > 0.0 { "ccw" } else { "cw" });
         let ours = if k == 0 { " (our reading)" } else { "" };
         let _ = writeln!(text, "| {} | {} | {} | {count}{ours} |", words[0], words[1], words[2]);

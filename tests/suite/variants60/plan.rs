@@ -3,17 +3,17 @@
 use super::geometry::{Linkage, OURS, Variant};
 use linkage::math::KeepNan;
 
-/// If the crank cannot turn fully, the grid ends where the transmission angle falls to this value (deg).
+/// If the crank cannot rotate fully, the grid ends where the transmission angle falls to this value (deg).
 const LEAST: f64 = 15.0;
 /// The transmission angle (deg) at which the grid ends, for variants whose given pose has a smaller angle than `LEAST`.
 const SMALL: f64 = 10.0;
 /// Number of engine steps between the ends of the grid and the limits of the crank.
 /// Near a limit, the motion varies as the square root of the distance to the limit.
 /// The number of steps in this distance alone therefore determines the accuracy of a step.
-/// With forty steps, one channel of variant 15 and one of variant 35 are inconclusive; with sixty, all channels are
-/// decided.
+/// With forty steps, one channel of variant 15 and one channel of variant 35 are inconclusive.
+/// With sixty steps, all channels are decided.
 const STEPS_TO_LIMIT: f64 = 60.0;
-/// Engine step (deg) far from limits, and the smallest unit (deg): all steps are multiples of it.
+/// Engine step (deg) far from limits, and the smallest unit (deg): all steps are multiples of the unit.
 const ENGINE: [f64; 2] = [0.25, 0.01];
 /// Least number of instants in a grid.
 const FEWEST: f64 = 12.0;
@@ -26,11 +26,11 @@ const NESTED: &str = "limits are limits of larger angles too";
 #[derive(Clone, Debug)]
 pub struct Plan {
     pub linkage: Linkage,
-    /// Crank angles that can be reached (deg); `None` if all can.
+    /// Crank angles that can be reached (deg); `None` if all crank angles can be reached.
     pub limits: Option<[f64; 2]>,
     /// Smaller transmission angle of the given pose (deg).
     pub given: f64,
-    /// Smallest transmission angle (deg) that the grid allows; 0 if the crank turns fully.
+    /// Smallest transmission angle (deg) that the grid allows; 0 if the crank rotates fully.
     pub kept: f64,
     /// Crank angle of the start (deg): alpha, unless the given pose is outside the grid.
     pub start: f64,

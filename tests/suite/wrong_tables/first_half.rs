@@ -29,7 +29,7 @@ const PRESS: &[&str] =
 const SHAPER: &[&str] = &["link.guide.angle_rad", "link.ram.x_m", "joint.A.fx_N", "joint.B.fy_N", "drive.torque_N_m"];
 const PLACES: &[&str] = &["point.P.x_m", "point.P.y_m", "point.B.x_m", "point.B.y_m", "link.rocker.angle_rad"];
 
-/// Moves the values of the named columns one row later; the first row stays.
+/// Moves the values of the named columns one row later; the first row keeps its values.
 fn late(sheet: &mut Sheet, names: &[&str]) {
     for name in names {
         let before = sheet.of(name).clone();

@@ -33,7 +33,7 @@ fn runge_kutta(sheet: &mut Sheet) {
     let mut state = [sheet.of("link.rod.angle_rad")[0], 0.0];
     let mut found = [Vec::new(), Vec::new()];
     for row in 0..sheet.times.len() {
-        // Every second row lies between two steps.
+        // Every second row lies between two steps, so the state advances only at the remaining rows.
         if row > 0 && row % 2 == 0 {
             let first = rate(state);
             let second = rate(plus(state, step / 2.0, first));

@@ -1,8 +1,9 @@
 //! Many poses of one case in one call.
 //!
 //! Several crank angles are solved at once, as many as fit into the machine's registers.
-//! This applies to cases of driving links, RRR dyads and higher groups on pins, loaded by moments of resistance only.
-//! These poses are independent of each other.
+//! The case must consist of driving links, RRR dyads and higher groups on pins, and all loads must be moments of
+//! resistance.
+//! The poses of such a case are independent of each other.
 //! Any other case is solved pose by pose.
 
 mod anchors;
@@ -30,11 +31,13 @@ use linkage::error::Result;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// If the crank angles of two rows differ by more than this (rad), intermediate poses are checked too.
+/// If the crank angles of two rows differ by more than this value (rad), intermediate poses are checked too.
 /// The value is at most the step of [`PoseSolver`] for poses in closed form.
 const STEP: f64 = PI / 12.0;
 
-/// Above this angle (rad) the vector sine is not used. The value is ten times the largest angle of a grid.
+/// For angles larger than this (rad), the sine and cosine of the standard library are used instead of the vector
+/// functions.
+/// The value is ten times the largest angle of a grid.
 const FAR: f64 = 1e7;
 
 /// Solves a case for many crank angles in one call, on the branch of its start pose.
@@ -61,8 +64,8 @@ impl<'a> Batch<'a> {
     /// Those of [`PoseSolver::new`].
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
-        // A case that passes change points is not vectorised: vectorised poses keep the signs of the groups constant,
-        // but at a change point a sign changes.
+        // A case that passes change points is not vectorised.
+        // Vectorised poses keep the signs of the groups constant, but at a change point a sign changes.
         let groups = match case.crank().through {
             true => None,
             false => Groups::of(case, &poses.plan, Layout::of(case, false)),
@@ -82,8 +85,8 @@ impl<'a> Batch<'a> {
     }
 
     /// Whether several poses are solved at once.
-    /// This requires that all groups are RRR dyads or groups of four or six links on pins, and that all loads are
-    /// moments of resistance.
+    /// A vectorised solution requires that all groups are RRR dyads or groups of four or six links on pins, and that
+    /// all loads are moments of resistance.
     /// If `false`, the case is solved pose by pose.
     #[must_use]
     pub fn is_vectorised(&self) -> bool {
@@ -239,8 +242,8 @@ mod tests {
         widths
     }
 
-    /// Each error is at most one unit in the last place of 1. Of this unit, the standard library contributes at most
-    /// half; the vector functions contribute the rest.
+    /// Each error of the vector sine and cosine is at most one unit in the last place of 1.
+    /// Of this unit, the standard library contributes at most half; the vector functions contribute the rest.
     #[test]
     fn sines_and_cosines_match_the_standard_library() {
         for k in -400_000..400_000 {

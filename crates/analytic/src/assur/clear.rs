@@ -10,7 +10,7 @@ use linkage::mechanism::GroupId;
 const BISECTIONS: usize = 64;
 
 impl PoseSolver<'_> {
-    /// Checks the step to the pose just found. The stored bounds do not exclude a change point on this step.
+    /// Checks the step to the pose just found, if the stored bounds do not exclude a change point on this step.
     #[cold]
     pub(super) fn pass_closely(&mut self, target: f64) -> Result<(), OutOfReach> {
         self.gauges.pass_closely([self.crank, target], self.case, &self.plan, &self.state.motions)?;
@@ -18,7 +18,7 @@ impl PoseSolver<'_> {
         Ok(())
     }
 
-    /// Computes the clearances at a crank angle; the positions there must be known.
+    /// Computes the clearances at a crank angle; the positions at this angle must be known.
     /// Returns whether a group may have passed a change point.
     fn find_clearances(&mut self, crank: f64, sense: f64) -> bool {
         let from = std::mem::replace(&mut self.crank, crank);

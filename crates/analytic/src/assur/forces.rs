@@ -38,8 +38,8 @@ pub(super) struct Kinetostatics {
     drivers: Vec<(Body, Action, usize)>,
     /// Loads on every link; empty if the case has no loads.
     loads: Vec<Wrench>,
-    /// One load per loaded link, if all loads are moments of resistance. Such loads do not depend on the link's
-    /// position.
+    /// One load per loaded link, if all loads are moments of resistance; otherwise `None`.
+    /// Moments of resistance do not depend on the link's position.
     resistances: Option<Vec<(LinkId, Load)>>,
     tally: WorkTally,
 }
@@ -76,7 +76,7 @@ impl Kinetostatics {
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     pub(super) fn solve(&mut self, case: &Case, plan: &SolutionPlan, state: &mut State) {
         if let Some(resistances) = &self.resistances {
-            // The loads on all other links stay zero.
+            // The loads on links without a moment of resistance stay zero.
             for (link, load) in resistances {
                 let moment = load.moment_in(case.spin(&state.motions, *link), 0.0);
                 self.loads[*link] = Wrench { force: Vec2::zeros(), moment };

@@ -5,10 +5,11 @@
 //! Here h is the step and M a bound of the gauge's second derivative.
 //! If the gauge cannot leave its range even with this deviation, the dyad stays on one branch.
 //! For a dyad on the ground and on driving links of constant speed ratio, M is known.
-//! If this is not enough for a proof, the step is divided until every part is proven or the change point is found.
-//! For a dyad on other dyads, M follows from the bounds of those dyads.
+//! If the deviation for the whole step is too large for a proof, the step is divided.
+//! The division ends when every part is proven or the change point is found.
+//! For a dyad on other dyads, M follows from the bounds of the dyads that carry it.
 //! These bounds grow from dyad to dyad and with the inverse of the dyads' sines.
-//! Where these bounds give no proof, the estimate of [`super::watch`] decides.
+//! If these bounds give no proof, the estimate of [`super::watch`] decides.
 //! That estimate also serves dyads on higher groups, dyads on sliders of two guides, and several driving links of
 //! changing speed ratios.
 //!
@@ -23,12 +24,12 @@ use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
 
 /// The stored band of a gauge is wider than the band of the present step.
-/// The distance of the stored band to an end of the gauge's range is this fraction of the distance of the present
-/// step's band.
+/// Each band has a distance to an end of the gauge's range.
+/// The constant is the ratio of this distance for the stored band to that for the present step's band.
 const SPARE: f64 = 0.25;
 /// Bounds are computed for steps longer by this factor. The steps of a grid are equal only within rounding error.
 const LONGER: f64 = 1.0 + 1e-6;
-/// A gauge without an upper limit may grow by this factor while the bounds hold.
+/// A gauge without an upper limit may grow by this factor while the bounds are valid.
 const GROWN: f64 = 4.0;
 /// If a proof is missing, it is tried again after this many steps.
 const AGAIN: f64 = 16.0;
@@ -57,7 +58,8 @@ pub(super) struct Gauges {
     /// Speed ratios of the driving links to the crank.
     ratios: Vec<f64>,
     links: Vec<Option<Bound>>,
-    /// Longest step (rad) that the stored bounds cover, and remaining crank travel (rad) over which they hold.
+    /// Longest step (rad) that the stored bounds cover, and remaining crank travel (rad) for which the bounds are
+    /// valid.
     reach: f64,
     left: f64,
 }

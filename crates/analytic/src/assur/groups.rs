@@ -37,7 +37,7 @@ const NEARER: f64 = 0.04;
 struct Driver {
     link: LinkId,
     base: LinkId,
-    /// The joint in the link's frame and in the frame of its base.
+    /// Position of the joint in the link's frame and in the frame of the link's base.
     pivot: Vec2,
     place: Vec2,
     /// Whether the joint is the origin of the link's frame. The vector from the origin to the joint is then zero.
@@ -132,7 +132,7 @@ impl Step {
     /// Gauge at the last pose: see [`bounds`]. NaN if the group has no gauge.
     #[inline]
     pub(in crate::assur) fn gauge(&self) -> f64 {
-        // Most groups are RRR dyads.
+        // Most groups are RRR dyads, so this kind is tested first.
         if let Step::Rrr(dyad) = self {
             return dyad.gauge();
         }
@@ -146,7 +146,7 @@ impl Step {
     }
 
     /// Limit of the gauge during a step of the crank that begins or ends at the pose `motions`.
-    /// The limit holds while the gauge is at most `farthest`.
+    /// The limit is valid while the gauge is at most `farthest`.
     /// `None` if the group has no gauge, or if the bounds of the links that carry the group are not known.
     pub(in crate::assur) fn limit(
         &self,
@@ -164,7 +164,7 @@ impl Step {
         }
     }
 
-    /// Writes the bounds of the group's links, if they exist. They hold while the gauge stays within `band`.
+    /// Writes the bounds of the group's links, if they exist. The bounds hold while the gauge stays within `band`.
     pub(in crate::assur) fn bound(&self, band: [f64; 2], step: f64, motions: &[Motion], links: &mut Bounds) {
         match self {
             Step::Rrr(dyad) => dyad.bound(band, links),
@@ -175,9 +175,9 @@ impl Step {
         }
     }
 
-    /// If the group is a dyad with two configurations, returns the dyad in its other configuration and the dyad's
-    /// links.
-    /// Returns `None` for all other groups.
+    /// If the group is a dyad with two configurations, returns the dyad in the configuration other than the present
+    /// one, and the dyad's links.
+    /// Returns `None` for groups that are not dyads with two configurations.
     fn other(&self) -> Option<(Step, [LinkId; 2])> {
         match self {
             Step::Rrr(dyad) => Some((Step::Rrr(dyad.flipped()), dyad.links())),
@@ -301,7 +301,7 @@ impl SolutionPlan {
             motions[driver.link] = Motion { origin, direction, velocity, omega, acceleration, alpha };
         }
         for (group, step) in self.steps.entries_mut() {
-            // Most groups are RRR dyads.
+            // Most groups are RRR dyads, so this kind is tested first.
             if let Step::Rrr(dyad) = step {
                 dyad.motions(motions).map_err(|why| OutOfReach { group, why })?;
             } else {
@@ -357,7 +357,8 @@ impl SolutionPlan {
         Ok(())
     }
 
-    /// Computes the positions of the driving links and of the given groups, which must not depend on other groups.
+    /// Computes the positions of the driving links and of the given groups, which must not depend on groups outside
+    /// this list.
     ///
     /// # Errors
     /// Those of [`SolutionPlan::positions`].
@@ -413,7 +414,7 @@ impl SolutionPlan {
     }
 
     /// Distance of every group from a singular pose at which two of its branches meet. Velocities must be known.
-    /// `None` for groups that monitor the sign of their own determinant.
+    /// `None` for groups that monitor the sign of their determinant.
     pub fn clearances<'a>(&'a self, motions: &'a [Motion]) -> impl Iterator<Item = Option<SingularityDistance>> + 'a {
         self.steps.iter().map(|step| step.clearance(motions))
     }

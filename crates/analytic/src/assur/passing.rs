@@ -26,8 +26,8 @@ use window::Window;
 /// The search thus comes before a step can lead into the window.
 const LOOK: f64 = 1.0;
 /// A search is made only if no known change point is nearer than this multiple of the estimated distance.
-/// A nearer known change point is the estimated one or lies before it.
-/// Change points beyond it are searched for from its window.
+/// A nearer known change point is the estimated one or lies before the estimated one.
+/// Change points beyond a known change point are searched for from the window of the known change point.
 const NEXT: f64 = 1.3;
 /// Two change points closer together than this (rad) count as one change point, at which several groups are singular.
 const SAME: f64 = 1e-6;
@@ -117,8 +117,8 @@ impl Passing {
         Ok(())
     }
 
-    /// The window that a step between two angles leaves or passes over. If there are several, the window nearest to the
-    /// end of the step.
+    /// The window that a step between two angles leaves or passes over. If the step leaves or passes over several
+    /// windows, returns the window nearest to the end of the step.
     fn left(&self, [from, to]: [f64; 2]) -> Option<usize> {
         let over =
             |window: &Window| (from - window.at) * (to - window.at) <= 0.0 || (from - window.at).abs() < window.reach;
@@ -207,8 +207,8 @@ const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;
 /// Advice for passing a pose that may be a change point.
 pub(super) fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
-        // The case cannot pass this pose: it is already set to pass change points, or it has several drives, for which
-        // passing is impossible.
+        // The case cannot pass this pose: it is already set to pass change points, or it has several drives.
+        // A case with several drives cannot pass change points.
         true => sentences::LET_THE_GRID_END_BEFORE_IT,
         false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }

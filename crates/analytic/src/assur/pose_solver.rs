@@ -25,7 +25,7 @@ pub(super) const HALVINGS: u32 = 20;
 /// Explanation of a singular pose.
 const MEET: &str = sentences::THERE_THE_LINKS_OF_THE_GROUP;
 
-/// Goes from crank angle to crank angle on one branch and solves the pose there, without allocation.
+/// Goes from crank angle to crank angle on one branch and solves the pose at each angle, without allocation.
 #[derive(Debug)]
 pub struct PoseSolver<'a> {
     pub(super) case: &'a Case,
@@ -46,7 +46,7 @@ pub struct PoseSolver<'a> {
     alpha: f64,
     pub(super) has_motions: bool,
     pub(super) crank: f64,
-    /// World direction of the crank at its angle zero (rad).
+    /// World direction of the crank at crank angle zero (rad).
     zero: f64,
     step: f64,
     pub(super) gauges: Gauges,

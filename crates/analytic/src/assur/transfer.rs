@@ -39,16 +39,17 @@ pub(crate) struct TransferSide<'a> {
     /// Indices of the free drives.
     free: Vec<usize>,
     /// First transfer functions of every link's mass centre and angle: all links for the first free driving link, then
-    /// all links for the next.
+    /// all links for each further free driving link.
     transfer: Vec<(Vec2, f64)>,
     matrix: Lu,
     right: Vec<f64>,
     loads: Vec<Wrench>,
-    /// Change points of a mechanism with one driving link. With several driving links, they are not passed.
+    /// Change points of a mechanism with one driving link. A mechanism with several driving links cannot pass change
+    /// points.
     passing: Option<Passing>,
     /// Clearances of the groups at the last pose; used only with several driving links.
     sines: Vec<Option<f64>>,
-    /// Actions held constant at the last accelerations.
+    /// Actions in the last call of `accelerate` in a window around a change point.
     held: Option<Held>,
 }
 
@@ -105,8 +106,8 @@ impl<'a> TransferSide<'a> {
     }
 
     /// Refuses a step over a change point, where a clearance falls to zero and rises again.
-    /// For such a step, extrapolation from the end of the step with the slope there gives a negative clearance at the
-    /// beginning.
+    /// For such a step, extrapolation from the end of the step, with the slope at the end, gives a negative clearance
+    /// at the beginning.
     /// A step over a near miss is refused too. With smaller steps, a near miss is no longer refused.
     fn keep_clear(&mut self) -> std::result::Result<(), OutOfReach> {
         for ((step, target), at) in self.unit.iter_mut().zip(&self.target).zip(&self.at) {
@@ -133,7 +134,7 @@ impl<'a> TransferSide<'a> {
         }
     }
 
-    /// Computes the accelerations at the last pose. Its velocities must be known.
+    /// Computes the accelerations at the last pose. The velocities at this pose must be known.
     fn accelerations(&mut self, omegas: &[f64], alphas: &[f64]) {
         match self.passing.as_ref().and_then(Passing::inside) {
             Some(window) => window.rates(self.at[0], [omegas[0], alphas[0]], &self.plan, &mut self.state.motions),

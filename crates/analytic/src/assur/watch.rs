@@ -2,8 +2,8 @@
 //!
 //! The closed form keeps the sign of a dyad's sine. At a change point its branch therefore has a corner: the dyad's
 //! clearance falls to zero and rises again.
-//! The result is an estimate: the speeds of the carrying links between two poses are inferred from these poses.
-//! It misses a clearance that falls to zero, rises and falls again within one step.
+//! The watch is only an estimate: the speeds of the carrying links between two poses are inferred from these poses.
+//! The estimate misses a clearance that falls to zero, rises and falls again within one step.
 //! For dyads behind a higher group, a step is 2 degrees.
 //! See docs/numerics/change_points.md.
 
@@ -19,14 +19,14 @@ use linkage::mechanism::{PerGroup, PerLink};
 const NARROW: f64 = 0.8;
 /// If a clearance exceeds this multiple of its expected change over the rest of the step, it is assumed to stay above
 /// zero.
-/// Near a change point the sine is linear in the crank angle. Its change over the next step equals that over the last
-/// step, and a factor of 1 would suffice.
+/// Near a change point the sine is linear in the crank angle.
+/// The change of the sine over the next step then equals that over the last step, and a factor of 1 would suffice.
 /// Near a dead point the sine is proportional to the root of the distance.
-/// Its change over the next step is then up to (1 + root 2) times that over the last step.
+/// The change of the sine over the next step is then up to (1 + root 2) times that over the last step.
 /// The rest of the factor is a reserve, not a proof.
 pub(super) const CLEAR: f64 = 4.0;
 /// Largest expected rotation of a dyad's links relative to each other, divided by the rotation of the crank.
-/// This is an assumption. It is valid if every carrying link is slower than 16 times the crank.
+/// The value is an assumption. It is valid if every carrying link is slower than 16 times the crank.
 const FAST: f64 = 16.0;
 
 /// Placeholder for a group without a clearance.
@@ -47,7 +47,8 @@ impl Seen {
     /// Whether the clearance may have fallen to zero and risen again. `sense` is the crank's direction in this step.
     #[inline]
     pub(super) fn may_pass(&self, sense: f64) -> bool {
-        // `last.rate` may be unknown (NaN). Its comparison is negated, so that an unknown rate counts as falling.
+        // `last.rate` may be unknown (NaN). The comparison of `last.rate` is negated, so that an unknown rate counts as
+        // falling.
         self.last.sine.smaller(self.now.sine) < NARROW
             && !(self.last.rate * sense >= 0.0)
             && self.now.rate * sense > 0.0

@@ -1,4 +1,4 @@
-//! The pieces of a free motion: what each keeps constant, and where it ends.
+//! The pieces of a free motion, with the quantities that are constant in each piece and the bounds at which it ends.
 //! See docs/numerics/forces.md.
 
 use crate::sentences;
@@ -25,7 +25,7 @@ const FARTHEST: f64 = std::f64::consts::PI;
 /// A bound of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Bound {
-    /// The motion whose sense determines the load with this number reverses.
+    /// The link or point that determines the sense of the load with this number reverses.
     Sense(usize),
     /// The motor leaves its branch towards higher speeds.
     TooFast,
@@ -45,7 +45,8 @@ const AT_REST: f64 = 1e-11;
 /// A link or point that starts at its dead centre shows its sense of motion after a driving link has turned by this
 /// angle (rad).
 const NUDGE: f64 = 1e-7;
-/// Largest number of iterations for the starting directions of points at rest. These directions depend on each other.
+/// Largest number of iterations for the starting directions of points at rest. The starting directions of several
+/// points depend on each other.
 const ROUNDS: usize = 60;
 /// Number of bisections for the starting acceleration of a point.
 const HALVINGS: usize = 60;
@@ -62,7 +63,7 @@ pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
 /// Number of a load that depends on a sense of motion, and the link or point with this motion.
 type Sensed = (usize, Senses);
 
-/// The link or point whose sense of motion determines a load; nothing if this link never turns.
+/// The link or point whose sense of motion determines a load; `Senses::Nothing` if this link never turns.
 fn sensed(case: &Case, load: &Load) -> Senses {
     match load.nature().senses {
         Senses::Link(link) if !case.can_turn(link) => Senses::Nothing,
@@ -220,8 +221,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
         index.checked_sub(self.case.loads.len()).map_or(Bound::Sense(index), |common| COMMON[common])
     }
 
-    /// Sets the crank's speed exactly to this end of the motor's branch and chooses the branch beyond it.
-    /// Otherwise the same piece would be chosen again. The result is empty, because no link or point is at rest there.
+    /// Sets the crank's speed exactly to this end of the motor's branch and chooses the branch beyond the end.
+    /// Without the exact speed, the same piece would be chosen again.
+    /// The result is empty, because no link or point is at rest at the end of a branch.
     fn at_branch_end(&self, place: &mut Place<N>, end: usize, towards: f64) -> Vec<Sensed> {
         let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
         place.y[N / 2] = self.case.crank().sense() * speeds[end];
@@ -230,7 +232,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Chooses senses and branch at the beginning of the motion.
-    /// From rest the motor drives the crank. If other forces then turn the crank backwards, power flows to the motor.
+    /// From rest the motor drives the crank. If forces other than the motor's then turn the crank backwards, power
+    /// flows to the motor.
     fn begin(&self, work: &mut Work, place: &Place<N>) -> Result<()> {
         self.choose_branch(place, 1.0);
         let stood = self.begin_senses(work, place)?;
@@ -248,7 +251,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(())
     }
 
-    /// Computes the accelerations at `place`. The links or points of the loads in `stood` are at rest there.
+    /// Computes the accelerations at `place`. The links or points of the loads in `stood` are at rest at `place`.
     fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
         self.smooth.set(self.knots.around(self.crank(place.x, &place.y)));
@@ -282,8 +285,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(stood)
     }
 
-    /// The entries of `sensed` that stand still at the end of a piece: the entry of the bound, and every other entry
-    /// that stops at the same instant.
+    /// The entries of `sensed` that stand still at the end of a piece.
+    /// They are the entry of the bound, and every further entry that stops at the same instant.
     /// A point that has only changed its direction is not at rest.
     fn stopped(&self, work: &mut Work, place: &Place<N>, bound: usize) -> Result<Vec<Sensed>> {
         self.put(&mut work.inputs, place.x, &place.y);

@@ -1,6 +1,6 @@
 //! Motion determined by forces, with any number of degrees of freedom.
-//! Each analytic side computes the accelerations of the driving links with its own equations.
-//! The shared integrator integrates these accelerations over time.
+//! Each analytic side computes the accelerations of the driving links with separate equations.
+//! The shared integrator integrates these accelerations in time.
 //!
 //! The independent coordinates are the angles of the driving links (coordinate partitioning: Wehage and Haug 1982).
 //! Resistances and the losses of a reducer jump if a motion changes its sense.

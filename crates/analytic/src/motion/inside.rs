@@ -68,7 +68,7 @@ impl<'t> Targets<'t> {
         self.0.is_empty()
     }
 
-    /// Takes the next target, if it lies before `x`.
+    /// Removes and returns the next target, if it lies before `x`.
     fn before(&mut self, x: f64) -> Option<f64> {
         let (&first, rest) = self.0.split_first().filter(|(first, _)| **first < x)?;
         self.0 = rest;
@@ -174,7 +174,7 @@ mod tests {
     }
 
     fn method_end(x: f64, start: [f64; 2]) -> [f64; 2] {
-        // Eight short steps. At these lengths they are exact within rounding error.
+        // At the tested lengths, eight short steps are exact within rounding error.
         (0..8).fold(start, |y, k| {
             let h = x / 8.0;
             *a_step(&Swing, h * f64::from(k), &y, h).unwrap().y()

@@ -7,7 +7,8 @@ use std::f64::consts::TAU;
 use linkage::case::Case;
 use linkage::math::KeepNan;
 
-/// A piece ends this far beyond a knot (rad). This lets a motion that reverses exactly on the knot leave it.
+/// A piece ends this distance beyond a knot (rad).
+/// The distance lets a motion that reverses exactly on the knot leave the knot.
 /// The effect of the jump over this distance is far below rounding error.
 const BEYOND: f64 = 1e-9;
 

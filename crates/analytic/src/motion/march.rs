@@ -1,8 +1,8 @@
 //! Steps of DOP853 that end exactly at the end of a piece of the equation of motion.
 //! Requested instants lie inside the steps and need no additional step.
 //!
-//! An eighth-order step over a kink is only of first order.
-//! Each piece therefore has its own equations, which continue smoothly beyond the ends of the piece.
+//! A step of eighth order that contains a kink is only of first order.
+//! Each piece therefore has separate equations, which continue smoothly beyond the ends of the piece.
 //! A step that leaves its piece is repeated until its end lies on the boundary.
 //! Hairer, Norsett, Wanner, "Solving ordinary differential equations I", II.5 (DOP853) and II.6 (discontinuities).
 
@@ -20,16 +20,16 @@ use linkage::math::root;
 use linkage::work::{self, Count, WorkTally};
 
 /// Relative and absolute error allowed in each step, including the states inside it.
-/// The run-up of `crank_rocker` is then exact to 5e-12 rad, and to 1e-14 at its end.
+/// The run-up of `crank_rocker` is then accurate to 5e-12 rad, and to 1e-14 rad at its end.
 pub const ACCURACY: f64 = 1e-11;
 /// Tolerance for the error estimate of a step, divided by the allowed error. The estimate refers to the end of the
 /// step.
-/// Inside a step the order is lower by one, and errors are some hundred times larger.
+/// Inside a step the order is lower by one, and errors are some hundred times larger than at the end of the step.
 /// The errors inside the steps of `crank_rocker_runup` are 40 to 400 times the estimate.
 const ESTIMATED: f64 = 0.01;
 /// Smallest tolerance for an error estimate.
-/// With a smaller tolerance, rounding shortens the steps. Many short steps then add more rounding error than truncation
-/// error is saved.
+/// With a smaller tolerance, rounding shortens the steps.
+/// The rounding error of the additional steps then exceeds the truncation error that they save.
 const LEAST_ESTIMATED: f64 = 2e-15;
 /// Fractions of a step at which the bounds are checked.
 const LOOKED_AT: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
@@ -38,15 +38,15 @@ const LOOKED_AT: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// With a smaller value, rounding error dominates.
 pub(crate) const TIGHTER: f64 = 0.01;
 /// Width of the windows around change points in the tighter runs, divided by the usual width.
-/// The tighter runs pass a change point with other poses. The difference between a normal run and a tighter run
-/// therefore also shows the error of the windows.
+/// The tighter runs pass a change point with poses other than those of the normal run.
+/// The difference between a normal run and a tighter run therefore also shows the error of the windows.
 pub(crate) const NARROWER: f64 = 0.8;
 /// If more than this number of consecutive pieces have zero duration, the motion is stuck at a kink.
 pub(crate) const MOST_EMPTY: usize = 8;
 /// Largest number of steps of one piece. A hundred turns of a mechanism take about ten thousand steps.
 const MOST_STEPS: usize = 3_000_000;
-/// After every such number of steps, the total number of steps is predicted. If the total exceeds `MOST_STEPS`, the
-/// march ends.
+/// Each time this number of steps is completed, the total number of steps is predicted. If the total exceeds
+/// `MOST_STEPS`, the march ends.
 /// This happens if a motor is much too strong for the machine: the motor's decay, not the motion, then limits the
 /// length of the steps.
 const PREDICTED: usize = 50_000;
@@ -56,7 +56,8 @@ const PREDICTED: usize = 50_000;
 /// Short steps would never pass a singular pose: near it, accelerations are rounding errors or cannot be computed.
 const SHORTEST: f64 = 1e-9;
 const MOST_SHORT: usize = 400;
-/// A step may be longer than planned by this factor if it then reaches the last target. This avoids a tiny last step.
+/// A step may be longer than planned by this factor if it then reaches the last target. The factor avoids a tiny last
+/// step.
 const STRETCH: f64 = 1.001;
 /// Number of bisections of a step for a first estimate of the position of a bound.
 const BISECTIONS: usize = 40;
@@ -162,7 +163,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     }
 }
 
-/// The first checked position in the last step that lies beyond a bound, with its state.
+/// The first checked position in the last step that lies beyond a bound, and the state at this position.
 /// The checks inside the step also detect a bound that is passed twice within the step.
 fn beyond<const N: usize, F: Flow<N>>(flow: &F, method: &mut Method<N>) -> Result<Option<(f64, [f64; N])>> {
     let (from, to) = (method.t_prev(), method.t());
@@ -232,8 +233,8 @@ fn crossing<const N: usize, F: Flow<N>>(
     Ok(low)
 }
 
-/// Takes a step of about the length `h` that ends on the bound. The step is repeated, and the secant method gives its
-/// new length.
+/// Takes a step of about the length `h` that ends on the bound.
+/// The step is repeated, and the secant method gives the length of each repetition.
 /// `known` contains the length of a longer step and the margin at its end.
 fn shortened<const N: usize, F: Flow<N>>(
     flow: &F,
@@ -257,7 +258,8 @@ fn shortened<const N: usize, F: Flow<N>>(
 /// Largest number of pieces of one motion. A hundred turns of a mechanism under tables of loads take some thousand
 /// pieces.
 const MOST_PIECES: usize = 3_000_000;
-/// After every such number of pieces, the total number of pieces is predicted and compared with `MOST_PIECES`.
+/// Each time this number of pieces is completed, the total number of pieces is predicted and compared with
+/// `MOST_PIECES`.
 const JUDGED: usize = 5_000;
 
 /// Counts the pieces of a motion. A motion whose speed grows without bound needs more and more pieces.

@@ -71,13 +71,13 @@ pub(crate) fn embed(matrix: &mut Lu, right: &mut [f64], free: &[usize], inputs: 
 /// An analytic side's equations of motion in the coordinates of the driving links.
 pub(crate) trait Side {
     /// Solves for the accelerations of the free driving links and writes them to the inputs.
-    /// The accelerations of the other driving links are known.
+    /// The accelerations of driving links that are not free are known.
     fn accelerate(&mut self, inputs: &mut Inputs, held: &Held) -> Result<()>;
 
-    /// Angular velocity (rad/s) of a link at these angles and speeds.
+    /// Angular velocity (rad/s) of a link at the angles and speeds in `inputs`.
     fn spin(&mut self, inputs: &Inputs, link: LinkId) -> Result<f64>;
 
-    /// Velocity (m/s) of a point of a link at these angles and speeds.
+    /// Velocity (m/s) of a point of a link at the angles and speeds in `inputs`.
     fn velocity(&mut self, inputs: &Inputs, at: Place) -> Result<Vec2>;
 
     /// Acceleration (m/s^2) of a point of a link after the last call of [accelerate](Side::accelerate).

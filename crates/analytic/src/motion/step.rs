@@ -14,7 +14,7 @@ pub(crate) trait Flow<const N: usize>: ODE<f64, [f64; N]> {
     /// Number of bounds of the piece.
     fn bounds(&self) -> usize;
 
-    /// Distance of the state from a bound, positive inside and negative beyond it.
+    /// Distance of the state from a bound, positive inside the piece and negative beyond the bound.
     fn margin(&self, bound: usize, x: f64, y: &[f64; N]) -> f64;
 
     /// Is called at the beginning of every step.
@@ -55,7 +55,8 @@ pub(super) fn a_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N],
     Ok(method)
 }
 
-/// Reports the flow's own error in preference to the library's error. An error in a repeated trial step does not count.
+/// Reports an error of the flow in preference to an error of the library. An error in a repeated trial step does not
+/// count.
 pub(super) fn checked<const N: usize, F: Flow<N>, T, E: std::fmt::Debug>(
     flow: &F,
     answer: std::result::Result<T, E>,

@@ -3,9 +3,9 @@
 //! Ordered by driving links and groups, the Jacobian is block-triangular.
 //! A driving link does not depend on the groups, and a group does not depend on later groups.
 //! Elimination within the diagonal blocks alone keeps this structure.
-//! A group near a singular pose then does not affect the accuracy of results that do not depend on it.
-//! Elimination over all rows together carried the rounding error of this group's large accelerations into the
-//! accelerations of the crank's own pin.
+//! Results that do not depend on a group then stay accurate even if this group is near a singular pose.
+//! Elimination over all rows together carried the rounding error of the group's large accelerations into the
+//! accelerations of the crank's pin.
 //! Every block also has its own determinant.
 //! The determinant of the whole matrix would keep its sign if the determinants of two blocks change their signs.
 
@@ -27,7 +27,7 @@ struct Block {
     right: Vec<f64>,
 }
 
-/// A block-triangular square matrix. It is factored in place, and its storage is used again and again.
+/// A block-triangular square matrix. It is factored in place, and its storage is reused.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     blocks: Vec<Block>,

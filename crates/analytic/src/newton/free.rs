@@ -36,13 +36,13 @@ pub(super) struct Embedded<'a> {
     force: Vec<f64>,
     matrix: Lu,
     right: Vec<f64>,
-    /// Actions held constant at the last accelerations near a change point.
+    /// Actions in the last call of `accelerate` in a window around a change point.
     held: Option<Held>,
     passing: Option<Passing>,
 }
 
 impl<'a> Embedded<'a> {
-    /// The equations of a system at its start pose. `passing` is its path through change points.
+    /// The equations of a system at its start pose. `passing` is the path of the mechanism through change points.
     pub(super) fn new(system: System<'a>, passing: Option<Passing>) -> Self {
         let n = system.q.len();
         let drives = system.inputs.len();

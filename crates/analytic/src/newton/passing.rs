@@ -28,8 +28,8 @@ const LOOK: f64 = 0.8;
 /// Rotation of the crank (rad) from which the slopes of the determinants at the start are computed.
 const PROBE: f64 = 1e-4;
 /// A search is made only if no known change point is nearer than this multiple of the estimated distance.
-/// A nearer known change point is the estimated one or lies before it.
-/// Change points beyond it are searched for from its window.
+/// A nearer known change point is the estimated one or lies before the estimated one.
+/// Change points beyond a known change point are searched for from the window of the known change point.
 const NEXT: f64 = 1.3;
 /// Two change points closer together than this (rad) count as one change point, at which several groups are singular.
 const SAME: f64 = 1e-6;
@@ -115,8 +115,8 @@ impl Passing {
         self.inside.is_some()
     }
 
-    /// Leaves or passes over a window towards the angle `target`: the path continues from the window's last pose on
-    /// that side.
+    /// Leaves or passes over a window towards the angle `target`: the path continues from the window's last pose on the
+    /// side of `target`.
     fn leave(&mut self, target: f64) {
         let from = self.spot.angle;
         let over = |window: &&Window| {

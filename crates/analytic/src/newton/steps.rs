@@ -15,12 +15,12 @@ use linkage::work::{self, Count};
 
 /// Largest rotation of the crank between two poses (rad). A prediction over this step stays on the branch.
 pub(super) const TRACKING_STEP: f64 = PI / 90.0;
-/// Number of times a failing step is halved.
-/// Near a dead point speeds grow without limit, and steps must shrink with the remaining distance.
+/// Largest number of times a failing step is halved.
+/// Near a dead point speeds grow without limit, and steps must shrink with the distance to the dead point.
 pub(super) const HALVINGS: u32 = 40;
 /// Largest accepted jump of a link's velocity over a step, divided by the largest velocity.
 /// The jump is the part of the change that the link's acceleration does not explain.
-/// Where two branches cross, the velocity jumps from one branch to the other, even if the step is very small.
+/// If a step changes to another branch where two branches cross, the velocity jumps, even if the step is very small.
 const VELOCITY_JUMP: f64 = 0.1;
 /// A pose is singular if the ratio of a block's determinant to the largest possible determinant is below this value.
 /// The largest possible determinant is that of columns of the same lengths.
@@ -33,7 +33,7 @@ const SINGULAR: f64 = 1e-8;
 const MAX_ITERATIONS: usize = 12;
 
 impl System<'_> {
-    /// Corrects the pose at t = 0 to rounding accuracy and fixes the branch there.
+    /// Corrects the pose at t = 0 to rounding accuracy and fixes the branch at this pose.
     pub(super) fn settle(&mut self) -> Result<()> {
         self.correct()?;
         self.branch = self.jacobian.signs().collect();
@@ -62,7 +62,8 @@ impl System<'_> {
             None => drive.top_speed().abs() * (t - self.time).abs(),
         };
         let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
-        // Refuse too many turns. If a law reaches its top speed only for a moment, this is the only limit of `turn`.
+        // Refuse too many turns. If a law reaches its top speed only for a moment, this check is the only limit of
+        // `turn`.
         if !(turn <= 2.0 * Grid::MOST_TURNS * TAU) {
             let turns = turn / TAU;
             return Err(self.lost(&sentences::up_to_turns_on_the_way_to_are_too(&format_args!("{turns:.1e}"), &t)));
@@ -90,7 +91,7 @@ impl System<'_> {
         self.set_time(t);
         self.predicted.copy_from_slice(&self.q);
         let followed = self.correct().and_then(|()| self.check_branch(dt)).and_then(|()| {
-            // Refuse a pose at which branches cross before velocities are compared. At such a pose, velocities and
+            // Before velocities are compared, refuse a pose at which branches cross. At such a pose, velocities and
             // accelerations are mostly rounding error, and a check for jumps gives random results.
             self.check_singular()?;
             self.differentiate();
@@ -257,7 +258,7 @@ impl System<'_> {
 
     pub(super) fn lost(&self, why: &str) -> Error {
         let (at, t) = (self.case.told(self.case.crank().from_world(self.inputs[0].value)), self.time);
-        // In a free motion the error contains no time, because only the integrator knows the time.
+        // In a free motion the error contains no time, because only the integrator knows the time of the pose.
         if self.case.is_free() {
             return Error::new(ErrorKind::Numeric, format!("{at}: {why}"))
                 .at_input(at)
@@ -271,8 +272,8 @@ impl System<'_> {
 /// Advice for passing a pose that may be a change point.
 fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
-        // The case cannot pass this pose: it is already set to pass change points, or it has several drives, for which
-        // passing is impossible.
+        // The case cannot pass this pose: it is already set to pass change points, or it has several drives.
+        // A case with several drives cannot pass change points.
         true => sentences::LET_THE_GRID_END_BEFORE_IT,
         false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }

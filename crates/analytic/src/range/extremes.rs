@@ -1,7 +1,7 @@
 //! Extremes along the curve of poses: angles of links, determinants, condition numbers.
 //!
-//! At an extreme position of a link, the link's component of the tangent has a simple zero. This component, and thus
-//! the link's angular velocity, changes sign there.
+//! At an extreme position of a link, the link's component of the tangent has a simple zero.
+//! This component, and thus the link's angular velocity, changes sign at the extreme position.
 
 use linkage::math::KeepNan;
 use linkage::mechanism::{GroupId, LinkId};
@@ -35,9 +35,9 @@ pub struct LinkRange {
     pub link: LinkId,
     /// Smallest and greatest angle (rad, continued from that of the start pose), with their crank angles.
     pub angles: [ValueAtCrank; 2],
-    /// Whole turns of the link until the mechanism is back at its first pose. The sign is for a crank that turns
-    /// counter-clockwise: positive if the link then turns counter-clockwise.
-    /// 0 for a link that rocks, or if the crank cannot turn fully.
+    /// Whole turns of the link until the mechanism is back at its first pose.
+    /// The sign is for a crank that turns counter-clockwise: positive if the link then turns counter-clockwise.
+    /// The number is 0 for a link that rocks, or if the crank cannot turn fully.
     pub turns: i32,
     /// Extreme positions in ascending order of the crank angle.
     pub extremes: Vec<ExtremePosition>,
@@ -56,7 +56,8 @@ fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: LinkId) -> L
     let mut add = |point: &Point, is_greatest: bool| {
         extremes.push(ExtremePosition { crank: tracker.crank_of(&point.q), angle: point.q[angle], is_greatest });
     };
-    // Indices of the poses in which the link turns. Between two such poses with different sense there is one extreme.
+    // Indices of the poses in which the link turns. If the link turns in opposite senses in two successive poses of
+    // this list, there is one extreme between the two poses.
     let moving: Vec<usize> =
         (0..points.len()).filter(|&k| rate(&points[k]).abs() * points[k].sigma.powi(2) > STILL).collect();
     for pair in moving.windows(2) {
@@ -69,7 +70,8 @@ fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: LinkId) -> L
         }
     }
     let last = points.len() - 1;
-    // The start of a closed curve is both the first and the last pose. If it is an extreme position, it is added here.
+    // The start of a closed curve is both the first and the last pose. The loop above does not compare the last pose of
+    // the list with the first, so an extreme position at the start is added separately.
     if let (true, Some(&first), Some(&end)) = (closed, moving.first(), moving.last())
         && first > 0
         && rate(&points[first]) * rate(&points[end]) < 0.0

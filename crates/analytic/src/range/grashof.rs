@@ -10,8 +10,8 @@ use crate::sentences;
 use linkage::case::Case;
 use linkage::mechanism::{GROUND, GroupKind, LinkId};
 
-/// Two sums of lengths count as equal if their relative difference is at most this value. It is the rounding error of
-/// four lengths read from decimal numbers.
+/// Two sums of lengths count as equal if their relative difference is at most this value. The value is the rounding
+/// error of four lengths that are given as decimal numbers.
 const EQUAL: f64 = 1e-14;
 
 /// Rotation of the links of a four-bar.
@@ -23,9 +23,10 @@ pub enum FourBarType {
     RockerCrank,
     /// The frame is the shortest (drag link): driving and output link turn fully.
     DoubleCrank,
-    /// The coupler is the shortest: driving and output link rock, the coupler turns fully relative to both.
+    /// The coupler is the shortest: driving and output link rock, the coupler turns fully relative to both of these
+    /// links.
     DoubleRocker,
-    /// No link turns fully relative to another: s + l > p + q.
+    /// No link turns fully relative to any other link of the four-bar: s + l > p + q.
     TripleRocker,
     /// s + l = p + q: all joints can lie on one line.
     ChangePoint,
@@ -79,7 +80,7 @@ impl FourBar {
         FourBar { lengths, of_type }
     }
 
-    /// The four-bar of a case; `None` if the case is another mechanism.
+    /// The four-bar of a case; `None` if the mechanism of the case is not a four-bar.
     #[must_use]
     pub fn of(case: &Case) -> Option<Self> {
         let (mechanism, drive) = (&case.mechanism, case.crank());

@@ -53,7 +53,8 @@ fn of_columns(mut matrix: Matrix, sign: f64) -> GroupCondition {
         }
     }
     let values = matrix.singular_values();
-    // For a matrix of zeros the quotient is NaN. The minimum then gives the condition number of a singular matrix.
+    // For a matrix of zeros the quotient is NaN. The result is then `f64::MAX`, the condition number of a singular
+    // matrix.
     let condition = (values.max() / values.min()).smaller_number(f64::MAX);
     GroupCondition { determinant: sign * values.product(), condition }
 }

@@ -6,14 +6,15 @@ use linkage::mechanism::GroupId;
 /// Kind of a singular pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SingularityKind {
-    /// Limit of rotation of the crank: two configurations of a group coincide, and no configuration exists beyond.
+    /// Limit of rotation of the crank: two configurations of a group coincide, and no configuration exists beyond the
+    /// limit.
     /// The determinant goes to zero as the square root of the remaining crank angle.
     DeadPoint,
     /// Branches cross: the determinant passes through zero linearly in the crank angle, and the crank need not reverse.
     ChangePoint,
     /// The two axes of an RPP or PRP dyad are parallel. Towards this pose the slides of the dyad grow without bound.
     ParallelAxes,
-    /// Another branch is so near that the determinant is below 1e-3 without changing its sign.
+    /// A branch other than the followed one is so near that the determinant is below 1e-3 without changing its sign.
     BranchContact,
 }
 

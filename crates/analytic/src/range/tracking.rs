@@ -106,7 +106,7 @@ pub(super) struct Tracker<'a> {
     signs: Vec<f64>,
     /// Direction of the smallest singular value at the last pose. The search at the next pose starts from it.
     weakest: RefCell<ColumnVector>,
-    /// The error that the allowed work is used up. After it, no further pose is placed.
+    /// The error that the allowed work is used up. After this error, no further pose is placed.
     over: OnceCell<Error>,
 }
 
@@ -385,8 +385,8 @@ impl<'a> Tracker<'a> {
         let q = if known.len() < 3 { last.q.clone() } else { neville_at_zero(&known) };
         let moved = (&q - &last.q).norm();
         let q = if moved < 1e-3 { q } else { last.q.clone() };
-        // If the crank stands still on the curve, this is a dead point of several groups at once. The crank also stands
-        // still at the dead point of one group.
+        // If the crank stands still on the curve, the pose is a dead point, of one group or of several groups at once.
+        // Otherwise the pose is a change point.
         let kind =
             if self.crank_rate(last).abs() < 1e-3 { SingularityKind::DeadPoint } else { SingularityKind::ChangePoint };
         let mut end = Point { q, ..last.clone() };

@@ -104,7 +104,7 @@ impl<'m, 'a> Forces<'m, 'a> {
     }
 }
 
-/// Crank angle and speed over time.
+/// Crank angle and speed as functions of time.
 #[derive(Debug)]
 pub(crate) struct InTime<'m, 'a>(pub(crate) Forces<'m, 'a>);
 

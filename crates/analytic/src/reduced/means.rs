@@ -29,7 +29,7 @@ pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
 }
 
 /// Reduced moment of resistance (N m): minus the power of gravity and loads divided by the driving link's speed.
-/// Positive where the drive must do work against them.
+/// The moment is positive where the drive must do work against gravity and loads.
 #[must_use]
 pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
     let power =
@@ -151,7 +151,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
 }
 
 /// Means of the reduced quantities over the turns of the crank after which the mechanism is back at its first pose.
-/// This is usually one turn.
+/// The number of these turns is usually one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Means {
     /// Mean reduced moment of inertia (kg m^2).

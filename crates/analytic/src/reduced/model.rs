@@ -52,8 +52,9 @@ impl Piece {
     }
 }
 
-/// A mechanism of one degree of freedom under forces: the coefficients of its equation of motion `omega^2 / 2 dI*/dphi
-/// + I* domega/dt = M`, and the crank angles at which they have kinks.
+/// A mechanism of one degree of freedom under forces.
+/// The model contains the coefficients of the equation of motion `omega^2 / 2 dI*/dphi + I* domega/dt = M`.
+/// It also contains the crank angles at which these coefficients have kinks.
 #[derive(Clone, Debug)]
 pub struct ReducedModel<'a> {
     pub(crate) case: &'a Case,
@@ -65,7 +66,7 @@ pub struct ReducedModel<'a> {
     kinks: Kinks,
     /// Crank angles of the boundaries between pieces. The boundaries are the kinks of one period.
     /// If there are no kinks, the start of the period is the only boundary.
-    /// If the motion has limits, these are included.
+    /// If the motion has limits, the limits are included.
     boundaries: Vec<f64>,
     /// Sense of the transfer function of each link in `sensed`, on each piece of one period: +1 or -1.
     /// The values of the first piece come first, then those of the next piece.

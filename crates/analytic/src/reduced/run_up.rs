@@ -222,7 +222,7 @@ impl<'m, 'a> Runner<'m, 'a> {
     }
 }
 
-/// The crank at a state. `gone` (rad), the angle of the completed periods, is added.
+/// The crank at a state. The angle `gone` (rad) of the completed periods is added to the crank angle.
 fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64, is_accelerated: bool) -> CrankState {
     if !is_accelerated {
         return CrankState { t, crank: crank + gone, within: crank, omega, alpha: 0.0, motor: 0.0, shaft: 0.0 };
@@ -233,7 +233,8 @@ fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64, is_accele
 }
 
 /// Kinetostatics of a motion: the state at every instant, up to the stage that the case requests.
-/// The model must be that of the motion. The case may have another grid and request fewer channels.
+/// The model must be that of the motion. The grid of `case` may differ from that of the model's case, and `case` may
+/// request fewer channels.
 pub(crate) fn states(model: &ReducedModel, case: &Case, motion: &[CrankState], visit: Visit) -> Result<()> {
     let mut poses = model.guided(PoseSolver::counting_turns(case)?);
     let deepest = case.wanted.deepest();
@@ -259,8 +260,8 @@ pub struct RunUp {
     pub trajectory: Trajectory,
     /// How it ended.
     pub end: RunUpEnd,
-    /// Largest reaction times the mechanism's size (N m). It is the reference for moments if no moment acts on the
-    /// crank.
+    /// Largest reaction times the mechanism's size (N m). It is the reference for moments if all moments on the crank
+    /// are smaller.
     natural: f64,
 }
 
@@ -290,7 +291,8 @@ impl RunUp {
     }
 
     /// Largest difference between the shaft's moment and the moment from the crank's equilibrium.
-    /// The difference is divided by the largest moment, or by the largest reaction times the mechanism's size.
+    /// The difference is divided by the largest moment or by the largest reaction times the mechanism's size, whichever
+    /// is larger.
     /// The check compares the equation of motion with the reactions, which do not use reduced quantities.
     /// `None` if the balancing moment is not requested.
     #[must_use]

@@ -1,7 +1,8 @@
 //! A crank that turns fully, and the crank angles at which links reverse.
 //!
 //! The poses of one whole turn are enough, because the pose solver itself refuses dead points and change points.
-//! The limits of other cranks come from the [range of motion](crate::range), whose analysis costs many times as much.
+//! The limits of cranks that do not turn fully come from the [range of motion](crate::range).
+//! The analysis of the range of motion costs many times as much as one whole turn of poses.
 
 use std::f64::consts::TAU;
 
@@ -46,7 +47,7 @@ struct Rate {
 
 impl FullTurn {
     /// Turns the crank of a case from its start until the mechanism is back at its first pose.
-    /// `None` if the mechanism does not come back, or if this is uncertain.
+    /// `None` if the mechanism does not come back, or if its return is uncertain.
     pub(super) fn of(case: &Case, links: &[LinkId]) -> Option<Self> {
         if case.crank().through {
             return None;
@@ -89,8 +90,8 @@ fn reversals_of(
     reversals: &mut Vec<f64>,
 ) -> Result<()> {
     let moving = || rates.iter().filter(|rate| rate.omega.abs() > STILL);
-    // If the link is at rest at the start, the interval that contains the start begins at the last pose of a period and
-    // ends at the first pose of the next.
+    // If the link is at rest at the start, one interval contains the start.
+    // This interval begins at the last pose of a period and ends at the first pose of the next period.
     let is_still = rates.first().is_some_and(|rate| !(rate.omega.abs() > STILL));
     let next = moving().next().filter(|_| is_still).map(|first| Rate { crank: first.crank + period, ..*first });
     let all: Vec<Rate> = moving().copied().chain(next).collect();
@@ -120,8 +121,9 @@ fn between(
         reversals.extend(found);
         return Ok(());
     }
-    // The link may have reversed twice only if the tangents of its angular velocity at both ends intersect on the other
-    // side of zero. Otherwise the interval is not halved.
+    // The link may have reversed twice only if two tangents of its angular velocity intersect beyond zero.
+    // The tangents are those at the two ends of the interval. Beyond zero, the angular velocity has the opposite sign.
+    // If the tangents intersect elsewhere, the interval is not halved.
     let at = (b.omega - a.omega + a.slope * a.crank - b.slope * b.crank) / (a.slope - b.slope);
     let is_dip = a.omega * a.slope < 0.0 && b.omega * b.slope > 0.0;
     if halvings > 0 && is_dip && (a.omega + a.slope * (at - a.crank)) * a.omega <= 0.0 {

@@ -28,7 +28,7 @@ impl Averaged {
     /// `None` where this closed form does not exist: the law is not linear, or the motor does not start against the
     /// resistance.
     /// Also `None` where the resistance drives the motor beyond its no-load speed through a reducer with losses: the
-    /// line has a bend there.
+    /// motor's line has a bend at the no-load speed.
     #[must_use]
     pub fn of(motor: &Motor, inertia: f64, resistance: f64) -> Option<Self> {
         let MotorLaw::Linear { .. } = motor.law else { return None };

@@ -19,8 +19,8 @@ pub struct ReducedRow {
     pub inertia: f64,
     /// dI*/dphi (kg m^2).
     pub slope: f64,
-    /// Reduced moment of resistance of gravity and loads (N m), in the sense of the scenario's speed. Positive where
-    /// the drive must work against them.
+    /// Reduced moment of resistance of gravity and loads (N m), in the sense of the scenario's speed.
+    /// The moment is positive where the drive must work against gravity and loads.
     pub resistance: f64,
 }
 

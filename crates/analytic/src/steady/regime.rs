@@ -99,7 +99,7 @@ impl ReducedModel<'_> {
         Err(Error::new(ErrorKind::Numeric, message).help(sentences::FOLLOW_THE_RUN_UP_INSTEAD))
     }
 
-    /// A steady motion of this model at other crank angles, in the form of [`ReducedModel::regime`].
+    /// A steady motion of this model at the crank angles `cranks`, in the form of [`ReducedModel::regime`].
     /// The motion is followed over one more period; it is not searched for again.
     ///
     /// # Errors
@@ -110,7 +110,7 @@ impl ReducedModel<'_> {
     }
 }
 
-/// One period over the crank angle.
+/// One period as a function of the crank angle.
 struct Turn<'m, 'a> {
     flow: OverAngle<'m, 'a>,
     start: f64,
@@ -123,8 +123,8 @@ impl<'m, 'a> Turn<'m, 'a> {
         Ok(Turn { flow, start: model.sense * model.case.crank().start, period })
     }
 
-    /// Energy and time at the end of a period that begins with `energy` (J), and the ratio of a small deviation of the
-    /// energy at the end to that at the beginning.
+    /// Energy and time at the end of a period that begins with `energy` (J), and a ratio of deviations.
+    /// The ratio is that of a small deviation of the energy at the end to the deviation at the beginning.
     /// The visited steps are divided at the targets.
     fn run(
         &self,

@@ -1,8 +1,9 @@
 //! Published methods for the class III group of order 3: a base link on three leads, all joints revolute.
 //!
-//! The methods compute quantities that the two solvers also compute, but with independent equations:
-//! first transfer functions by Cramer's rule ([`cramer`]), the exchange of the driving link ([`class_change`]), and
-//! reactions by the singular Assur point ([`assur_point`]) or by all equations of equilibrium at once
+//! The methods compute quantities that the two solvers also compute, but with independent equations.
+//! For the motion, there are first transfer functions by Cramer's rule ([`cramer`]) and the exchange of the driving
+//! link ([`class_change`]).
+//! For the reactions, there are the singular Assur point ([`assur_point`]) and all equations of equilibrium at once
 //! ([`linear_system`]).
 //!
 //! In these modules lead i goes from its foot A_i, the outer joint, to its head B_i, the joint with the base link.
@@ -32,9 +33,9 @@ pub struct TriadLead {
     pub inner: JointId,
     /// The outer joint on the link that is known before the group.
     pub support: JointSide,
-    /// The outer joint in the lead's own frame (m).
+    /// The outer joint in the lead's frame (m).
     pub foot: Vec2,
-    /// The inner joint in the lead's own frame (m).
+    /// The inner joint in the lead's frame (m).
     pub head: Vec2,
     /// The inner joint in the base link's frame (m).
     pub on_base: Vec2,
@@ -50,9 +51,9 @@ pub struct Triad {
 }
 
 impl Triad {
-    /// Reads a group as a base link on three leads. `None` for any other group.
+    /// Interprets a group as a base link on three leads. `None` for any other group.
     /// Also `None` if a joint on one of the group's links is not revolute, because it would also transmit a moment.
-    /// This includes joints with later groups.
+    /// This condition includes joints with later groups.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Option<Self> {
         let touching = mechanism.joints().iter().filter(|joint| group.links.iter().any(|&l| joint.on(l).is_some()));
@@ -159,7 +160,7 @@ pub struct KnownResultant {
 }
 
 impl KnownResultant {
-    /// Moment about another world point (N m).
+    /// Moment about the world point `pole` (N m).
     #[must_use]
     pub fn about(&self, pole: Vec2) -> f64 {
         self.moment + cross(self.at - pole, self.force)

@@ -1,9 +1,10 @@
 //! Distance of two bodies at the middle of a part of the range, with a lower bound over the whole part.
 //!
 //! parry2d computes the nearest points. The bound depends only on the direction between these points.
-//! The distance of two convex parts along a fixed direction is that of their extreme corners along this direction.
+//! The distance of two convex parts along a fixed direction is the distance of their extreme corners along this
+//! direction.
 //! Every corner moves uniformly, up to a proven error.
-//! A wrong pair of nearest points therefore weakens the bound but never invalidates it.
+//! A wrong pair of nearest points therefore weakens the bound but never invalidates the bound.
 
 use linkage::math::{KeepNan, Vec2, turned};
 use linkage::mechanism::LinkId;
@@ -19,12 +20,12 @@ use scenario::clearance::Outline;
 const FAR: f64 = 1e9;
 
 /// If two convex parts are nearer than this multiple of the mechanism's size, the normals of their sides are tried too.
-/// The direction between their nearest points is then too inaccurate.
+/// The direction between the nearest points of such close parts is too inaccurate.
 const CLOSE: f64 = 1e-5;
 
 /// Outline of a body, prepared for distance queries.
 pub struct Solid {
-    /// Link of the body; the ground for the housing.
+    /// Link of the body. A body of the housing has the ground as its link.
     pub link: LinkId,
     /// Rounding radius (m).
     pub radius: f64,
@@ -55,13 +56,13 @@ struct PlacedPiece {
 /// Distance of two bodies over a part of the range.
 #[derive(Clone, Copy, Debug)]
 pub struct Gap {
-    /// Upper bound of the distance at the middle (m). It is 0 if the bodies meet.
-    /// It is infinite if all convex parts are farther apart than the argument `enough` of the function `gap`.
+    /// Upper bound of the distance at the middle (m). The bound is 0 if the bodies meet.
+    /// The bound is infinite if all convex parts are farther apart than the argument `enough` of the function `gap`.
     pub now: f64,
     /// Nearest points at the middle, on the first and the second body (m).
     pub points: [Vec2; 2],
-    /// Lower bound of the distance over the part of the range (m). It may be negative.
-    /// It is proven only if the slice is sound.
+    /// Lower bound of the distance over the part of the range (m). The bound may be negative.
+    /// The bound is proven only if the slice is sound.
     pub least: f64,
 }
 
@@ -162,7 +163,7 @@ pub fn gap(
             if core < CLOSE * a.scale {
                 // The direction between points this close is only rounding error, so the normals of the sides are tried
                 // too.
-                // If the two parts can be separated, one of these normals separates them.
+                // If two convex parts can be separated, one of these normals separates them.
                 normals(&own.corners, -1.0, &mut ask);
                 normals(&other.corners, 1.0, &mut ask);
             }
@@ -181,14 +182,14 @@ fn closest(pieces: [&Piece; 2], placed: [&PlacedPiece; 2], places: [&PlacedSolid
             let middle = (placed[0].centre + placed[1].centre) / 2.0;
             [middle; 2]
         }
-        // The centres of the pieces replace the nearest points. Any two points of the pieces give an upper bound of the
-        // distance.
+        // The centres of the pieces replace the nearest points.
+        // This is valid because any two points of the pieces give an upper bound of the distance.
         Ok(ClosestPoints::Disjoint) | Err(_) => placed.map(|piece| piece.centre),
     }
 }
 
 /// Calls `ask` with the normals of a convex part's sides: outward for `sign` 1, inward for -1.
-/// A segment has both normals.
+/// For a segment, both normals are passed.
 fn normals(corners: &[Track], sign: f64, ask: &mut impl FnMut(Vec2)) {
     let count = corners.len();
     for k in 0..count {
@@ -200,8 +201,9 @@ fn normals(corners: &[Track], sign: f64, ask: &mut impl FnMut(Vec2)) {
 }
 
 /// Lower bound of the distance of two convex parts along `normal` (m), for crank angles within `half` of the middle.
-/// It is the smallest projection of the first part's corners minus the largest projection of the second part's corners.
-/// This difference is a concave function of the crank angle.
+/// The bound is the smallest projection of the first part's corners minus the largest projection of the second part's
+/// corners.
+/// This difference is a concave function of the crank angle, so its smallest value lies at an end of the part.
 fn apart(first: &[Track], second: &[Track], normal: Vec2, half: f64) -> f64 {
     let at = |by: f64| {
         let low = first.iter().map(|corner| normal.dot(&corner.at) + normal.dot(&corner.rate) * by - corner.error);

@@ -1,7 +1,8 @@
 //! Smallest distances and first meetings of pairs over the range.
 //!
-//! The search halves a part of the range until it proves that no distance in the part is below the smallest one found.
-//! It ends when every part is proven, so no instant is skipped.
+//! The search halves a part of the range until it proves that no distance in the part is below the smallest distance
+//! found.
+//! The search ends when every part is proven, so no instant is skipped.
 //! Parts of the smallest size that remain unproven are reported.
 
 use linkage::error::Result;
@@ -26,11 +27,11 @@ type Bounds = (RangePart, bool, Vec<(usize, f64)>);
 pub struct Smallest {
     /// Smallest distance found (m), at `crank` and between `points`; 0 if the bodies meet.
     pub distance: f64,
-    /// Lower bound of the distance over the range (m). It excludes parts of the range without a proof.
+    /// Lower bound of the distance over the range (m). The bound excludes parts of the range without a proof.
     pub least: f64,
     /// Crank angle of the smallest distance (rad).
     pub crank: f64,
-    /// Nearest points at this crank angle, on the first and the second body (m, world).
+    /// Nearest points at the crank angle of the smallest distance, on the first and the second body (m, world).
     pub points: [Vec2; 2],
 }
 

@@ -3,9 +3,9 @@
 //! The plane is divided into squares. A square that is proven neither covered nor free is divided into four.
 //! A square is covered if it lies inside the outline at one instant or if a side of the outline passes over it.
 //! A square is free if the outline stays away from it during every part of the range. The bounds of [`super::gap`]
-//! prove this.
-//! The remaining squares lie on the border of the area and determine its error bound.
-//! Their covered fraction is computed as if the border were straight.
+//! prove that a square is free.
+//! The remaining squares lie on the border of the area and determine the error bound of the area.
+//! The covered fraction of the remaining squares is computed as if the border were straight.
 
 #[cfg(test)]
 mod tests;
@@ -20,7 +20,7 @@ use scenario::clearance::Outline;
 /// If the outline's border moves farther than this fraction of a square's half diagonal during a part of the range, the
 /// part is halved.
 const SPREAD: f64 = 0.5;
-/// Width of a window divided by the width of its part of the range.
+/// Width of a window divided by the width of the part of the range around which the window lies.
 /// `ANCESTORS` is the number of parts whose windows are tried: the part itself and its ancestors.
 const WINDOW: f64 = 4.0;
 const ANCESTORS: usize = 4;
@@ -62,7 +62,7 @@ struct Node {
     window: Option<Window>,
 }
 
-/// Sides of an outline with their motion over a part of the range; empty if nothing is proven for the part.
+/// Sides of an outline with their motion over a part of the range. The list is empty if nothing is proven for the part.
 struct Window {
     half: f64,
     sides: Vec<[Track; 2]>,
@@ -78,7 +78,7 @@ enum Square {
     Border(Vec<u32>, f64),
 }
 
-/// Search for the swept area of one body.
+/// Search for the area that one body sweeps.
 pub struct Sweep<'a, 'c> {
     tubes: &'a mut Tubes<'c>,
     outline: &'a Outline,
@@ -87,7 +87,7 @@ pub struct Sweep<'a, 'c> {
     rounding: f64,
     /// Number of tests of a square against a part of the range.
     pub tests: usize,
-    /// Ranges of crank angles (rad) that the area leaves out, because nothing is proven for them.
+    /// Ranges of crank angles (rad) that are left out of the area, because nothing is proven for them.
     pub open: Vec<[f64; 2]>,
 }
 
@@ -99,7 +99,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
     }
 
     /// Computes the area to the relative tolerance `wanted`.
-    /// If this takes more than `budget` tests, the area is less accurate.
+    /// If the tolerance would take more than `budget` tests, the area is less accurate.
     ///
     /// # Errors
     /// Those of the pose solver.
@@ -219,8 +219,8 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(Window { half: slice.half, sides })
     }
 
-    /// Returns the two halves of a part in order. They are computed only once.
-    /// `None` if nothing is proven for one of the halves.
+    /// Returns the two halves of a part in order. The halves are computed only once.
+    /// Returns `None` if nothing is proven for one of the halves.
     fn halves(&mut self, node: u32) -> Result<Option<[u32; 2]>> {
         if let Some(first) = self.nodes[node as usize].halves {
             return Ok(Some([first, first + 1]));
@@ -237,7 +237,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
 
     fn judge(&mut self, centre: Vec2, half: f64, near: &[u32]) -> Result<Square> {
         let about = half * std::f64::consts::SQRT_2 + self.rounding;
-        // Coarse parts come first. If one of them covers the square, the halves of all other parts are not needed.
+        // Coarse parts come first. If a coarse part covers the square, the halves of all other parts are not needed.
         let (mut ahead, mut next) = (near.to_vec(), 0);
         let (mut kept, mut crossing, mut lowest) = (Vec::new(), Vec::new(), (f64::INFINITY, Vec2::new(1.0, 0.0)));
         while let Some(&index) = ahead.get(next) {
@@ -250,7 +250,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
             }
             let away = rotated(node.tube.frame().1, away);
             // Point of the border that is nearest to the square.
-            // It may move away from the square or towards it, so only the magnitude of its rate counts.
+            // The point may move away from the square or towards it, so only the magnitude of its rate counts.
             let border = node.tube.point(node.tube.local(centre - away * (now + self.outline.radius())));
             let swing = away.dot(&border.rate).abs() * node.half;
             if self.least(node, centre) > about {
@@ -283,7 +283,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
     }
 
     /// Lower bound of the body's distance from a point over a part of the range (m).
-    /// It is negative if the body may cover the point.
+    /// The bound is negative if the body may cover the point.
     fn least(&self, node: &Node, place: Vec2) -> f64 {
         let mut least = f64::INFINITY;
         for part in &node.parts {
@@ -305,7 +305,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
 }
 
 /// Returns the point of a convex part (point, segment or counter-clockwise polygon) that is nearest to `place`.
-/// Returns `place` if it lies inside the convex part.
+/// If `place` lies inside the convex part, `place` itself is returned.
 fn nearest(part: &[Track], place: Vec2) -> Vec2 {
     let count = part.len();
     let side = |k: usize| [part[k].at, part[(k + 1) % count].at];
@@ -325,9 +325,9 @@ fn nearest(part: &[Track], place: Vec2) -> Vec2 {
 }
 
 /// Whether a side of the outline passes over a whole disc during a part of the range.
-/// The disc must be left of this line at the start and right of it at the end, or vice versa.
-/// Throughout, the disc must lie between the two ends of the line.
-/// Every point of the disc then lies on the line at some instant.
+/// The disc must be left of the side's line at the start and right of the line at the end, or vice versa.
+/// During the whole part, the disc must lie between the two ends of the side.
+/// Every point of the disc then lies on the side at some instant.
 fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool {
     let error = from.error + to.error;
     let signed = |by: f64| {
@@ -336,13 +336,13 @@ fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool 
     };
     let [before, after] = [signed(-half), signed(half)];
     // The limit contains twice the error of the ends.
-    // If the ends of a line are hardly farther apart than their errors, the line's direction is not proven.
+    // If the ends of a side are hardly farther apart than their errors, the direction of the side is not proven.
     let sure = about + 2.0 * error;
     if !(before.abs() > sure && after.abs() > sure && before * after < 0.0) {
         return false;
     }
-    // (centre - a) . (b - a) is a quadratic function of the crank angle, and so is the expression with a and b
-    // exchanged.
+    // (centre - a) . (b - a) is a quadratic function of the crank angle.
+    // The expression with a and b exchanged is quadratic too.
     let beyond = |a: &Track, b: &Track| {
         let (own, along) = (centre - a.at, b.at - a.at);
         let (moved, turned) = (-a.rate, b.rate - a.rate);

@@ -77,12 +77,12 @@ fn smallest_distances_to_a_floor_are_exact() {
     let asked = question(&case, 0.01, &[("floor", line(&[(-1.0, -0.15), (1.0, -0.15)], 0.005))]);
     let found = find(&case, &asked, &mut |_| ()).unwrap();
     let crank = of(&asked, &found, ["crank", "floor"]);
-    // The pin is lowest at 270 deg.
+    // The pin is lowest at 270 deg. There, the crank's end is nearest to the floor.
     let expected = 0.15 - 0.1 - 0.015;
     assert!((crank.smallest.distance - expected).abs() < 1e-12, "{crank:?}");
     assert!((crank.smallest.crank - 1.5 * PI).abs() < 1e-6, "{crank:?}");
     assert!(crank.smallest.least > expected - 1e-6 && crank.collision.is_none());
-    // The slider keeps its distance from the floor throughout.
+    // The slider keeps its distance from the floor during the whole range.
     let piston = of(&asked, &found, ["piston", "floor"]);
     assert!((piston.smallest.distance - 0.135).abs() < 1e-12 && piston.smallest.least > 0.135 - 1e-6, "{piston:?}");
     assert!(found.open.is_empty());
@@ -136,7 +136,7 @@ fn a_collision_begins_where_the_distance_reaches_zero() {
 }
 
 /// Of two posts, the post that the crank meets first is reported.
-/// The order of the posts in the question and the sense of the crank do not matter.
+/// The result depends neither on the order of the posts in the question nor on the crank's sense of rotation.
 #[test]
 fn the_first_collision_is_the_first_in_motion_order() {
     for sense in [1.0, -1.0] {
@@ -193,13 +193,13 @@ fn a_proven_distance_allows_for_rounding() {
     let [one, two] = [&solids[0], &solids[3]];
     let places = [&one.placed(&slice), &two.placed(&slice)];
     let found = gap::gap([one, two], places, &slice, rounding, f64::INFINITY, &mut 0);
-    // The post is at rest; the nearest points lie on the crank's line and on the post.
+    // The post is at rest, so the nearest points lie on the crank's line and on the post.
     let expected = 0.3 - 0.1 * 0.3f64.sin() - 0.02;
     assert!(found.now > expected - 0.01 && found.now - found.least >= 1.99 * rounding, "{found:?} {rounding}");
 }
 
-/// The corners of a polygon may be given in either sense. They are stored counter-clockwise.
-/// The convex parts cover the same area, and the distances are the same.
+/// The corners of a polygon may be given clockwise or counter-clockwise. They are stored counter-clockwise.
+/// Both orders give convex parts that cover the same area, and give the same distances.
 #[test]
 fn the_orientation_of_a_polygon_does_not_matter() {
     let angle = [(0.0, 0.0), (0.3, 0.0), (0.3, 0.1), (0.1, 0.1), (0.1, 0.4), (0.0, 0.4)].map(|(x, y)| Vec2::new(x, y));
@@ -218,8 +218,8 @@ fn the_orientation_of_a_polygon_does_not_matter() {
     }
 }
 
-/// The rounding error of a position grows with the distance from the origin. This holds for a body and for a link.
-/// At a distance of 1000 m, the error is above a thousand times the epsilon of a double.
+/// The rounding error of a position grows with the distance from the origin, for a body and for a link.
+/// At a distance of 1000 m, the rounding error is above a thousand times the epsilon of a double.
 #[test]
 fn rounding_grows_with_the_farthest_position() {
     let case = slider_crank();
@@ -244,7 +244,7 @@ fn adjacent_intervals_are_merged_in_motion_order() {
 }
 
 /// Excluded pairs are two parts of the housing, two joined links, and pairs that the question names.
-/// Joined links touch at their joint. A named pair may be given in either order.
+/// Joined links are excluded because they touch at their joint. A named pair may be given in either order.
 #[test]
 fn pairs_that_need_no_check_are_excluded() {
     let case = four_bar();
@@ -295,7 +295,7 @@ fn collisions_of_sharp_corners_are_found() {
     let found = find(&case, &asked, &mut |_| ()).unwrap();
     assert!(found.open.is_empty(), "{:?}", found.open);
     let meeting = found.pairs[0].collision.unwrap();
-    // The crank's tip at 0.12 m reaches the block's side from (0, 0.1) to (0.3, 0.11).
+    // At the contact, the crank's tip at 0.12 m reaches the block's side from (0, 0.1) to (0.3, 0.11).
     let tip = Vec2::new(meeting.cranks[1].cos(), meeting.cranks[1].sin()) * 0.12;
     assert!((tip.y - 0.1 - tip.x * 0.01 / 0.3).abs() < 1e-8, "{meeting:?}");
 }
@@ -328,13 +328,13 @@ fn a_thin_link_sweeps_an_area() {
     let (_, area) = found.swept[0];
     let expected = PI * 0.01;
     assert!((area.least..=area.most).contains(&expected) && area.error() < 6e-3 * expected, "{area:?} {expected}");
-    // Half of the border of the rod's area is an envelope. With the allowed number of tests, its error bound stays
-    // wide.
+    // Half of the border of the rod's area is an envelope.
+    // With the allowed number of tests, the error bound of the rod's area therefore stays wide.
     let (_, thin) = found.swept[1];
     assert!(thin.error() < 0.05 * thin.value, "{thin:?}");
 }
 
-/// A tube contains the true poses at every crank angle of its part of the range, ends included.
+/// A tube contains the true poses at every crank angle of its part of the range, including both ends.
 /// Neighbouring tubes therefore overlap.
 #[test]
 fn tubes_contain_the_motion() {
@@ -359,12 +359,13 @@ fn tubes_contain_the_motion() {
                 }
             }
         }
-        // The error is hardly larger than its second-order term: h^2 / 2 times accelerations of up to 0.5 m/rad2.
+        // The largest error is hardly larger than its second-order term: h^2 / 2 times accelerations of up to 0.5
+        // m/rad2.
         assert!(widest < 0.005, "{widest}");
     }
 }
 
-/// At a singular pose nothing is proven, and the result reports this.
+/// At a singular pose nothing is proven, and the result reports the unproven range.
 #[test]
 fn a_singular_pose_is_reported_as_unproven() {
     // Parallelogram that passes smoothly through its change point.

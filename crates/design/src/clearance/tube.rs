@@ -2,10 +2,11 @@
 //! deviation.
 //!
 //! Over the interval, a uniform motion approximates the motion of each link.
-//! Its reference point moves along a straight line, and its angle changes in proportion to the crank angle.
+//! The link's reference point moves along a straight line, and the link's angle changes in proportion to the crank
+//! angle.
 //! The deviation of the true motion is bounded group by group, for all crank angles of the interval at once (Krawczyk
 //! 1969; Moore 1977).
-//! Let x be the poses of a group's links, F(x) = 0 its joint equations and x0 the uniform motion.
+//! Let x be the poses of a group's links, F(x) = 0 the group's joint equations and x0 the uniform motion.
 //! Let A be an inverse of the derivative of F at the middle.
 //! Then T(x) = x - A F(x) maps the box |x - x0| <= r into itself and contracts if
 //!
@@ -31,7 +32,8 @@ use linkage::trajectory::Stage;
 
 /// Upper limit of the width of the first parts, into which the range is divided at the beginning (rad).
 const FIRST: f64 = std::f64::consts::PI / 24.0;
-/// Upper limit of the number of halvings of a first part. The smallest part has about 1.5e-8 of the first part's width.
+/// Upper limit of the number of halvings of a first part.
+/// The width of the smallest part is about 1.5e-8 times the width of the first part.
 pub const MOST_HALVINGS: u32 = 26;
 /// Upper limit of the number of trials to find a box that contains the motion.
 /// `WIDER` is the factor by which each trial widens the box.
@@ -47,7 +49,7 @@ const KEPT: usize = 20_000;
 pub struct RangePart {
     /// Number of halvings.
     pub halvings: u32,
-    /// Index among the parts of this size, in the direction of motion.
+    /// Index among the parts of the same size, in the direction of motion.
     pub index: u64,
 }
 
@@ -60,7 +62,7 @@ impl RangePart {
 }
 
 /// Point of a link over a part of the range, as a function of the crank angle d from the middle.
-/// Its position is `at` + `rate` d (m, m/rad), with an error of at most `error` (m).
+/// The position of the point is `at` + `rate` d (m, m/rad), with an error of at most `error` (m).
 #[derive(Clone, Copy, Debug)]
 pub struct Track {
     /// Position at the middle (m).
@@ -254,8 +256,8 @@ impl<'a> Tubes<'a> {
         }
         for drive in case.drives.iter() {
             // The crank turns uniformly about its pivot on the ground.
-            // A drive on a moving link is free, so the mechanism then has several degrees of freedom.
-            // A single angle does not determine its pose, and such a mechanism does not occur here.
+            // A drive on a moving link is free, so a mechanism with such a drive has several degrees of freedom.
+            // A single angle does not determine the pose of such a mechanism, so such mechanisms do not occur here.
             let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
             let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
             (tube.centre, tube.at, tube.rate) = (pivot, motion.point(pivot), Vec2::zeros());
@@ -295,7 +297,7 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
             let [x, y, twist] = [0, 1, 2].map(|k| radii[3 * index + k]);
             (tubes[link].off, tubes[link].twist) = (x.hypot(y), twist);
         }
-        // Bound on the change of every equation over the box.
+        // Upper bound of the change of every equation over the box.
         let mut change = vec![0.0; size];
         let mut row = 0;
         for joint in &joints {
@@ -324,7 +326,7 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
 
 /// Writes the derivative of a joint's two equations at the middle into `derivative`.
 /// Writes the largest residual of these equations under the uniform motion into `open`.
-/// Links of the group move uniformly. Other links may be anywhere in their tubes.
+/// Links of the group move uniformly. Links outside the group may be anywhere in their tubes.
 fn equations(
     joint: &Joint,
     tubes: &[Tube],

@@ -1,10 +1,10 @@
 //! The chord method and its inverse, graphical integration.
 //!
 //! The slope of the chord over an interval is the mean of the derivative over this interval.
-//! As an approximation of the derivative at the middle of the interval, it has the error h^2 f'''/24 and terms of
-//! higher order.
+//! As an approximation of the derivative at the middle of the interval, the slope has the error h^2 f'''/24 and terms
+//! of higher order.
 //! For a sine of angular frequency k, the slope is exactly sin(k h/2) / (k h/2) times the derivative.
-//! In the inverse, the increment is the value at the middle times the length of the interval.
+//! In graphical integration, the increment is the value at the middle times the length of the interval.
 
 /// Returns the midpoints of the intervals between `places`.
 #[must_use]
@@ -13,7 +13,7 @@ pub fn middles(places: &[f64]) -> Vec<f64> {
 }
 
 /// Returns the slopes of the chords between the points (`places`, `values`).
-/// They approximate the derivative at the midpoints of the intervals.
+/// The slopes approximate the derivative at the midpoints of the intervals.
 #[must_use]
 pub fn slopes(places: &[f64], values: &[f64]) -> Vec<f64> {
     places.windows(2).zip(values.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect()
@@ -64,7 +64,7 @@ mod tests {
             let velocity = slopes(&x, &sine);
             let acceleration = closed_slopes(&x, &velocity);
             assert_eq!((velocity.len(), acceleration.len()), (n, n));
-            // Rounding error of the sines, amplified by the two divisions by h.
+            // The bound is the rounding error of the sines, amplified by each division by h.
             let bound = |order: i32| 8.0 * f64::EPSILON * (n as f64 / TAU * 2.0).powi(order);
             for (x, v) in middles(&x).iter().zip(&velocity) {
                 assert!((v - factor * k * (k * x).cos()).abs() <= bound(1), "{v}");

@@ -26,10 +26,10 @@ pub struct CrankGraph {
     pub mean: f64,
     /// Name of the mean.
     pub mean_word: &'static str,
-    /// Lowest and highest point on paper.
+    /// Lowest and highest point of the graph on paper.
     pub marks: [GraphPoint; 2],
     /// Reference size for the range of values.
-    /// A range below a billionth of this size is rounding error, and the quantity counts as constant.
+    /// If the range is below a billionth of this size, it is rounding error, and the quantity counts as constant.
     pub size: f64,
 }
 

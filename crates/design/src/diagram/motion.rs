@@ -1,7 +1,7 @@
 //! Motion diagrams over one turn of the crank: displacement, velocity and acceleration, exact and by graphical methods.
 //!
 //! Differentiation: chords of the displacement give the velocity at the midpoints of the divisions.
-//! Chords of this velocity give the acceleration at the ends of the divisions.
+//! Chords of the chord velocity give the acceleration at the ends of the divisions.
 //! Integration: the exact velocity at the midpoints gives the displacement.
 //! The exact acceleration at the midpoints gives the velocity. Each integration starts from the exact first value.
 
@@ -20,7 +20,8 @@ pub const DIVISIONS: std::ops::RangeInclusive<usize> = 4..=1000;
 /// Lower limit of the number of points of the exact curves.
 const CURVE: usize = 720;
 /// Lower limit of a derivative's scale, divided by its natural scale.
-/// The range of a nearly constant derivative is too small a scale, because its errors come from the displacement.
+/// The limit is needed because the errors of a nearly constant derivative come from the displacement.
+/// The range of such a derivative would be too small a scale for these errors.
 const SMALLEST: f64 = 1e-3;
 /// If an error is below this fraction of its scale, it is rounding error and no order is computed from it.
 const ROUNDING: f64 = 1e-11;
@@ -57,7 +58,7 @@ impl MotionCurve {
     }
 }
 
-/// Lists the possible names: those of the link or point that `name` contains.
+/// Lists the possible names: the names of the link or point that `name` contains.
 /// If this link or point does not exist, all names of links or all names of points are listed.
 /// If `name` begins with neither `link` nor `point`, the help states how names are formed.
 fn help(all: &[Channel], name: &str) -> String {
@@ -80,7 +81,7 @@ fn help(all: &[Channel], name: &str) -> String {
 }
 
 linkage::words! {
-    /// Method that derives one diagram from another.
+    /// Method that computes one diagram from another.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Method: words {
         /// Velocity from chords of the displacement.
@@ -95,7 +96,7 @@ linkage::words! {
 }
 
 impl Method {
-    /// Index of the method's result: 0 displacement, 1 velocity, 2 acceleration.
+    /// Index of the quantity that the method computes: 0 displacement, 1 velocity, 2 acceleration.
     #[must_use]
     pub fn gives(self) -> usize {
         match self {
@@ -111,7 +112,7 @@ impl Method {
 pub struct MethodResult {
     /// Method.
     pub method: Method,
-    /// Rows of [`MotionDiagram::cranks`] at which the values are given.
+    /// Rows of [`MotionDiagram::cranks`] at which the method's values are given.
     pub rows: Vec<usize>,
     /// Values (SI).
     pub values: Vec<f64>,
@@ -122,12 +123,13 @@ pub struct MethodResult {
     /// Largest error divided by half the range of the exact curve.
     /// The divisor is at least a thousandth of the natural scale.
     /// For the velocity, the natural scale is the displacement's half range times the crank's angular velocity.
-    /// For the acceleration, it is the displacement's half range times the square of this angular velocity.
+    /// For the acceleration, the natural scale is the displacement's half range times the square of this angular
+    /// velocity.
     pub share: f64,
     /// Observed orders of convergence of the root mean square error.
-    /// The first order compares `divisions` with twice as many divisions.
-    /// The second compares twice as many with four times as many.
-    /// `None` if the error is rounding error.
+    /// The first order compares the error at `divisions` with the error at twice as many divisions.
+    /// The second order compares the error at twice as many divisions with the error at four times as many.
+    /// An order is `None` if the error at its finer division is rounding error.
     pub orders: [Option<f64>; 2],
 }
 
@@ -138,7 +140,7 @@ pub struct MotionDiagram {
     pub course: MotionCurve,
     /// Number of divisions of the turn.
     pub divisions: usize,
-    /// Number of rows per division. It is even.
+    /// Number of rows per division. The number is even.
     pub stride: usize,
     /// Crank angle of every row (rad, as the scenario defines it).
     pub cranks: Vec<f64>,
@@ -204,14 +206,14 @@ impl MotionDiagram {
         Ok(MotionDiagram { course: course.clone(), divisions, stride, cranks, times, exact, found })
     }
 
-    /// Half the range of an exact curve (SI): 0 displacement, 1 velocity, 2 acceleration.
+    /// Half the range of an exact curve (SI). Index 0 is the displacement, 1 the velocity, 2 the acceleration.
     #[must_use]
     pub fn half_range(&self, which: usize) -> f64 {
         half_range(&self.exact[which])
     }
 }
 
-/// Scales of the errors (SI).
+/// Scales (SI) by which the errors of displacement, velocity and acceleration are divided.
 fn scales(exact: &[Vec<f64>; 3], period: f64) -> [f64; 3] {
     let natural = |order: i32| SMALLEST * half_range(&exact[0]) * (TAU / period).powi(order);
     [0, 1, 2].map(|order| half_range(&exact[order as usize]).larger(natural(order)))

@@ -1,11 +1,11 @@
-//! Timing diagram of an output: its course over one turn, with the required phases.
+//! Timing diagram of an output: the output's course over one turn, with the required phases.
 
 /// Phase in the drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
-    /// Crank angle at its start (rad).
+    /// Crank angle at the start of the phase (rad).
     pub from: f64,
-    /// Crank angle at its end (rad).
+    /// Crank angle at the end of the phase (rad).
     pub to: f64,
     /// Required motion of the output.
     pub word: &'static str,
@@ -23,7 +23,8 @@ pub struct Stretch {
 pub struct TimingDiagram {
     /// Achieved curve: crank angle (rad) and fraction of the stroke.
     pub curve: Vec<[f64; 2]>,
-    /// Required curve: crank angle (rad) and fraction of the stroke. It is empty if only senses of motion are required.
+    /// Required curve: crank angle (rad) and fraction of the stroke.
+    /// The curve is empty if only senses of motion are required.
     pub wanted: Vec<[f64; 2]>,
     /// Phases.
     pub stretches: Vec<Stretch>,

@@ -95,7 +95,7 @@ pub fn frame(figure: &mut DrawnFigure, size: Vec2, colour: &'static str) {
     figure.area(rectangle([Vec2::zeros(), size]), None, solid(colour, 0.25));
 }
 
-/// Formats a multiple of `step` with the digits it needs.
+/// Formats a multiple of `step` with as many digits as the multiple needs.
 fn number(value: f64, step: f64) -> String {
     if (1e-4..1e6).contains(&step) {
         let decimals = format!("{step}").split_once('.').map_or(0, |(_, decimals)| decimals.len());
@@ -105,6 +105,7 @@ fn number(value: f64, step: f64) -> String {
         return "0".into();
     }
     // A computed multiple of a round number may differ from the round value by a rounding error.
+    // The value is therefore rounded to ten significant digits.
     let round: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     format!("{round:e}")
 }

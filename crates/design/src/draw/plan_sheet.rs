@@ -1,5 +1,6 @@
 //! Sheet of a mechanism's plans: kinematic diagram, velocity plan and acceleration plan below each other.
-//! Each plan has its table below it. The sheet is narrow, so that letters stay legible at the width of a web page.
+//! The table of each plan is below the plan. The sheet is narrow, so that letters stay legible at the width of a web
+//! page.
 
 use super::scheme_figure;
 use crate::plan::Plans;
@@ -18,7 +19,7 @@ use linkage::math::{KeepNan, Vec2, cross, turned};
 const MARGIN: f64 = 8.0;
 const GAP: f64 = 12.0;
 const SPACE: f64 = 6.0;
-/// Height of the sheet's title (mm). `HEADING` is the height of a column's heading (mm).
+/// Height of the sheet's title (mm). `HEADING` is the height of a plan's heading (mm).
 const TITLE: f64 = 18.0;
 const HEADING: f64 = 15.0;
 /// Points closer to each other on paper than this (mm) share one label.
@@ -141,7 +142,7 @@ fn figure(plan: &VectorPlan) -> DrawnFigure {
     figure
 }
 
-/// Shifts an arrow sideways, with its length kept, until it no longer coincides with an arrow drawn before.
+/// Shifts an arrow sideways, with its length kept, until the arrow no longer coincides with an arrow drawn before.
 fn beside(ends: [Vec2; 2], drawn: &[[Vec2; 2]]) -> [Vec2; 2] {
     let along = (ends[1] - ends[0]).normalize();
     let aside = turned(along) * APART;
@@ -165,7 +166,8 @@ fn marks(plan: &VectorPlan) -> Vec<(Vec2, String)> {
     for tip in &plan.tips {
         let at = tip.at / plan.scale;
         match marks.iter_mut().find(|(place, _)| (place - at).norm() < ONE) {
-            // The end of a normal or Coriolis part needs no letter if it visibly coincides with another point.
+            // The end of a normal or Coriolis part needs no letter if it visibly coincides with another point of the
+            // plan.
             Some(_) if matches!(tip.kind, TipKind::Normal | TipKind::Coriolis) => {}
             Some((_, text)) => *text += &format!(", {}", letters(tip)),
             None => marks.push((at, letters(tip))),

@@ -11,7 +11,7 @@ use linkage::math::Vec2;
 
 /// An angular velocity or acceleration below this fraction of its natural scale is rounding error.
 const ROUNDING: f64 = 1e-12;
-/// A singular point is drawn only if each lead has an end that is nearer to it than this (mm).
+/// A singular point is drawn only if each lead has an end nearer to the point than this (mm).
 const NEAR: f64 = 120.0;
 
 /// Draws the mechanism; the world origin is the figure's origin.
@@ -51,7 +51,7 @@ pub fn scheme(scheme: &Scheme) -> DrawnFigure {
 }
 
 /// Returns a singular point on paper and the two lines that meet in it. Each line starts at the farther end of a lead.
-/// `None` if the point is too far away.
+/// `None` if an end of a lead has no position, or if the point is at least `NEAR` away from both ends of a lead.
 fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2; 2]; 2])> {
     let named = |name: &String| scheme.points.iter().find(|(own, _)| own == name).map(|(_, at)| at / scheme.scale);
     let at = point.at / scheme.scale;
@@ -66,8 +66,9 @@ fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2
 /// Table of the links with their numbers, angular velocities and angular accelerations.
 pub fn table(scheme: &Scheme) -> LegendTable {
     let driver = scheme.links.iter().find(|link| link.number == scheme.driver).map_or(0.0, |link| link.omega.abs());
-    // At a dead point the values are only rounding error, so values below the limit are shown as zero.
-    // The natural scale is the crank's speed for an angular velocity, and its square for an angular acceleration.
+    // At a dead point some values are only rounding error, so values below the limit are shown as zero.
+    // The natural scale of an angular velocity is the crank's speed.
+    // The natural scale of an angular acceleration is the square of the crank's speed.
     let shown = |value: f64, scale: f64| significant(if value.abs() > ROUNDING * scale { value } else { 0.0 });
     let row = |link: &SchemeLink| {
         let (omega, alpha) = (shown(link.omega, driver), shown(link.alpha, driver * driver));

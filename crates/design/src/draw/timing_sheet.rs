@@ -15,7 +15,7 @@ const LONG: f64 = 180.0;
 const HIGH: f64 = 80.0;
 /// Height of the strip of phases above the stroke (mm).
 const STRIP: f64 = 11.0;
-/// Space left of the axis for its numbers (mm). `MARGIN` is the margin of the sheet (mm).
+/// Space to the left of the stroke for the numbers of its axis (mm). `MARGIN` is the margin of the sheet (mm).
 const LEFT: f64 = 14.0;
 const MARGIN: f64 = 12.0;
 /// Required motion.

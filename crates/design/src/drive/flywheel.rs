@@ -16,7 +16,7 @@ pub struct Flywheel {
     pub regime: Regime,
 }
 
-/// Upper limit of the flywheel divided by the first guess: sixty doublings.
+/// Upper limit of the flywheel's inertia divided by the first guess: sixty doublings.
 /// If a larger flywheel would be needed, the required coefficient counts as unreachable.
 const LARGEST: f64 = (1u64 << 60) as f64;
 /// Upper limit of the number of regula falsi steps. About eight steps are needed.
@@ -26,7 +26,7 @@ const CLOSE: f64 = 1e-12;
 
 impl Flywheel {
     /// The flywheel with which the steady motion has the coefficient of non-uniformity `wanted`.
-    /// If the coefficient is already smaller without a flywheel, the flywheel has no inertia.
+    /// If the coefficient is already below `wanted` without a flywheel, the flywheel has no inertia.
     /// Regula falsi (Illinois) finds the inertia. Each step solves for the exact steady motion.
     ///
     /// # Errors
@@ -40,7 +40,8 @@ impl Flywheel {
         }
         let mut last = Flywheel { inertia: 0.0, regime: model.with_flywheel(0.0).regime(&[], accuracy)? };
         // The inverse of the coefficient of non-uniformity is nearly linear in the flywheel's inertia.
-        // The product of this coefficient and the inertia is about the largest surplus of work divided by omega^2.
+        // The search therefore compares the inverses of the actual and the required coefficient.
+        // The product of the coefficient and the inertia is about the largest surplus of work divided by omega^2.
         let excess = |regime: &Regime| 1.0 / regime.non_uniformity() - 1.0 / wanted;
         let none = (0.0, excess(&last.regime));
         if none.1 >= 0.0 {

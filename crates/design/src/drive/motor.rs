@@ -3,7 +3,7 @@
 //! The power on the crank's shaft is computed at the peak and at the required speed.
 //! This power divided by the efficiency between motor and crank is the smallest allowed rated power of the motor.
 //! Courses of machine design teach this rule.
-//! The rule is conservative, because inertia carries the crank over peaks.
+//! The rule is conservative, because it ignores that inertia carries the crank over peaks.
 
 use crate::sentences;
 use analytic::AssurSolver;
@@ -38,8 +38,8 @@ impl CatalogueMotor {
     }
 
     /// The stable part of the motor's characteristic.
-    /// It is the straight line through the rated point and synchronous speed, M = M_n (omega_s - omega) / (omega_s -
-    /// omega_n).
+    /// This part is the straight line through the rated point and the synchronous speed, M = M_n (omega_s - omega) /
+    /// (omega_s - omega_n).
     #[must_use]
     pub fn law(&self) -> MotorLaw {
         let slope = -self.rated_torque() / (self.synchronous_speed - self.rated_speed);
@@ -55,7 +55,7 @@ impl CatalogueMotor {
 }
 
 /// The motor with the smallest rated power that is not below `power` (W).
-/// If several motors have this rated power, the first in the catalogue is taken.
+/// If several motors have this rated power, the first of them in the catalogue is chosen.
 /// `None` if all motors are too weak.
 #[must_use]
 pub fn weakest_sufficient(motors: &[CatalogueMotor], power: f64) -> Option<&CatalogueMotor> {
@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn rated_data_give_the_published_torque_line() {
         let motor = motor("a", 0.55, 2745.0);
-        // The printed values are 1.913 N m, 22.51 N m and -0.0716 N m s.
+        // The printed values of the three quantities below are 1.913 N m, 22.51 N m and -0.0716 N m s.
         assert!((motor.rated_torque() - 1.913).abs() < 5e-4);
         let MotorLaw::Linear { at_rest, slope } = motor.law() else { panic!("not linear") };
         assert!((at_rest - 22.51).abs() < 5e-3 && (slope + 0.0716).abs() < 1e-4, "{at_rest} {slope}");

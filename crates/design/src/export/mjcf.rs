@@ -2,18 +2,18 @@
 //!
 //! Contents of the file:
 //!
-//! - The plane is XOY. Every body's frame is that of its link, in the start pose.
+//! - The plane of motion is XOY. Every body's frame is the frame of its link, in the start pose.
 //!   `ref` makes the joint coordinates those of the mechanism.
 //!   The coordinate of a hinge is the angle of the child minus that of its parent.
 //!   The coordinate of a slide is that of the prismatic joint's channel.
 //! - A joint that closes a loop is a `connect` of two sites.
-//!   Its third row, along z, is zero in a planar mechanism: it costs a little and has no effect.
+//!   Its third row, along z, is zero in a planar mechanism: the row costs a little time and has no effect.
 //! - A drive is a rotor ([`MjcfModel::rotor`]) on the driven hinge.
-//!   Its inertia is so large that the speed is practically constant: it changes by 1e-9.
-//!   This holds with any integrator and at any step.
+//!   Its inertia is so large that the speed is practically constant: the speed changes by 1e-9 of its value.
+//!   The speed is constant with any integrator and at any step.
 //!   A velocity actuator of the same stiffness diverges, because `implicitfast` solves the constraints without the
 //!   actuator's damping.
-//!   A softer actuator lags.
+//!   A softer velocity actuator lags.
 //!   The rotor does not enter the interaction forces that sensors read.
 //!   The torque sensor of the hinge therefore reads the driving moment.
 //! - A free link has no rotor except that of its motor.
@@ -23,12 +23,12 @@
 //!   They act on a hinge, on a site, or on a fixed tendon whose length is an angle or a difference of angles.
 //!   Springs and dampers between points are spatial tendons.
 //! - A moment that resists the rotation of a link is dry friction.
-//!   It acts in the link's hinge if that hinge is on the ground.
-//!   Otherwise it acts in a fixed tendon whose length is the link's angle.
+//!   The friction acts in the link's hinge if that hinge is on the ground.
+//!   Otherwise the friction acts in a fixed tendon whose length is the link's angle.
 //!   Dry friction holds a link at rest, whereas [`Load::Resistance`](linkage::drive::Load::Resistance) is zero at rest.
 //! - Constraints are as stiff as the time step permits.
 //!   With `solref="1e-9 0.5"` MuJoCo raises the time constant to twice the step (`refsafe`).
-//!   That gives b = 1/h and k = 1/h^2, so a gap is closed in one step.
+//!   The raised time constant gives b = 1/h and k = 1/h^2, so a gap is closed in one step.
 //!   The file is therefore valid for any step, and the error is of second order in the step.
 
 mod effects;

@@ -87,8 +87,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Describes the direction of the vector of a point of `link`, if the direction is known in advance.
-    /// Otherwise the text is empty.
+    /// Describes the direction of the vector of a point of `link`. If the direction is not known in advance, the text
+    /// is empty.
     fn direction(&self, link: LinkId, name: &str) -> String {
         match (self.quantity, pivot(self.mechanism, link), fixed_guide(self.mechanism, link)) {
             (Quantity::Velocity, Some((_, pivot)), _) => sentences::perpendicular_to(&pair(&pivot, name)),
@@ -137,8 +137,8 @@ impl<'a> Builder<'a> {
     }
 
     /// Adds the vectors of a prismatic joint on a moving guide.
-    /// In a velocity plan this is the relative velocity.
-    /// In an acceleration plan these are the Coriolis part and the relative acceleration.
+    /// In a velocity plan, the added vector is the relative velocity.
+    /// In an acceleration plan, the added vectors are the Coriolis part and the relative acceleration.
     /// A fixed guide and a revolute joint add no vector.
     fn sliding(&mut self) {
         let mut number = 0;
@@ -169,7 +169,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds the end of a vector. Its letter gets as many primes as make it unique. Returns the letter.
+    /// Adds the end of a vector and returns its letter. The letter gets as many primes as make it unique.
     fn tip(&mut self, letter: String, kind: TipKind, at: Vec2) -> String {
         let letter = primed(letter, |letter| self.tips.iter().any(|tip| tip.letter == letter));
         self.tips.push(Tip { letter: letter.clone(), kind, at });
@@ -219,8 +219,8 @@ impl<'a> Builder<'a> {
 
     /// Pairs of points of a link.
     /// The first pairs join the link's ground pivot and every other point. The next pairs join two moving points.
-    /// The last pairs contain a point that coincides with a sliding point.
-    /// It is paired with the link's pivot or, without a pivot, with the link's moving points.
+    /// Each of the last pairs contains a point that coincides with a sliding point.
+    /// The coincident point is paired with the link's pivot or, without a pivot, with the link's moving points.
     /// A link that never turns has no pairs: all its points have the same motion.
     fn pairs(&self, link: LinkId) -> Vec<(On<'a>, On<'a>)> {
         if !self.mechanism.can_turn(link) {

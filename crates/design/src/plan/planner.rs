@@ -4,16 +4,17 @@
 //! For the plane motion of a rigid link, v_B = v_A + omega x AB and a_B = a_A + alpha x AB - omega^2 AB.
 //! The vector between the ends of two absolute vectors is therefore the relative vector.
 //! The image of a link in the velocity plan is the link turned by 90 deg and scaled by omega.
-//! In the acceleration plan it is turned by 180 deg - atan2(alpha, omega^2) and scaled by sqrt(alpha^2 + omega^4).
-//! These are Mehmke's and Burmester's theorems.
+//! In the acceleration plan, the image is the link turned by 180 deg - atan2(alpha, omega^2) and scaled by
+//! sqrt(alpha^2 + omega^4).
+//! Both statements are theorems, by Mehmke and Burmester.
 //!
 //! A point A that slides on a moving guide of link 3 coincides with a point A3 of that link.
 //! In the guide's axes, the position of A along the guide is s(t).
 //! Differentiation in fixed axes gives v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e.
-//! Here e is the guide's unit vector and omega its angular velocity (Coriolis 1835).
+//! Here e is the guide's unit vector and omega the guide's angular velocity (Coriolis 1835).
 //!
 //! Every vector is computed from the motion of its link. A vector along a guide is computed from the slide.
-//! The difference of two other vectors is never used, so the closure of the polygons is a result.
+//! No vector is computed as the difference of two vectors, so the closure of the polygons is a result.
 
 use super::builder::Builder;
 use super::names::{Named, NamedPoint, places};
@@ -44,8 +45,8 @@ pub struct Plans {
 
 impl Plans {
     /// Draws the plans of a state with motions up to accelerations.
-    /// `solver` finds the travel of the sliders on the case's grid. The travel sets the length of the guides in the
-    /// kinematic diagram.
+    /// `solver` finds the travel of the sliders on the case's grid.
+    /// The travel determines the length of the guides in the kinematic diagram.
     #[must_use]
     pub fn of(case: &Case, solver: &dyn Solver, state: &State, crank: f64) -> Self {
         let planner = Planner::of(&case.mechanism);

@@ -57,7 +57,7 @@ pub struct Scheme {
     pub guides: Vec<SchemeGuide>,
     /// Number of the driving link.
     pub driver: LinkId,
-    /// Singular points of the class IV groups that have one.
+    /// Singular points of the mechanism's class IV groups, as far as a group has a singular point.
     pub singular: Vec<SingularPoint>,
     /// Sketch of the mechanism, in millimetres on paper.
     pub sketch: Sketch,
@@ -114,7 +114,7 @@ impl Scheme {
         let all = all.chain(guides.iter().flat_map(|guide| guide.ends)).chain(points.iter().map(|(_, at)| *at));
         let [low, high] = corners(all);
         let scale = factor(high.x - low.x, ROOM[0]).larger(factor(high.y - low.y, ROOM[1]));
-        // Parallel leads have no intersection to draw.
+        // A singular point that cannot be computed is not drawn: parallel leads have no intersection.
         let groups = case.structure.groups.iter();
         let singular =
             groups.filter_map(|group| SingularPoint::of(case, group, &state.motions).ok().flatten()).collect();

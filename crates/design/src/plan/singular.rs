@@ -1,9 +1,9 @@
 //! Singular Assur point of a class IV group of order 2: its velocities and accelerations without a system of equations.
 //!
 //! Two base links have the outer joints A and K; two leads BD and CE connect them.
-//! S = BD x CE is taken as a point of either base link.
-//! Its velocity component along a lead equals that of the lead's end, since rotation adds no component along a line
-//! through S.
+//! S = BD x CE is treated as a point of either base link.
+//! The velocity component of S along a lead equals that of the lead's end.
+//! The reason is that rotation adds no component along a line through S.
 //! Two components determine a vector, so S has equal velocities on both base links:
 //! v_S = v_A + omega2 x AS = v_K + omega5 x KS.
 //! The directions of omega2 x AS and omega5 x KS are known, so v_S is the intersection of two lines.
@@ -19,7 +19,7 @@ use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, JointId, LinkId, Mechanism};
 
 /// If the sine of the angle between two lines is below this limit, the lines count as parallel.
-/// Their intersection would have too few correct digits.
+/// The intersection of such lines would have too few correct digits.
 const PARALLEL: f64 = 1e-9;
 
 /// Singular point of a group, with the motion computed through it.
@@ -48,7 +48,7 @@ struct Lead {
 
 impl SingularPoint {
     /// Computes the singular point of `group`; `None` if the group is not of class IV and order 2.
-    /// From `motions` it uses only the poses of the group's links and the motions of the links before the group.
+    /// Of `motions`, only the poses of the group's links and the motions of the links before the group are used.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] at a dead point: the leads are parallel, or the point is in line with the outer joints.
@@ -66,7 +66,8 @@ impl SingularPoint {
         if !(dead.abs() > PARALLEL) {
             return Err(wrong(&leads, " x ", |names| sentences::the_singular_point_lies_in_line(&names)));
         }
-        // Solves turned(arm1) w1 - turned(arm2) w2 = r. The dot product with one arm eliminates one unknown.
+        // Solves turned(arm1) w1 - turned(arm2) w2 = r for w1 and w2. The dot product with one arm eliminates one
+        // unknown.
         let spins = |r: Vec2| {
             let turn = turned(arms[0]).dot(&arms[1]);
             [r.dot(&arms[1]) / turn, r.dot(&arms[0]) / turn]
@@ -83,7 +84,7 @@ impl SingularPoint {
             omegas[1].powi(2) * d - omegas[0].powi(2) * b - omega.powi(2) * lead.length
         };
         let components = [along(first, lead_omegas[0]), along(second, lead_omegas[1])];
-        // Vector that has these components along two oblique directions.
+        // Vector whose components along two oblique directions are `components`.
         let step = (turned(first.along) * components[1] - turned(second.along) * components[0]) / slant;
         let centripetal = |side: usize| outer[side][2] - arms[side] * omegas[side].powi(2);
         let alphas = spins(centripetal(1) - centripetal(0) - step);

@@ -16,7 +16,7 @@ pub struct Slide {
     pub guide: JointSide,
     /// The block's link and the sliding point on it.
     pub block: JointSide,
-    /// Sliding point. It is a ground point if a rod slides in a block that only swings.
+    /// Sliding point. If a rod slides in a block that only swings, the sliding point is a ground point.
     pub place: NamedPoint,
     /// Coincident point of a moving guide's link; `None` for a fixed guide.
     pub under: Option<Named>,
@@ -35,7 +35,8 @@ impl Slide {
         let joint = &mechanism.joints()[self.joint];
         let [_, speed, growth] = state.slide(joint)?;
         let axis = state.motions[self.guide.link].arm(joint.axis_on(self.guide.link)?);
-        // The slide is measured from the first link to the second.
+        // The slide is measured from the first link to the second, so the axis is reversed if the guide is on the
+        // second link.
         let axis = if joint.first.link == self.guide.link { axis } else { -axis };
         Some([axis * speed, axis * growth])
     }
@@ -52,7 +53,7 @@ impl Slide {
 /// A sliding point without a name takes the name of its joint and is added to `places`.
 pub fn slides(mechanism: &Mechanism, places: &mut Vec<NamedPoint>) -> Vec<Slide> {
     let mut all = Vec::new();
-    // Mass centres keep their letters.
+    // Mass centres keep their letters, so coincident points must not have these letters.
     let mut unders: Vec<Named> = mechanism
         .links()
         .ids()
@@ -80,19 +81,19 @@ pub fn slides(mechanism: &Mechanism, places: &mut Vec<NamedPoint>) -> Vec<Slide>
     all
 }
 
-/// Returns `name` and its letter. Both get as many primes as make them unique.
+/// Returns `name` and its letter. The name and the letter get as many primes as make them unique.
 fn unused(name: String, places: &[NamedPoint], others: &[Named]) -> Named {
     let name = primed(name, |name| {
         let letter = name.to_lowercase();
-        // The poles of both plans have letters too.
+        // The poles of both plans have letters too, so these letters also count as taken.
         let mut taken = places.iter().map(|place| &place.named).chain(others);
         ["p", "π"].contains(&letter.as_str()) || taken.any(|other| other.name == name || other.letter == letter)
     });
     Named { letter: name.to_lowercase(), name }
 }
 
-/// Smallest and largest distance of every slide from the joint's point on its guide (m).
-/// The distances are taken at `state` and on the case's grid, as far as the solver can follow the motion.
+/// Smallest and largest distance of every sliding point from the joint's point on its guide (m).
+/// The distances are computed at `state` and on the case's grid, as far as the solver can follow the motion.
 pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]) -> Vec<[f64; 2]> {
     let mut travels: Vec<[f64; 2]> = slides.iter().map(|slide| [slide.way(&case.mechanism, state); 2]).collect();
     if slides.is_empty() {

@@ -6,7 +6,7 @@ use linkage::mechanism::LinkId;
 
 /// Upper limit of the length of a plan's longest vector (mm).
 pub(super) const ROOM: f64 = 100.0;
-/// If only selected vectors are drawn, the scale factor of the plan is at least this fraction of the full plan's scale
+/// If only selected vectors are drawn, the plan's scale factor is at least this fraction of the full plan's scale
 /// factor.
 const FINEST: f64 = 1e-3;
 
@@ -57,14 +57,14 @@ linkage::words! {
         Fixed = "fixed",
         /// A named point of the mechanism.
         Point = "point",
-        /// A mass centre: s and the number of its link.
+        /// A mass centre. Its letter is s with the number of the link.
         MassCentre = "centre",
-        /// End of a normal part: n and a running number.
+        /// End of a normal part. Its letter is n with a running number.
         Normal = "between",
-        /// Point of a moving guide's link that coincides with a sliding point. Its name is the letter of that point and
-        /// the number of the link: a3.
+        /// Point of a moving guide's link that coincides with a sliding point. Its name is the letter of the sliding
+        /// point and the number of the link: a3.
         Coincident = "coincident",
-        /// End of a Coriolis part: k and a running number.
+        /// End of a Coriolis part. Its letter is k with a running number.
         Coriolis = "between",
     }
 }
@@ -76,7 +76,7 @@ pub struct Tip {
     pub letter: String,
     /// Kind.
     pub kind: TipKind,
-    /// Vector from the pole (SI).
+    /// Vector from the pole to the end point (SI).
     pub at: Vec2,
 }
 
@@ -90,7 +90,7 @@ linkage::words! {
         MassCentre = "centre",
         /// Relative vector of two points of one link.
         Relative = "relative",
-        /// Normal part of an acceleration: omega^2 l. That of a_BA points from B to A.
+        /// Normal part of an acceleration: omega^2 l. The normal part of a_BA points from B to A.
         Normal = "normal",
         /// Tangential part of an acceleration: alpha l, perpendicular to the line through both points.
         Tangential = "tangential",
@@ -109,13 +109,13 @@ pub struct Vector {
     pub name: String,
     /// Kind.
     pub part: VectorKind,
-    /// Letter of its start point.
+    /// Letter of the vector's start point.
     pub from: String,
-    /// Letter of its end point.
+    /// Letter of the vector's end point.
     pub to: String,
-    /// Start point, relative to the pole (SI).
+    /// Start point of the vector, relative to the pole (SI).
     pub start: Vec2,
-    /// Components in world axes (SI).
+    /// Components of the vector in world axes (SI).
     pub value: Vec2,
     /// Number of the link from whose motion the vector is computed.
     pub link: LinkId,
@@ -137,8 +137,8 @@ pub struct VectorPlan {
 }
 
 impl VectorPlan {
-    /// Keeps only the vectors between the pole and these letters. The plan gets a new scale.
-    /// Ends of normal and Coriolis parts and coincident points stay if all their vectors stay.
+    /// Keeps only the vectors between the pole and the points with these letters. The plan gets a new scale.
+    /// Ends of normal and Coriolis parts and coincident points stay if all vectors that touch them stay.
     pub(super) fn keep(&mut self, letters: &[String]) {
         let pole = self.quantity.pole();
         let kind = |letter: &str| self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.kind);
@@ -154,7 +154,7 @@ impl VectorPlan {
         let is_touched = |tip: &Tip| kept.iter().any(|own| own.from == tip.letter || own.to == tip.letter);
         let tips = self.tips.iter().filter(|tip| is_chosen(&tip.letter) || is_touched(tip)).cloned().collect();
         let longest = kept.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger);
-        // Vectors that are only rounding error stay short on paper, because the scale factor has a lower limit.
+        // The scale factor has a lower limit, so that vectors that are only rounding error stay short on paper.
         self.scale = factor(longest, ROOM).larger(self.scale * FINEST);
         (self.vectors, self.tips) = (kept, tips);
     }

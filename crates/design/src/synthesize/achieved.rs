@@ -18,19 +18,20 @@ pub const BAND: f64 = 0.01;
 /// Achieved motion in one phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhaseDone {
-    /// Displacement from its beginning to its end, forward positive (fraction of the stroke).
+    /// Displacement from the beginning of the phase to its end, forward positive (fraction of the stroke).
     pub displacement: f64,
-    /// Largest minus smallest position (fraction of the stroke). In a dwell it should be zero.
+    /// Largest minus smallest position of the output in the phase (fraction of the stroke). In a dwell it should be
+    /// zero.
     pub motion: f64,
     /// Distance travelled in the wrong sense (fraction of the stroke); 0 in a dwell.
     pub wrong: f64,
     /// Position of the output at the end of the phase (fraction of the stroke).
     pub level: f64,
     /// Crank angle (rad) at which the phase actually ends.
-    /// Between two motions in opposite senses, it is the crank angle of the extreme position.
-    /// At the beginning or end of a dwell, it is the crank angle at which the output enters or leaves the band.
+    /// Between two motions in opposite senses, `end` is the crank angle of the extreme position.
+    /// At the beginning or end of a dwell, `end` is the crank angle at which the output enters or leaves the band.
     /// The band has the half width [`BAND`] about the mean of the dwell's largest and smallest output.
-    /// `None` between two phases of the same sense, and if there is no such crank angle nearby.
+    /// `end` is `None` between two phases of the same sense, and if no such crank angle is nearby.
     pub end: Option<f64>,
 }
 
@@ -48,7 +49,7 @@ pub struct Achieved {
     pub turns: Vec<f64>,
     /// Output at the crank angles of `turns` (fraction of the stroke; 0 is the rearmost position).
     pub shares: Vec<f64>,
-    /// Sense of the output that is forward: +1 or -1.
+    /// Sense of the output that counts as forward: +1 or -1.
     pub forward: f64,
 }
 
@@ -97,7 +98,7 @@ impl Achieved {
         Ok(if wrong(&ahead) <= wrong(&back) { ahead } else { back })
     }
 
-    /// Every phase as achieved and as required, together with the sense of the next phase.
+    /// Every phase as achieved and as required, together with the required sense of the next phase.
     fn with_next<'a>(&'a self, task: &'a Task) -> impl Iterator<Item = (&'a PhaseDone, &'a Phase, Sense)> {
         let phases = task.timing.phases();
         let next = phases.iter().cycle().skip(1).map(|phase| phase.sense);
@@ -127,8 +128,8 @@ impl Achieved {
     }
 
     /// Largest crank angle (rad) by which a dwell is too short at its beginning or end.
-    /// Over this angle the output is outside [`BAND`] although it should dwell. A dwell that is too long does not
-    /// count.
+    /// During this crank angle the output is outside [`BAND`] although it should dwell. A dwell that is too long does
+    /// not count.
     #[must_use]
     pub fn short(&self, task: &Task) -> f64 {
         let missing = |(done, phase, next): (&PhaseDone, &Phase, Sense)| match (phase.sense, next) {
@@ -145,7 +146,7 @@ impl Achieved {
         self.shares[row.rem_euclid(ROWS as i64) as usize]
     }
 
-    /// The smallest and the largest output from one row to another (fraction of the stroke).
+    /// The smallest and the largest output between the rows `from` and `to` (fraction of the stroke).
     fn ends(&self, from: i64, to: i64) -> [f64; 2] {
         ends((from..=to).map(|row| self.at(row)))
     }
@@ -179,7 +180,7 @@ impl Achieved {
         }
     }
 
-    /// Crank angle (rad) of a row, in the turn that is closest to `to`.
+    /// Crank angle (rad) of a row, in the turn in which this angle is closest to `to`.
     fn turn_near(&self, row: f64, to: f64) -> f64 {
         let turn = row * TAU / ROWS as f64;
         turn + TAU * ((to - turn) / TAU).round()
@@ -187,7 +188,8 @@ impl Achieved {
 
     /// Row at which the output leaves the band about its dwell.
     /// The band is centred between the dwell's extremes.
-    /// The search starts in the middle between the rows `from` and `to`. It goes towards `to` and beyond.
+    /// The search starts in the middle between the rows `from` and `to`. From there, the search goes towards `to` and
+    /// beyond.
     fn leaves(&self, from: i64, to: i64, way: i64) -> Option<f64> {
         let (first, last) = (from.min(to), from.max(to));
         let [low, high] = self.ends(first, last);
@@ -200,7 +202,7 @@ impl Achieved {
         (row != outside).then_some(row as f64)
     }
 
-    /// The extreme position nearest to a row, within a quarter of a turn. For `sign` +1 it is a maximum.
+    /// The extreme position nearest to a row, within a quarter of a turn: a maximum for `sign` +1, a minimum for -1.
     /// A parabola through three rows interpolates between rows.
     fn extreme(&self, to: i64, sign: f64) -> Option<f64> {
         let value = |row: i64| sign * self.at(row);

@@ -1,9 +1,9 @@
 //! Crank-rocker from the two extreme positions of its rocker, in closed form.
 //!
 //! In the extreme positions crank and coupler are in line: stretched, `|O B1| = OA + AB`; folded, `|O B2| = AB - OA`.
-//! With both positions of B given, the two lengths are half the sum and half the difference of the two distances.
-//! This solution is derived here. Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka
-//! 1988.
+//! With both positions of B given, AB is half the sum and OA half the difference of the two distances.
+//! This module derives the solution from these two equations. Background: I. I. Artobolevsky, Theory of Mechanisms and
+//! Machines, 4th ed., Nauka 1988.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -25,17 +25,17 @@ pub struct CrankRockerSpec {
     pub rocker: f64,
     /// Angle of the rocker C -> B in one extreme position (rad).
     pub extreme: f64,
-    /// Angle from the rocker's angle `extreme` to its other extreme position (rad).
-    /// It is positive counter-clockwise, not zero, and less than half a turn in either sense.
+    /// Angle from the rocker's angle `extreme` to the rocker's other extreme position (rad).
+    /// The angle is positive counter-clockwise, not zero, and less than half a turn in either sense.
     pub swing: f64,
 }
 
 /// An extreme position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RockerExtreme {
-    /// Angle of the rocker C -> B (rad).
+    /// Angle of the rocker C -> B in the extreme position (rad).
     pub rocker: f64,
-    /// Angle of the crank O -> A (rad), from 0 to a full turn.
+    /// Angle of the crank O -> A in the extreme position (rad), from 0 to a full turn.
     pub crank: f64,
 }
 
@@ -58,7 +58,7 @@ pub struct CrankRocker {
     pub transmission: f64,
     /// Crank angle (rad) of the smallest transmission angle. The crank is then on the line of the pivots.
     pub transmission_at: f64,
-    /// Time of the slower swing divided by that of the faster one, at a constant speed of the crank.
+    /// Time of the slower swing divided by that of the faster swing, at a constant speed of the crank.
     pub time_ratio: f64,
 }
 
@@ -68,7 +68,7 @@ impl CrankRocker {
     /// # Errors
     /// [`ErrorKind::Input`] for lengths and angles that make no sense.
     /// [`ErrorKind::Geometry`] if the two positions permit no crank that turns fully.
-    /// The error states the distances and a help text.
+    /// This error states the distances and a help text.
     pub fn of(wish: CrankRockerSpec) -> Result<Self> {
         check(&wish)?;
         let frame = wish.rocker_pivot - wish.crank_pivot;
@@ -93,7 +93,7 @@ impl CrankRocker {
         let lengths = [frame.norm(), crank, coupler, wish.rocker];
         let found = FourBar::of_lengths(lengths).of_type;
         // In both extreme positions, O, B and C form a triangle. So the crank is the shortest link and turns fully.
-        // Only rounding errors can put O, B and C on one line.
+        // Only rounding errors can put O, B and C on one line; such requirements are refused.
         if found != FourBarType::CrankRocker {
             let message = sentences::an_extreme_position_lies_on_the_line(&told, &found.name());
             return Err(Error::new(ErrorKind::Geometry, message).help(sentences::MOVE_A_PIVOT_OR_TURN_THE_EXTREME));
@@ -141,7 +141,7 @@ fn check(wish: &CrankRockerSpec) -> Result<()> {
 
 /// Smallest transmission angle (rad) of a four-bar (frame, crank, coupler, rocker), and its crank angle (rad).
 /// The transmission angle has its extremes where the crank is on the line of the pivots (Alt 1932).
-/// A is then nearest to C, or farthest from it.
+/// In these two poses, A is nearest to C, or farthest from C.
 fn transmission([frame, crank, coupler, rocker]: [f64; 4], line: Vec2) -> (f64, f64) {
     let at = |distance: f64| {
         let cos = (coupler.powi(2) + rocker.powi(2) - distance * distance) / (2.0 * coupler * rocker);
@@ -201,7 +201,8 @@ mod tests {
             (CrankRockerSpec { rocker: -1.0, ..wish }, ErrorKind::Input, "length is -1 m"),
             (CrankRockerSpec { rocker_pivot: Vec2::zeros(), ..wish }, ErrorKind::Input, "one point"),
             (CrankRockerSpec { extreme: f64::NAN, ..wish }, ErrorKind::Input, "not finite"),
-            // The two positions of B are symmetric about the line of the pivots, so they are equally far from O.
+            // The two positions of B are symmetric about the line of the pivots, so both positions are equally far from
+            // O.
             (
                 CrankRockerSpec { rocker_pivot: Vec2::new(0.15, 0.0), extreme: -0.3, swing: 0.6, ..wish },
                 ErrorKind::Geometry,

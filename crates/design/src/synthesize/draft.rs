@@ -17,7 +17,7 @@ pub struct DraftContents {
     pub comment: String,
     /// Speed of the crank (rad/s), not zero, counter-clockwise positive.
     pub speed: f64,
-    /// Mass of the links per metre of their length (kg/m): uniform slender bars.
+    /// Mass per metre of the links (kg/m). The links are uniform slender bars.
     pub bar: f64,
 }
 
@@ -28,7 +28,8 @@ impl DraftContents {
         text
     }
 
-    /// Text of a link that is one bar. The bar lies along the link's x axis, with its first point at the origin.
+    /// Scenario text of a link that is one bar. The bar lies along the link's x axis, with its first point at the
+    /// origin.
     fn bar(&self, name: &str, points: [&str; 2], length: f64) -> String {
         let mass = self.bar * length;
         format!(
@@ -51,7 +52,7 @@ impl DraftContents {
     }
 }
 
-/// Pins, each between two links.
+/// Scenario text of pins. Each pin joins two links.
 fn pins(all: &[(&str, [&str; 2])]) -> String {
     let pin = |(name, [first, second]): &(&str, [&str; 2])| {
         sentences::joints_name_type_revolute_links(&name, &first, &second)

@@ -20,11 +20,11 @@ pub(super) struct Evaluator<'a> {
     task: &'a Task,
     mechanism: Mechanism,
     motions: PerLink<Motion>,
-    /// Pose of the last motions. It is needed for dyads with prismatic joints.
+    /// Pose of the last computed motions. Dyads with prismatic joints need this pose.
     pose: Pose,
     /// Output at the crank angles of the last run. Angles have no jumps by a full turn.
     pub(super) curve: Vec<f64>,
-    /// Smallest transmission sine of any dyad so far.
+    /// Smallest sine of the transmission angle of any dyad so far.
     pub(super) sine: f64,
 }
 
@@ -49,12 +49,13 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Computes the output at the crank angles `turns` into `curve`.
-    /// These angles (rad) are measured from crank angle zero in the sense of rotation, and ascend.
-    /// The last angle is a turn after the first. The crank's zero is at the world direction `zero` (rad).
+    /// These crank angles (rad) are measured from crank angle zero in the sense of rotation, and ascend.
+    /// The last crank angle is a turn after the first. At crank angle zero, the crank has the world direction `zero`
+    /// (rad).
     ///
     /// # Errors
-    /// The fraction of poses reached, if the mechanism cannot be assembled over the whole turn, or if the output turns
-    /// fully.
+    /// If the mechanism cannot be assembled over the whole turn, or if the output turns fully: the fraction of poses
+    /// reached.
     pub(super) fn run(&mut self, values: &[f64], zero: f64, turns: &[f64]) -> Result<(), f64> {
         self.dimension(values);
         let case = &self.task.case;
@@ -81,7 +82,7 @@ impl<'a> Evaluator<'a> {
     ) -> Result<(), f64> {
         let last = turns.len() - 1;
         for probe in 0..PROBES {
-            // Opposite poses first: 0, 4, 2, 6, 1, 5, 3, 7 eighths of the turn.
+            // Opposite poses are tried first: 0, 4, 2, 6, 1, 5, 3, 7 eighths of the turn.
             let at = probe.reverse_bits() >> (usize::BITS - 3);
             if plan.positions(&[world(turns[at * last / PROBES])], &mut self.motions).is_err() {
                 return Err(probe as f64 / (2 * PROBES) as f64);
@@ -160,7 +161,8 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Removes jumps by a full turn from angles. An output that is not periodic over the turn is refused.
+    /// Removes jumps by a full turn from angles.
+    /// Returns an error if the output is not periodic over the turn.
     fn unwind(&mut self) -> Result<(), f64> {
         if let OutputQuantity::Angle { .. } = self.task.output {
             for row in 1..self.curve.len() {

@@ -2,8 +2,9 @@
 //!
 //! The output is divided by its stroke, so that amplitude and offset do not matter.
 //! The cost is a sum of squares of fractions of the stroke.
-//! Its terms are motion in dwells, distances in the wrong sense, missed levels, and moving phases that hardly move.
-//! Another term is the deviation of extreme positions from the limits of their phases.
+//! The terms of the sum are motion in dwells, distances in the wrong sense, missed levels, and moving phases that
+//! hardly move.
+//! A further term is the deviation of extreme positions from the limits of their phases.
 //! A cost of 1e-4 corresponds to a deviation of about one hundredth of the stroke.
 
 use std::f64::consts::TAU;
@@ -18,9 +19,10 @@ const WRONG: f64 = 4.0;
 /// At the limit between two opposite motions, the output's rate should be zero.
 /// The rate times this crank angle (rad, 20 deg) counts as a deviation (fraction of the stroke).
 const LATE: f64 = TAU / 18.0;
-/// Distance of two rows from a limit of a phase (rad, 0.25 deg). The rate at the limit is computed from these two rows.
+/// Distance between a limit of a phase and each of the two rows beside it (rad, 0.25 deg).
+/// The rate at the limit is computed from these two rows.
 const BESIDE: f64 = TAU / 1440.0;
-/// Weight of violated limits in the cost, relative to fractions of the stroke.
+/// Weight of the squared violations of limits in the cost, compared with weight 1 for squared fractions of the stroke.
 const LIMIT: f64 = 10.0;
 
 /// Computes the cost of outputs that are sampled at certain crank angles.
@@ -54,7 +56,7 @@ impl<'a> Rater<'a> {
 
     /// Places rows at most `step` (rad) apart, which include every limit of a phase.
     /// Two more rows close to each limit give the output's rate at the limit.
-    /// If the rate were computed over whole steps, the extreme position would be off by a few hundredths of a degree.
+    /// If the rate were computed over whole steps, the extreme position would be wrong by a few hundredths of a degree.
     pub(super) fn fitted(timing: &'a Timing, step: f64) -> Self {
         let (mut turns, mut ends) = (vec![0.0], Vec::new());
         for phase in timing.phases() {
@@ -82,7 +84,7 @@ impl<'a> Rater<'a> {
         self.span = high - low;
         let share = |value: &f64| (value - low) / self.span;
         self.twice.clear();
-        // The last row of a turn is the first row of the next turn.
+        // The last row of a turn is the first row of the next turn, so the first copy leaves the last row out.
         self.twice.extend(curve[..curve.len() - 1].iter().map(share));
         self.twice.extend(curve.iter().map(share));
         self.twice.push(share(&curve[1]));
@@ -135,8 +137,8 @@ impl<'a> Rater<'a> {
     }
 }
 
-/// Cost of motion in a dwell: the square of the output's range plus twelve times its variance.
-/// For a uniform drift the second term equals the first.
+/// Cost of motion in a dwell: the square of the output's range plus twelve times the output's variance.
+/// For a uniform drift the second term equals the first term.
 fn unrest(values: impl Iterator<Item = f64>) -> f64 {
     let (mut count, mut sum, mut squares, mut low, mut high) = (0.0, 0.0, 0.0, f64::INFINITY, f64::NEG_INFINITY);
     for value in values {

@@ -29,7 +29,7 @@ pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
 }
 
 /// Sections of a drawing that are valid for its original dimensions only.
-/// They are the published numbers with their tables, the claims of formulas, and the source of the dimensions.
+/// These sections contain published numbers with their tables, claims of formulas, and the source of the dimensions.
 const OWN: [&str; 3] = ["oracle", "formula", "source"];
 
 /// The text of the drawing `text`, with the dimensions that `values` (SI) give the task.
@@ -92,7 +92,7 @@ fn foreign(name: &str) -> Error {
         .help(sentences::GIVE_THE_TEXT_OF_THE_SCENARIO)
 }
 
-/// The table of a link. The ground has a separate table.
+/// The table of a link in the document: an entry of `links`, or `ground` for the ground.
 fn link_table<'a>(document: &'a mut DocumentMut, link: LinkId, name: &str) -> Result<&'a mut dyn TableLike> {
     let item = match link {
         GROUND => document.get_mut("ground"),
@@ -101,7 +101,7 @@ fn link_table<'a>(document: &'a mut DocumentMut, link: LinkId, name: &str) -> Re
     item.and_then(Item::as_table_like_mut).ok_or_else(|| foreign(name))
 }
 
-/// A position in the frame of its link (m).
+/// A position in the frame of its link (m), as a table of the scenario.
 fn flat(place: Vec2) -> InlineTable {
     InlineTable::from_iter(
         [("x_mm", place.x), ("y_mm", place.y)].map(|(key, at)| (key, rounded(at * 1e3, DECIMALS[0]))),

@@ -31,14 +31,14 @@ const BLOCK: usize = 4096;
 const ROUND: usize = 16;
 /// Largest number of threads.
 const MOST_THREADS: usize = 256;
-/// Fraction of the progress that the random candidates take.
+/// Fraction of the progress bar for the random candidates.
 const RANDOM_SHARE: f64 = 0.5;
 /// Shifts of the crank's zero are tried in steps of this many rows.
-/// Then the shifts around the best one are tried row by row.
+/// Afterwards, the shifts around the best shift are tried row by row.
 const STRIDE: usize = 3;
 
 /// Random candidates are dropped if their stroke or transmission sine violates its limits by more than this factor.
-/// Refinement would hardly repair them.
+/// Refinement would hardly repair such candidates.
 const NEAR: f64 = 1.5;
 
 /// Result of a search.
@@ -46,14 +46,14 @@ const NEAR: f64 = 1.5;
 pub struct SearchResult {
     /// Values of the variables (SI), in the order of [`Task::variables`].
     pub values: Vec<f64>,
-    /// Sense of the output that is forward: +1 or -1.
+    /// Sense of the output that counts as forward: +1 or -1.
     pub forward: f64,
     /// Cost of the best candidate: a sum of squares of fractions of the stroke.
     pub cost: f64,
-    /// Cost of the best candidate before refinement, on a coarser grid.
+    /// Cost of the best candidate before refinement, on a coarser grid than that of `cost`.
     pub random_cost: f64,
-    /// Number of random candidates.
-    /// The second entry counts those that assemble over the whole turn and nearly keep the limits.
+    /// Number of random candidates, and number of candidates that assemble over the whole turn and nearly keep the
+    /// limits.
     pub candidates: [usize; 2],
     /// Costs of all refined candidates, ascending.
     pub refined: Vec<f64>,
@@ -156,7 +156,7 @@ impl<'a> Random<'a> {
         (best, assembled)
     }
 
-    /// Cost and sense of a candidate. If the crank's zero is free, it is chosen here.
+    /// Cost of a candidate, and its sense that counts as forward. If the crank's zero is free, it is chosen here.
     /// `None` if the candidate cannot be assembled, or is far outside the limits.
     fn rate(&mut self, shares: &mut [f64]) -> Option<(f64, f64)> {
         if let Some(zero) = self.zero {
@@ -221,7 +221,8 @@ mod tests {
 
     #[test]
     fn random_numbers_are_uniform_and_repeatable() {
-        // The seed of a task determines its result, in every version of the library.
+        // The seed of a task must determine its result in every version of the library.
+        // The test therefore compares the draws with stored numbers.
         let draw = || {
             let mut rng = ChaCha8Rng::seed_from_u64(5);
             (0..10_000).map(|_| even(&mut rng)).collect::<Vec<_>>()

@@ -2,12 +2,14 @@
 //!
 //! With crank r, rod l and offset e (distance of the crank's pivot from the slider's line) the stroke is `s = sqrt((l +
 //! r)^2 - e^2) - sqrt((l - r)^2 - e^2)`.
-//! Squaring twice gives an equation that is linear in r^2: `r^2 = s^2 (4 (l^2 - e^2) - s^2) / (4 (4 l^2 - s^2))`.
+//! Squaring this equation twice gives an equation that is linear in r^2: `r^2 = s^2 (4 (l^2 - e^2) - s^2) / (4 (4 l^2 -
+//! s^2))`.
 //! The crank turns fully if l > r + |e|.
 //! At equality `l = (|e| + sqrt(e^2 + s^2)) / 2`; no shorter rod is possible.
 //! With the time ratio K the directions of the extreme positions differ by theta = pi (K - 1) / (K + 1).
-//! The nearer extreme position n along the line solves `n^2 + s n + e^2 - |e| s cot(theta) = 0`.
-//! This follows from the right triangles of the extreme positions.
+//! The distance n along the line from the pivot to the nearer extreme position solves `n^2 + s n + e^2 - |e| s
+//! cot(theta) = 0`.
+//! This equation follows from the right triangles of the extreme positions.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -15,12 +17,13 @@ use std::f64::consts::{PI, TAU};
 use super::{time_ratio, wrong};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 
-/// Requirement on a slider-crank, besides its stroke and offset.
+/// Requirement on a slider-crank in addition to its stroke and offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
     /// Length of the rod (m).
     Rod(f64),
-    /// Time of the slower stroke divided by that of the faster one, at a constant speed of the crank; 1 or more.
+    /// Time of the slower stroke divided by that of the faster stroke, at a constant speed of the crank. The ratio is
+    /// at least 1.
     TimeRatio(f64),
 }
 
@@ -35,12 +38,13 @@ pub struct SliderCrank {
     pub crank: f64,
     /// Length of the rod (m).
     pub rod: f64,
-    /// Crank angle (rad, from 0 to a full turn) and position of the slider along its line (m) where it is farthest from the pivot.
+    /// Crank angle (rad, from 0 to a full turn) and position of the slider along its line (m) where the slider is
+    /// farthest from the pivot.
     pub far: [f64; 2],
-    /// Crank angle (rad, from 0 to a full turn) and position of the slider along its line (m) where it is nearest to
-    /// the pivot.
+    /// Crank angle (rad, from 0 to a full turn) and position of the slider along its line (m) where the slider is
+    /// nearest to the pivot.
     pub near: [f64; 2],
-    /// Time of the slower stroke divided by that of the faster one.
+    /// Time of the slower stroke divided by that of the faster stroke, at a constant speed of the crank.
     pub time_ratio: f64,
     /// Largest angle between the rod and the slider's line (rad): the pressure angle; the transmission angle is its complement.
     pub pressure: f64,
@@ -51,7 +55,7 @@ fn impossible(message: String, help: impl Into<Advice>) -> Error {
 }
 
 impl SliderCrank {
-    /// The slider-crank with this stroke and offset (m).
+    /// The slider-crank with this stroke and offset (m), and with the length of the rod or the time ratio `given`.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for numbers that make no sense.
@@ -70,7 +74,7 @@ impl SliderCrank {
             Given::TimeRatio(ratio) => of_time_ratio(stroke, e, ratio)?,
         };
         let place = |reach: f64| (reach * reach - e * e).sqrt();
-        // In the folded position, the rod points from A over O to the slider.
+        // In the folded position, the rod points from A through O to the slider.
         let far = [(offset / (rod + crank)).asin().rem_euclid(TAU), place(rod + crank)];
         let near = [((offset / (rod - crank)).asin() + PI).rem_euclid(TAU), place(rod - crank)];
         let between = (e / (rod - crank)).asin() - (e / (rod + crank)).asin();

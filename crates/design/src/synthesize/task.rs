@@ -1,5 +1,6 @@
 //! Input of a synthesis, in SI units and world axes.
-//! It consists of a structure with a starting drawing, the variable dimensions, the required motion, and constraints.
+//! The input consists of a structure with a starting drawing, the variable dimensions, the required motion, and
+//! constraints.
 //! The required motion is that of a link or point.
 
 mod timing;
@@ -36,9 +37,9 @@ pub enum OutputQuantity {
 pub struct Variable {
     /// Name for the reader: `crank.A length`.
     pub name: String,
-    /// Least and greatest value (m or rad).
+    /// Smallest and largest value (m or rad).
     pub bounds: [f64; 2],
-    /// Whether the variable is an angle. Otherwise it is a length or a coordinate.
+    /// Whether the variable is an angle. A variable that is not an angle is a length or a coordinate.
     pub is_angle: bool,
 }
 

@@ -61,7 +61,7 @@ fn read(root: &mut TomlTable) -> Result<TaskFile> {
     let beside = root.source().path.parent().unwrap_or(Path::new("")).join(&file);
     let drawing = Scenario::load(&beside).map_err(|error| {
         // An error inside the drawing has a position in the drawing and is returned unchanged.
-        // An error without a position, such as a missing drawing, is an error in the synthesis file.
+        // An error without a position, such as a missing drawing, is reported as an error in the synthesis file.
         if error.place().is_some() {
             error
         } else {

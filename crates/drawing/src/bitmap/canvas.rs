@@ -24,7 +24,8 @@ pub struct Bitmap {
     pub rgba: Vec<u8>,
 }
 
-/// A figure on white paper of this size (mm), `pixels` wide. The paper's upper left corner is the figure's origin.
+/// A figure on white paper of this size (mm), as a bitmap `pixels` wide. The paper's upper left corner is the figure's
+/// origin.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for more than forty million pixels, or for zero pixels.
@@ -143,7 +144,8 @@ mod tests {
         figure.group(group, 0.5, "two squares".into());
         let bitmap = bitmap(&figure, [10.0, 10.0], 100).unwrap();
         let grey = |x: usize| bitmap.rgba[4 * (50 * 100 + x)];
-        // The three pixels are outside both squares, in the first square only, and in both squares.
+        // The first tested pixel is outside both squares, the second in the first square only, and the third in both
+        // squares.
         assert_eq!(grey(5), 255);
         assert!(grey(20).abs_diff(128) <= 1 && grey(20) == grey(40), "{} {}", grey(20), grey(40));
     }

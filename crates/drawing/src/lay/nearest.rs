@@ -3,10 +3,11 @@
 use linkage::math::{ColumnVector, KeepNan, Matrix, Vec2, cross, rotated, unit};
 use linkage::mechanism::{Joint, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
-/// Weight of the gaps at placed links; it is large, so that the remaining gaps lie between the other links.
+/// Weight of the gaps at placed links. The weight is large, so that the remaining gaps lie between the missing links.
 const HELD: f64 = 1000.0;
-/// Number of start directions of the links, and number of steps from each.
-/// More than `FEW` links have fewer starts, to limit the time. If more than `MOST` links are missing, none is placed.
+/// Number of start values that are tried, and `STEPS` the number of steps from each start value.
+/// More than `FEW` missing links have fewer start values, to limit the time.
+/// If more than `MOST` links are missing, none of them is placed.
 const STARTS: usize = 12;
 const STEPS: usize = 60;
 const FEW: usize = 12;
@@ -14,7 +15,7 @@ const MOST: usize = 30;
 /// Step of the difference quotients, in radians and as a fraction of the mechanism's size.
 const TINY: f64 = 1e-7;
 
-/// Poses of the links `missing`; all other links stay at `pose`.
+/// Poses of the links `missing`. All other links of the mechanism stay at `pose`.
 pub fn nearest(mechanism: &Mechanism, pose: &Pose, missing: &[LinkId]) -> Vec<(LinkId, LinkPose)> {
     let problem = Problem { mechanism, pose, missing, size: mechanism.size() };
     if missing.len() > MOST {
@@ -34,7 +35,7 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// The pose of a missing link: its unknowns are x and y, divided by the mechanism's size, and its angle.
+    /// The pose of a missing link. Its unknowns are x and y, divided by the mechanism's size, and its angle.
     fn pose_of(&self, unknowns: &ColumnVector, k: usize) -> LinkPose {
         let origin = Vec2::new(unknowns[3 * k], unknowns[3 * k + 1]) * self.size;
         LinkPose { origin, angle: unknowns[3 * k + 2] }
@@ -47,7 +48,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Start values. The links are turned by multiples of the same angle, and each lies at a placed neighbour.
+    /// Start values. The links are turned by multiples of the same angle, and each link lies at a placed neighbour.
     fn start(&self, number: usize) -> ColumnVector {
         let mut unknowns = ColumnVector::zeros(3 * self.missing.len());
         for (k, &link) in self.missing.iter().enumerate() {
@@ -57,7 +58,7 @@ impl Problem<'_> {
                 let JointSide { link: base, local } = joint.other(link);
                 Some(LinkPose::through(joint.on(link)?, self.pose.0[base].point(local), angle).origin)
             });
-            // A link without joints lies beside the others.
+            // A link without joints lies beside the mechanism.
             let alone = || match self.mechanism.joints_on(link).is_empty() {
                 true => Vec2::new(k as f64, -1.0) * self.size,
                 false => Vec2::zeros(),
@@ -92,7 +93,7 @@ impl Problem<'_> {
         ColumnVector::from_vec(gaps)
     }
 
-    /// Unknowns with the smallest sum of squared gaps for this start, and that sum.
+    /// Unknowns with the smallest sum of squared gaps for this start, and this sum.
     fn solved(&self, start: usize) -> (ColumnVector, f64) {
         let mut at = self.start(start);
         let mut gaps = self.gaps(&at);

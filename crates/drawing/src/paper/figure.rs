@@ -1,5 +1,5 @@
 //! A figure: lines, shapes and text, in millimetres with y upwards.
-//! They are stored until the figure is written as SVG.
+//! These elements are stored until the figure is written as SVG.
 
 use svg::node::Blob;
 use svg::node::element::{Circle, Group, Line, Path, Title};
@@ -47,7 +47,7 @@ pub fn clean(text: &str) -> String {
     text.chars().filter(|sign| !sign.is_control()).collect()
 }
 
-/// Estimated width of a text (mm) at its font size.
+/// Estimated width of a text (mm) at the font size `size` (mm).
 #[must_use]
 pub fn width(text: &str, size: f64) -> f64 {
     let mut scale = 1.0;
@@ -105,7 +105,7 @@ impl Tint {
     }
 }
 
-/// The corners of a rectangle, from the lower left one on, counter-clockwise.
+/// The corners of a rectangle, counter-clockwise from the lower left corner.
 #[must_use]
 pub fn rectangle([low, high]: [Vec2; 2]) -> Vec<Vec2> {
     vec![low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)]
@@ -162,7 +162,7 @@ impl DrawnFigure {
         self.ink.push(Ink::Arrow(ends, style, name));
     }
 
-    /// A line through corners. The area between it and the straight line back to its first corner may be filled.
+    /// A line through corners. The area between the line and the straight return to its first corner may be filled.
     pub fn curve(&mut self, corners: Vec<Vec2>, fill: Option<Tint>, style: Style) {
         corners.iter().for_each(|corner| self.reach(*corner));
         self.ink.push(Ink::Shape { corners, closed: false, fill, style });
@@ -191,7 +191,8 @@ impl DrawnFigure {
         self.ink.push(Ink::Text { at, text, set });
     }
 
-    /// Adds another figure as one element of this opacity, with a name that appears when the mouse points at it.
+    /// Adds another figure as one element of this opacity, with a name that appears when the mouse points at the
+    /// element.
     /// Overlaps inside the element are not darker.
     pub fn group(&mut self, other: DrawnFigure, opacity: f64, name: String) {
         if let Some(bounds) = other.low {
@@ -330,7 +331,8 @@ pub(crate) fn pieces(text: &str, size: f64) -> Vec<Piece> {
     pieces
 }
 
-/// Written as a string: white space must not separate an element inside a text from its neighbours.
+/// Text element, written as a string, because white space must not separate an element inside a text from its
+/// neighbours.
 fn text_element(at: Vec2, text: &str, set: &Type) -> String {
     let size = set.size;
     let mut shift = 0.0;
@@ -359,7 +361,8 @@ fn text_element(at: Vec2, text: &str, set: &Type) -> String {
     let face =
         if set.italic { " font-family=\"Liberation Serif, Times New Roman, serif\" font-style=\"italic\"" } else { "" };
     let weight = if set.bold { " font-weight=\"bold\"" } else { "" };
-    // Some viewers do not centre a text of several pieces. The estimated width works in all viewers.
+    // Some viewers do not centre a text of several pieces, so the text is shifted by its estimated width, which works
+    // in all viewers.
     let pieces = text.contains([SUB, SUP]);
     let x = at.x - if pieces { left(text, set) } else { 0.0 };
     let anchor =

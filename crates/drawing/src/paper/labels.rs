@@ -12,12 +12,13 @@ const AIR: f64 = 0.5;
 const DIRECTIONS: usize = 32;
 /// Distances tried (mm), nearest first.
 const DISTANCES: [f64; 9] = [0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0];
-/// Largest number of rounds. In practice, labels no longer move after so many rounds.
+/// Upper limit of the number of rounds. In practice, labels no longer move after so many rounds.
 const ROUNDS: usize = 6;
 /// Largest distance (mm) between two points whose labels may exchange positions.
 const NEIGHBOURS: f64 = 12.0;
 
-/// Upper limit of all comparisons of labels with their surroundings. Beyond it, labels take their first position.
+/// Upper limit of the number of all comparisons of labels with their surroundings.
+/// Beyond this limit, labels take their first position.
 /// A drawing of hundreds of links has no space for their names anyway.
 const MOST_COMPARED: usize = 200_000_000;
 /// Number of comparisons that each drawing may use at least, if many drawings such as frames are made together.
@@ -33,11 +34,11 @@ const FAR: f64 = 3.2;
 pub struct PlacedLabel {
     /// The point it names.
     pub anchor: Vec2,
-    /// Preferred direction from the anchor; zero if there is none.
+    /// Preferred direction from the anchor; zero if there is no preferred direction.
     pub away: Vec2,
-    /// Width and height of its box (mm).
+    /// Width and height of the label's box (mm).
     pub size: Vec2,
-    /// Radius (mm) of the area around the anchor that is covered by its mark.
+    /// Radius (mm) of the area that the mark at the anchor covers.
     pub clear: f64,
 }
 
@@ -50,7 +51,7 @@ pub struct Obstacles {
     pub discs: Vec<(Vec2, f64)>,
 }
 
-/// Centres of the labels' boxes in one of several drawings made together, which share the allowed work.
+/// Centres of the labels' boxes in one of several drawings made together. These drawings share the allowed work.
 #[must_use]
 pub fn place_among(labels: &[PlacedLabel], obstacles: &Obstacles, drawings: usize) -> Vec<Vec2> {
     place_within(labels, obstacles, (MOST_COMPARED / drawings.max(1)).max(LEAST_COMPARED))
@@ -79,7 +80,7 @@ fn place_within(labels: &[PlacedLabel], obstacles: &Obstacles, most: usize) -> V
     places.into_iter().zip(labels).map(|(place, label)| place.unwrap_or(label.anchor)).collect()
 }
 
-/// Lets neighbouring labels exchange positions if this lowers their total cost.
+/// Lets neighbouring labels exchange positions if the exchange lowers their total cost.
 /// Without exchanges, a label would keep its position even if its neighbour needs this position more.
 /// Each pair uses two of the searches counted in `left`.
 fn trade(labels: &[PlacedLabel], places: &mut [Option<Vec2>], obstacles: &Obstacles, left: &mut usize) {
@@ -100,7 +101,7 @@ fn trade(labels: &[PlacedLabel], places: &mut [Option<Vec2>], obstacles: &Obstac
             places[b] = None;
             places[a] = cheapest(a, labels, places, obstacles);
             places[b] = cheapest(b, labels, places, obstacles);
-            // An exchange without gain is undone. Otherwise it would be repeated back and forth.
+            // An exchange without gain is undone. Otherwise the two labels would be exchanged back and forth.
             if !(both(a, b, places) < was - 1e-9) {
                 [places[a], places[b]] = old;
             }
@@ -119,7 +120,7 @@ fn candidates(label: &PlacedLabel) -> impl Iterator<Item = Vec2> + '_ {
     let directions = (0..DIRECTIONS).map(|k| linkage::math::unit(std::f64::consts::TAU * k as f64 / DIRECTIONS as f64));
     directions.flat_map(move |direction| {
         DISTANCES.into_iter().map(move |distance| {
-            // The box touches the end of the ray with the side or corner that faces the anchor.
+            // The box is placed so that its side or corner that faces the anchor touches the end of the ray.
             let half = label.size / 2.0;
             let reach = (half.x / direction.x.abs().larger(1e-9)).smaller(half.y / direction.y.abs().larger(1e-9));
             label.anchor + direction * (label.clear + distance + reach)
@@ -155,12 +156,13 @@ fn cost(index: usize, place: Vec2, labels: &[PlacedLabel], places: &[Option<Vec2
             if overlap.x > 0.0 && overlap.y > 0.0 {
                 cost += 40.0 + 10.0 * overlap.x.smaller(overlap.y);
             }
-            // The line from a label to its point must not pass through another label.
+            // The line from a label to its point must not pass through another label, so crossed labels add to the
+            // cost.
             let crossed = length_inside(&[label.anchor, place], *at, other.size / 2.0)
                 + length_inside(&[other.anchor, *at], place, label.size / 2.0);
             cost += if crossed > 0.0 { 7.0 } else { 0.0 };
         }
-        // A label nearer to another point than to its anchor is misleading.
+        // A label nearer to another point than to its anchor is misleading, so such a position costs more.
         if (other.anchor - place).norm() < distance {
             cost += 9.0;
         }
@@ -174,13 +176,13 @@ fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
 }
 
 /// Box of a label, subscripts included.
-/// It is a little larger than the letters, because viewers may use other fonts.
+/// The box is a little larger than the letters, because viewers may use other fonts than the bundled font.
 #[must_use]
 pub fn label_size(text: &str) -> Vec2 {
     Vec2::new(1.05 * width(text, LETTER), 1.15 * LETTER)
 }
 
-/// A label at its position, with a line to its point if the point is far away.
+/// Draws a label at its position. If its point is far away, a line connects the label with the point.
 pub fn letter(figure: &mut DrawnFigure, label: &PlacedLabel, at: Vec2, text: &str, paint: &'static str) {
     let toward = label.anchor - at;
     let half = label.size / 2.0;

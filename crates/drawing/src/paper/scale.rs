@@ -2,14 +2,14 @@
 
 use linkage::math::KeepNan;
 
-/// A number counts as round if it exceeds a round number by at most this fraction.
+/// A number counts as round if it exceeds a round number by at most this fraction of the number.
 /// The fraction allows for the quotient's rounding error.
 const SAME: f64 = 1e-12;
 
 /// The smallest number of the form 1, 2, 2.5 or 5 times a power of ten that is at least `least`.
 /// The result is 1 if `least` is zero, negative, infinite or NaN.
 ///
-/// Neighbouring numbers differ by a factor of two at most.
+/// Neighbouring numbers of this form differ by a factor of two at most.
 /// A vector drawn at this scale therefore fills more than half of the available length.
 #[must_use]
 pub fn round_up(least: f64) -> f64 {
@@ -18,7 +18,7 @@ pub fn round_up(least: f64) -> f64 {
     }
     let power = least.log10().floor() as i32;
     let candidates = (power - 1..=power + 1).flat_map(|n| ["1", "2", "2.5", "5"].map(|m| (m, n)));
-    // Parsed from text, so that 0.02 is the double nearest to 0.02 and is printed as 0.02.
+    // The numbers are parsed from text, so that 0.02 is the double nearest to 0.02 and is printed as 0.02.
     let numbers = candidates.filter_map(|(m, n)| format!("{m}e{n}").parse::<f64>().ok());
     numbers.filter(|&number| number >= least * (1.0 - SAME)).fold(f64::INFINITY, f64::smaller)
 }

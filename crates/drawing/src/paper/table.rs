@@ -11,7 +11,7 @@ const LINE: f64 = 5.0;
 const GAP: f64 = 3.0;
 const SAMPLE: f64 = 9.0;
 
-/// A table: a heading, and rows. Each row starts with a sample of the line that it explains.
+/// A table: a heading, and rows. Each row starts with a sample of the line that the row explains.
 pub struct LegendTable {
     /// Headings of the columns.
     pub head: Vec<&'static str>,

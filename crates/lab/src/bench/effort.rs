@@ -23,8 +23,9 @@ impl RunEffort {
     }
 
     /// Number of solutions of the whole mechanism.
-    /// It is the number of evaluations of the equation of motion.
-    /// If these were not counted, it is the number of an engine's steps and probes, or the number of poses.
+    /// The result is the number of evaluations of the equation of motion.
+    /// If evaluations were not counted, the result is the number of an engine's steps and probes, or the number of
+    /// poses.
     #[must_use]
     pub fn solutions(&self) -> Option<u64> {
         self.first(&SOLUTIONS)

@@ -84,7 +84,9 @@ mod tests {
         }
     }
 
-    /// Compares with the definition: no other point is at least as good in both quantities and better in one of them.
+    /// The test compares the front with its definition.
+    /// For a point on the front, no other point is at least as good in both quantities and better in one of these
+    /// quantities.
     #[test]
     fn the_front_holds_the_undominated_points() {
         let mut state = 1u64;

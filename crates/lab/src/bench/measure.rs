@@ -1,5 +1,5 @@
 //! Runs all methods and measures their times, in rounds: every method once, then every method again.
-//! Other load on the machine then affects all methods alike.
+//! The load of other programs on the machine then affects all methods alike.
 
 use super::effort::RunEffort;
 use super::ladder::{Planned, Runner};
@@ -87,7 +87,8 @@ impl Desk<'_> {
             Runner::Side(_) | Runner::Engine(_) | Runner::Peer(..) if is_long && round >= FEW => {}
             Runner::Side(solver) => run.seconds.extend(self.timed(solver.as_ref()).map(|(seconds, ..)| seconds)),
             Runner::Engine(engine) => run.seconds.extend(self.timed(engine.as_ref()).map(|(seconds, ..)| seconds)),
-            // A peer restarts for every answer, and repeats short runs by itself.
+            // A peer restarts for every answer, and repeats short runs by itself. It therefore gets at most `FEW`
+            // rounds.
             Runner::Peer(index, way) if round < FEW && !is_long => {
                 if let Ok(answer) = self.peers[*index].run(way) {
                     run.seconds.extend(answer.seconds.into_iter().filter(|seconds| *seconds > 0.0));

@@ -21,9 +21,9 @@ linkage::words! {
 /// Errors of one stage of channels, divided by their scales.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Largest over instants and channels.
+    /// Largest error over instants and channels.
     pub max: f64,
-    /// Largest root mean square of the channels.
+    /// Largest root mean square of a channel's errors.
     pub rms: f64,
     /// Whether the reference's error exceeds a hundredth of this error.
     pub is_limited: bool,
@@ -68,7 +68,7 @@ pub struct BenchPoint {
     pub resolution: String,
     /// Settings of an engine.
     pub settings: Option<Settings>,
-    /// Whether the settings are the program's defaults. This is only set for sides.
+    /// Whether the settings are the program's defaults. The field is set only for sides.
     pub is_usual: bool,
     /// What came of it.
     pub outcome: BenchOutcome,

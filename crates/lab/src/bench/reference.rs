@@ -13,7 +13,7 @@ use linkage::trajectory::{Stage, Trajectory};
 use prover::bounds::residuals;
 
 /// Estimated error of the tighter reference, divided by its difference from a run at the usual accuracy.
-/// The tighter reference allows a hundredth of the error in every step.
+/// The tighter reference allows, in every step, a hundredth of the error at the usual accuracy.
 /// The factor of four is the margin `SAFETY` of `prover::run::known`.
 const LEFT: f64 = 0.04;
 
@@ -22,7 +22,7 @@ const LEFT: f64 = 0.04;
 pub struct Floor {
     /// The reference, in words.
     pub reference: &'static str,
-    /// Basis of its error, in words.
+    /// Basis of the reference's error, in words.
     pub basis: &'static str,
     /// Error by stage divided by the scales, in the order of [`Stage::ALL`]; 0 for stages that are not requested.
     pub errors: [f64; Stage::ALL.len()],
@@ -39,7 +39,7 @@ impl Floor {
 /// The reference of a case, and the reference's error.
 ///
 /// # Errors
-/// Those of the sides.
+/// The errors of the sides.
 pub(super) fn of(case: &Case) -> Result<(Trajectory, Floor)> {
     let solved = |solver: &dyn Solver| solver.solve(case).map_err(|error| explained(case, error));
     if case.is_free() {
@@ -59,7 +59,7 @@ pub(super) fn of(case: &Case) -> Result<(Trajectory, Floor)> {
 /// Only the channels that both trajectories have are compared.
 ///
 /// # Errors
-/// If the grids differ.
+/// An error is returned if the grids differ.
 pub(super) fn apart(reference: &Trajectory, found: &Trajectory) -> Result<[[f64; 2]; Stage::ALL.len()]> {
     let mut worst = [[0.0f64; 2]; Stage::ALL.len()];
     for residual in residuals(reference, found)? {

@@ -29,10 +29,10 @@ pub(super) fn rounding(stage: Of) -> f64 {
 pub(super) enum Effect {
     /// The case lacks the part that the fault affects.
     None,
-    /// Exact answers are the same up to rounding error.
+    /// Exact answers are the same with and without the fault, up to rounding error.
     /// The number is the largest change, relative to the largest number of the quantity.
     Equivalent(f64),
-    /// Exact answers change. The number is the largest relative change.
+    /// Exact answers change. The number is the largest change, relative to the largest number of the quantity.
     Changes(f64),
     /// No exact answer exists with the fault.
     Unsolved,

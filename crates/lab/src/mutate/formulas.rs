@@ -55,7 +55,7 @@ impl Stage<'_> {
         let formulas = &self.scenario.formulas;
         let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
         let operations = Program::of(&formulas.graph, &nodes).len() * self.case.grid.len();
-        // One evaluation by value and two by derivative.
+        // A formula needs one evaluation by value and two evaluations by derivative.
         OPERATION * 2.0 * 6.0 * operations as f64
     }
 
@@ -95,7 +95,7 @@ impl Stage<'_> {
         }
     }
 
-    /// A claim of another channel: the first channel for which `is_meant` holds.
+    /// A claim of another channel: the first channel for which `is_meant` returns true.
     /// The search begins at the claimed channel and continues from the start of the list.
     fn other(&self, own: &Formula, is_meant: &dyn Fn(&Channel, &Channel) -> bool) -> Option<Claim> {
         let claim = own.claim.as_ref()?;

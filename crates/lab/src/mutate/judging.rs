@@ -60,7 +60,7 @@ fn fault(name: &str) -> Fault {
 }
 
 fn scenario(name: &str) -> Scenario {
-    // Other tests cover external reference numbers.
+    // Other tests cover external reference numbers, so this test removes these numbers.
     Scenario { oracles: Vec::new(), ..of_repository(&format!("scenarios/{name}.toml")) }
 }
 

@@ -11,7 +11,7 @@ const FACTOR: f64 = 2.0;
 /// Largest number of proofs for one search.
 const MOST: usize = 24;
 
-/// The smallest size for which `is_found` holds, to a factor of two.
+/// The smallest size for which `is_found` returns true, to a factor of two.
 /// `margin` is the margin with which the size `whole` is found.
 pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) -> f64 {
     let mut left = MOST;

@@ -61,7 +61,7 @@ pub struct Mutant {
 pub struct Mutated {
     /// Name of the scenario.
     pub scenario: String,
-    /// Verdict of its proof without a fault.
+    /// Verdict of the scenario's proof without a fault.
     pub verdict: &'static str,
     /// The engine.
     pub engine: &'static str,

@@ -46,7 +46,7 @@ impl MutationPlan {
 /// Plants all requested faults in a scenario. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// Those of the proof without a fault; [`ErrorKind::Input`] if that proof disagrees.
+/// The errors of the proof without a fault; [`ErrorKind::Input`] if that proof disagrees.
 pub fn mutate(scenario: &Scenario, asked: &MutationPlan, progress: &mut dyn FnMut(f64)) -> Result<Mutated> {
     let stage = Stage::new(scenario, &asked.options)?;
     if stage.verdict == "disagree" {
@@ -83,7 +83,7 @@ const SIZES: f64 = 8.0;
 /// Checks that the allowed work is enough for all requested faults.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] if it is not; the message contains the work needed.
+/// [`ErrorKind::Unsupported`] if the allowed work is not enough; the message contains the work needed.
 fn allowed(stage: &Stage, kinds: &[&'static FaultKind], asked: &MutationPlan) -> Result<()> {
     let [sides, engine] = stage.work;
     let formulas = stage.formulas().len() as f64 * stage.work_of_formulas();
@@ -138,7 +138,7 @@ fn fault(kind: &'static FaultKind) -> Fault {
 }
 
 /// A mistake in every formula with a suitable position, and its effect.
-/// If `only_real`, only the first mistake with an effect.
+/// If `only_real` is true, only the first mistake with an effect is returned.
 fn spoiled(
     stage: &Stage,
     kind: &'static FaultKind,

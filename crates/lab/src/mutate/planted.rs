@@ -32,7 +32,7 @@ impl Hook for Fault {
         match self.kind.plant {
             Plant::Case(_) | Plant::Formula(_) => {}
             Plant::Answer(change) => {
-                // If the state has no such part, it stays unchanged.
+                // If the state has no part that the fault affects, the state stays unchanged.
                 let _ = change(FaultInstant { case, row }, state, self.size);
             }
         }

@@ -39,7 +39,7 @@ pub enum FaultyProof {
     Inconclusive(String),
     /// Everything agrees.
     Escaped,
-    /// Exact answers are the same up to rounding error.
+    /// Exact answers are the same with and without the fault, up to rounding error.
     /// The number is the largest change, relative to the largest number of a quantity.
     Equivalent(f64),
 }
@@ -93,7 +93,7 @@ pub(super) struct Eyes {
 }
 
 impl Eyes {
-    /// Adds the detections by the analytic sides. If `is_outside`, the comparison of the two sides is left out.
+    /// Adds the detections by the analytic sides. If `is_outside` is true, the comparison of the two sides is omitted.
     pub(super) fn sides(mut self, sides: &ObservedSides, is_outside: bool) -> Self {
         if !is_outside {
             let beyond = sides.beyond();

@@ -39,7 +39,7 @@ pub(super) struct Stage<'a> {
     pub(super) integration: Vec<f64>,
     /// The engine's runs without a fault.
     runs: OnceLock<CachedEngine>,
-    /// Work of both sides, and of the engine, without a fault (in steps of an engine's four-bar).
+    /// Work of both sides, and of the engine, without a fault (in units of the work of an engine's step on a four-bar).
     pub(super) work: [f64; 2],
     /// Verdict of the proof without a fault, and name of the engine.
     pub(super) verdict: &'static str,
@@ -50,7 +50,7 @@ impl<'a> Stage<'a> {
     /// Proves the scenario without a fault.
     ///
     /// # Errors
-    /// Those of the proof.
+    /// The errors of the proof.
     pub(super) fn new(scenario: &'a Scenario, options: &'a Options) -> Result<Self> {
         let (case, whole) = (scenario.case.scene()?.case, &scenario.case);
         let problem = Problem::of(scenario, &case);
@@ -58,7 +58,7 @@ impl<'a> Stage<'a> {
         let of_sides = || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut Ledger::default());
         let (sides, done) = counted(|| limited(allowed, of_sides).0);
         let sides = sides?;
-        // Side 2 does not count groups; it places as many links as side 1.
+        // Side 2 does not count groups; it places as many links as side 1, so the groups of side 1 are counted twice.
         let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
         let right = AssurSolver.solve(&case)?;
         let integration = sides.integration();

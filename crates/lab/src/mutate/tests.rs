@@ -94,7 +94,7 @@ fn half_the_smallest_detected_size_is_not_detected() {
     }
 }
 
-/// Symptom: `run` with all scenarios did not find faults in the features of these three scenarios.
+/// Symptom: `run` with all scenarios did not find faults in the features of the three scenarios of this test.
 /// Three features were missing in the shipped files: a slider on a moving guide, a guided moment in a higher group, and
 /// a slider of the tree that carries another slider.
 #[test]
@@ -111,7 +111,7 @@ fn faults_of_sliders_on_moving_guides_are_found_in_every_party() {
 }
 
 /// The fault has an effect only if the loaded link reverses.
-/// No shipped crank reverses under such a load, so the moment acts on a rocker.
+/// No shipped crank reverses under a load of this kind, so the moment acts on a rocker.
 #[test]
 fn a_one_sided_moment_that_always_acts_is_found_in_every_party() {
     let mut rocking = scenario("crank_rocker");

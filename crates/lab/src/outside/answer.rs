@@ -15,7 +15,8 @@ const MOST: usize = 200;
 const COUNTED: usize = 50;
 /// Largest number of columns in a peer's table.
 const COLUMNS: usize = 100_000;
-/// Range of plausible run times (s). Clocks cannot resolve shorter times, and nobody waits longer.
+/// Range of plausible run times (s). Clocks cannot resolve times below this range, and nobody waits for times above
+/// this range.
 const TIMES: RangeInclusive<f64> = 1e-12..=1e9;
 
 /// The last line of a program's output, as JSON. Libraries may print other lines before it.

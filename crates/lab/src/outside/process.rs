@@ -1,4 +1,5 @@
-//! Runs a program with a time limit. Its output goes to files, so that it can neither block nor fill the memory.
+//! Runs a program with a time limit. The program's output goes to files, so that it cannot block the program or fill
+//! the memory.
 
 use crate::sentences;
 use std::fs::{self, File};
@@ -30,7 +31,7 @@ pub(super) fn run(
 ) -> Result<String, String> {
     let [out, err] = ["stdout", "stderr"].map(|name| directory.join(name));
     let file = |path: &Path| {
-        // A symbolic link left by an earlier call must not be followed.
+        // A symbolic link left by an earlier call must not be followed, so the file is removed.
         let _ = fs::remove_file(path);
         File::create_new(path).map_err(|error| format!("{}: {error}", path.display()))
     };
@@ -42,7 +43,7 @@ pub(super) fn run(
     std::os::unix::process::CommandExt::process_group(&mut shell, 0);
     let mut child = shell.spawn().map_err(|error| sentences::it_cannot_be_started(&error))?;
     let status = wait(&mut child, &[&out, &err], limit, clock)?;
-    // Processes that are still running could otherwise change the answer while it is read.
+    // Processes that are still running could change the answer while it is read, so these processes are ended.
     end_group(&child);
     let written = text(&out)?;
     if status.success() {

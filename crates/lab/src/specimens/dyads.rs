@@ -8,7 +8,8 @@ use super::sketch::{RandomSource, SpecimenSketch};
 use super::spec::{Ask, Dyad, Spec, Start};
 use scenario::Scenario;
 
-/// Upper limit of the distance of joints and mass centres from the origin (m). Also the scale of link angles (rad).
+/// Upper limit of the distance of joints and mass centres from the origin (m). The constant is also the scale of link
+/// angles (rad).
 pub const REACH: f64 = 4.0;
 /// Smallest sine of a transmission angle: 10 degrees.
 pub const DEAD: f64 = 0.17364817766693033;
@@ -99,7 +100,7 @@ pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> 
 
 /// Reads a chain and checks that on its grid it stays within `REACH` and away from dead points.
 /// The poses come from the `linkage` crate.
-/// A solver would also compute the range of the mechanism, which takes longer than everything else.
+/// A solver would also compute the range of the mechanism, which takes longer than all other work of this function.
 pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
     let scenario = spec.scenario().ok()?;
     let case = &scenario.case;

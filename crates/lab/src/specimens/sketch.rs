@@ -72,7 +72,7 @@ pub struct DrawnJoint {
 
 /// A mechanism under construction. Link 0 is the ground, link 1 the crank.
 pub struct SpecimenSketch<'a> {
-    /// Source of its random numbers.
+    /// Source of the mechanism's random numbers.
     pub random: &'a mut RandomSource,
     /// The mechanism so far.
     pub spec: Spec,

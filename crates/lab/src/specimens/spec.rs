@@ -11,7 +11,7 @@ use scenario::Scenario;
 pub struct SpecimenLink {
     /// Name.
     pub name: String,
-    /// Names and positions of its points, in its frame (m).
+    /// Names and positions of the link's points, in the link's frame (m).
     pub points: Vec<(String, Vec2)>,
     /// Mass, mass centre and moment of inertia; `None` for a massless link.
     pub mass: Option<(f64, Vec2, f64)>,
@@ -20,7 +20,7 @@ pub struct SpecimenLink {
 /// A revolute joint: its name (the name of its point) and its links.
 #[derive(Clone, Debug)]
 pub struct Pin {
-    /// Its name, and that of its point.
+    /// Name of the joint and of its point.
     pub name: String,
     /// Its links.
     pub links: [String; 2],
@@ -85,7 +85,7 @@ pub struct Start {
 pub struct Dyad {
     /// The links of the dyad.
     pub links: [String; 2],
-    /// Whether its inner joint is on the left.
+    /// Whether the dyad's inner joint is on the left.
     pub left: bool,
 }
 
@@ -133,7 +133,7 @@ pub struct Other {
     pub drive: String,
     /// Further sections, such as a motor or loads.
     pub sections: String,
-    /// Last instant and number of steps of a grid by time. It replaces the grid by crank angles.
+    /// Last instant and number of steps of a grid by time. The grid by time replaces the grid by crank angles.
     pub times: Option<(f64, usize)>,
 }
 
@@ -219,7 +219,7 @@ impl Spec {
         Scenario::parse(&self.toml(), Path::new("test.toml"))
     }
 
-    /// The same mechanism moved and turned as a whole, including gravity.
+    /// This mechanism, moved and turned as a whole, including gravity.
     pub fn moved(&self, by: Vec2, turn: f64) -> Spec {
         let mut other = self.clone();
         let carried = |at: Vec2| by + rotated(unit(turn), at);
@@ -247,7 +247,7 @@ impl Spec {
         other
     }
 
-    /// The same mechanism with all lengths multiplied by `factor`. Masses and numbers in text sections are unchanged.
+    /// This mechanism with all lengths multiplied by `factor`. Masses and numbers in text sections are unchanged.
     pub fn larger(&self, factor: f64) -> Spec {
         let mut other = self.with_places(|at| at * factor);
         for (_, _, inertia) in other.links.iter_mut().filter_map(|body| body.mass.as_mut()) {
@@ -256,7 +256,7 @@ impl Spec {
         other
     }
 
-    /// The same mechanism with other positions of all points and mass centres.
+    /// This mechanism with changed positions of all points and mass centres.
     fn with_places(&self, to: impl Fn(Vec2) -> Vec2) -> Spec {
         let mut other = self.clone();
         let points = other.links.iter_mut().flat_map(|body| &mut body.points).chain(&mut other.ground);
@@ -274,7 +274,7 @@ impl Spec {
         asked.flatten().map(|(_, at)| at)
     }
 
-    /// The same mechanism with every mass and moment of inertia multiplied by `factor`.
+    /// This mechanism with every mass and moment of inertia multiplied by `factor`.
     pub fn heavier(&self, factor: f64) -> Spec {
         let mut other = self.clone();
         for (mass, _, inertia) in other.links.iter_mut().filter_map(|body| body.mass.as_mut()) {

@@ -42,7 +42,7 @@ pub struct WorstOfGroup {
     /// Largest error divided by the channel's scale: half its range in the run.
     #[serde(deserialize_with = "number")]
     pub error: f64,
-    /// Bound of that channel divided by the same scale.
+    /// Bound of the channel with the largest error, divided by this channel's scale.
     #[serde(deserialize_with = "number")]
     pub bound: f64,
     /// The channel.
@@ -66,7 +66,7 @@ pub struct PartyAtPoint {
     /// Reason of a verdict other than agreement.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub why: String,
-    /// Reference of its errors, in words; empty if it has no errors.
+    /// Reference of the errors, in words; empty if the solver or engine has no errors.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub against: String,
     /// Groups of channels, in order; empty if the solver or engine failed.

@@ -41,7 +41,7 @@ pub(super) fn key_of(family: &StressFamily, dial: f64, sample: u64, seed: u64) -
 }
 
 /// FNV-1a hash of everything that the result depends on.
-/// These are the program's version, its engines, and the case with its solvers and engines.
+/// The hash covers the program's version, its engines, and the case with its solvers and engines.
 fn key(family: &StressFamily, setup: Option<&Setup>, seed: u64) -> String {
     let engines: Vec<String> =
         built().map(|name| engines::with_step(name, 1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
@@ -130,7 +130,8 @@ fn of_engine(
     let done = own.map(|what| (what.name().to_string(), work.of(what))).into_iter().filter(|(_, times)| *times > 0);
     let party = match proof {
         Err(error) => PartyAtPoint::failed(name.name(), &told(&error)),
-        // The engine may agree with a reference whose sides disagree. This must not count as agreement.
+        // The engine may agree with a reference whose sides disagree. The verdict of the whole proof is therefore
+        // counted.
         Ok(proof) => of_proof(&setup.case, proof.engine(), &proof.verdict, truth),
     };
     PartyAtPoint { done: done.collect(), ..party }

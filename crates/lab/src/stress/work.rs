@@ -38,7 +38,7 @@ pub fn jobs(family: &'static StressFamily, quick: bool, seed: u64, kept: &[Stres
 /// After each point, `done` receives all jobs and the number of finished jobs. If it returns an error, the work ends.
 ///
 /// # Errors
-/// Those of `done`.
+/// The errors of `done`.
 pub fn run_all<E>(
     mut jobs: Vec<Job>,
     seed: u64,

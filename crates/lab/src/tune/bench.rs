@@ -16,10 +16,11 @@ use prover::run::Options;
 
 /// Coarsest accuracy that is tried for an engine that controls its error.
 const COARSEST: f64 = 0.1;
-/// If no cost limit is known yet, the first number of sweeps tried is the smallest available one that is at least this.
+/// If no cost limit is known yet, the first number of sweeps tried is the smallest available number that is at least
+/// this constant.
 const ENOUGH: usize = 64;
 /// First step that is tried, as a multiple of the requested step.
-/// A coarse step is cheap, and its cost predicts that of other steps.
+/// A coarse step is cheap, and its cost predicts the cost of steps other than this one.
 const COARSE_START: f64 = 4.0;
 /// When the number of sweeps is increased, the first step tried is this multiple of the step found before.
 const COARSER: f64 = 1.4;
@@ -88,7 +89,7 @@ struct Row {
 struct Search<'e> {
     engine: &'e dyn Engine,
     within: f64,
-    /// Lowest cost of the other engines.
+    /// Lowest cost of the engines other than this one.
     others: f64,
     best: Option<Candidate>,
     /// Smallest error among methods that do not meet the request at any step.
@@ -263,7 +264,8 @@ impl Bench<'_> {
         // The comparison run has twice the sweeps.
         // Its iteration error is small compared with that of the run at `settings`.
         // The difference of the two runs is therefore the iteration error at `settings`.
-        // (A proof compares with half of the sweeps. That costs a quarter, and overestimates the error.)
+        // (A proof compares with half of the sweeps. Half of the sweeps cost a quarter of twice the sweeps, but this
+        // comparison overestimates the error.)
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }

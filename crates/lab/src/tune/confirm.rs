@@ -24,7 +24,7 @@ const TIGHTER: f64 = 0.1;
 /// If no proof confirms it, the original candidate is returned and stays marked as unproven.
 ///
 /// # Errors
-/// Those of [`prove`].
+/// The errors of [`prove`].
 pub(super) fn confirmed(
     bench: &mut Bench,
     scenario: &Scenario,

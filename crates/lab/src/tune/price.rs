@@ -33,7 +33,8 @@ struct Costs {
 
 /// The costs were measured once on `crank_rocker` by `cargo bench --bench tune -- prices`.
 /// The costs with one and with two substeps show which part of a step happens once and which happens in every substep.
-/// Simbody's costs are those of its steps and readings, from runs of `bench` on the same file at 1e-4 and 1e-10.
+/// Simbody's costs are those of its steps and readings, from runs of `bench` on `crank_rocker` at the accuracies 1e-4
+/// and 1e-10.
 fn costs(engine: EngineName) -> Costs {
     match engine {
         EngineName::Rapier => Costs { step: 0.47, substep: 0.53, sweep: 0.028, instant: 0.26, native: 1.03, tiny: 1.1 },
@@ -54,7 +55,7 @@ fn costs(engine: EngineName) -> Costs {
 /// The steps are counted in the run only for an engine that chooses its steps itself.
 ///
 /// # Errors
-/// Those of the run.
+/// The errors of the run.
 pub fn by_work(case: &Case, engine: &dyn Engine, run: &mut dyn FnMut() -> Result<()>) -> Result<f64> {
     let (outcome, work) = counted(run);
     outcome?;
@@ -74,7 +75,7 @@ fn named(engine: &dyn Engine) -> Costs {
 /// Cost of a run of an engine with a fixed step, from its settings.
 ///
 /// # Panics
-/// If the engine is not in [`EngineName::ALL`].
+/// Panics if the engine is not in [`EngineName::ALL`].
 #[must_use]
 pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
     let settings = engine.settings();

@@ -12,7 +12,8 @@ const NEAR_ENOUGH: f64 = 0.8;
 const AIM: f64 = 0.92;
 /// If a step is known to be too large by at most this factor, no further run is made.
 const CLOSE: f64 = 1.06;
-/// If the observed order is below this, the error does not depend on the step: it has another cause.
+/// If the observed order is below this, the error does not depend on the step: the error has a cause other than the
+/// step.
 const FLAT: f64 = 0.3;
 /// Largest factor from one step to the next.
 const LEAP: f64 = 16.0;
@@ -39,7 +40,7 @@ pub(super) enum Found {
         /// Its error.
         error: f64,
     },
-    /// No step meets the error; the smallest error found.
+    /// No step meets the error; the number is the smallest error found.
     TooCoarse(f64),
 }
 
@@ -62,7 +63,7 @@ pub(super) fn largest_step(
         let (error, price) = (measured.error, measured.price);
         // The cost is a constant and a part proportional to the number of steps.
         // After one run the constant is taken as zero.
-        // The cost of a failed run is unknown.
+        // The cost of a failed run is unknown, so the finest affordable step is then taken as 0.
         let mut affordable = if price.is_finite() { step * price / limit } else { 0.0 };
         if let Some([before, _, its_price]) = last {
             let per_step = (price - its_price) / (1.0 / step - 1.0 / before);

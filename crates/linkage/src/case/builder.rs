@@ -95,7 +95,7 @@ impl CaseBuilder {
         self
     }
 
-    /// Adds a moving link and its points: names and coordinates (m) in the link's frame. It is massless until
+    /// Adds a moving link and its points: names and coordinates (m) in the link's frame. The link is massless until
     /// [`CaseBuilder::mass`] sets its mass.
     #[must_use]
     pub fn link(mut self, name: &str, points: &[(&str, [f64; 2])]) -> Self {
@@ -111,7 +111,7 @@ impl CaseBuilder {
         self
     }
 
-    /// Adds a revolute joint between two links. Both must have a point called `name`.
+    /// Adds a revolute joint between two links. Both links must have a point called `name`.
     #[must_use]
     pub fn pin(self, name: &str, first: &str, second: &str) -> Self {
         self.joint(name, [(first, name), (second, name)], None)
@@ -130,8 +130,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Adds a driving link at constant speed (rad/s, counter-clockwise positive). It is the link that `joint` connects
-    /// to the ground.
+    /// Adds a driving link at constant speed (rad/s, counter-clockwise positive).
+    /// The driving link is the link that `joint` connects to the ground.
     /// The first driving link is the crank.
     #[must_use]
     pub fn crank(self, joint: &str, speed: f64) -> Self {
@@ -199,7 +199,7 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the requested instants (s). They replace those of [`CaseBuilder::instants`].
+    /// Sets the requested instants (s). The given instants replace those of [`CaseBuilder::instants`].
     #[must_use]
     pub fn times(mut self, times: &[f64]) -> Self {
         self.times = Some(times.to_vec());
@@ -217,7 +217,7 @@ impl CaseBuilder {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an unknown link, point or joint, with a list of the known names.
-    /// The same kind for a mechanism without ground or crank.
+    /// [`ErrorKind::Input`] also for a mechanism without ground or crank.
     /// The errors of [`Mechanism::new`], [`Structure::of`], [`first_pose`] and [`Case::new`] are passed on.
     pub fn build(mut self) -> Result<Case> {
         if self.links.first().is_none_or(|link| link.name != "ground") {
@@ -411,7 +411,7 @@ mod tests {
     }
 
     /// Regression: the builder chose the instants of a free motion by crank angle.
-    /// This is impossible, because the time at which a free crank reaches an angle depends on the forces.
+    /// Such a choice is impossible, because the time at which a free crank reaches an angle depends on the forces.
     #[test]
     fn the_instants_of_a_free_motion_are_times() {
         let left = |builder: CaseBuilder| builder.mode(&["coupler", "rocker"], AssemblyMode::Left);
@@ -420,7 +420,7 @@ mod tests {
         assert_eq!(case.grid, Grid::of_times(case.crank(), (0..=8).map(|k| TAU / 4.0 * f64::from(k) / 8.0).collect()));
         let case = left(four_bar().free("O", 0.0, 4.0)).times(&[0.0, 0.3, 0.1]).build().unwrap();
         assert_eq!(case.grid.times, [0.0, 0.3, 0.1]);
-        // A grid of crank angles is rejected for a free crank, also if it was not made by the builder.
+        // A grid of crank angles is rejected for a free crank, even if the builder did not make the grid.
         let angles = Grid::of_inputs(case.crank(), vec![0.0, 1.0]);
         assert!(case.on(angles.clone()).unwrap_err().to_string().contains("the motion is free"));
         assert!(case.with(|parts| parts.grid = angles).unwrap_err().to_string().contains("the motion is free"));

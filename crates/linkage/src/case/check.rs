@@ -12,14 +12,15 @@ use crate::mechanism::{AssemblyMode, GROUND, GroupKind, LinkPose, Mechanism, Str
 
 /// If the opening of a joint in a start pose exceeds this fraction of the joint's largest coordinate, the case is
 /// rejected.
-/// In the first poses of all shipped scenarios the ratio is less than 1e-15 (`tests/suite/start.rs`).
-/// In the pose of a different mechanism it is far larger.
+/// In the first poses of all shipped scenarios the ratio of opening to coordinate is less than 1e-15
+/// (`tests/suite/start.rs`).
+/// If the pose belongs to a different mechanism, the ratio is far larger.
 const LARGEST_OPENING: f64 = 1e-9;
 
 /// Checks all parts.
 ///
 /// # Errors
-/// Those of [`Case::new`](super::Case::new).
+/// The errors of [`Case::new`](super::Case::new).
 pub(super) fn all(parts: &CaseParts) -> Result<()> {
     drives(parts)?;
     structure(parts)?;
@@ -111,7 +112,7 @@ fn drives(parts: &CaseParts) -> Result<()> {
 const POINT: f64 = 1e-12;
 
 /// Whether a driving link moves no other link.
-/// This is the case if it carries other links only by revolute joints on its axis of rotation.
+/// A driving link moves no other link if it carries other links only by revolute joints on its axis of rotation.
 fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
     let own = mechanism.joints()[drive.joint].on(drive.link);
     let others = || mechanism.joints().entries().filter(|&(index, _)| index != drive.joint);
@@ -200,8 +201,7 @@ fn loads(parts: &CaseParts) -> Result<()> {
     Ok(())
 }
 
-/// Checks that every link has a pose, that all joints are closed in it and that the driving links are at their start
-/// angles.
+/// Checks that every link has a pose, that all joints are closed and that the driving links are at their start angles.
 fn start(parts: &CaseParts) -> Result<()> {
     let (mechanism, poses) = (&parts.mechanism, &parts.start.0);
     let links = mechanism.links();

@@ -47,7 +47,7 @@ impl Grid {
     }
 
     /// Upper limit of the absolute input values of a grid, in turns.
-    /// Solvers follow the branch from zero to every value, and a larger angle loses its last digits to rounding.
+    /// Solvers follow the branch from zero to every value. An angle above this limit loses its last digits to rounding.
     pub const MOST_TURNS: f64 = 1e5;
 
     /// Checks that all times and angles are finite and that all angles are within [`Grid::MOST_TURNS`].
@@ -67,7 +67,7 @@ impl Grid {
             if self.times.iter().any(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite()) {
                 return Err(sentences::the_drive_law_does_not_come(&name, &drive.input.noun()));
             }
-            // A time may exceed the law's end by a rounding error.
+            // A time may exceed the law's end by a rounding error, so the check allows a relative excess of 1e-12.
             let end = drive.end().unwrap_or(f64::INFINITY);
             if let Some(t) = self.times.iter().find(|&&t| t < 0.0 || t > end * (1.0 + 1e-12)) {
                 return Err(sentences::the_grid_leads_to_but_the_drive(&t, &name, &end));

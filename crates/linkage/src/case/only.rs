@@ -6,7 +6,8 @@ use crate::trajectory::{Channel, Stage};
 impl Case {
     /// Channels selected by `word`, out of all that the case can have, in the order of columns.
     /// A word is the name of a stage (`positions`), a subject (`point.P`, `link.rocker`, `joint.B`, `frame`, `drive`),
-    /// a subject's stage (`point.P.positions`) or a channel (`joint.B.fx_N`). Empty for any other word.
+    /// a subject's stage (`point.P.positions`) or a channel (`joint.B.fx_N`).
+    /// The list is empty for any other word.
     #[must_use]
     pub fn channels_called(&self, word: &str) -> Vec<Channel> {
         let is_meant = |channel: &Channel| {

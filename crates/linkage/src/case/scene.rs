@@ -1,4 +1,4 @@
-//! The smallest case that has the same values in the requested channels. See docs/skip.md and
+//! Reduces a case to the smallest case that has the same values in the requested channels. See docs/skip.md and
 //! docs/numerics/settings.md.
 
 use super::{Case, CaseParts, Seat};
@@ -47,10 +47,10 @@ impl LeftOut {
 
 impl Case {
     /// Returns the part of the case on which the requested channels depend.
-    /// Their values agree with those of the whole case up to rounding error.
+    /// The values of these channels agree with those of the whole case up to rounding error.
     ///
     /// # Errors
-    /// Those of [`Case::new`], if the part is not a complete mechanism.
+    /// The errors of [`Case::new`], if the part is not a complete mechanism.
     pub fn scene(&self) -> Result<Scene> {
         let whole = || Scene { case: self.clone(), left_out: LeftOut::default() };
         let channels = match &self.only {
@@ -106,7 +106,7 @@ impl<'a> Needs<'a> {
         }
     }
 
-    /// The link with this point. If several links have it, the link that depends on the fewest groups.
+    /// The link with this point. If several links have the point, the link that depends on the fewest groups.
     fn carrier(&self, point: &str) -> LinkId {
         let links = self.case.mechanism.links().entries().skip(1);
         let own = links.filter(|(_, link)| link.points.iter().any(|own| own.name == point)).map(|(index, _)| index);
@@ -148,14 +148,16 @@ impl<'a> Needs<'a> {
         for link in self.moves.ids().skip(1) {
             self.moves[link] |= self.carries[link];
         }
-        // The loads on these links may depend on the motion of further links.
+        // The loads on the links marked in `carries` may depend on the motion of further links.
+        // The motion of these further links is therefore needed too.
         for load in &case.loads {
             let links = load.links();
             if links.iter().any(|&link| link != GROUND && self.carries[link]) {
                 links.iter().for_each(|&link| self.moves[link] = true);
             }
         }
-        // A group's motion depends on the motion of the links at its outer joints.
+        // A group's motion depends on the motion of the links at its outer joints, so the motion of these links is
+        // needed too.
         for group in structure.groups.iter().rev() {
             if group.links.iter().any(|&link| self.moves[link]) {
                 group.links.iter().for_each(|&link| self.moves[link] = true);
@@ -173,7 +175,8 @@ impl<'a> Needs<'a> {
         self.moves[joint.first.link] && self.moves[joint.second.link]
     }
 
-    /// Whether the reduced case keeps a load. It does if it needs any forces and contains all links of the load.
+    /// Whether the reduced case keeps a load.
+    /// The reduced case keeps the load if it needs any forces and contains all links of the load.
     fn has_load(&self, load: &Load) -> bool {
         self.carries.contains(&true) && load.links().iter().all(|&link| self.moves[link])
     }
@@ -229,7 +232,8 @@ impl<'a> Needs<'a> {
 
     /// The links of the reduced case.
     /// Two links may share a point's name although the joint that connects them at this point is left out.
-    /// The link that depends on fewer groups then keeps the name. On the other link a number is added to the name.
+    /// The link that depends on fewer groups then keeps the name. On the other of the two links, a number is added to
+    /// the name.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
         let stays = |index: &LinkId| self.moves[*index];

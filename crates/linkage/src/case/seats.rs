@@ -7,13 +7,13 @@ use crate::mechanism::{JointId, JointSide, LinkId};
 use crate::trajectory::{Channel, ChannelSubject, Stage};
 
 /// Location of a channel's subject in the mechanism.
-/// It determines what the channel's values depend on and what they describe.
-/// If you add a kind of subject, give it one of these locations in [`Case::seats`].
+/// The location determines what the channel's values depend on and what they describe.
+/// If you add a kind of subject, give the new kind one of these locations in [`Case::seats`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Seat {
     /// The link with this number.
     Link(LinkId),
-    /// A point of a link. If several links carry the point, this is the first of them.
+    /// A point of a link. If several links carry the point, the first of these links.
     Point(JointSide),
     /// The joint with this number.
     Joint(JointId),

@@ -4,8 +4,8 @@
 //! Opposite links of a parallelogram also have the same angle up to a constant, and so do all links in a chain of such
 //! pairs.
 //! A link connected with the ground by such pairs only translates: its angular velocity is zero.
-//! A solver may compute a nonzero angular velocity for it, which is only rounding error.
-//! Loads must not derive a sense of rotation from this error.
+//! A solver may compute a nonzero angular velocity for such a link. This value is only rounding error.
+//! Loads must not infer a sense of rotation from this error.
 
 use super::CaseParts;
 use crate::math::Vec2;

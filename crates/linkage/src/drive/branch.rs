@@ -64,8 +64,9 @@ impl Curve {
 pub struct MotorBranch {
     curve: Curve,
     ratio: f64,
-    /// Ratio of the torque on the crank to the motor's static torque: the efficiency if power flows to the crank.
-    /// If power flows back to the motor, the reciprocal of the efficiency.
+    /// Ratio of the torque on the crank to the motor's static torque.
+    /// If power flows to the crank, the ratio is the efficiency of the reducer.
+    /// If power flows back to the motor, the ratio is the reciprocal of the efficiency.
     factor: f64,
     /// Speeds of the crank (rad/s) between which the piece is valid. Outside this interval the piece continues
     /// smoothly.
@@ -106,7 +107,7 @@ impl MotorBranch {
     /// increasing speed.
     pub(super) fn steady_speed(&self, resistance: f64) -> Option<f64> {
         let speed = self.curve.stable_speed(resistance / (self.ratio * self.factor))? / self.ratio;
-        // The speed may exceed an end of the piece by a rounding error.
+        // The speed may exceed an end of the piece by a rounding error, so the check allows this excess.
         let slack = 4.0 * f64::EPSILON * speed.abs();
         (speed >= self.speeds[0] - slack && speed <= self.speeds[1] + slack).then_some(speed)
     }

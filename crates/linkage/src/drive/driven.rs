@@ -12,7 +12,7 @@ pub enum DriveMotion {
         /// The motion law.
         law: MotionLaw,
         /// Motor for which the speed under load is to be computed.
-        /// It does not affect the motion: the link follows the law even if the motor is too weak for it.
+        /// The motor does not affect the motion: the link follows the law even if the motor is too weak for it.
         motor: Option<Motor>,
     },
     /// Free motion: from t = 0 on, it follows from the loads, weights, inertia and the motor, if any.
@@ -20,7 +20,7 @@ pub enum DriveMotion {
         /// Speed at t = 0 (rad/s), counter-clockwise positive.
         initial_speed: f64,
         /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive.
-        /// Its sign is the motor's sense of rotation. Its absolute value is the reference for speeds.
+        /// The sign of this speed is the motor's sense of rotation. Its absolute value is the reference for speeds.
         /// Crank angles refer to the nominal motion.
         nominal_speed: f64,
         /// Motor that drives the link.
@@ -56,7 +56,7 @@ impl Drive {
         Drive { input: Input::Angle, joint, link, zero, start, motion, through: false }
     }
 
-    /// Applies `read` to the law of the motion. For a free link this is the law of its nominal motion.
+    /// Applies `read` to the law of the motion. For a free link, `read` receives the law of the link's nominal motion.
     #[inline]
     fn by_law<T>(&self, read: impl FnOnce(&MotionLaw) -> T) -> T {
         match &self.motion {
@@ -82,7 +82,7 @@ impl Drive {
     }
 
     /// Constant speed (rad/s) that moves the link from its angle at time `from` to its angle at time `to` (s).
-    /// The motion takes the absolute difference of the two times.
+    /// The duration of the motion is the absolute difference of the two times.
     /// If `to` is before `from`, the speed is opposite to the law's sense.
     #[inline]
     #[must_use]
@@ -100,7 +100,7 @@ impl Drive {
     }
 
     /// Sense of rotation of the law: +1 counter-clockwise, -1 clockwise.
-    /// For an oscillating law it is the sense of the top speed.
+    /// For an oscillating law, the result is the sense of the top speed.
     #[must_use]
     pub fn sense(&self) -> f64 {
         self.top_speed().signum()
@@ -141,7 +141,7 @@ impl Drive {
         self.by_law(MotionLaw::name)
     }
 
-    /// Whether the motion is free, that is, decided by forces.
+    /// Whether the motion is free, that is, determined by forces.
     #[inline]
     #[must_use]
     pub fn is_free(&self) -> bool {
@@ -169,8 +169,8 @@ impl Drive {
         }
     }
 
-    /// The motor of the link. On a free link it drives the link. Under a law only its speed under load is to be
-    /// computed.
+    /// The motor of the link. The motor of a free link drives the link.
+    /// The motor of a link under a law does not: only the motor's speed under load is to be computed.
     #[must_use]
     pub fn motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -178,7 +178,7 @@ impl Drive {
         }
     }
 
-    /// Motor that drives the link; only a free link can have one.
+    /// Motor that drives the link. Only a free link can have such a motor.
     #[must_use]
     pub fn moving_motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -187,13 +187,14 @@ impl Drive {
         }
     }
 
-    /// Moment of inertia of rotor and reducer (kg m^2), referred to the free link with which they turn. 0 under a law.
+    /// Moment of inertia of rotor and reducer (kg m^2), referred to the free link with which they turn.
+    /// The result is 0 for a link under a law.
     #[must_use]
     pub fn moving_inertia(&self) -> f64 {
         self.moving_motor().map_or(0.0, Motor::inertia_on_crank)
     }
 
-    /// Returns this drive with another motor, or without a motor.
+    /// Returns this drive with the given motor, or without a motor.
     #[must_use]
     pub fn with_motor(&self, motor: Option<Motor>) -> Drive {
         let motion = match &self.motion {
@@ -205,7 +206,7 @@ impl Drive {
         Drive { motion, ..*self }
     }
 
-    /// Returns this drive in its nominal motion: a free link gets its nominal speed as a law.
+    /// Returns this drive in its nominal motion. The law of a free link is then constant speed at the nominal speed.
     #[must_use]
     pub fn nominal(&self) -> Drive {
         let motion = match &self.motion {
@@ -342,7 +343,7 @@ mod tests {
             let motion = DriveMotion::Free { initial_speed: 0.5, nominal_speed: 4.0 * sense, motor: None };
             let free = Drive { motion, ..drive };
             assert_eq!((free.sense(), free.initial_speed()), (sense, 0.5), "{:?}", free.motion);
-            // Crank angles refer to the nominal motion.
+            // Crank angles refer to the nominal motion, so both drives have the same state.
             assert_eq!(free.at(2.0), free.nominal().at(2.0));
             assert_eq!((free.time_of(3.0), free.nominal().initial_speed()), (2.5 * sense / 4.0, 4.0 * sense));
         }

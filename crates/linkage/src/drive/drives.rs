@@ -6,7 +6,8 @@ use std::ops::Deref;
 
 use super::Drive;
 
-/// The driving links of a mechanism, at least one. The first is the crank; its angle identifies an instant.
+/// The driving links of a mechanism, at least one.
+/// The first driving link is the crank. The crank's angle identifies an instant.
 /// The order is that of [`Structure::drivers`](crate::mechanism::Structure::drivers).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drives(Vec<Drive>);

@@ -19,14 +19,15 @@ use crate::mechanism::{JointSide, LinkId};
 /// A load on one link, or between two links.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Load {
-    /// Moment of constant size, opposite to the link's rotation. Zero at standstill.
+    /// Moment of constant size, opposite to the link's rotation. The moment is zero at standstill.
     Resistance {
         /// The loaded link.
         link: LinkId,
         /// Size of the moment (N m), not negative.
         moment: f64,
     },
-    /// Moment that does not depend on the size of the speed. It may be limited to one sense of the link's rotation.
+    /// Moment that does not depend on the size of the speed. The moment may be limited to one sense of the link's
+    /// rotation.
     Moment {
         /// The loaded link.
         link: LinkId,
@@ -44,14 +45,16 @@ pub enum Load {
         /// Whether the components are along the link's axes, so that the force turns with the link.
         follows: bool,
     },
-    /// Force of constant size, opposite to the motion of a point of a link: -F v / |v|. Zero at standstill.
+    /// Force of constant size, opposite to the motion of a point of a link: -F v / |v|. The force is zero at
+    /// standstill.
     ResistingForce {
         /// Point of application.
         at: JointSide,
         /// Size of the force (N), not negative.
         force: f64,
     },
-    /// Spring between two points. It pulls the points together with the force stiffness times (length - free length).
+    /// Spring between two points.
+    /// The spring pulls the points together with the force stiffness times (length - free length).
     /// If the points coincide, the direction is undefined and the force is zero.
     Spring {
         /// End points.
@@ -61,7 +64,8 @@ pub enum Load {
         /// Unloaded length (m).
         free_length: f64,
     },
-    /// Damper between two points. It pulls the points together with the force damping times the rate of their distance.
+    /// Damper between two points.
+    /// The damper pulls the points together with the force damping times the rate of change of the points' distance.
     /// If the points coincide, the force is zero.
     Damper {
         /// End points.
@@ -72,7 +76,7 @@ pub enum Load {
     /// Torsion spring between two links.
     /// The moment on the first link is stiffness times (twist - free twist). The moment on the second link is opposite.
     /// The twist is the angle of the second link's frame minus that of the first.
-    /// At t = 0 it is in (-pi, pi]; after that it counts whole turns.
+    /// At t = 0 the twist is in (-pi, pi]. Later the twist counts whole turns.
     TorsionSpring {
         /// The links.
         links: [LinkId; 2],
@@ -82,7 +86,8 @@ pub enum Load {
         free_angle: f64,
     },
     /// Torsion damper between two links.
-    /// The moment on the first link is damping times the rate of the twist. The moment on the second link is opposite.
+    /// The moment on the first link is damping times the rate of change of the twist. The moment on the second link is
+    /// opposite.
     TorsionDamper {
         /// The links.
         links: [LinkId; 2],
@@ -237,7 +242,7 @@ impl Load {
 
     /// Moment (N m) of a load with a [sensed link](Load::sensed_link).
     /// `omega` gives the link's sense of rotation, `crank` the crank angle (rad).
-    /// The moment is zero at standstill. It is also zero for a load without a sensed link.
+    /// The moment is zero at standstill. The moment is also zero for a load without a sensed link.
     #[inline]
     #[must_use]
     pub fn moment_in(&self, omega: f64, crank: f64) -> f64 {
@@ -264,10 +269,11 @@ impl Load {
         if let Load::ResistingForce { force, .. } = self { way * -force } else { Vec2::zeros() }
     }
 
-    /// Jump of the load when the sensed motion reverses at the crank angle `crank` (rad).
-    /// The jump is in N m, or in N for a force. It is not negative.
-    /// It is zero for a load that senses no motion, or that vanishes with the speed or at that crank angle.
-    /// In these cases the load has at most a kink.
+    /// Jump of the load when the motion on whose sense it depends reverses at the crank angle `crank` (rad).
+    /// The jump is in N m, or in N for a force. The jump is not negative.
+    /// The jump is zero for a load that depends on no sense of motion.
+    /// The jump is also zero for a load that vanishes with the speed or at that crank angle.
+    /// A load without a jump has at most a kink.
     #[must_use]
     pub fn jump(&self, crank: f64) -> f64 {
         match self.nature().senses {
@@ -284,7 +290,7 @@ impl Load {
     }
 
     /// For a [resistance](Load::Resistance): the loaded link and the size of the moment (N m).
-    /// A resistance is the only load that some engines and formats support directly.
+    /// Some engines and formats directly support only this kind of load.
     #[inline]
     #[must_use]
     pub fn resistance(&self) -> Option<(LinkId, f64)> {
@@ -316,7 +322,7 @@ impl Load {
 }
 
 /// Direction of a velocity: a unit vector, or zero at standstill.
-/// Squares of very small speeds would underflow; the computation avoids this.
+/// The computation avoids squares of very small speeds, because they would underflow.
 #[inline]
 #[must_use]
 pub fn sense_of(velocity: Vec2) -> Vec2 {
@@ -331,8 +337,8 @@ fn span(motions: &[Motion], ends: [JointSide; 2]) -> ([Vec2; 2], Vec2) {
     (places, places[1] - places[0])
 }
 
-/// Applies the force `pull` (N) to the first end and its reaction to the second.
-/// `pull` points towards the second end if the two attract each other.
+/// Applies the force `pull` (N) to the first end and its reaction to the second end.
+/// `pull` points towards the second end if the two ends attract each other.
 #[inline]
 fn pull_together(ends: [JointSide; 2], places: [Vec2; 2], pull: Vec2, put: &mut impl FnMut(Action)) {
     put(Action { link: ends[0].link, force: pull, place: places[0], moment: 0.0 });

@@ -8,7 +8,7 @@ use crate::math::{Piecewise, root};
 
 /// An input with its rate and acceleration.
 /// The units are rad, rad/s, rad/s^2 for an angle; m, m/s, m/s^2 for a length.
-/// [`Input`](crate::input::Input) defines what it measures.
+/// [`Input`](crate::input::Input) defines what the input measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InputState {
     /// Value in the scenario's convention.
@@ -119,8 +119,8 @@ impl MotionLaw {
         }
     }
 
-    /// The speed with the largest absolute value that the law reaches (rad/s), counter-clockwise positive. It is not
-    /// zero.
+    /// The speed with the largest absolute value that the law reaches (rad/s), counter-clockwise positive. This speed
+    /// is not zero.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
         match self {
@@ -152,13 +152,14 @@ impl MotionLaw {
     }
 }
 
-/// Number of bisections of the law's whole duration. After this number the error is at the level of rounding errors.
+/// Number of bisections of the law's whole duration.
+/// After these bisections the error of the time is at the level of rounding errors.
 const HALVINGS: usize = 60;
 
 /// Fraction s of the duration at which s - sin(2 pi s) / 2 pi equals `gone`.
-/// It is found by bisection, because the function has zero slope at both ends.
+/// The fraction is found by bisection, because the function has zero slope at both ends.
 fn cycloid(gone: f64) -> f64 {
-    // Because of rounding errors the angle may lie slightly outside the law's range.
+    // Because of rounding errors the angle may lie outside the law's range by a small amount, so 1e-15 is allowed.
     if !(-1e-15..=1.0 + 1e-15).contains(&gone) {
         return f64::NAN;
     }

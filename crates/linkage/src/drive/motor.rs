@@ -11,7 +11,8 @@ pub enum MotorLaw {
         torque: f64,
     },
     /// M = `at_rest` + `slope` omega.
-    /// This is the characteristic of a direct-current motor, or the stable branch of that of an induction motor.
+    /// This line is the characteristic of a direct-current motor. It is also the stable branch of an induction motor's
+    /// characteristic.
     Linear {
         /// Torque of the straight line at standstill (N m).
         at_rest: f64,
@@ -41,7 +42,7 @@ pub enum MotorLaw {
 }
 
 impl MotorLaw {
-    /// Returns the law with its torque multiplied by `share` at all speeds.
+    /// Returns the law with its torque multiplied by the factor `share` at all speeds.
     #[must_use]
     pub fn scaled(&self, share: f64) -> MotorLaw {
         match self {
@@ -98,8 +99,8 @@ pub struct ShaftInertia {
     pub rotor: f64,
     /// Input shaft of the reducer, which turns with the motor.
     pub input: f64,
-    /// Intermediate shaft of the reducer, which turns `intermediate_ratio` times as fast as the crank. 0 if there is no
-    /// such shaft.
+    /// Intermediate shaft of the reducer, which turns `intermediate_ratio` times as fast as the crank.
+    /// The value is 0 if the reducer has no intermediate shaft.
     pub intermediate: f64,
     /// Ratio of the intermediate shaft's speed to that of the crank; ignored if `intermediate` is 0.
     pub intermediate_ratio: f64,
@@ -114,8 +115,8 @@ pub struct Motor {
     pub law: MotorLaw,
     /// Ratio of the motor's speed to that of the crank, above 0.
     pub ratio: f64,
-    /// Efficiency of the reducer, above 0 and at most 1. It is the same in both directions of power flow.
-    /// It applies to the motor's static torque, not to the moments that accelerate the shafts.
+    /// Efficiency of the reducer, above 0 and at most 1. The efficiency is the same in both directions of power flow.
+    /// The efficiency applies to the motor's static torque, not to the moments that accelerate the shafts.
     pub efficiency: f64,
     /// Moments of inertia of rotor and reducer.
     pub inertia: ShaftInertia,
@@ -130,8 +131,8 @@ impl Motor {
 
     /// Moment of the motor on the crank (N m) if the crank turns at `omega` (rad/s, positive in the motor's driving
     /// sense).
-    /// It is ratio times torque, multiplied by the efficiency if power flows to the crank.
-    /// If power flows back, it is divided by the efficiency.
+    /// If power flows to the crank, the moment is ratio times torque times efficiency.
+    /// If power flows back, the moment is ratio times torque divided by efficiency.
     #[must_use]
     pub fn moment_on_crank(&self, omega: f64) -> f64 {
         self.branch(omega, 1.0).moment(omega)
@@ -146,8 +147,8 @@ impl Motor {
     }
 
     /// The smooth piece of the moment on the crank that is valid at the crank's speed `omega` (rad/s).
-    /// Two pieces may meet at `omega`.
-    /// Then the piece at higher speeds is returned if `towards` is positive, otherwise the piece at lower speeds.
+    /// If two pieces meet at `omega`, `towards` selects one of them.
+    /// The piece at higher speeds is returned if `towards` is positive, otherwise the piece at lower speeds.
     #[must_use]
     pub fn branch(&self, omega: f64, towards: f64) -> MotorBranch {
         let holds = |branch: &&MotorBranch| match towards > 0.0 {
@@ -180,7 +181,8 @@ impl Motor {
 
     /// Speed of the crank (rad/s) at stable equilibrium: the motor's moment equals `resistance` (N m) and decreases
     /// with increasing speed.
-    /// If there are several equilibrium speeds, the largest is returned; if there is none, `None`.
+    /// If there are several equilibrium speeds, the largest speed is returned. If there is no such speed, the result is
+    /// `None`.
     #[must_use]
     pub fn steady_speed(&self, resistance: f64) -> Option<f64> {
         self.branches().iter().rev().find_map(|branch| branch.steady_speed(resistance))
@@ -214,7 +216,7 @@ mod tests {
     #[test]
     fn kloss_has_its_known_points() {
         // The torque is largest at the breakdown slip and zero at synchronous speed.
-        // At standstill it is 2 M / (1 / s + s) = 10 / 4.25.
+        // At standstill the torque is 2 M / (1 / s + s) = 10 / 4.25.
         assert!((KLOSS.torque(75.0) - 5.0).abs() < 1e-14);
         assert_eq!(KLOSS.torque(100.0), 0.0);
         assert!((KLOSS.torque(0.0) - 10.0 / 4.25).abs() < 1e-14);

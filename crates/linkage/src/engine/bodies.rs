@@ -7,7 +7,7 @@ use crate::mechanism::LinkId;
 use crate::sentences;
 
 /// Mass (kg) and moment of inertia (kg m^2) that engines add to a link without mass or inertia.
-/// 0 for a quantity that the link already has.
+/// The result is 0 for a quantity that the link already has.
 /// The substitute mass is the mean mass of all links.
 /// The substitute moment of inertia is that of a rod with this mass and the mechanism's size.
 pub fn stand_in(case: &Case, link: LinkId) -> [f64; 2] {

@@ -37,7 +37,7 @@ impl Extrapolated {
 }
 
 /// Weights of the runs at h, h / 2, ....
-/// The terms of the error are powers `order`, `order` + 1, ... of the step.
+/// The terms of the error are proportional to the powers `order`, `order` + 1, ... of the step.
 /// Each run after the first cancels one of these terms.
 /// Neville's scheme: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) / (2^p - 1).
 /// In this step of the scheme the term with the power p cancels.
@@ -87,8 +87,8 @@ impl Weights {
             weights.iter().zip(states).fold(Vec2::zeros(), |sum, (weight, state)| sum + of(state) * *weight)
         };
         for (index, link) in case.mechanism.links().entries().skip(1) {
-            // The mass centres are combined, as in the engine's bodies. The origin of the link's frame follows from
-            // them.
+            // The mass centres are combined, as in the engine's bodies. The origin of the link's frame follows from the
+            // combined mass centre.
             let centre = link.mass_centre;
             let angle = mix(&self.position, &|state| state.angles[index]);
             into.angles[index] = angle;
@@ -128,7 +128,7 @@ impl Solver for Extrapolated {
 
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         let (finest, coarser) = self.runs.split_last().expect("there is the run at the step itself");
-        // Each run costs twice as much as the previous one.
+        // Each run costs twice as much as the previous run, so all runs cost `whole` times as much as the first run.
         let whole = 2f64.powi(self.runs.len() as i32) - 1.0;
         let mut kept = Vec::with_capacity(coarser.len());
         for (index, run) in coarser.iter().enumerate() {
@@ -197,7 +197,7 @@ mod tests {
     use crate::fixtures;
     use crate::mechanism::LinkId;
 
-    /// A test engine whose links rotate by t + h^2. It records the step and the sweeps of each run.
+    /// A test engine whose links rotate by t + h^2. The engine records the step and the sweeps of each run.
     /// Runs listed in `fails` stop at the second instant.
     #[derive(Clone, Debug)]
     struct Counted {
@@ -300,7 +300,7 @@ mod tests {
     }
 
     /// Rows and angles in the order in which an engine delivers them, with the result of the run.
-    /// Asserts that the progress rises from 0 to 1.
+    /// The function asserts that the progress rises from 0 to 1.
     fn run(engine: &dyn Engine, case: &Case) -> (Vec<(usize, f64)>, Result<()>) {
         let (mut seen, mut far) = (Vec::new(), 0.0);
         let mut visit = |row: usize, state: &State| {
@@ -326,7 +326,7 @@ mod tests {
         assert_eq!(alone[0].len(), 3);
         let once = [(0.1, 8), (0.05, 8), (0.025, 8), (0.2, 8), (0.1, 4), (0.05, 4)];
         assert_eq!(engine.taken(), once);
-        // A run that is stored is not repeated. After it was dropped from the store, it runs again.
+        // A stored run is not repeated. A run that was dropped from the store is repeated.
         assert_eq!(run(kept.with(ASKED).as_ref(), &case).0, alone[0]);
         assert_eq!(engine.taken(), []);
         kept.retain(|settings| settings.resolution != 0.1);

@@ -12,8 +12,9 @@ use crate::threads::{cores, side_by_side};
 use crate::trajectory::Channel;
 
 /// An engine that stores its runs. If a stored run is requested again, the stored states are returned.
-/// Engines made from it by [`Engine::with`] share the stored runs. Extrapolated engines share them too.
-/// The store holds the runs of one case. A run of another case empties the store.
+/// Engines that [`Engine::with`] makes from this engine share the stored runs. Extrapolated engines share these runs
+/// too.
+/// The store contains the runs of one case. A run of a different case empties the store.
 pub struct CachedEngine {
     inner: Box<dyn Engine>,
     store: Arc<Store>,
@@ -31,7 +32,7 @@ struct Runs {
 #[derive(Clone)]
 struct Run {
     settings: Settings,
-    /// States of the run. If the run failed, the states that it reached.
+    /// States of the run. For a failed run, the states that the run reached before it failed.
     rows: Arc<Rows>,
     failed: Option<Error>,
 }
@@ -72,10 +73,11 @@ impl CachedEngine {
     }
 
     /// Performs the [missing](CachedEngine::missing) runs, on as many threads as the machine has cores.
-    /// Their results do not depend on the number of threads. A failed run is stored with its error.
+    /// The results do not depend on the number of threads. A failed run is stored with its error.
     /// `progress` receives the completed fraction of all these runs.
     pub fn prepare(&self, case: &Case, mut missing: Vec<Settings>, progress: Progress) {
-        // The run with the most work starts first. If it started last, the other cores would have to wait for it.
+        // The run with the most work starts first. If this run started last, the idle cores would have to wait for its
+        // end.
         missing.sort_by(|a, b| b.work().total_cmp(&a.work()));
         let whole: f64 = missing.iter().map(Settings::work).sum();
         let mut parts = vec![0.0f64; missing.len()];
@@ -101,7 +103,7 @@ impl CachedEngine {
         run
     }
 
-    /// Returns the stored plain run at these settings, or performs it if it is missing.
+    /// Returns the stored plain run at this engine's settings. Performs the run if it is missing.
     fn found(&self, case: &Case, progress: Progress) -> Run {
         let settings = self.inner.settings();
         self.store.find(settings, case).unwrap_or_else(|| self.run(case, settings, progress))

@@ -39,7 +39,7 @@ struct Layout {
 
 impl Layout {
     /// Layout of the numbers that the requested channels of a case need.
-    /// Forces depend on the whole motion, so all velocities are stored with them.
+    /// Forces depend on the whole motion, so all velocities are stored with the forces.
     /// Velocities are also stored if a load depends on a sense of motion.
     fn of(case: &Case) -> Self {
         let deepest = case.wanted.deepest();
@@ -159,7 +159,7 @@ impl Rows {
     /// Collects the states of a whole run of a solver.
     ///
     /// # Errors
-    /// Those of [`Solver::sweep`].
+    /// The errors of [`Solver::sweep`].
     pub(super) fn of_solver<S: Solver + ?Sized>(solver: &S, case: &Case, progress: Progress) -> Result<Arc<Rows>> {
         let (rows, outcome) = Rows::of_run(case, |visit| solver.sweep(case, visit, progress));
         outcome.map(|()| Arc::new(rows))

@@ -10,8 +10,8 @@ use crate::solver::{Progress, Solver};
 use crate::trajectory::ChannelKind;
 
 /// A solver that replaces an engine and therefore is an engine itself.
-/// It overrides only the methods that it changes.
-/// If you add a method to [`Engine`], forward it in this module; otherwise the code does not compile.
+/// A stand-in overrides only the methods that it changes.
+/// If you add a method to [`Engine`], forward the method in this module; otherwise the code does not compile.
 pub trait StandIn: Solver {
     /// The engine that the stand-in replaces.
     fn original(&self) -> &dyn Engine;
@@ -19,7 +19,7 @@ pub trait StandIn: Solver {
     /// [`Engine::with`] of the stand-in.
     fn renewed(&self, settings: Settings) -> Box<dyn Engine>;
 
-    /// [`Engine::settings`] of the stand-in. Default: those of the original.
+    /// [`Engine::settings`] of the stand-in. By default, the settings are those of the original.
     fn own_settings(&self) -> Settings {
         self.original().settings()
     }
@@ -27,27 +27,27 @@ pub trait StandIn: Solver {
     /// [`Engine::rows`] of the stand-in. By default, [`Solver::sweep`] of the stand-in supplies the states.
     ///
     /// # Errors
-    /// Those of [`Solver::sweep`].
+    /// The errors of [`Solver::sweep`].
     fn own_rows(&self, case: &Case, progress: Progress) -> Result<Arc<Rows>> {
         Rows::of_solver(self, case, progress)
     }
 
-    /// [`Engine::statics`] of the stand-in. Default: that of the original.
+    /// [`Engine::statics`] of the stand-in. By default, the original supplies the function.
     fn own_statics(&self, case: &Case) -> Option<Statics> {
         self.original().statics(case)
     }
 
-    /// [`Engine::formal_order`] of the stand-in. Default: that of the original.
+    /// [`Engine::formal_order`] of the stand-in. By default, the order is that of the original.
     fn own_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         self.original().formal_order(case, channel)
     }
 
-    /// [`Engine::noise`] of the stand-in. Default: that of the original.
+    /// [`Engine::noise`] of the stand-in. By default, the noise is that of the original.
     fn own_noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
         self.original().noise(case, channel)
     }
 
-    /// [`Engine::told`] of the stand-in. Default: that of the original.
+    /// [`Engine::told`] of the stand-in. By default, the list is that of the original.
     fn own_told(&self) -> Vec<(&'static str, String)> {
         self.original().told()
     }

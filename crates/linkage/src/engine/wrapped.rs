@@ -1,4 +1,4 @@
-//! A solver or an engine that wraps another one and changes its results.
+//! A solver or an engine that wraps a second solver or engine and changes its results.
 
 use super::{Engine, Settings, StandIn, Statics};
 use crate::case::Case;
@@ -72,7 +72,8 @@ impl<H: Hook> StandIn for Wrapped<H, dyn Engine> {
         let mut inner = self.inner.statics(changed.as_ref().unwrap_or(case))?;
         Some(Box::new(move |case, row, state| {
             inner(changed.as_ref().unwrap_or(case), row, state)?;
-            // The hook changes motion and forces, but it has already changed the motion of this state.
+            // The hook changes motion and forces, but an earlier call of the hook has already changed the motion of
+            // this state.
             // The motion is therefore restored, and only the change of the forces remains.
             let motion = (state.motions.clone(), state.angles.clone());
             hook.answer(case, row, state);

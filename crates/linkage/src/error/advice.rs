@@ -4,7 +4,7 @@
 use crate::sentences;
 use std::fmt;
 
-/// One remedy. If there are several, they are alternatives.
+/// One remedy. Several remedies of one error are alternatives.
 ///
 /// A program can act on the variants; advice about the text of a description is [`Advice::Text`].
 #[derive(Clone, Debug, PartialEq)]
@@ -13,12 +13,12 @@ pub enum Advice {
     Text(String),
     /// A smaller time step of the engine.
     SmallerStep {
-        /// A step to try (s), if the present one is known.
+        /// A step to try (s), if the present step is known.
         to: Option<f64>,
     },
     /// A larger time step of the engine.
     LargerStep {
-        /// A step to try (s), if the present one is known.
+        /// A step to try (s), if the present step is known.
         to: Option<f64>,
     },
     /// A smaller accuracy value for an engine that chooses its time steps itself.
@@ -33,7 +33,7 @@ pub enum Advice {
     },
     /// More iteration sweeps per step of the engine.
     MoreSweeps {
-        /// A number to try, if the present one is known.
+        /// A number of sweeps to try, if the present number is known.
         to: Option<usize>,
     },
     /// Settings chosen by the proof instead of the given settings.
@@ -85,14 +85,15 @@ pub enum Advice {
         /// Names of the groups of channels, as a text.
         groups: String,
     },
-    /// A weaker request, because no engine meets the present request: a larger error, other channels or more engines.
+    /// A weaker request, because no engine meets the present request.
+    /// The request may allow a larger error, ask for different channels or admit more engines.
     WeakerWish,
     /// The complete results instead of an extract.
     AllResults,
 }
 
 impl Advice {
-    /// The same kind of advice, completed with a number to try.
+    /// This advice, completed with a number to try.
     /// The number is computed from the engine's present settings: its `resolution` and its number of `sweeps`.
     /// `resolution` is a time step (s), or a relative accuracy if the engine `controls_error`.
     #[must_use]
@@ -106,7 +107,7 @@ impl Advice {
             _ if matches!(self, Advice::SmallerStep { .. }) => Advice::SmallerStep { to: Some(half) },
             _ if matches!(self, Advice::LargerStep { .. }) => Advice::LargerStep { to: Some(double) },
             _ if matches!(self, Advice::MoreSweeps { .. }) => Advice::MoreSweeps { to: Some(2 * sweeps) },
-            // The other variants do not depend on an engine's settings and stay unchanged.
+            // Advice of any other variant than those above does not depend on an engine's settings and stays unchanged.
             _ => self,
         }
     }
@@ -123,7 +124,7 @@ fn rounded(number: f64) -> f64 {
     format!("{number:.1e}").parse().unwrap_or(number)
 }
 
-/// A number to allow, rounded up to a tenth.
+/// A number to allow, rounded up to a multiple of 0.1.
 #[must_use]
 pub fn rounded_up(number: f64) -> f64 {
     (number * 10.0).ceil() / 10.0

@@ -1,4 +1,4 @@
-//! Several errors found at once: the first one carries the others.
+//! Several errors found at once: the first error carries all further errors.
 
 use super::{Advice, Error};
 use crate::sentences;
@@ -11,7 +11,7 @@ const MOST: usize = 20;
 const MOST_PLACES: usize = 200;
 
 impl Error {
-    /// Combines errors into one: the first carries the others. `None` if the list is empty.
+    /// Combines errors into one: the first error carries all further errors. `None` if the list is empty.
     ///
     /// At most 200 errors of at most twenty causes are kept. Further errors are only counted.
     #[must_use]
@@ -87,8 +87,8 @@ impl Error {
         let left_out = std::mem::take(&mut self.0.left_out);
         let further = std::mem::take(&mut self.0.further);
         let mut all: Vec<Error> = [self].into_iter().chain(further).map(change).collect();
-        // The sort is stable: errors with the same position, or without one, stay in the order in which they were
-        // found.
+        // The sort is stable: errors with the same position, or without a position, stay in the order in which they
+        // were found.
         all.sort_by_key(|error| error.place().map_or(0, |place| place.span.start));
         let mut first = Error::all(all).expect("one error at least");
         first.0.left_out = left_out;

@@ -16,8 +16,8 @@ pub fn wrapped(angle: f64) -> f64 {
 }
 
 /// Arc tangent (rad).
-/// For small arguments, five terms of the power series give all digits. The series then replaces the library function,
-/// because it takes a quarter of the time.
+/// For small arguments, five terms of the power series give all digits.
+/// The series then replaces the library function, because the series takes a quarter of the function's time.
 #[inline]
 #[must_use]
 pub fn arc_tangent(x: f64) -> f64 {

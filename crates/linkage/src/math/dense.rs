@@ -1,11 +1,11 @@
-//! Dense linear systems. They are factored in place, repeatedly and without allocation.
+//! Dense linear systems. The systems are factored in place, repeatedly and without allocation.
 
 mod fixed;
 
 /// Square system A x = b, solved by LU decomposition with partial pivoting. The storage is reused between poses.
 ///
-/// nalgebra's LU takes its matrix by value, so it would allocate in every pose. It also cannot solve with the
-/// transpose.
+/// nalgebra's LU takes its matrix by value, so it would allocate in every pose. nalgebra's LU also cannot solve with
+/// the transpose.
 #[derive(Clone, Debug)]
 pub struct Lu {
     n: usize,
@@ -44,7 +44,7 @@ impl Lu {
         self.a[row * self.n..][..2 * self.n].split_at_mut(self.n)
     }
 
-    /// Factors the matrix in place. Returns false if it is singular to working precision, or not finite.
+    /// Factors the matrix in place. Returns false if the matrix is singular to working precision, or not finite.
     #[must_use]
     pub fn factor(&mut self) -> bool {
         let Lu { n, a, pivot, inverse, swap_sign, determinant } = self;
@@ -69,7 +69,8 @@ impl Lu {
         (0..self.n).map(|k| self.a[k * self.n + k])
     }
 
-    /// Sign of the determinant of the factored matrix, +1 or -1. It is correct even if the determinant underflows.
+    /// Sign of the determinant of the factored matrix, +1 or -1. The sign is correct even if the determinant
+    /// underflows.
     #[must_use]
     pub fn determinant_sign(&self) -> f64 {
         (0..self.n).fold(self.swap_sign, |sign, k| sign * self.a[k * self.n + k].signum())
@@ -249,7 +250,7 @@ mod tests {
             }
             compare::<4>(&values)?;
             compare::<6>(&values)?;
-            // A NaN must be rejected by the elimination of fixed order.
+            // The elimination of fixed order must reject a NaN.
             // The general elimination is not tested, because it misses a NaN that is multiplied by zero.
             values[7] = f64::NAN;
             let (mut own, mut pivots, mut inverse) = (values[..16].to_vec(), [0; 4], [0.0; 4]);

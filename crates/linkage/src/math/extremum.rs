@@ -1,14 +1,16 @@
 //! Extremes of a function of one variable between bounds. All searches for extremes in the project use this module.
 
-/// Number of golden section steps of [`greatest`]. They shrink the search interval to 1e-9 of the distance between two
-/// samples.
+/// Number of golden section steps of [`greatest`]. These steps shrink the search interval to 1e-9 of the distance
+/// between two samples.
 /// The largest value is then exact up to rounding error.
 const REFINEMENTS: usize = 44;
 
 /// Encloses the largest value between `low` and `high` by `steps` steps of golden section (Kiefer 1953).
 /// Each step reduces the interval to 0.618 of its length. Returns both ends of the remaining interval.
 /// If the function has several extremes in the interval, the result encloses one of them.
-/// After about 40 steps the relative length is at the square root of the rounding error. More steps gain nothing.
+/// After about 40 steps the interval's length, divided by its original length, is the square root of the rounding
+/// error.
+/// More than 40 steps gain nothing.
 /// NaN counts as less than any number.
 ///
 /// # Errors
@@ -36,7 +38,7 @@ pub fn golden<E>(
 }
 
 /// Position and value of the largest value found.
-/// The search starts from the largest sample. It uses golden section between the two samples next to it.
+/// The search starts from the largest sample and uses golden section between the two neighbours of this sample.
 /// `places` are ascending positions, `samples` the values at these positions.
 /// `value` may fail, for example at a pose that cannot be reached.
 /// If a sample or a computed value is NaN, the largest value is unknown and the result is NaN.
@@ -82,7 +84,8 @@ mod tests {
         let places = [-1.0, 0.0, 1.0, 2.0];
         let samples = places.map(|x| value(x).unwrap());
         let (place, peak) = greatest(&places, &samples, &mut value).unwrap();
-        // The function is flat at the top: the position is accurate to half the digits, the value to all digits.
+        // The function is flat at the top. The position is therefore accurate to half the digits, the value to all
+        // digits.
         assert!((place - 0.3).abs() < 1e-7 && (peak - 3.0).abs() < 1e-15, "{place} {peak}");
         assert_eq!(greatest(&places, &samples, &mut |_| Err("cannot be reached")), Err("cannot be reached"));
     }
@@ -114,8 +117,8 @@ mod tests {
             prop_assert!(b - a < 2e-6 * width, "{}", b - a);
         }
 
-        /// The result is at least as large as every sample. It is below the true largest value by at most a known
-        /// bound.
+        /// The result is at least as large as every sample. The result is below the true largest value by at most a
+        /// known bound.
         #[test]
         fn the_maximum_is_not_below_any_sample(c in prop::collection::vec(-1.0f64..1.0, 6), count in 40usize..80) {
             let f = |x: f64| (0..3).map(|k| c[2 * k] * (k as f64 * x + c[2 * k + 1]).sin()).sum::<f64>();

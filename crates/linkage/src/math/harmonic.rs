@@ -1,6 +1,7 @@
 //! All zeros of trigonometric polynomials.
 //!
-//! If a function has different signs at two neighbouring extrema, it has one zero between them. Otherwise it has none.
+//! If a function has different signs at two neighbouring extrema, it has one zero between them.
+//! If the function has the same sign at both extrema, it has no zero between them.
 //! The extrema are the zeros of the derivative, which are computed from eigenvalues.
 //! If two zeros nearly coincide, rounding errors move them by the square root of the rounding error.
 //! The extremum between them is still a simple zero of the derivative and therefore accurate.
@@ -16,14 +17,14 @@ use super::root;
 type Coefficients = Vec<Complex<f64>>;
 
 /// If the distance of a root of the derivative from the unit circle exceeds this limit, the root is not used.
-/// A rounding error moves a simple root only by an amount of its own size.
-/// It moves a nearly double root farther: by its square root, 1e-8, times the condition number of the root.
+/// A rounding error moves a simple root only by an amount of the error's size.
+/// A rounding error moves a nearly double root by its square root, 1e-8, times the condition number of the root.
 /// The limit may be generous, because a superfluous root only adds one more candidate.
 const ON_CIRCLE: f64 = 1e-3;
-/// If a value divided by the scale is below this limit, it counts as zero.
-/// The limit is the rounding error of the coefficients with a margin of two digits.
+/// If a value divided by the argument `scale` is below this limit, the value counts as zero.
+/// The limit is the rounding error of the coefficients, multiplied by a margin of two digits.
 const ZERO: f64 = 1e-14;
-/// If two zeros are closer together than this (rad), they count as a single touching zero.
+/// If two zeros are closer together than this distance (rad), they count as a single touching zero.
 /// A parabola of height `ZERO` has this width.
 const APART: f64 = 1e-7;
 
@@ -51,7 +52,8 @@ pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f6
         let to = places.get(index + 1).copied().unwrap_or(places[0] + TAU);
         let ends = [value(from), value(to)];
         if ends[0].abs() <= small {
-            // Neighbouring positions with zero values belong to one multiple zero.
+            // Neighbouring positions with zero values belong to one multiple zero, so only the first position is
+            // recorded.
             let before = places[(index + places.len() - 1) % places.len()];
             if value(before).abs() > small {
                 found.push(from);
@@ -85,7 +87,7 @@ fn coefficients(degree: usize, f: impl Fn(f64) -> f64) -> Coefficients {
     (-(degree as i64)..=degree as i64).map(coefficient).collect()
 }
 
-/// Value and slope at `x`.
+/// Value and slope of the polynomial at `x`.
 fn evaluate(coefficients: &[Complex<f64>], x: f64) -> (f64, f64) {
     let degree = coefficients.len() / 2;
     let (mut value, mut slope) = (coefficients[degree].re, 0.0);
@@ -122,8 +124,8 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     Some(polished.collect())
 }
 
-/// The single zero between two positions with different signs.
-/// Newton's method finds it. If a step would leave the interval, bisection replaces the step.
+/// The single zero between two positions with different signs of the polynomial.
+/// Newton's method finds this zero. If a step would leave the interval, bisection replaces the step.
 fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
     let rises = evaluate(coefficients, to).0 > 0.0;
     let middle = f64::midpoint(from, to);
@@ -136,7 +138,7 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
 /// The roots of such a polynomial come in pairs z, 1 / conj(z).
 ///
 /// The map z = (w + a) / (1 + conj(a) w), |a| < 1, preserves the unit circle.
-/// It moves roots at infinity, which correspond to zero leading coefficients, to -1 / conj(a).
+/// The map moves roots at infinity, which correspond to zero leading coefficients, to -1 / conj(a).
 /// The leading coefficient of the mapped polynomial has the size of the original polynomial's value at a.
 /// So a is chosen to make this value large, which scales the companion matrix well.
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
@@ -197,7 +199,7 @@ mod tests {
     }
 
     /// Between two zeros at the distance d, a parabola of unit curvature has the depth d^2 / 8.
-    /// The method distinguishes them from a near miss if this depth is above `ZERO`.
+    /// The method distinguishes the two zeros from a near miss if this depth is above `ZERO`.
     #[test]
     fn a_close_pair_is_distinguished_from_a_near_miss() {
         for d in [1e-2, 1e-4, 1e-6] {
@@ -209,7 +211,7 @@ mod tests {
     }
 
     /// If four zeros coincide, the three zeros of the derivative are accurate to a third of the digits.
-    /// That is enough, because f is flat near them.
+    /// This accuracy is enough, because f is flat near the four zeros.
     #[test]
     fn a_fourfold_zero_is_found_once() {
         for k in 0..20 {
@@ -247,8 +249,8 @@ mod tests {
             let n = 20_000;
             let value = |k: usize| f(TAU * k as f64 / n as f64);
             let changes = (0..n).filter(|&k| value(k) * value(k + 1) < 0.0).count();
-            // The scan misses two sign changes that are closer together than its spacing. A difference of two zeros is
-            // then a fault of the scan.
+            // The scan misses two sign changes that are closer together than the scan's spacing.
+            // If the method then finds two more zeros than the scan, the scan is at fault.
             let close = found.windows(2).any(|pair| pair[1] - pair[0] < TAU / n as f64);
             prop_assert!(found.len() == changes || close && found.len() == changes + 2, "{found:?} against {changes}");
         }

@@ -1,23 +1,23 @@
 //! The larger and the smaller of two numbers, with NaN kept.
 //!
-//! `f64::max` and `f64::min` drop NaN: for NaN and 1 they return 1, so a later check cannot detect the NaN.
+//! `f64::max` and `f64::min` drop NaN: for NaN and 1 both functions return 1, so a later check cannot detect the NaN.
 //! `clippy.toml` therefore forbids these two functions.
 
 /// The larger and the smaller of two numbers.
 pub trait KeepNan: Copy {
-    /// The larger of the two; NaN if one of them is NaN.
+    /// The larger of the two numbers; NaN if one of them is NaN.
     #[must_use]
     fn larger(self, other: Self) -> Self;
 
-    /// The smaller of the two; NaN if one of them is NaN.
+    /// The smaller of the two numbers; NaN if one of them is NaN.
     #[must_use]
     fn smaller(self, other: Self) -> Self;
 
-    /// The larger of the two, ignoring NaN. NaN if both are NaN.
+    /// The larger of the two numbers, ignoring NaN. The result is NaN if both numbers are NaN.
     #[must_use]
     fn larger_number(self, other: Self) -> Self;
 
-    /// The smaller of the two, ignoring NaN. NaN if both are NaN.
+    /// The smaller of the two numbers, ignoring NaN. The result is NaN if both numbers are NaN.
     #[must_use]
     fn smaller_number(self, other: Self) -> Self;
 }
@@ -46,7 +46,7 @@ impl KeepNan for f64 {
     }
 }
 
-/// The largest absolute value; NaN if one value is NaN, 0 for an empty list.
+/// The largest absolute value in a list; NaN if one value is NaN, 0 for an empty list.
 #[must_use]
 pub fn largest_size(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| value.abs().larger(most))

@@ -5,7 +5,7 @@
 
 use super::KeepNan;
 
-/// Whether two values have different signs, or one of them is zero. NaN has no sign.
+/// Whether two values have different signs, or one of the values is zero. NaN has no sign.
 #[inline]
 #[must_use]
 pub fn changes(a: f64, b: f64) -> bool {
@@ -14,8 +14,8 @@ pub fn changes(a: f64, b: f64) -> bool {
 
 /// Bisects the interval from `low` to `high` `halvings` times, to find the point up to which `before` is true.
 /// Returns both ends of the remaining interval.
-/// If `before` is never true, the lower end stays; if it is always true, the upper end stays.
-/// After about 52 halvings the interval is as small as a rounding error.
+/// If `before` is never true, the lower end stays. If `before` is always true, the upper end stays.
+/// After about 52 halvings the ratio of the interval's length to its original length is a rounding error.
 ///
 /// # Errors
 /// The first error of `before`.
@@ -36,7 +36,7 @@ pub fn halved<E>(
     Ok([low, high])
 }
 
-/// A position and the value there.
+/// A position, and the function's value at this position.
 pub type PlaceAndValue = (f64, f64);
 
 /// Searches for a sign change, starting at `from`.
@@ -69,13 +69,13 @@ pub fn widened<E>(
     Ok(None)
 }
 
-/// Stopping criterion of a regula falsi. The search ends as soon as one of the two conditions holds.
+/// Stopping criterion of a regula falsi. The search ends as soon as one of the two conditions below is met.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Close {
-    /// If the absolute value of the function is at most this, it counts as zero.
+    /// Largest absolute value of the function that counts as zero.
     pub value: f64,
-    /// If the distance between the bounds is below this width, they count as equal.
-    /// The width is at least four rounding errors of the larger bound, even if a smaller one is requested.
+    /// If the distance between the bounds is below this width, the bounds count as equal.
+    /// The width is at least four rounding errors of the larger bound, even if a smaller width is requested.
     pub width: f64,
 }
 
@@ -99,7 +99,8 @@ pub fn regula_falsi<E>(
         return Ok(Some(end.0));
     }
     for _ in 0..steps {
-        // The new position is a mean of the bounds with positive weights. It lies between them and loses no digits.
+        // The new position is a mean of the bounds with positive weights. The mean lies between the bounds and loses no
+        // digits.
         let at = (held.0 * last.1 - last.0 * held.1) / (last.1 - held.1);
         let found = value(at)?;
         let rounding = 4.0 * f64::EPSILON * held.0.abs().larger(last.0.abs());
@@ -120,9 +121,9 @@ pub fn regula_falsi<E>(
 }
 
 /// The zero between `bounds` (either may be the larger) of a function that returns its value and slope.
-/// The search uses Newton's method from `start`. If a step leaves the bounds, bisection replaces it.
+/// The search uses Newton's method from `start`. If a step leaves the bounds, bisection replaces the step.
 /// `rises` says whether the value is positive at the second bound.
-/// The search takes a Newton step of at most `settled` and then ends.
+/// The search ends with the first Newton step of at most `settled`.
 /// Convergence is quadratic, so the remaining error is of the order of the square of that step.
 /// `None` if a value is NaN.
 ///
@@ -136,7 +137,7 @@ pub fn newton<E>(
     settled: f64,
     mut value: impl FnMut(f64) -> Result<(f64, f64), E>,
 ) -> Result<Option<f64>, E> {
-    /// Largest number of steps: the bits of a double, for bisection, plus some steps of Newton's method.
+    /// Largest number of steps: one step per bit of a double, for bisection, plus some steps of Newton's method.
     const MOST: usize = 100;
     let mut at = start;
     for _ in 0..MOST {
@@ -163,7 +164,7 @@ pub fn newton<E>(
 
 /// Makes `steps` steps of Newton's method from a point near the zero.
 /// A step is skipped if it is NaN or not shorter than `longest`.
-/// The function returns its value and slope.
+/// `value` returns the function's value and slope.
 ///
 /// # Errors
 /// The first error of `value`.
@@ -187,9 +188,9 @@ pub fn polished<E>(
 /// A length at which the value is zero, by at most `steps` secant steps.
 /// The first secant goes through `known` and a `guess`, both positive.
 /// The search ends if the next change would be at most four rounding errors of the length.
-/// It also ends if the next change would be as large as the length itself.
-/// Returns the length whose value was nearest to zero. Near rounding error the last secant is arbitrary, so the last
-/// length may be worse.
+/// The search also ends if the next change would be as large as the length itself.
+/// Returns the length whose value was nearest to zero.
+/// This length need not be the last one, because a secant between values at the level of rounding errors is arbitrary.
 ///
 /// # Errors
 /// The first error of `value`.

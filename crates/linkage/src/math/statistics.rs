@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::math::KeepNan;
 
 /// Quantile `q` (0 to 1) of values sorted in ascending order.
-/// It is interpolated linearly between neighbouring values (type 7 of Hyndman and Fan 1996).
+/// The quantile is interpolated linearly between neighbouring values (type 7 of Hyndman and Fan 1996).
 ///
 /// Returns 0 for an empty slice.
 #[must_use]
@@ -33,8 +33,8 @@ pub fn rms(values: &[f64]) -> f64 {
 }
 
 /// Differences `theirs` minus `ours`.
-/// A `periodic` quantity is an angle (rad). Its first difference is reduced to within half a turn by whole turns, and
-/// the same whole turns are subtracted from all differences.
+/// A `periodic` quantity is an angle (rad). Whole turns are subtracted from its first difference until the first
+/// difference is within half a turn. The same whole turns are subtracted from all differences.
 #[must_use]
 pub fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f64> {
     let turns = turns(ours, theirs, periodic);
@@ -70,7 +70,7 @@ pub fn share(part: f64, whole: f64) -> f64 {
 }
 
 /// The smallest and the largest value; NaN if a value is NaN.
-/// For an empty list: plus infinity and minus infinity.
+/// For an empty list, the result is plus infinity and minus infinity.
 #[must_use]
 pub fn ends(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let none = [f64::INFINITY, f64::NEG_INFINITY];

@@ -2,9 +2,9 @@
 //!
 //! Dyads are placed in closed form.
 //! Groups of four links are placed by the zeros of a trigonometric polynomial, which finds all their configurations.
-//! All other groups are placed by Newton's method from a rough drawing.
-//! These formulas are independent of those of the two analytic solvers.
-//! A difference between this module and a solver therefore shows an error in one of them.
+//! Groups of any other kind are placed by Newton's method from a rough drawing.
+//! These formulas are independent of the formulas of the two analytic solvers.
+//! A difference between this module and a solver therefore shows an error in one of the two.
 
 mod blame;
 mod choice;
@@ -29,7 +29,7 @@ use crate::error::{Error, Result};
 /// Each group has the configuration required in `wanted` (in the order of [`Structure::groups`]).
 ///
 /// # Errors
-/// Those of [`first_choices`].
+/// The errors of [`first_choices`].
 pub fn first_pose(
     mechanism: &Mechanism,
     structure: &Structure,
@@ -40,12 +40,12 @@ pub fn first_pose(
     Ok((pose, choices.into_iter().map(|choice| choice.mode).collect()))
 }
 
-/// The same as [`first_pose`], with details of the choice for each group.
+/// Does the same as [`first_pose`], but returns details of the choice for each group.
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a group's links do not reach each other.
-/// The same kind if approximate positions fit two configurations, contradict the required mode, or lead to no
-/// configuration.
+/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) also if approximate positions fit two configurations, contradict
+/// the required mode, or lead to no configuration.
 /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) if the configurations of a group are not all known and no
 /// approximate positions are given.
 /// [`ErrorKind::Input`](crate::ErrorKind::Input) if the input does not say which configuration of a group is required,

@@ -1,5 +1,5 @@
 //! Numbers of links, joints and groups.
-//! Each kind has a separate type, so that a joint's number cannot be used for a link.
+//! Links, joints and groups have separate number types, so that a joint's number cannot be used for a link.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -98,7 +98,8 @@ ids! {
 }
 
 /// One value for each link, joint or group, in the order of their numbers.
-/// It can be indexed only with the numbers of these items. Otherwise it behaves like a slice.
+/// A list of this type can be indexed only with the numbers of these items. In all other respects it behaves like a
+/// slice.
 ///
 /// ```
 /// use linkproof_linkage::mechanism::{LinkId, PerLink};

@@ -1,4 +1,4 @@
-//! Names of links, joints and points. They become parts of channels, table columns, topics and drawings.
+//! Names of links, joints and points. The names become parts of channels, table columns, topics and drawings.
 
 /// Longest name (characters).
 pub const LONGEST_NAME: usize = 100;

@@ -1,16 +1,17 @@
-//! The outline through the points of a link. It is the link's default shape in pictures.
+//! The outline through the points of a link. The outline is the link's default shape in pictures.
 
 use crate::math::{KeepNan, Vec2, cross};
 
 /// The points are collinear if all of them are near the line through the mean point and the farthest point.
-/// The limit of their distance from the line is this fraction of the distance between these two points.
+/// The limit of a point's distance from the line is this fraction of the distance between mean point and farthest
+/// point.
 const ON_ONE_LINE: f64 = 1e-6;
 
 /// The outline through all points, and whether it is closed.
-/// It is a polygon without crossings, or a bar if all points are collinear.
+/// The outline is a polygon without crossings, or a bar if all points are collinear.
 ///
-/// The points of a polygon are sorted by their direction from the mean point, the points of a bar by their position
-/// along it.
+/// The points of a polygon are sorted by their direction from the mean point. The points of a bar are sorted by their
+/// position along the bar.
 #[must_use]
 pub fn ring(places: &[Vec2]) -> (Vec<Vec2>, bool) {
     let mut sorted = places.to_vec();

@@ -31,7 +31,8 @@ impl Link {
     }
 
     /// The lever arm of forces on the link (m): the largest distance between two points, mass centre included.
-    /// For a link with a single point, such as a flywheel, it is the radius of gyration; without mass it is 0.
+    /// For a link with a single point, such as a flywheel, the lever arm is the radius of gyration.
+    /// For a link with a single point and no mass, the lever arm is 0.
     #[must_use]
     pub fn extent(&self) -> f64 {
         if self.mass <= 0.0 {
@@ -53,17 +54,18 @@ pub struct Point {
 }
 
 /// Kind of kinematic pair.
-/// [`JointKind::equations`] gives its number of equations, and so its relative degrees of freedom.
+/// [`JointKind::equations`] gives the number of equations of a kind, and so its relative degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointKind {
     /// Revolute pair (pin): the joint's points on both links coincide.
     Revolute,
     /// Prismatic pair (slider in a guide).
-    /// The joint's point on the second link lies on a line through its point on the first link, parallel to the axis.
+    /// The joint's point on the second link lies on a line parallel to the axis.
+    /// The line goes through the joint's point on the first link.
     /// The two links turn together.
     Prismatic {
-        /// Unit vectors of the axis in the frame of the first link and in the frame of the second link. Both describe
-        /// the same direction in the world.
+        /// Unit vectors of the axis in the frame of the first link and in the frame of the second link. Both vectors
+        /// describe the same direction in the world.
         axes: [Vec2; 2],
     },
 }
@@ -74,7 +76,7 @@ impl JointKind {
     /// Direction of the line through the joint's point on the first link.
     /// The joint's point on the second link must lie on this line. This condition is one equation.
     /// The direction is a unit vector in the frame of the first link.
-    /// `None` if the two points must coincide. This condition is two equations.
+    /// `None` if the joint's points on both links must coincide. Coincidence is two equations.
     #[inline]
     #[must_use]
     pub fn line(self) -> Option<Vec2> {
@@ -97,7 +99,7 @@ impl JointKind {
     }
 
     /// Number of constraint equations.
-    /// [`Mechanism::rows`](super::Mechanism::rows) gives their position in a list of all equations.
+    /// [`Mechanism::rows`](super::Mechanism::rows) gives the position of these equations in a list of all equations.
     #[inline]
     #[must_use]
     pub fn equations(self) -> usize {
@@ -106,7 +108,7 @@ impl JointKind {
         }
     }
 
-    /// Whether the links slide along each other. Such a joint has a guide, a block, and a slide (distance) between
+    /// Whether the links slide along each other. A sliding joint has a guide, a block, and a slide (distance) between
     /// them.
     #[inline]
     #[must_use]
@@ -157,7 +159,7 @@ impl JointKind {
     }
 }
 
-/// Appearance of a prismatic pair in pictures. It does not affect any calculation.
+/// Appearance of a prismatic pair in pictures. The appearance does not affect any calculation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Guise {
     /// A piston in a cylinder.
@@ -219,8 +221,8 @@ impl Joint {
     }
 
     /// Point at which the joint's reaction acts on `link`.
-    /// For a pin, it is the joint's point on `link`; the points on both links coincide.
-    /// For other joints, it is the joint's point on the second link.
+    /// For a pin, the reaction acts at the joint's point on `link`; the points on both links coincide.
+    /// For joints other than pins, the reaction acts at the joint's point on the second link.
     #[must_use]
     pub fn acts_at(&self, link: LinkId) -> JointSide {
         match self.kind {
@@ -260,9 +262,9 @@ impl Joint {
     }
 
     /// The opening of the joint: a distance (m) and the sine of an angle.
-    /// The distance is that between the joint's points on both links. In a prismatic pair it is measured perpendicular
-    /// to the axis.
-    /// The angle is that between the axes (0 in a revolute pair).
+    /// The distance is that between the joint's points on both links. In a prismatic pair, the distance is measured
+    /// perpendicular to the axis.
+    /// The angle is that between the joint's axes on both links (0 in a revolute pair).
     /// `places` are the joint's points on both links in world coordinates, `directions` the (cos, sin) of both links'
     /// angles.
     #[must_use]
@@ -272,8 +274,8 @@ impl Joint {
             JointKind::Revolute => (gap.norm(), 0.0),
             JointKind::Prismatic { axes } => {
                 let [first, second] = [0, 1].map(|k| rotated(directions[k], axes[k]));
-                // If the axes point in opposite directions, the sine would be small. The largest possible opening is
-                // returned instead.
+                // If the axes point in opposite directions, the sine is small although the joint is open. The largest
+                // possible opening is therefore returned.
                 let turn = if first.dot(&second) > 0.0 { cross(first, second).abs() } else { 1.0 };
                 (cross(first, gap).abs(), turn)
             }

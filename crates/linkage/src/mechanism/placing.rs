@@ -1,4 +1,4 @@
-//! Changes the dimensions of a mechanism: moves a point of a link, and the joints at it.
+//! Changes the dimensions of a mechanism: moves a point of a link together with the joints at this point.
 
 use super::{Joint, JointSide, Mechanism};
 use crate::math::Vec2;
@@ -31,7 +31,8 @@ impl Mechanism {
         Some(Handle { link, point, joints })
     }
 
-    /// Moves a point to the position `local` in its link's frame (m), together with its joints. Masses stay unchanged.
+    /// Moves a point to the position `local` in its link's frame (m), together with the joints at the point. Masses
+    /// stay unchanged.
     pub fn place(&mut self, handle: &Handle, local: Vec2) {
         self.links[handle.link].points[handle.point].local = local;
         for &joint in &handle.joints {

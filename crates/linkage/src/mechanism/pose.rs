@@ -23,8 +23,8 @@ impl LinkPose {
         LinkPose { origin: at - rotated(unit(angle), local), angle }
     }
 
-    /// The pose that puts the body points `local_a` and `local_b` at two world points. The distances between the points
-    /// must match.
+    /// The pose that puts the body points `local_a` and `local_b` at two world points.
+    /// The distance between the world points must equal the distance between the body points.
     #[must_use]
     pub fn between(local_a: Vec2, local_b: Vec2, a: Vec2, b: Vec2) -> Self {
         let (local, world) = (local_b - local_a, b - a);
@@ -40,7 +40,7 @@ impl LinkPose {
 
 impl Joint {
     /// Pose of `link` that follows from the drive at this joint.
-    /// `link` is one of the joint's links, and the other one has the pose `base`.
+    /// `link` is one of the joint's two links. `base` is the pose of the joint's link other than `link`.
     /// `coordinate` is the joint's coordinate, measured as in [`Drive::world_angle`](crate::drive::Drive::world_angle).
     #[must_use]
     pub fn driven(&self, link: LinkId, base: &LinkPose, coordinate: f64) -> LinkPose {

@@ -1,13 +1,14 @@
 //! Spanning tree of a linkage: which joint carries which link, and which joints are cut.
 //!
-//! In the tree used for runs, prismatic joints are never cut, so their constraints hold exactly.
+//! In the tree used for runs, prismatic joints are never cut, so their constraints are satisfied exactly.
 //! All prismatic joints fit into the tree, because structural analysis rejects loops of prismatic joints alone.
-//! If prismatic joints are cut, an engine also works, with order of convergence 2.
+//! An engine also works if prismatic joints are cut. Its order of convergence is then 2.
 //! For both choices the largest error of any channel, relative to half its range, was measured at a step of 1e-3 s.
-//! The first number is for a tree that keeps prismatic joints.
-//! The second is for a tree that cuts the innermost joint of each loop, whatever its kind.
-//! Slider-crank 1.4e-4 and 2.0e-4, swinging guide 8.3e-4 and 1.2e-3, Scotch yoke 7.8e-5 and 6.5e-5.
-//! A crank with a slot has 1.9e-3 and an Oldham coupling 9.0e-5 for both trees.
+//! In the following list, the first number is for a tree that keeps prismatic joints.
+//! The second number is for a tree that cuts the innermost joint of each loop, whatever the joint's kind.
+//! The errors are 1.4e-4 and 2.0e-4 for a slider-crank, and 8.3e-4 and 1.2e-3 for a swinging guide.
+//! The errors are 7.8e-5 and 6.5e-5 for a Scotch yoke.
+//! A crank with a slot has 1.9e-3 for both trees, and an Oldham coupling has 9.0e-5 for both trees.
 
 use super::{GROUND, Joint, LinkPose, Mechanism};
 use crate::math::{rotated, unit};
@@ -55,10 +56,10 @@ impl SpanningTree {
                 return trees;
             }
             let mut tree = SpanningTree::along(mechanism, kept.into_iter().chain(wanted.iter().copied()));
-            // If the tree cuts none of the wanted joints, each of them is the only connection of some links to the
-            // ground.
-            // An example is a crank on its pin without other joints. The joint is then cut, which removes these links
-            // from the tree.
+            // If the tree cuts none of the requested joints, each of these joints is the only connection of some links
+            // to the ground.
+            // An example is a crank on its pin without any second joint. The joint is then cut, which removes these
+            // links from the tree.
             if !tree.cut.iter().any(|joint| wanted.contains(joint)) {
                 let mut held = vec![GROUND];
                 let (kept, lost): (Vec<TreeBranch>, Vec<TreeBranch>) = tree.branches.into_iter().partition(|branch| {
@@ -74,7 +75,7 @@ impl SpanningTree {
         }
     }
 
-    /// The spanning tree that takes joints in the given order unless they close a loop (Kruskal's algorithm).
+    /// The spanning tree that adds joints in the given order unless they close a loop (Kruskal's algorithm).
     fn along(mechanism: &Mechanism, order: impl Iterator<Item = JointId>) -> Self {
         let mut part: Vec<LinkId> = mechanism.links().ids().collect();
         let (mut taken, mut cut) = (Vec::new(), Vec::new());
@@ -113,7 +114,7 @@ impl SpanningTree {
 
     /// Returns the tree for runs, changed so that it contains the given joints.
     /// Each given joint must be on the ground or on a link that the earlier given joints reach.
-    /// The given joints stay in the tree even if other joints reach their links.
+    /// The given joints stay in the tree even if joints not given here also reach their links.
     /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
     /// Without this rule the driven joint would be cut, although it must be a coordinate of the tree.
     #[must_use]
@@ -159,9 +160,10 @@ impl SpanningTree {
     }
 }
 
-/// Coordinate of a branch's joint in the given poses. It does not depend on which link is the joint's first.
+/// Coordinate of a branch's joint in the given poses.
+/// The coordinate does not depend on which of the two links is the joint's first link.
 /// The coordinate is the angle of the child relative to its parent (rad), or a distance along the parent's axis (m).
-/// The distance goes from the joint's point on the parent to its point on the child.
+/// The distance goes from the joint's point on the parent to the joint's point on the child.
 #[must_use]
 pub fn coordinate(joint: &Joint, branch: &TreeBranch, poses: &[LinkPose]) -> f64 {
     let [parent, child] = [branch.parent, branch.link].map(|link| poses[link]);
@@ -261,8 +263,8 @@ mod tests {
 
     #[test]
     fn a_prismatic_joint_stays_in_the_tree() {
-        // In the four-bar, the joint between coupler and rocker was cut. It becomes prismatic, so the crank pin is cut
-        // instead.
+        // The tree of the four-bar cuts the joint between coupler and rocker. This joint becomes prismatic, so the
+        // crank pin is cut instead.
         let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
         let mut joints = four_bar().joints().to_vec();
         joints[2] = Joint { kind, ..joints[2].clone() };

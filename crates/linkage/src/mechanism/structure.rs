@@ -1,11 +1,12 @@
 //! Structural analysis: mobility, and the decomposition into driving links and Assur groups.
 //!
 //! Every link has three degrees of freedom. Every revolute or prismatic pair removes two, every drive one.
-//! Each equation concerns two links, and one of them becomes its owner. A link owns three equations (a matching).
-//! A link then depends on the other link of every equation that it owns.
+//! Each equation concerns two links, and one of the two links becomes its owner. A link owns three equations (a
+//! matching).
+//! For every equation that a link owns, the link depends on the other of the equation's two links.
 //! These dependences form a graph. Its strongly connected components are the driving links and the Assur groups.
 //! The components are listed in the order in which they can be solved.
-//! They do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
+//! The components do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
 
 mod contour;
 mod group;
@@ -39,7 +40,7 @@ impl Structure {
     /// # Errors
     /// [`ErrorKind::Input`] if links have no connection to the ground, or if the mobility differs from the number of
     /// drives.
-    /// The same kind if one part is over-constrained while another is free to move.
+    /// [`ErrorKind::Input`] also if one part is over-constrained while a second part is free to move.
     /// [`ErrorKind::Unsupported`] if a drive does not act on a link hinged to the ground.
     pub fn of(mechanism: &Mechanism, drives: &[JointId]) -> Result<Self> {
         check_connected(mechanism)?;

@@ -18,7 +18,7 @@ use crate::trajectory::{
 const BLOCK: usize = 8;
 
 /// Collects states into the columns of a trajectory, row by row in any order.
-/// It reads only the links, points, joints and drives that have requested channels.
+/// The sampler uses only the links, points, joints and drives that have requested channels.
 #[derive(Debug)]
 pub struct Sampler {
     links: Vec<(LinkId, Mask)>,
@@ -34,7 +34,7 @@ pub struct Sampler {
     /// Buffer of the latest rows. The first `kept` rows are already in the columns.
     block: Vec<f64>,
     kept: usize,
-    /// The input in the scenario's convention. It is taken from the grid or, for a free motion, from the states.
+    /// The input in the scenario's convention. The input comes from the grid or, for a free motion, from the states.
     inputs: Vec<f64>,
 }
 

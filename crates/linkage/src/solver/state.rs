@@ -14,7 +14,7 @@ pub struct State {
     /// Force of the first link on the second in every joint (N).
     pub forces: PerJoint<Vec2>,
     /// Moment of the first link on the second in every joint (N m), about the joint's point on the second link.
-    /// It is 0 in revolute joints.
+    /// The moment is 0 in revolute joints.
     pub moments: PerJoint<f64>,
     /// Balancing moment on every driving link (N m), in the order of
     /// [`CaseParts::drives`](crate::case::CaseParts::drives).
@@ -55,8 +55,8 @@ impl State {
     }
 
     /// Shaking force (N) and shaking moment about the origin (N m).
-    /// They are the sum of the actions on the frame: of joints with the ground, of drives, and of springs and dampers
-    /// fastened to the ground.
+    /// They are the sums of the actions of three sources on the frame: joints with the ground, drives, and springs and
+    /// dampers fastened to the ground.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
         // Drives are mounted on the frame. The moment of a drive on the frame is opposite to its balancing moment.
@@ -96,7 +96,9 @@ impl State {
         largest
     }
 
-    /// Largest moment (N m): the moment of a drive, or a joint's force multiplied by the lever arm `arm` (m).
+    /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
+    /// In a prismatic joint the opening is measured perpendicular to the guide.
+    /// The angle between the joint's two axes (rad), multiplied by `size` (m), also counts as an opening.
     #[must_use]
     pub fn largest_moment(&self, arm: f64) -> f64 {
         let torques = self.torques.iter().map(|torque| torque.abs());

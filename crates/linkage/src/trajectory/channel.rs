@@ -1,4 +1,5 @@
-//! The only table of channels: the quantities that a trajectory can hold, their units, and the stages that they need.
+//! The only table of channels: the quantities that a trajectory can contain, their units, and the stages that they
+//! need.
 
 use crate::sentences;
 use std::fmt;
@@ -6,7 +7,7 @@ use std::fmt;
 use super::reading::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
 use super::unit::Unit;
 
-/// The last stage that a solver must compute to obtain a channel. Each stage needs the previous ones.
+/// The last stage that a solver must compute to obtain a channel. Each stage needs all stages before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Positions and angles.
@@ -44,7 +45,7 @@ impl Stage {
 pub struct ChannelKind {
     /// The subject of `reading`.
     pub subject: ChannelSubject,
-    /// The quantity of the state that the row reads.
+    /// The quantity of the state that this row of the table contains.
     pub reading: Reading,
     /// Last part of the channel's name, unit included.
     pub suffix: &'static str,
@@ -75,9 +76,9 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 /// The force of a joint acts from its first link on its second.
 /// The slide of a prismatic joint is the distance along its axis, from its point on the first link to that on the
 /// second.
-/// The moment of a prismatic joint acts from the first link on the second, about the joint's point on the second.
-/// The force on the frame is the sum of the forces of its joints and of the drive. The moment on the frame is about the
-/// origin.
+/// The moment of a prismatic joint acts from the first link on the second, about the joint's point on the second link.
+/// The force on the frame is the sum of the forces of the frame's joints and of the drive. The moment on the frame is
+/// about the origin.
 /// The torque of the drive acts on the driving link.
 pub static CHANNELS: [ChannelKind; 26] = TABLE;
 
@@ -166,8 +167,8 @@ macro_rules! rows_of {
     }};
 }
 
-/// The same table, sorted by subjects. Its rows are constants.
-/// Code that reads all rows of a subject therefore needs no look-up at run time.
+/// The table of channels again, sorted by subjects. Its rows are constants.
+/// Code that handles all rows of a subject therefore needs no look-up at run time.
 pub(crate) mod rows {
     use super::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Stage, TABLE, count};
 
@@ -208,7 +209,7 @@ impl Channel {
         if self.of.is_empty() { word.into() } else { format!("{word}.{}", self.of) }
     }
 
-    /// Rate of change of the channel, if it is also a channel: angular velocity of an angle, acceleration of a
+    /// Rate of change of the channel, if the rate is also a channel: angular velocity of an angle, acceleration of a
     /// velocity.
     #[must_use]
     pub fn rate(&self) -> Option<Channel> {

@@ -9,13 +9,13 @@ pub enum ChannelSubject {
     Point,
     /// A joint.
     Joint,
-    /// A prismatic joint. Its rows are additional: a prismatic joint also has the rows of every joint.
+    /// A prismatic joint. These rows are additional: a prismatic joint also has the rows of every joint.
     Slider,
     /// The frame. All joints with the ground and the drive act on it.
     Frame,
     /// The drive.
     Drive,
-    /// A further drive, named after its joint.
+    /// A drive other than the first drive, named after its joint.
     Motor,
 }
 
@@ -59,9 +59,9 @@ impl ChannelSubject {
     }
 }
 
-/// The quantity that a row of the table reads, one variant per subject.
-/// The [sampler](crate::solver::Sampler) matches on the variants. If it does not read a variant, the code does not
-/// compile.
+/// The quantity that a row of the table contains, one variant per subject.
+/// The [sampler](crate::solver::Sampler) matches on the variants. If the sampler does not handle a variant, the code
+/// does not compile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reading {
     /// A quantity of a link.
@@ -76,7 +76,7 @@ pub enum Reading {
     Frame(OfFrame),
     /// A quantity of the drive.
     Drive(OfDrive),
-    /// A quantity of a further drive.
+    /// A quantity of a drive other than the first drive.
     Motor(OfDrive),
 }
 
@@ -97,7 +97,7 @@ impl Reading {
 }
 
 impl Reading {
-    /// Rate of change of the quantity, if it is also a reading.
+    /// Rate of change of the quantity, if the rate is also a quantity of the table.
     #[must_use]
     pub const fn rate(self) -> Option<Reading> {
         const fn of_point(of: OfPoint) -> Option<OfPoint> {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// SI unit of a channel.
-/// Code that depends on the unit matches on this enum. A new unit is a compile error in this code until it is handled.
+/// Code that depends on the unit matches on this enum. Such code does not compile until it handles every new unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unit {
     /// Angles (rad).

@@ -1,13 +1,14 @@
 //! Error of an engine, estimated from its runs at three resolutions and from runs with fewer sweeps.
 //!
-//! Let e1 = y(2h) - y(h) and e2 = y(h) - y(h/2).
+//! Let y(h) be the result at step h, e1 = y(2h) - y(h) and e2 = y(h) - y(h/2).
 //! The observed order is p = log2(|e1| / |e2|).
 //! The error of the run at h is estimated as |e2| 2^p / (2^p - 1) (Richardson), times a safety factor.
 //! If the observed order agrees with the formal order, p is the formal order and the factor is 1.25.
 //! Otherwise p is the smaller of the two orders and the factor is 3 (Oberkampf and Roy, "Verification and validation in
 //! scientific computing", 2010, section 8.7; grid convergence index of Roache and ASME V&V 20).
-//! For the factor 1.25, Oberkampf and Roy let the observed order differ by a tenth of the formal one.
-//! Here the limit is a fiftieth, because errors of two orders can cancel in the differences.
+//! Oberkampf and Roy use the factor 1.25 if the observed order differs from the formal order by up to a tenth of the
+//! formal order.
+//! In this module the limit is a fiftieth, because errors of two orders can cancel in the differences.
 
 use super::other_sweeps::{self, OtherSweeps};
 use crate::tolerance::{BoundBasis, BoundOrigin, Parts, Tolerance};
@@ -30,7 +31,7 @@ const BEARS_OUT: f64 = 0.1;
 pub struct Ladder<'a> {
     /// Runs at double, single and half the step (or accuracy).
     pub resolutions: [&'a Trajectory; 3],
-    /// Runs at the single step with other numbers of sweeps.
+    /// Runs at the single step. Their numbers of sweeps differ from that of the middle run.
     pub other_sweeps: OtherSweeps<&'a Trajectory>,
 }
 
@@ -51,8 +52,8 @@ pub struct Convergence {
 }
 
 impl Convergence {
-    /// The estimate from the values of one channel at double, single and half step. Differences below `noise` (in the
-    /// channel's unit) are rounding and show no order.
+    /// The estimate from the values of one channel at double, single and half step.
+    /// Differences below `noise` (in the channel's unit) are rounding errors and show no order.
     #[must_use]
     pub fn of(double: &[f64], single: &[f64], half: &[f64], periodic: bool, formal: f64, noise: f64) -> Self {
         let coarse = differences(double, single, periodic);
@@ -60,7 +61,8 @@ impl Convergence {
         let largest = largest_size(&fine);
         let (before, after) = (rms(&coarse), rms(&fine));
         let quotient = (before / after).log2();
-        // NaN means that all differences are rounding. Any other NaN counts as no convergence.
+        // `observed` is NaN if all differences are rounding. A quotient that is NaN for any other reason counts as no
+        // convergence.
         let observed = match quotient.is_nan() {
             _ if after <= noise => f64::NAN,
             true => f64::NEG_INFINITY,
@@ -76,7 +78,8 @@ impl Convergence {
         // If the observed order is too low, the error may be as large as the coarser difference.
         // If only the finer difference is rounding, the coarser difference gives the estimate.
         // The coarser difference also counts if the observed order exceeds the formal order by more than one.
-        // Errors of several orders then cancel in the finer difference, which may happen if there are few instants.
+        // In that case errors of several orders cancel in the finer difference. Such a cancellation may occur if there
+        // are few instants.
         let before = largest_size(&coarse);
         let largest = match observed {
             _ if observed.is_nan() => largest.larger(before * 0.5f64.powf(order)),
@@ -89,9 +92,9 @@ impl Convergence {
     }
 
     /// Adapts the safety factor of this estimate to runs that are extrapolated `times` times.
-    /// Errors that are not a power series in the step do not cancel.
-    /// Examples are errors near a jump of a load or near a knot of its table.
-    /// They were measured to be up to ten times the difference of neighbouring runs (`benches/peers`).
+    /// Extrapolation does not cancel errors that are not a power series in the step.
+    /// Examples are errors near a jump of a load or near a knot of the load's table.
+    /// Such errors were measured to be up to ten times the difference of neighbouring runs (`benches/peers`).
     #[must_use]
     pub fn extrapolated(self, times: usize) -> Self {
         let safety = match times {
@@ -102,8 +105,9 @@ impl Convergence {
         Convergence { safety, ..self }
     }
 
-    /// The estimate for one channel, from three trajectories on one grid and others with other numbers of sweeps.
-    /// `None` if one of them does not have the channel.
+    /// The estimate for one channel, from three trajectories on one grid and from runs that differ in the number of
+    /// sweeps.
+    /// `None` if one of these trajectories does not have the channel.
     #[must_use]
     pub fn of_channel(runs: Ladder<'_>, channel: &Channel, formal: f64, noise: f64) -> Option<Self> {
         let [double, single, half] = runs.resolutions.map(|run| run.column(channel));
@@ -112,14 +116,14 @@ impl Convergence {
         Some(found.with_other_sweeps(single, &runs.other_sweeps.column(channel)?, noise, periodic))
     }
 
-    /// Adds the iteration error of the middle run. Differences below `noise` (in the channel's unit) show nothing.
+    /// Adds the iteration error of the middle run. Differences below `noise` (in the channel's unit) show no trend.
     #[must_use]
     pub fn with_other_sweeps(self, single: &[f64], others: &OtherSweeps<&[f64]>, noise: f64, periodic: bool) -> Self {
         Convergence { iteration: others.left(single, noise, periodic), ..self }
     }
 
     /// Limit of the runs, extrapolated from the middle and the finest run: y(h/2) + (y(h/2) - y(h)) / (2^p - 1).
-    /// p is the formal order. `None` if the observed order is too far from it.
+    /// p is the formal order. `None` if the observed order is too far from the formal order.
     #[must_use]
     pub fn limit(&self, single: &[f64], half: &[f64], periodic: bool) -> Option<Vec<f64>> {
         if !((self.observed - self.formal).abs() <= BEARS_OUT * self.formal) {
@@ -192,8 +196,8 @@ mod tests {
 
     #[test]
     fn orders_below_a_half_are_untrusted_and_extrapolation_guarded() {
-        // Differences of 1.1 and 1 give an order of 0.14. This order alone would make the error ten times the
-        // difference.
+        // Differences of 1.1 and 1 give an order of 0.14. Used alone, this order would give an error of ten times the
+        // finer difference.
         let slow = Convergence::of(&[2.1], &[1.0], &[0.0], false, 2.0, 0.0);
         assert!((slow.observed - 1.1f64.log2()).abs() < 1e-12 && !slow.is_trusted());
         assert!((slow.error - 1.1 / (1.0 - 0.5f64.sqrt())).abs() < 1e-12, "{slow:?}");
@@ -212,7 +216,9 @@ mod tests {
 
     #[test]
     fn a_coarse_difference_replaces_a_fine_one_below_rounding() {
-        // At half the step a quarter of the difference is expected. The estimate adds a third of that quarter.
+        // With second order, the difference between the single and the half step is expected to be a quarter of the
+        // difference between the double and the single step.
+        // The estimate adds a third of that quarter.
         let found = Convergence::of(&[3e-6], &[0.0], &[0.0], false, 2.0, 1e-12);
         assert!(found.observed.is_nan() && (found.error - 1e-6).abs() < 1e-18, "{found:?}");
     }
@@ -260,8 +266,8 @@ mod tests {
             Trajectory::new(times.clone(), times, channels, vec![values.to_vec()]).unwrap()
         };
         let [double, single, half] = runs(2, 7.0).map(|values| of(&values));
-        // Half the sweeps leave an error of 0.1, all sweeps leave 0.01. The bound must include this besides the error
-        // of the step.
+        // Half the sweeps leave an error of 0.1, and all sweeps leave an error of 0.01.
+        // The bound must include this iteration error besides the error of the step.
         let values = single.column(&single.channels()[0]).unwrap();
         let fewer = of(&[values[0] + 0.09, values[1]]);
         let other_sweeps = OtherSweeps { runs: [Some(&fewer), None], factor: 2.0, growth: 0.0 };

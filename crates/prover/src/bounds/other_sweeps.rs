@@ -11,7 +11,7 @@
 //! Let each number of sweeps be r times the previous one, and each difference s times the previous one.
 //!
 //! - If the differences continue to shrink by the factor s, s / (1 - s) of the last difference remains (Aitken). This
-//! is the worst case: differences of a geometric convergence shrink faster and faster.
+//!   is the worst case: differences of a geometric convergence shrink faster and faster.
 //! - Differences may grow at first: an iteration that has hardly begun changes little from run to run, and s is close
 //!   to r. At most (r - 1) s / (r - s) of the last difference then remains if one mode dominates the iteration.
 //! - The position with the slowest convergence decides for all channels. If its differences grow, the error is unknown.
@@ -25,7 +25,7 @@ use linkage::trajectory::{Channel, Trajectory};
 /// Safety factor on the iteration error: see the module's text.
 pub(super) const SAFETY: f64 = 3.0;
 
-/// Runs at the middle step with other numbers of sweeps. `T` is the data kept of a run.
+/// Runs at the middle step. Their numbers of sweeps differ from that of the middle run. `T` is the data kept of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct OtherSweeps<T> {
     /// Two runs: the first has another number of sweeps than the middle run. The second has fewer sweeps than the
@@ -39,7 +39,7 @@ pub struct OtherSweeps<T> {
 }
 
 impl<T> OtherSweeps<T> {
-    /// The same runs, each converted by `f`.
+    /// The runs, each converted by `f`.
     pub fn map<'s, U>(&'s self, mut f: impl FnMut(&'s T) -> U) -> OtherSweeps<U> {
         let runs = self.runs.each_ref().map(|run| run.as_ref().map(&mut f));
         OtherSweeps { runs, factor: self.factor, growth: self.growth }
@@ -47,7 +47,7 @@ impl<T> OtherSweeps<T> {
 }
 
 impl<'a> OtherSweeps<&'a Trajectory> {
-    /// The values of one channel. `None` if a run does not have it.
+    /// The values of one channel. `None` if a run does not have the channel.
     #[must_use]
     pub fn column(&self, channel: &Channel) -> Option<OtherSweeps<&'a [f64]>> {
         let columns = self.map(|run| run.column(channel));
@@ -78,8 +78,8 @@ impl OtherSweeps<&[f64]> {
             [Some(fewer), None] => last(fewer),
             // A channel that sweeps do not change has no iteration error.
             [Some(fewer), Some(_)] if last(fewer) == 0.0 => 0.0,
-            // If the differences of a position grow, the iteration has not reached this channel yet. Even small
-            // differences of the channel are then not rounding.
+            // If the differences of a position grow, the iteration has not reached this channel yet.
+            // Even small differences of the channel are then not rounding, and the error is infinite (unknown).
             [Some(_), Some(_)] if self.growth > 1.0 => f64::INFINITY,
             [Some(fewer), Some(_)] => match self.growth(single, noise, periodic) {
                 // A difference that is only rounding is taken as the error itself.
@@ -90,8 +90,8 @@ impl OtherSweeps<&[f64]> {
     }
 }
 
-/// Fraction of the last difference that remains as error, if each difference is `share` of the one before: see the
-/// module's text.
+/// Fraction of the last difference that remains as error, if each difference is `share` times the previous difference.
+/// See the module's text.
 fn part_left(share: f64, factor: f64) -> f64 {
     if share < 1.0 {
         share.larger(share / (1.0 - share) / SAFETY)
@@ -121,7 +121,8 @@ mod tests {
                 assert!(bound >= all[0] && bound <= 20.0, "{factor} {q}: {bound} for {}", all[0]);
             }
         }
-        // Differences that grow as fast as the sweeps say nothing about the remaining error, unless they are rounding.
+        // Differences that grow as fast as the numbers of sweeps show nothing about the remaining error, unless the
+        // differences are rounding.
         let grown: [&[f64]; 3] = [&[1.0], &[2.0], &[6.0]];
         assert_eq!(left(grown, 4.0, 0.0, 0.0), f64::INFINITY);
         assert_eq!(left(grown, 4.0, 0.0, 5.0), 12.0);

@@ -11,8 +11,8 @@ use linkage::math::statistics::{differences, half_range, quantile, rms, share, s
 use linkage::trajectory::{Channel, Trajectory, Unit};
 
 /// A channel's scale is at least this fraction of the natural size of its quantity.
-/// If a coordinate is nearly constant, its errors come from neighbouring coordinates. Its own small motion is then no
-/// measure of them.
+/// If a coordinate is nearly constant, its errors come from neighbouring coordinates.
+/// The small motion of the coordinate is then no measure of these errors.
 const SMALLEST_SHARE: f64 = 1e-3;
 
 /// The scale of a rate, a force or a moment is at least this fraction of its largest value.
@@ -55,12 +55,12 @@ const VANISHING: f64 = 1e-9;
 /// Scale of every channel: half the range of its values over the run.
 /// The scale is at least a thousandth of the natural size of the quantity.
 /// For a rate, a force or a moment the scale is also at least a tenth of the largest value.
-/// So a constant channel has a scale that depends on its own value.
-/// Coordinates have no such limit, because their origin is arbitrary.
+/// So a constant channel of these quantities has a scale that depends on its value.
+/// The largest value does not limit the scale of a coordinate, because the origin of a coordinate is arbitrary.
 ///
-/// The natural size is the largest half range among the quantity's channels.
-/// If the channels are not coordinates, it is their largest value instead.
-/// It is at least the value that follows from the crank's motion and the sizes of coordinates and forces.
+/// The natural size of coordinates is the largest half range among the quantity's channels.
+/// The natural size of any other quantity is the largest value of its channels.
+/// The natural size is at least the value that follows from the crank's motion and the sizes of coordinates and forces.
 /// So a quantity that vanishes in the whole mechanism has a scale too.
 ///
 /// On a grid of one instant every range is zero.
@@ -70,11 +70,11 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     scales_beyond(&vec![0.0; trajectory.channels().len()], trajectory, &Built::default())
 }
 
-/// The same scales for a trajectory with known `errors` (in the units of its channels).
+/// As `scales`, but for a trajectory with known `errors` (in the units of its channels).
 /// A rate, a force or a moment that is zero throughout, within its error, has no size: its values are rounding.
 /// The cause may be a constant speed, a link that only translates, a joint that guides nothing, or a parallelogram.
 /// The scale of such a channel is a tenth of the natural size of its quantity.
-/// This corresponds to the scale of a constant channel, which is a tenth of its value.
+/// This scale corresponds to that of a constant channel, which is a tenth of the channel's value.
 ///
 /// If every quantity of the trajectory is rounding, the natural size is the size in `built`.
 /// Examples are a balanced rotor without gravity and a mechanism in equilibrium.
@@ -109,15 +109,15 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
     trajectory.channels().iter().enumerate().map(of).collect()
 }
 
-/// Sizes that follow from the data of a case, whatever moves in it.
+/// Sizes that follow from the data of a case, whatever parts of the case move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Built {
     /// Size of the mechanism (m).
     pub(crate) length: f64,
     /// Fastest speed of a drive; for a free link, its nominal speed (rad/s).
     pub(crate) speed: f64,
-    /// The larger of two forces (N): the weight of all links, and the force that accelerates the links at the above
-    /// speed and length.
+    /// The larger of two forces (N): the weight of all links, and the force that accelerates the links at the speed and
+    /// length of this structure.
     pub(crate) force: f64,
 }
 
@@ -138,7 +138,8 @@ impl Built {
         }
     }
 
-    /// Returns `size`, or the size that the case has for this unit if `size` is only rounding of it.
+    /// Returns `size`. If `size` is only a rounding error of the size that the case has for this unit, returns the size
+    /// of the case instead.
     pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
         let own = self.of(unit, 1.0);
         if size <= VANISHING * own { own } else { size }
@@ -223,7 +224,8 @@ impl Sizes {
     }
 
     /// Size of the numbers from which a channel is computed.
-    /// The force on the frame is the sum of the joint forces. They may cancel, but their rounding errors remain.
+    /// The force on the frame is the sum of the joint forces. The joint forces may cancel, but their rounding errors
+    /// remain.
     fn rounded_with(&self, channel: &Channel) -> f64 {
         let own = self.natural(channel, 1.0);
         if channel.kind.unit == Unit::Newton { own.larger(self.largest.force) } else { own }
@@ -234,8 +236,9 @@ impl Sizes {
     /// coordinates and forces.
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
         let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);
-        // Only the forces are known here, not their causes. The shaking force of a balanced mechanism is only the
-        // rounding error of the joint forces.
+        // This function knows the forces but not their causes, so the size of a force is its largest value.
+        // A size from `largest` is used only if this value is rounding. An example is the shaking force of a balanced
+        // mechanism, which is only the rounding error of the joint forces.
         match channel.kind.unit == Unit::Newton && !(own <= VANISHING * self.largest.force) {
             true => own.larger(0.0),
             false => own.larger(self.largest.of(channel.kind.unit, turn)),
@@ -362,7 +365,8 @@ mod tests {
 
     #[test]
     fn zero_channels_take_scales_from_the_crank_and_forces() {
-        // One radian per second over two seconds: the half range of the crank angle is 1.
+        // In two seconds the crank rotates by 2 rad at one radian per second, so the half range of the crank angle is 1
+        // rad.
         let a = trajectory(&[
             ("link.a.alpha_rad_s2", vec![0.0, 0.0, 0.0]),
             ("joint.A.fx_N", vec![-500.0, 500.0, 0.0]),

@@ -82,8 +82,8 @@ impl Verdict {
         }
     }
 
-    /// The same verdict, with values to try in its advice. They come from the settings of the engine: see
-    /// [`Advice::from_settings`].
+    /// This verdict, with values to try in its advice.
+    /// The values come from the settings of the engine: see [`Advice::from_settings`].
     #[must_use]
     pub fn from_settings(mut self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
         if let Verdict::Inconclusive { advice, .. } = &mut self {
@@ -134,7 +134,8 @@ impl Verdict {
     ) -> Self {
         let bound = parts.sum();
         if scale == 0.0 && value > 0.0 {
-            // The grid is a single instant at rest, or masses and loads are missing.
+            // The reference is zero throughout if the grid is a single instant at rest, or if masses and loads are
+            // missing.
             let reason = sentences::THE_REFERENCE_IS_ZERO_THROUGHOUT;
             return Verdict::open(reason);
         }
@@ -245,7 +246,8 @@ impl Check {
 
     /// Combines this check against the correct number with the check against the `printed` number, which a finding
     /// calls wrong.
-    /// The printed number must disagree, and the correct number must agree. NaN and any third number disagree.
+    /// The printed number must disagree, and the correct number must agree.
+    /// The verdict is disagree for NaN and for a number that differs from both the printed and the correct number.
     #[must_use]
     pub fn expected(mut self, finding: &str, printed: &Check) -> Self {
         self.verdict = match (self.verdict, &printed.verdict) {

@@ -36,7 +36,7 @@ pub enum FormulaCause {
         /// First crank angle (rad) at which the formula is wrong.
         before: f64,
     },
-    /// Several causes explain the error equally well. Some of them may be left out here.
+    /// Several causes explain the error equally well. Some of these causes may be missing from the list.
     Several {
         /// The simplest causes.
         causes: Vec<FormulaCause>,
@@ -140,14 +140,14 @@ pub struct CauseSearch {
     pub cause: Option<FormulaCause>,
     /// Whether the search reached its work limit before all causes were tried.
     pub is_cut: bool,
-    /// Number of operations used. One operation evaluates one part of a formula at one instant, or costs as much.
+    /// Number of operations used. One operation evaluates one part of a formula at one instant, or has the same cost.
     pub work: u64,
 }
 
 /// The reason given if a search reached its limit without finding a cause.
 pub const CUT: &str = sentences::THE_SEARCH_ENDED_AT_ITS_LIMIT;
 
-/// Most operations of the search for the cause of one formula.
+/// Upper limit of the number of operations of the search for the cause of one formula.
 pub const MOST_WORK: u64 = 60_000_000;
 /// Largest number of equally good explanations that are reported.
 const TOLD: usize = 3;
@@ -184,8 +184,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     let is_sound = |own: &&Mended| !own.rank.0;
     let is_simple = |own: &&Mended| own.slip.kind != SlipKind::Value || !own.rank.1;
     let mut sound: Vec<&Mended> = tried.right.iter().filter(is_sound).filter(is_simple).collect();
-    // If the mechanism's value is constant, or the formula is wrong by a factor or an offset, a slip has to match only
-    // one number.
+    // If the mechanism's value is constant, a slip has to match only one number, so a match is weak evidence.
+    // The same is true if the formula is wrong by a factor or an offset.
     let is_weak = trial.is_constant() || trial.is_number;
     if let Some(first) = sound.first().copied() {
         // Some evidence is stronger than a matching number: a sign, a unit, or units that only the correction makes
@@ -213,8 +213,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
                 let is_near = own.rank.2 == rank.2 || trial.is_constant();
                 return own.rank.1 == rank.1 && is_near && !is_same && kinds.insert((own.slip.kind, own.rank.2));
             }
-            // Both explanations are reported, because a mechanism's numbers may coincide by chance. For example, one
-            // length is twice another, or a ratio is twice its inverse.
+            // By chance, a wrong factor can have the same effect as a wrong or exchanged name; both explanations are then reported. For
+            // example, if a = 2 b, then `a` in place of `b` has the same effect as a factor of 2.
             let is_number = |kind: SlipKind| kind == SlipKind::Factor;
             let is_other = own.rank.1 == rank.1
                 && (matches!(rank.3, SlipKind::Name | SlipKind::Exchanged) && is_number(own.slip.kind)
@@ -252,8 +252,9 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     if let Some(found) = leaves(&rows).filter(|_| is_exact) {
         return Some(found);
     }
-    // Largest remainder that counts as evidence for a slip. By chance, one of `among` equally simple slips leaves so
-    // little at two instants with the probability `CHANCE`.
+    // Largest remainder that counts as evidence for a slip.
+    // By chance, one of `among` equally simple slips leaves a remainder as small at two instants with the probability
+    // `CHANCE`.
     let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
     let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
     let mostly = |own: Mended| FormulaCause::Mostly { cause: Box::new(FormulaCause::Slip(own.slip)), left: own.left };

@@ -51,7 +51,7 @@ impl<'a> Dimensions<'a> {
         own
     }
 
-    /// Returns the operations since the last call.
+    /// Returns the number of operations since the last call.
     pub(super) fn work(&self) -> u64 {
         LOOK * self.looked.take()
     }
@@ -137,8 +137,8 @@ fn claimed(claim: &Claim) -> Known {
     of_tree(&claim.tree, &|name| of_unit(channel(name).or_else(|| figure(name))?)).ok().flatten()
 }
 
-/// Dimension of a unit as written in channels and keys. `N_m` is read as newton metre: formulas of linkages have more
-/// moments than spring rates.
+/// Dimension of a unit as written in channels and keys.
+/// `N_m` is interpreted as newton metre, because formulas of linkages have more moments than spring rates.
 fn of_unit(unit: &str) -> Known {
     Some(match unit {
         "rad" | "deg" => NONE,
@@ -161,7 +161,7 @@ fn of_unit(unit: &str) -> Known {
     })
 }
 
-/// Common dimension of two parts that are added, compared or divided into a ratio.
+/// Common dimension of two parts that are added, compared, or divided into a ratio.
 fn same(one: Known, other: Known) -> Result<Known, Unsound> {
     match (one, other) {
         (Some(one), Some(other)) if one != other => Err(Unsound),

@@ -49,7 +49,7 @@ impl<'a> Claimed<'a> {
     }
 }
 
-/// Returns formula and mechanism by value at some rows of a course.
+/// Returns the values of the formula and of the mechanism at some rows of a course.
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.
@@ -78,11 +78,11 @@ pub(super) fn graph_of(claim: &Claim) -> (FormulaGraph, NodeId) {
     (graph, node)
 }
 
-/// A formula with its claim while it is being judged.
+/// A formula that is being judged, with its claim.
 struct One<'a> {
     formula: &'a Formula,
     turn: Option<f64>,
-    /// Index of its claim among all claims.
+    /// Index of the formula's claim among all claims.
     claimed: usize,
     /// Judgement by value, then by every derivative.
     judged: Vec<JudgedFormula>,
@@ -90,7 +90,8 @@ struct One<'a> {
 
 /// Number of derivatives by which a formula is judged.
 fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<usize> {
-    // An approximation does not hold for derivatives, and neither does a number for one instant.
+    // An approximation does not hold for derivatives, and neither does a number for one instant. So both are judged by
+    // value only.
     let is_instant = formula.valid[0].is_some() && formula.valid[0] == formula.valid[1];
     let known = course.orders(claim)?;
     Ok(if formula.error.is_some() || is_instant { 0 } else { known })
@@ -101,7 +102,7 @@ fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<
 /// Shared parts of formulas are evaluated once at every instant, and so are claims made by several formulas.
 ///
 /// # Errors
-/// Only if the trajectory changes between two calls.
+/// An error occurs only if the trajectory changes between two calls.
 pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<JudgedFormula>>> {
     let mut derived = formulas.clone();
     let (mut nodes, mut all) = (Vec::new(), Vec::new());

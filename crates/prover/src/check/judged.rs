@@ -145,10 +145,12 @@ impl JudgedFormula {
         let rounding = if found.is_undefined() { 0.0 } else { found.error };
         let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
         let at = FormulaAtInstant { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
-        // If the mechanism's value is hardly more accurate, the formula is not the cause of the lost digits.
+        // If the mechanism's value is hardly more accurate than the formula's value, the formula is not the cause of
+        // the lost digits.
         let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
         // At the end of a function's domain, such as acos at 1, the derivative is not finite although the value is
         // right.
+        // The digits at such an instant therefore count as lost.
         let is_end = self.order > 0 && !found.value.is_finite();
         if is_end || has_lost && at.used() <= 1.0 {
             self.lost += 1;

@@ -128,7 +128,7 @@ struct Ratios {
 
 impl Ratios {
     /// Indices in ascending order of the entries that may be proportional to the missing amount.
-    /// If fewer than two instants are known, only the index of the constant 1.
+    /// If fewer than two instants are known, the result contains only the index of the constant 1.
     fn alike(&mut self, entries: &[Entry], needed: &Needed) -> Vec<usize> {
         let mut known: Vec<(usize, [f64; 2])> =
             needed.iter().enumerate().filter_map(|(instant, own)| Some((instant, (*own)?))).collect();
@@ -192,8 +192,8 @@ impl Candidate {
 
 /// Whether a number alone proves that a product is missing.
 /// The number must have more digits than chance explains, given the number of products with the same unit.
-/// `places` is the number of positions at which the product may be missing.
-/// It is `None` unless the formula is wrong only by a number. Such a product fits at all these positions.
+/// If the formula is wrong only by a number, `places` is the number of positions at which the product may be missing.
+/// The product then fits at all these positions. In all other cases `places` is `None`.
 fn is_believed(
     monomials: &Monomials,
     dimensions: &Dimensions,
@@ -257,7 +257,7 @@ fn signed(operator: Operator, what: &FormulaTree) -> String {
     format!("{sign} {}", rest.trim_start())
 }
 
-/// Ways to write a number times an entry, each with its complexity.
+/// Written forms of a number times an entry, each with its complexity.
 /// The number is written as a product of known quantities. A constant factor may also be such a product plus or minus
 /// one.
 fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(FormulaTree, usize)> {
@@ -291,8 +291,8 @@ fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
 }
 
 /// Missing amount at one position of the formula, for each of the few instants.
-/// Squares have two solutions, so the iteration uses three kinds of starting value: a neutral one, or the amount at the
-/// previous or at the next instant.
+/// Squares have two solutions, so the iteration uses three kinds of starting value.
+/// The starting value is neutral, or it is the amount at the previous or at the next instant.
 fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     let depending = trial.sheet.depending(&[place]);
     let neutral = if operator == Operator::Plus { 0.0 } else { 1.0 };
@@ -323,13 +323,14 @@ fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
     [vec![afresh], others].concat()
 }
 
-/// Factor by which the missing amount is proportional to an entry. `None` if the amount is not proportional to it.
+/// Factor by which the missing amount is proportional to an entry. `None` if the amount is not proportional to the
+/// entry.
 fn coefficient(entry: &Entry, needed: &Needed) -> Option<f64> {
     let known = || entry.values.iter().zip(needed).filter_map(|(value, own)| Some((*value, (*own)?)));
     // Selects the instant with the smallest relative error.
     let sharpness = |(value, [_, known]): &(f64, [f64; 2])| (value / known).abs();
     let (sharpest, [amount, sharp]) = known().max_by(|one, other| sharpness(one).total_cmp(&sharpness(other)))?;
-    // A constant can be recognised from fewer instants, if the trial has fewer.
+    // A constant can be recognised from fewer than `FEWEST` instants, if the trial has fewer.
     let fewest = if entry.is_one() { FEWEST.min(needed.len()) } else { FEWEST };
     if known().count() < fewest {
         return None;

@@ -18,7 +18,7 @@ pub use squares::Wrong;
 /// A term with its coefficient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
-    /// Its coefficient, in the unit of the claim.
+    /// Coefficient of the term, in the unit of the claim.
     pub coefficient: f64,
     /// The coefficient as a product of parameters, if a product with a suitable unit has this value.
     pub factor: Option<String>,
@@ -122,7 +122,7 @@ impl Term {
     }
 }
 
-/// Explains differences without a formula by one term, or by two terms if nothing then remains.
+/// Explains differences without a formula by one term, or by two terms if these leave no difference.
 /// Returns the terms and the fraction of the largest difference that remains.
 #[must_use]
 pub fn missing_in_numbers(course: &KnownTrajectory, wrong: &Wrong) -> Option<(Vec<Term>, f64)> {

@@ -18,7 +18,7 @@ use scenario::Claim;
 /// Two instants count as equal if they differ by at most this fraction of the spacing of the rows.
 const SAME: f64 = 1e-6;
 
-/// Compares two parties at the instants of the second.
+/// Compares two parties at the instants of the second party.
 pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<SidePair> {
     let names = [one, other].map(|side| side.name.clone());
     let (one, other) = (&one.held, &other.held);

@@ -14,7 +14,7 @@ use columns::Allowance;
 /// How two parties are compared.
 #[derive(Clone, Debug, Default)]
 pub struct ComparisonRule {
-    /// Allowed differences. If a channel has several, the last one counts.
+    /// Allowed differences. If a channel has several allowed differences, the last one counts.
     pub allowed: Vec<Allowed>,
     /// Quantity by which rows are matched; `None` for times if both parties have times.
     pub by: Option<By>,
@@ -114,7 +114,7 @@ impl Words {
     }
 }
 
-/// The word itself. If it names a channel, the channel's name in SI units.
+/// Returns the channel's name in SI units if the word names a channel. Otherwise returns the word unchanged.
 fn in_si(word: &str) -> String {
     PrintedChannel::named(word).map_or_else(|| word.into(), |own| own.channel.to_string())
 }

@@ -128,7 +128,8 @@ fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
     Ok((grid, rows))
 }
 
-/// Adds errors to recorded values of an analytic side. They are the errors of the values found now.
+/// Adds errors to the recorded values of an analytic side.
+/// The errors are those of the same values as the analytic side computes them in this run.
 fn as_well_known(mut held: Held, own: &Held) -> Held {
     for column in &mut held.columns {
         let Some(found) = own.values_of(&column.claim) else { continue };

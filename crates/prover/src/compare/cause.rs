@@ -75,7 +75,7 @@ pub(super) fn explained(
     while let Some(exact) = stage.examined(&open, LEFT[0]).or_else(|| stage.examined_but_one(&open, LEFT[0])) {
         grant(&mut open, exact);
     }
-    // A simulation also has the error of its step.
+    // A simulation also has the error of its step, so a cause may leave a small remainder.
     let most = stage.examined(&open, LEFT[1]).filter(|most| most.of.len() == open.len());
     if let Some(most) = most.or_else(|| stage.examined_but_one(&open, LEFT[1])) {
         grant(&mut open, most);
@@ -207,7 +207,7 @@ impl Stage {
         }
         let all: Vec<Channel> = scenario.case.all_channels();
         let case = scenario.case.on(Grid { times: times.clone(), inputs: cranks.clone() })?.wanting_only(&all);
-        // If other channels cannot be solved at these instants, no cause is sought.
+        // If the scenario cannot be solved for all channels at these instants, no cause is sought.
         let Ok(right) = AssurSolver.solve(&case) else { return Ok(None) };
         for ((channel, column), (.., agrees)) in names.iter().zip(&mut columns).zip(&bounds) {
             if let Some(right) = right.column(channel).filter(|_| channel.kind.periodic) {
@@ -259,7 +259,7 @@ impl Stage {
         (1..self.right.times().len() - 1).max_by(|&a, &b| bend(a).total_cmp(&bend(b)))
     }
 
-    /// The same data with one row removed.
+    /// The data of this stage without one row.
     fn without(&self, row: usize) -> Option<Stage> {
         let keep: Vec<bool> = (0..self.right.times().len()).map(|own| own != row).collect();
         let [right, found] = [&self.right, &self.found].map(|own| own.at_rows(&keep));

@@ -6,8 +6,8 @@ use linkage::math::KeepNan;
 
 /// Number of rows needed to interpolate: four for a cubic, and one more to estimate its error.
 const FEWEST: usize = 5;
-/// Between rows, the fourth divided difference is assumed to be at most this multiple of the largest one in nearby
-/// windows of five rows.
+/// Between rows, the fourth divided difference is assumed to be at most this multiple of a measured difference.
+/// The measured difference is the largest fourth divided difference in nearby windows of five rows.
 const SAFETY: f64 = 2.0;
 
 /// A column in ascending order of its instants.

@@ -24,8 +24,8 @@ pub struct Compared {
     /// The channel in its unit.
     pub claim: Claim,
     /// Scale, in the claim's unit: half the range over the whole run of the scenario.
-    /// It is at least a thousandth of the natural size of the quantity.
-    /// It does not depend on which other channels are compared.
+    /// The scale is at least a thousandth of the natural size of the quantity.
+    /// The scale does not depend on the selection of compared channels.
     pub scale: f64,
     /// Result of comparing the numbers of both parties, in the claim's unit.
     pub found: JudgedColumns,
@@ -105,10 +105,11 @@ impl Both<'_> {
         self.instants.each_ref().map(Vec::as_slice)
     }
 
-    /// The scale of a channel. It does not depend on which other channels are compared.
-    /// It comes from a complete trajectory if a party has one.
-    /// For tables and expressions of channels the scale comes from the numbers alone. It is half their range, and at
-    /// least a tenth of the largest value (for a coordinate a thousandth).
+    /// The scale of a channel. The scale does not depend on the selection of compared channels.
+    /// If a party has a complete trajectory, the scale comes from this trajectory.
+    /// For tables and expressions of channels the scale comes from the numbers alone.
+    /// In this case the scale is half the range of the numbers, and at least a tenth of the largest value (for a
+    /// coordinate a thousandth).
     fn scale(&self, claim: &Claim, values: &[Rounded]) -> f64 {
         let measure = self.measure().party;
         let complete = [measure, 1 - measure].into_iter().find_map(|party| self.parties[party].scale_of(claim));

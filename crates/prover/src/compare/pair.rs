@@ -15,7 +15,7 @@ use scenario::Claim;
 
 /// A side of a comparison.
 pub(super) struct Side {
-    /// Name in a recording; empty for other parties.
+    /// Name in a recording; empty for a party that is not a recording.
     pub name: String,
     pub held: Held,
 }
@@ -23,7 +23,7 @@ pub(super) struct Side {
 /// Two sides compared.
 #[derive(Default)]
 pub struct SidePair {
-    /// Names in the recordings; empty for other parties.
+    /// Names in the recordings; empty for a party that is not a recording.
     pub names: [String; 2],
     /// Channel by channel, in the order of the second party.
     pub channels: Vec<Compared>,
@@ -32,12 +32,13 @@ pub struct SidePair {
     pub checks: Vec<Check>,
     /// Number of instants at which the comparison takes place.
     pub instants: usize,
-    /// Number of these instants that the other party does not have.
+    /// Number of instants of one party that the other party does not have.
     pub unshared: usize,
     /// Channels that only one of the two sides has.
     pub alone: [Vec<String>; 2],
-    /// The first row at which time or crank angle goes backwards: its number, its instant and the previous one. See
-    /// [`At::turns_back`](crate::tables::RowKey::turns_back).
+    /// The first row at which time or crank angle goes backwards: the number of the row, its instant and the previous
+    /// instant.
+    /// See [`At::turns_back`](crate::tables::RowKey::turns_back).
     pub turns_back: Option<(usize, [f64; 2])>,
     /// Two rows of one instant that contradict each other, in the party that sets the instants.
     /// If such rows exist, no cause is sought.

@@ -15,13 +15,14 @@ use scenario::{Claim, Scenario};
 /// Largest number of instants from which scales are determined.
 const MOST: usize = 20_000;
 
-/// Scales of all channels over a whole run, and their smallest errors, by name (both in SI units). They do not depend
-/// on which channels are compared.
+/// Scales of all channels over a whole run, and their smallest errors, by name (both in SI units).
+/// The scales do not depend on which channels are compared.
 pub(super) struct Scales(BTreeMap<String, (f64, f64)>);
 
 impl Scales {
     /// Scales of a scenario over its run.
-    /// If the scenario has no run or cannot be solved over it, scales over `grid`, the instants of the other party.
+    /// If the scenario has no run or cannot be solved over its run, returns the scales over `grid`, the instants of the
+    /// other party.
     pub(super) fn of(scenario: &Scenario, grid: &Grid) -> Self {
         let all = scenario.case.all_channels();
         let solved = |grid: &Grid| -> Option<Scales> {

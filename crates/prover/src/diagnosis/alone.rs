@@ -11,7 +11,7 @@ pub struct DiagnosedParty<'a> {
     /// Its results.
     pub trajectory: &'a Trajectory,
     /// Bound on the party's error in every channel in which it is judged, in the channel's unit.
-    /// Other channels of the party do not count.
+    /// Channels without such a bound do not count.
     pub bounds: Vec<(Channel, f64)>,
 }
 
@@ -20,12 +20,12 @@ impl DiagnosedParty<'_> {
         self.bounds.iter().find(|(own, _)| own == channel).map(|(_, bound)| *bound)
     }
 
-    /// Whether the two differ in a channel by more than the sum of their bounds.
+    /// Whether the two parties differ in a channel by more than the sum of their bounds.
     fn contradicts(&self, other: &DiagnosedParty) -> bool {
         self.trajectory.iter().any(|(channel, ours)| {
             let (Some(own), Some(theirs)) = (self.bound(channel), other.bound(channel)) else { return false };
             let Some(values) = other.trajectory.column(channel) else { return false };
-            // Written so that NaN counts as a difference.
+            // This form of the comparison counts NaN as a difference.
             !(largest_difference(ours, values, channel.kind.periodic) <= own + theirs)
         })
     }
@@ -41,7 +41,7 @@ pub enum PartyStanding {
     /// The parties form two camps. They agree within each camp, and each party contradicts every party of the other
     /// camp.
     Camps([Vec<String>; 2]),
-    /// Some parties contradict each other but do not form two camps. These are the contradicting pairs.
+    /// Some parties contradict each other but do not form two camps. The variant contains the contradicting pairs.
     /// Only one party of a pair can be right, and nothing shows which.
     Open(Vec<[String; 2]>),
 }
@@ -61,7 +61,7 @@ pub fn standing(parties: &[DiagnosedParty]) -> PartyStanding {
         }
     }
     let Some(first) = apart.iter().position(|row| row.contains(&true)) else { return PartyStanding::Together };
-    // The camp of `first`: the parties that agree with it.
+    // The camp of `first`: the parties that agree with `first`.
     let (own, others): (Vec<usize>, Vec<usize>) = (0..count).partition(|&other| !apart[first][other]);
     let split =
         (0..count).all(|one| (0..count).all(|other| apart[one][other] == (own.contains(&one) != own.contains(&other))));

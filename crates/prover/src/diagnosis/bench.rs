@@ -57,7 +57,7 @@ impl Misfit {
         Misfit(self.0.iter().map(|value| factor * value).collect())
     }
 
-    /// The sum of this misfit and `factor` times the other.
+    /// The sum of this misfit and `factor` times the misfit `other`.
     pub(super) fn plus(&self, factor: f64, other: &Misfit) -> Misfit {
         Misfit(self.0.iter().zip(&other.0).map(|(a, b)| a + factor * b).collect())
     }
@@ -152,7 +152,8 @@ impl<'a> Bench<'a> {
 
     /// Disagreeing channels that a hypothesis with this remaining `misfit` explains.
     /// Empty if an agreeing channel disagrees under the hypothesis.
-    /// A channel slightly beyond its bound is no evidence, unless the hypothesis explains all others too.
+    /// A channel slightly beyond its bound is no evidence, unless the hypothesis also explains all other disagreeing
+    /// channels.
     pub(super) fn explained(&self, start: &Misfit, misfit: &Misfit) -> Vec<Channel> {
         let all = misfit.fits();
         let [before, after] = [start, misfit].map(|misfit| self.by_column(misfit));
@@ -178,8 +179,8 @@ const EVIDENT: f64 = 3.0;
 
 /// Number of instants of a bench, besides the worst instant of each channel.
 const INSTANTS: usize = 32;
-/// At first a free motion is followed until a difference exceeds this multiple of its bound.
-/// Later the difference may not depend on the cause in a simple way.
+/// At first a free motion is followed only until a difference exceeds this multiple of its bound.
+/// After that time the difference may not depend on the cause in a simple way.
 const EARLY: f64 = 100.0;
 
 /// A selection of rows of the whole grid. It includes the worst instants of the disagreeing channels.
@@ -225,7 +226,7 @@ fn spread(rows: &[usize]) -> Vec<usize> {
     }
 }
 
-/// Each row once. The first row of the grid comes first, because whole revolutions are counted from it.
+/// Each row once. The first row of the grid comes first, because whole revolutions are counted from this row.
 fn in_order(mut rows: Vec<usize>) -> Vec<usize> {
     rows.push(0);
     rows.sort_unstable();
@@ -237,7 +238,7 @@ fn in_order(mut rows: Vec<usize>) -> Vec<usize> {
 mod tests {
     use super::Misfit;
 
-    /// Worked by hand: -1 <= own + amount effect <= 1 for every value.
+    /// The expected ranges were computed by hand from -1 <= own + amount effect <= 1 for every value.
     #[test]
     fn amounts_of_an_effect_keep_all_values_within_bounds() {
         for (own, effect, wanted) in [

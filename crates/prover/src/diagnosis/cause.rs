@@ -75,7 +75,7 @@ pub enum DataSlip {
     Instead(Channel),
     /// The values of another channel with the opposite sign.
     Opposite(Channel),
-    /// The magnitude of the vector with these components, instead of one of them.
+    /// The magnitude of the vector with these components, instead of one component.
     Magnitude([Channel; 2]),
     /// Differences of another channel's values between rows, in place of the channel's first or second derivative.
     Differences {
@@ -115,9 +115,9 @@ pub enum DataSlip {
         /// Delay of the values (s); negative for values that are early.
         by: f64,
         /// The delay in steps or rows of the suspect and the word for them, if the delay is a simple fraction or
-        /// multiple of one.
+        /// multiple of one step or row.
         steps: Option<(f64, &'static str)>,
-        /// The stage whose channels are late; `None` if all are.
+        /// The stage whose channels are late; `None` if all channels are late.
         stage: Option<Stage>,
     },
 }
@@ -133,7 +133,7 @@ pub enum Over {
     Behind,
 }
 
-/// Vector from the right point of reference of a moment to the wrong one.
+/// Vector from the right point of reference of a moment to the wrong point of reference.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Arm {
     /// A constant vector (m), in world axes.

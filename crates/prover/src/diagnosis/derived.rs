@@ -42,9 +42,9 @@ pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     causes
 }
 
-/// Finds the channel from which these values were obtained as differences between rows, and the order of the
+/// Finds the channel from which the values of `one` were obtained as differences between rows, and the order of the
 /// derivative.
-/// Rows at the ends are left out: they have no neighbours, and every program treats them differently.
+/// Rows at the ends are left out: these rows lack neighbours, and every program treats them differently.
 fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Channel, usize)> {
     let step = even(one.times)?;
     let (count, margin) = (one.times.len(), if let Over::Either(rows) = over { rows } else { 1 });
@@ -116,7 +116,7 @@ fn lacks_coriolis(question: &DiagnosisInput, one: &Wrong, joint: &str) -> Option
     Some(changes && one.has_values_of(&values))
 }
 
-/// Vector from the right point of reference of a moment to the wrong one.
+/// Vector from the right point of reference of a moment to the wrong point of reference.
 fn arm(question: &DiagnosisInput, one: &Wrong) -> Option<Arm> {
     let reading = one.channel.kind.reading;
     if !matches!(reading, Reading::Slider(OfSlider::Moment) | Reading::Frame(OfFrame::Moment)) {
@@ -125,7 +125,7 @@ fn arm(question: &DiagnosisInput, one: &Wrong) -> Option<Arm> {
     let subject = one.channel.subject();
     let column = |suffix: &str| question.reference.named(&format!("{subject}.{suffix}"));
     let (x, y) = (column("fx_N")?, column("fy_N")?);
-    // The moment about another point is the moment about the first point minus arm times force.
+    // The moment about a second point is the moment about the first point minus arm times force.
     let gaps: Vec<f64> = one.right.iter().zip(one.found).map(|(right, found)| right - found).collect();
     let is_it = |arm: &dyn Fn(usize) -> [f64; 2]| {
         let moment = |row: usize| arm(row)[0] * y[row] - arm(row)[1] * x[row];

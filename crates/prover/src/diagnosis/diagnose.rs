@@ -53,7 +53,7 @@ impl Diagnosis {
 ///
 /// Causes are tried from the simplest to the most complicated.
 /// A cause is named if it explains every disagreeing channel within its bound and no agreeing channel then disagrees.
-/// Further such causes are mentioned.
+/// Further causes that satisfy this condition are mentioned.
 #[must_use]
 pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option<Diagnosis> {
     let since = since(question.reference, question.suspicious, question.judged);
@@ -141,7 +141,7 @@ pub fn since(reference: &Trajectory, suspect: &Trajectory, judged: &[SuspectChan
 fn of_channel(reference: &Trajectory, suspect: &Trajectory, judged: &SuspectChannel, rows: &[usize]) -> Option<Since> {
     let SuspectChannel { channel, bound, .. } = judged;
     let values = differences(reference.column(channel)?, suspect.column(channel)?, channel.kind.periodic);
-    // Written so that NaN counts as beyond.
+    // This form of the comparison counts NaN as beyond the bound.
     let is_beyond = |row: &&usize| !(values[**row].abs() <= *bound);
     let first = *rows.iter().find(is_beyond)?;
     Some(Since {

@@ -11,7 +11,7 @@ use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism};
 
-/// Sets another value in the parts of a case; `None` if no case has this value.
+/// Sets a new value in the parts of a case; `None` if no case has this value.
 type Turn = Box<dyn Fn(&mut CaseParts, f64) -> Option<()>>;
 
 /// Channels that a part influences if the motion is prescribed.
@@ -28,7 +28,7 @@ pub(super) enum Shows {
 /// A part of a case that a single number changes.
 pub(super) struct Knob {
     pub(super) part: CasePart,
-    /// Its value in the case, and the unit of its values.
+    /// Value of the part in the case, and the unit of this value.
     pub(super) given: f64,
     pub(super) unit: &'static str,
     /// Values with a meaning (such as twice the value), the simplest first.
@@ -42,7 +42,7 @@ pub(super) struct Knob {
 }
 
 impl Knob {
-    /// The case with another value of this part.
+    /// The case in which this part has the value `value`.
     pub(super) fn at(&self, case: &Case, value: f64) -> Option<Case> {
         remade(case, |parts| (self.turn)(parts, value))
     }
@@ -314,7 +314,7 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
     vec![Knob { is_far: true, ..speed }, Knob { is_far: true, ..angle }]
 }
 
-/// Changes one drive, and the crank angles of the grid with it.
+/// Changes one drive, and adapts the crank angles of the grid to the changed drive.
 pub fn driven(parts: &mut CaseParts, index: usize, change: impl FnOnce(&mut Drive)) {
     let (mut own, mut numbers) = (parts.drives[index].clone(), 0..);
     change(&mut own);

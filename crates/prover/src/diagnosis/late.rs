@@ -64,7 +64,7 @@ impl Search<'_, '_> {
             Some((size, _)) => (size, &PARTS[..]),
             None => (1e-5 * span, &[][..]),
         };
-        // Prefers simple multiples of a step if they explain as much.
+        // Prefers simple multiples of a step if they explain as much as the delay found.
         let plain = |by: f64| {
             let (size, told) = step?;
             let part =
@@ -96,8 +96,8 @@ impl Search<'_, '_> {
         self.late_candidate(&misfit, by, steps, None)
     }
 
-    /// A number with few digits near the found number, if it explains as much. The search itself stops only at
-    /// rounding.
+    /// A number with few digits near the found number, if it explains as much as the found number.
+    /// Without this step the number would have many digits, because the search itself stops only at rounding.
     fn short(
         &self,
         value: f64,
@@ -206,7 +206,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// The same case at instants that are earlier by `by` (s). A free motion has no instants before its start.
+/// The case at instants that are earlier by `by` (s). A free motion has no instants before its start.
 fn shifted(case: &Case, by: f64) -> Option<Case> {
     let earliest = if case.is_free() { 0.0 } else { f64::NEG_INFINITY };
     at_times(case, |t| (t - by).larger(earliest))

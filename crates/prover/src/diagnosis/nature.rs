@@ -9,7 +9,7 @@ use linkage::math::{KeepNan, largest_size};
 /// Typical errors of numerical methods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ErrorNature {
-    /// The error grows with time, about with this power if the power can be determined.
+    /// The error grows with time, approximately with this power of time; `None` if the power cannot be determined.
     Growing(Option<u32>),
     /// The error changes smoothly with time, and is at most this fraction of a channel's scale.
     Smooth(f64),

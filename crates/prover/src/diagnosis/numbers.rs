@@ -51,13 +51,13 @@ fn guesses(tries: &Tries) -> Vec<Guess> {
             found.push(Guess { value: knob.given + by, knob: Rc::new(knob), rest: left.dot(&left), place });
         }
     }
-    // The sort is stable: of equally good knobs the simpler one is first.
+    // The sort is stable: of two knobs that explain equally much, the simpler knob is first.
     found.sort_by(|a, b| a.rest.total_cmp(&b.rest));
     found
 }
 
 /// Whether the guess for a coordinate is close enough to the given value.
-/// With distant values the mechanism hardly moves, and it takes long to find that out.
+/// With distant values the mechanism hardly moves, and much work is needed to detect this.
 fn is_likely(guess: &Guess) -> bool {
     guess.knob.shows == Shows::Forces
         || guess.knob.is_far
@@ -210,7 +210,8 @@ fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
 }
 
 /// Whether a found number may have been meant. Any smooth error resembles a tiny change of some number.
-/// So the number must differ noticeably, have few digits, or be known to a small fraction of its change.
+/// So the found number must satisfy one of three criteria.
+/// It differs noticeably from the given number, has few digits, or is known to a small fraction of its change.
 /// The third criterion counts only if `excess`, the ratio of the differences to their bounds, is large.
 pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
     let PartChange::Instead { found, given, unit } = change.how else { return true };
@@ -228,7 +229,7 @@ const TRIFLE: f64 = 1e-3;
 /// The change is then known to a hundredth.
 const TELLING: f64 = 100.0;
 
-/// A value near the one found on the thinned grid, if it also explains everything on the whole grid.
+/// A value near the value found on the thinned grid, if it also explains everything on the whole grid.
 pub(super) fn confirmed(
     knob: &Knob,
     [value, middle]: [f64; 2],

@@ -99,7 +99,7 @@ fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<DataSlip> {
 }
 
 impl Wrong<'_> {
-    /// Whether the channel has the values `others`, and these vary enough to identify a channel.
+    /// Whether the channel has the values `others`, and whether these values vary enough to identify a channel.
     pub(super) fn has_values_of(&self, others: &[f64]) -> bool {
         self.varies(others)
             && differences(others, self.found, self.channel.kind.periodic).iter().all(|gap| gap.abs() <= self.bound)

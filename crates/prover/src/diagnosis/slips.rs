@@ -11,8 +11,8 @@ use linkage::math::angle::wrapped;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Stage, Unit};
 
-/// A bound is at least this fraction of the size of the reference's numbers. The reference is not known more
-/// accurately.
+/// A bound is at least this fraction of the size of the reference's numbers.
+/// The reference is not known more accurately than to this fraction.
 pub(super) const KNOWN: f64 = 1e-10;
 
 /// A factor on the values of a channel, and the confusion of units that causes it.
@@ -165,6 +165,7 @@ fn fitted(wrong: &[Wrong]) -> Vec<Fitted> {
     let is_angle = same_unit && worst.channel.kind.unit == Unit::Radian;
     let mut slips = Vec::new();
     // With one or two instants, any values can be explained by an offset and a factor.
+    // So numbers are fitted only from `FEWEST` instants on.
     if gaps.len() >= FEWEST {
         if same_unit {
             let mean = |gaps: &[f64]| gaps.iter().sum::<f64>() / gaps.len() as f64;
@@ -203,7 +204,8 @@ impl Wrong<'_> {
             DataSlip::Outlier(time) => {
                 (0..self.times.len()).all(|row| self.times[row] == time || self.gap(row).abs() <= self.bound)
             }
-            // These slips need the solution at other instants or of other channels: see `late`, `others` and `derived`.
+            // `late`, `others` and `derived` examine these slips, because the slips need the solution at instants or in
+            // channels that are not compared here.
             DataSlip::Late { .. } | DataSlip::Clock { .. } | DataSlip::Instead(_) | DataSlip::Opposite(_) => false,
             DataSlip::Exchanged(_) | DataSlip::Between { .. } | DataSlip::Magnitude(_) => false,
             DataSlip::Differences { .. } | DataSlip::NoCoriolis(_) | DataSlip::About(_) => false,

@@ -35,11 +35,11 @@ pub struct AnalyticSide {
     pub name: &'static str,
     /// Every compared channel; empty if the side failed, or if there are no values to compare with.
     pub deviations: Vec<Deviation>,
-    /// Largest opening of a joint, divided by the larger of two lengths: the mechanism's size and its distance from the
-    /// origin.
+    /// Largest opening of a joint, divided by the larger of two lengths: the mechanism's size and the mechanism's
+    /// distance from the origin.
     pub closure: Option<f64>,
-    /// Largest difference between the balancing moment from equilibrium and that from powers, divided by the moments in
-    /// the balance.
+    /// Largest difference between the balancing moment from equilibrium and the balancing moment from powers, divided
+    /// by the moments in the balance.
     pub balance: Option<f64>,
     /// What it has done.
     pub work: Work,
@@ -54,7 +54,7 @@ pub struct BothSides {
     pub sides: [AnalyticSide; 2],
     /// The checks of the sides that a proof makes; empty if a side failed.
     pub checks: Vec<Check>,
-    /// The verdict of these checks. It is inconclusive if a side failed.
+    /// The verdict of `checks`. It is inconclusive if a side failed.
     pub verdict: Verdict,
     /// Number of channels of the sides that deviate from external numbers by more than their bounds although every
     /// check agrees.

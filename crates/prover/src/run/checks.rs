@@ -14,8 +14,8 @@ use linkage::math::statistics::{ascending, share};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, ChannelKind, Stage, Trajectory, Unit};
 
-/// Upper limit of a ratio for an analytic side: the opening of a joint, divided by the larger of the mechanism's size
-/// and its distance from the origin.
+/// Upper limit of a ratio for an analytic side: the opening of a joint, divided by the larger of two lengths.
+/// These lengths are the mechanism's size and the mechanism's distance from the origin.
 /// For the shipped mechanisms the ratio is at most 5e-16.
 const CLOSURE: f64 = 1e-13;
 /// Two methods compute the balancing moment of an analytic side. Their difference, divided by the moments in the
@@ -152,8 +152,8 @@ pub(super) fn of_engine(problem: Problem, engine: &dyn Engine, runs: &Runs) -> V
 }
 
 /// Checks the opening of the engine's loops.
-/// A closed loop has no opening, so any opening is an error. It must vanish with the step at the rate that the runs
-/// show.
+/// A closed loop has no opening, so any opening is an error.
+/// The opening must vanish with the step at the rate that the runs show.
 fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let size = problem.case.mechanism.size();
     let kind = Channel::named("point.A.x_m").expect("the table has positions of points").kind;

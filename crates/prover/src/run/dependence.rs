@@ -9,11 +9,12 @@ use linkage::trajectory::{Channel, Stage};
 
 /// Sets of groups that channels depend on.
 pub(super) struct Dependence {
-    /// The distinct sets. Each is a list of group indices in ascending order.
+    /// The distinct sets. Each set is a list of group indices in ascending order.
     pub(super) sets: Vec<Vec<GroupId>>,
     /// For every channel, the index of its set.
     pub(super) of: Vec<usize>,
-    /// For every set, the last groups. They determine the set, because they depend on all its other groups.
+    /// For every set, the last groups. The last groups determine the set, because they depend on all other groups of
+    /// the set.
     tops: Vec<Vec<GroupId>>,
 }
 

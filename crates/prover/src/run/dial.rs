@@ -6,8 +6,8 @@ use crate::numbers::error;
 use crate::sentences;
 
 impl Proof {
-    /// The same proof, judged again with every bound multiplied by `dial`.
-    /// A value below 1 is stricter. At 0 only an exact zero agrees.
+    /// This proof, judged again with every bound multiplied by `dial`.
+    /// A factor `dial` below 1 is stricter. At 0 only an exact zero agrees.
     ///
     /// Residuals do not change.
     /// Inconclusive verdicts do not change either, because their bounds decide nothing whatever the factor.

@@ -1,10 +1,11 @@
 //! Finds the instants at which channels jump. At these instants an engine's value depends on the smallest error of its
 //! motion.
 //!
-//! A load may jump when its link reverses. A load that vanishes at the reversal does not jump, so no instant is left
+//! A load may jump when its link reverses. If a load vanishes at the reversal, it does not jump, so no instant is left
 //! out.
-//! At a change point an engine follows one of many solutions. Its rates at that instant do not show its branch; later
-//! instants do.
+//! At a change point an engine follows one of many solutions.
+//! The engine's rates at the instant of the change point do not show which solution it follows. Only later instants
+//! show the solution.
 //! See docs/numerics/bounds.md.
 
 use linkage::case::Case;
@@ -19,7 +20,7 @@ use super::runs::Runs;
 /// Within this number of steps on either side of a jump, an engine's values are doubtful. The steps are those of the
 /// coarsest judged run.
 const STEPS: f64 = 8.0;
-/// As `STEPS`, for impulses of a free motion. Impulses are read from six steps, one step late.
+/// As `STEPS`, for impulses of a free motion. Impulses are computed from six steps, one step late.
 const IMPULSES: f64 = 5.0;
 /// As `STEPS`, for a prescribed motion with combined impulses.
 /// Within this fraction of a step, a load jumps at different instants in the different runs.
@@ -172,9 +173,9 @@ mod tests {
         Scenario::parse(text, std::path::Path::new("x.toml")).unwrap_or_else(|error| panic!("{error}")).case
     }
 
-    /// Number of instants at which velocities and positions are left out.
-    /// Also the number of instants that a smaller step would make usable.
-    /// At steps of 1.1 ms, 17.6 ms on either side are doubtful.
+    /// Two numbers of instants at which values are left out (velocities, positions), and the number of instants that a
+    /// smaller step would make usable.
+    /// At steps of 1.1 ms, the values within 17.6 ms on either side of a jump are doubtful.
     fn left_out(file: &str) -> ([usize; 2], f64) {
         let case = parsed(&text(file));
         let (doubt, _) = doubt(&case, Route::Differences);
@@ -197,9 +198,9 @@ mod tests {
     }
 
     /// A pendulum with friction, released from rest, reverses twice in three seconds.
-    /// Impulses are read from six steps, one step late. So five of the longest steps (11 ms) are doubtful on either
-    /// side.
-    /// For second differences, 17.6 ms are doubtful on either side.
+    /// Impulses are computed from six steps, one step late.
+    /// So five of the longest steps (11 ms) are doubtful on either side of each reversal.
+    /// For second differences, 17.6 ms are doubtful on either side of each reversal.
     #[test]
     fn only_forces_beside_a_reversal_of_free_motion_are_left_out() {
         let text = text("scenarios/pendulum.toml").replace("step_s = 0.01", "step_s = 0.001");

@@ -77,7 +77,7 @@ pub struct SettingsSearch {
     pub runs: usize,
     /// Work done, in steps without sweeps. Twenty sweeps count as one additional step.
     pub effort: f64,
-    /// Allowed work, in the same unit.
+    /// Allowed work, in steps without sweeps.
     pub budget: f64,
     /// Why the search ended.
     pub end: SearchEnd,
@@ -95,7 +95,7 @@ pub enum SearchEnd {
     Budget,
     /// At the rate of progress of the search, the allowed work would not be enough.
     Pace,
-    /// No free setting has a better value.
+    /// No free setting has a value that is better than the present value.
     Nothing,
 }
 
@@ -147,10 +147,11 @@ pub struct EngineProof {
 /// Which of the two judgements of an engine's forces disagrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ForceFault {
-    /// The forces that follow from its motion. The motion agrees, so the fault is in the equations for the forces.
+    /// The forces that follow from the engine's motion. The motion agrees, so the fault is in the equations for the
+    /// forces.
     Reading,
-    /// The forces that the engine itself exerts. Its motion is right, and the forces that follow from the motion are
-    /// right too.
+    /// The forces that the engine itself exerts.
+    /// The engine's motion is right, and the forces that follow from the motion are right too.
     Exerted,
     /// Both.
     Both,

@@ -137,8 +137,9 @@ impl ObservedSides {
             None => ledger.skipped("formulas", sentences::NONE_CLAIMS_A_WANTED_CHANNEL),
             Some(_) => {
                 let judged = ledger.done("formulas", sentences::BY_VALUE_AND_BY_DERIVATIVE, || {
-                    // Means over a revolution belong to the nominal motion, so figures are computed in it. The same
-                    // holds for published figures.
+                    // Means over a revolution belong to the nominal motion, so figures are computed in the nominal
+                    // motion.
+                    // Published figures belong to the nominal motion too.
                     let solvers = EachSide::of(|side| entrants[side].solver);
                     own.figures = figures::claimed(own_formulas, &whole.nominal(), solvers)?;
                     own.judged(case, own_formulas)

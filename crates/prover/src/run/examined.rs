@@ -105,7 +105,7 @@ mod tests {
     use linkage::solver::Solver;
     use scenario::of_repository;
 
-    /// The same observations, but with the sign of the balancing moment changed in the trajectory.
+    /// The observations of `side`, but with the sign of the balancing moment changed in the trajectory.
     fn spoiled(mut side: Observed) -> Observed {
         let right = &side.trajectory;
         let moment = Channel::named("drive.torque_N_m").unwrap();

@@ -30,7 +30,8 @@ const COPIED: usize = 1_000_000;
 /// Number of channels compared at a time as one batch. The look-up of a channel searches one batch.
 const AT_A_TIME: usize = 256;
 
-/// If a difference between runs with other sweeps is below this fraction of the widest conclusive bound, it is ignored.
+/// If a difference between runs with different numbers of sweeps is below this fraction of the widest conclusive bound,
+/// the difference is ignored.
 const COUNTS: f64 = 0.01;
 
 /// If a link's gain of speed in a step exceeds this multiple of the range of its speed, the step cannot resolve the
@@ -42,7 +43,8 @@ const OUTRUN: f64 = 10.0;
 pub(super) enum Asks {
     /// All channels, and the additional checks.
     All,
-    /// Reactions and balancing moment as the engine itself exerts them. Shaking force and moment are sums of them.
+    /// Reactions and balancing moment as the engine itself exerts them.
+    /// Shaking force and shaking moment are sums of these reactions and moments.
     OwnForces,
 }
 
@@ -81,7 +83,7 @@ pub(super) struct Judged {
 /// An engine's runs at the instants at which the channels of one stage are judged.
 struct Stand<'a> {
     engine: &'a dyn Engine,
-    /// The same engine with the settings of its finest run.
+    /// The engine with the settings of its finest run.
     finest: &'a dyn Engine,
     /// The case on these instants.
     case: &'a Case,
@@ -111,12 +113,12 @@ impl<'a> Judge<'a> {
         Judge { problem, reference, scales, known, asked, asks: Asks::All }
     }
 
-    /// The same judge for a search that begins with other settings.
+    /// This judge, for a search that begins with the settings `asked`.
     pub(super) fn asking(&self, asked: Settings) -> Self {
         Judge { asked, scales: self.scales.clone(), ..*self }
     }
 
-    /// The same judge for the forces that an engine itself exerts.
+    /// This judge, for the forces that an engine itself exerts.
     pub(super) fn of_own_forces(self) -> Self {
         Judge { asks: Asks::OwnForces, ..self }
     }
@@ -148,8 +150,8 @@ impl<'a> Judge<'a> {
         Ok(Judged { proof, run, too_coarse })
     }
 
-    /// Whether a link of a free motion would gain many times more speed in one step than it ever has.
-    /// This happens with a motor that is much too strong for its load.
+    /// Whether a link of a free motion would gain many times more speed in one step than the range of its speed.
+    /// Such a gain occurs with a motor that is much too strong for its load.
     /// Runs at several such steps agree, because they all miss the motion.
     fn outruns(&self, step: f64) -> bool {
         let reference = &self.reference.trajectory;

@@ -1,5 +1,6 @@
 //! Uncertainty of the analytic sides, which is a part of every bound.
-//! Rounding errors follow from the condition number of the pose. Integration errors follow from a third, tighter run.
+//! Rounding errors follow from the condition number of the pose.
+//! Integration errors follow from a third run with a tighter tolerance.
 //! See docs/numerics/bounds.md.
 
 use super::dependence::Dependence;
@@ -16,9 +17,9 @@ use linkage::mechanism::GroupId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
-/// Relative error assumed for an analytic side in well-conditioned poses. It is chosen.
+/// Relative error assumed for an analytic side in well-conditioned poses. The error is chosen.
 /// Each derivative multiplies the rounding error of its input by the condition number of the pose, and so does each
-/// linear solve for forces. Here the condition number is at most some tens.
+/// linear solve for forces. In well-conditioned poses the condition number is at most some tens.
 pub(super) fn usual(stage: Stage) -> f64 {
     match stage {
         Stage::Positions => 1e-12,
@@ -39,8 +40,10 @@ fn power(stage: Stage) -> i32 {
 /// Rounding error of a position in a pose of condition number 1, in units in the last place.
 const ULPS: f64 = 16.0;
 
-/// Assumed ratio of the integration error to the difference from the tighter run, which has an error too.
-/// When steps still crossed knots of a load's table, a ratio of 3.2 was measured. Now steps end at knots.
+/// Assumed ratio of the integration error to the difference from the run with the tighter tolerance, which has an error
+/// too.
+/// A ratio of 3.2 was measured with steps that crossed knots of a load's table. In the present program steps end at
+/// knots.
 const SAFETY: f64 = 4.0;
 
 /// Relative rounding error of a stage in a pose of this condition number.
@@ -64,8 +67,8 @@ fn lever(case: &Case, groups: &[GroupId]) -> f64 {
     if size > 0.0 { (farthest / size).larger(1.0) } else { 1.0 }
 }
 
-/// Rounding error of the positions from which a group is assembled, in units in the last place of their distance from
-/// the origin.
+/// Rounding error of the positions from which a group is assembled. The unit is one unit in the last place of the
+/// positions' distance from the origin.
 /// On each side four positions contribute: two outer joints, the inner joint and an origin.
 /// Each coordinate has a root mean square rounding error of 0.3 units. The sixteen independent coordinates of both
 /// sides give 1.2 units.
@@ -101,7 +104,7 @@ pub(super) struct Known {
     magnitudes: Vec<f64>,
     /// The side that serves as the reference.
     reference: Reference,
-    /// Sensitivity of a motion under forces to these forces, channel by channel. It also amplifies their rounding
+    /// Sensitivity of a motion under forces to these forces, channel by channel. It also multiplies the forces' relative rounding
     /// errors.
     /// Empty for a prescribed motion.
     pub(super) sensitivity: Vec<f64>,
@@ -109,15 +112,16 @@ pub(super) struct Known {
     integration: EachSide<Vec<f64>>,
     /// The groups that channels depend on.
     dependence: Dependence,
-    /// Condition number of the pose at every instant, for every set of groups. In a motion under forces it is the
-    /// largest so far.
-    /// Empty until it is needed.
+    /// Condition number of the pose at every instant, for every set of groups.
+    /// In a motion under forces, each entry is the largest condition number up to its instant.
+    /// Empty until the condition numbers are needed.
     conditions: Vec<Vec<f64>>,
     /// Factor on the rounding error of every channel, from the distances of mass centres and of the origin: see
     /// [`lever`] and
     /// [`placed`].
     levers: Vec<f64>,
-    /// Absolute crank angle at every instant of a prescribed motion (rad). Both sides receive it rounded to a double.
+    /// Absolute crank angle at every instant of a prescribed motion (rad). Both sides receive this angle rounded to a
+    /// double.
     turned: Vec<f64>,
     /// Whether a channel is an angle. The numbers of angles already include their revolutions.
     is_angle: Vec<bool>,
@@ -181,7 +185,7 @@ impl Known {
     }
 
     /// Measures the condition number of every pose.
-    /// This is needed if the errors of a trajectory exceed those of well-conditioned poses.
+    /// The measurement is needed if the errors of a trajectory exceed those of well-conditioned poses.
     ///
     /// # Errors
     /// Those of the solver.
@@ -194,8 +198,8 @@ impl Known {
             let own = conditions(&case.mechanism, &case.structure.groups, &pose);
             for (set, worst) in sets.iter().zip(&mut worst) {
                 let own: f64 = match state.passing.filter(|_| !set.is_empty()) {
-                    // At a change point the condition number of the passage counts. That of the pose is unbounded, but
-                    // no side calculates at that pose.
+                    // At a change point the condition number of the passage counts. The condition number of the pose is
+                    // unbounded, but no side calculates at that pose.
                     Some(passing) => passing,
                     None => set.iter().map(|&group| own[group]).product(),
                 };
@@ -320,8 +324,8 @@ mod tests {
         assert!((7.0..7.5).contains(&of(&far)), "{}", of(&far));
     }
 
-    /// At a change point the condition number of the pose is unbounded, but that of the passage through the pose is
-    /// finite.
+    /// At a change point the condition number of the pose is unbounded, but the condition number of the passage through
+    /// the pose is finite.
     /// An error of a millionth is found at the change point.
     #[test]
     fn numbers_at_a_change_point_are_known_to_a_millionth() {

@@ -7,13 +7,13 @@ use linkage::work::{Work, counted};
 pub struct LedgerEntry {
     /// The part.
     pub part: String,
-    /// Why it was done or skipped.
+    /// Reason why the part was done or skipped.
     pub why: &'static str,
-    /// Its work; `None` if it was skipped.
+    /// Work of the part; `None` if the part was skipped.
     pub work: Option<Work>,
 }
 
-/// All parts so far, in their order.
+/// All parts that were done or skipped so far, in order.
 #[derive(Debug, Default)]
 pub struct Ledger(pub(super) Vec<LedgerEntry>);
 

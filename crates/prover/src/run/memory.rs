@@ -15,10 +15,11 @@ use scenario::Oracle;
 pub(crate) const MOST: f64 = 4e9;
 /// Memory of a run without its instants (bytes).
 const ELSE: f64 = 2e7;
-/// Number of trajectories of a proof at its peak: two sides, the three judged runs, one with other sweeps, the best one
-/// so far, and one in progress.
+/// Number of trajectories of a proof at its peak: two sides, the three judged runs, one run with another number of
+/// sweeps, the best run so far, and one run in progress.
 const TRAJECTORIES: f64 = 8.0;
-/// Number of runs of an engine in memory at the peak: one run for each halving of the step, and further runs with other sweeps at some steps.
+/// Number of runs of an engine in memory at the peak: one run for each halving of the step, and, at some steps, further
+/// runs with different numbers of sweeps.
 const RUNS: f64 = 12.0;
 /// Number of values stored per instant besides the channels: time, crank angle, order, openings, powers.
 const BESIDE: usize = 6;
@@ -32,7 +33,8 @@ pub fn of_proof(case: &Case, engines: usize) -> f64 {
     ELSE + case.grid.len() as f64 * row
 }
 
-/// Memory per number of a table (bytes): the number as read, the number with its digits, and the number compared with.
+/// Memory per number of a table (bytes): the number as it is in the file, the number with its digits, and the computed
+/// number for comparison.
 const OF_NUMBER: f64 = 88.0;
 /// Memory per row of a table, without the row's numbers (bytes).
 const OF_ROW: f64 = 50.0;

@@ -15,7 +15,7 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
 /// A difference of at most this fraction of the quantity's largest value counts as rounding.
-/// It equals the bound on forces between the two analytic sides, which solve as many linear equations.
+/// The fraction equals the bound on forces between the two analytic sides, which solve as many linear equations.
 const BOUND: f64 = 1e-10;
 
 /// The compared quantities: directions, angular velocities, angular accelerations, forces.
@@ -206,7 +206,7 @@ mod tests {
     use super::*;
 
     /// If a method fails, only the instants before the failure are judged.
-    /// Its first error is reported as the reason, whatever the result at these instants.
+    /// The first error of the method is reported as the reason, whatever the result at these instants.
     #[test]
     fn a_failed_method_is_inconclusive() {
         for before in [0.0, 1e-3] {

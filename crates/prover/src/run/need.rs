@@ -40,8 +40,8 @@ impl Need {
         !self.is_vague && self.share <= most
     }
 
-    /// Whether this need is at most `part` times the other. A need with an order of convergence is always less than one
-    /// without.
+    /// Whether this need is at most `part` times the need `other`.
+    /// A need with an order of convergence is always less than a need without an order of convergence.
     pub(super) fn is_less(self, part: f64, other: Need) -> bool {
         match (self.is_vague, other.is_vague) {
             (false, true) => true,
@@ -116,7 +116,7 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// Records a round that ends with this work done. Returns whether `budget` is far too small.
+    /// Records a round that ends with the work `effort` done. Returns whether `budget` is far too small.
     /// The need falls with a power of the work. The budget is too small if the need stays above 1 even with twice the
     /// power of the last rounds.
     pub(super) fn is_too_slow(&mut self, effort: f64, need: Need, budget: f64) -> bool {
@@ -151,13 +151,13 @@ const PATIENCE: usize = 3;
 /// Record of steps without progress in a search.
 #[derive(Default)]
 pub(super) struct Stall {
-    /// Need of the round before, with the same number of sweeps.
+    /// Need of the previous round, with the same number of sweeps as the present round.
     before: Option<Need>,
     /// Number of consecutive rounds without an order of convergence.
     vague: usize,
     /// Number of consecutive rounds in which half the step has made the bound wider.
     wider: usize,
-    /// Sweeps and need of the round before, if more sweeps are being tried.
+    /// Sweeps and need of the previous round, if more sweeps are being tried.
     tried: Option<(usize, Need)>,
     /// Number of rounds until more sweeps may be tried again.
     wait: usize,
@@ -177,7 +177,7 @@ impl Stall {
     /// blame.
     /// Too few sweeps may hide the order of the step, and their error is not always visible.
     /// If a smaller step helps little, more sweeps are tried, provided that the number of sweeps is `free`.
-    /// If they help little too, the search returns to the previous number.
+    /// If more sweeps help little too, the search returns to the previous number of sweeps.
     pub(super) fn look_closer(&mut self, need: Need, blame: BoundPart, sweeps: usize, free: bool) -> Next {
         self.vague = if need.is_vague { self.vague + 1 } else { 0 };
         let before = self.before.replace(need);
@@ -240,7 +240,7 @@ mod tests {
 
     #[test]
     fn the_same_rounds_continue_with_a_larger_budget() {
-        // The need falls as the work grows. A budget that is a hundred times larger suffices.
+        // The need falls as the work grows. A budget of 1e5 is too small, but a hundred times this budget suffices.
         let rounds = [(1e3, 8e4), (2e3, 4e4), (4e3, 2e4), (8e3, 1e4)];
         assert!(given_up(&rounds, 1e5) && !given_up(&rounds, 1e7));
     }

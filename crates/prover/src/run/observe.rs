@@ -86,14 +86,15 @@ impl Observed {
         largest_size(&self.opening)
     }
 
-    /// Largest difference between the balancing moment of the trajectory and that of the powers, divided by the moments
-    /// in the balance.
-    /// If the balancing moment vanishes, these moments balance each other and only their rounding error remains.
+    /// Largest difference between the balancing moment of the trajectory and the balancing moment of the powers,
+    /// divided by the moments in the balance.
+    /// If the balancing moment vanishes, the moments in the balance cancel each other and only their rounding error
+    /// remains.
     pub(super) fn two_ways(&self) -> f64 {
         share(largest_size(&self.moment_gap().collect::<Vec<f64>>()), self.moment)
     }
 
-    /// Balancing moment of the trajectory minus that of the powers (N m) at every instant.
+    /// Balancing moment of the trajectory minus the balancing moment of the powers (N m) at every instant.
     pub(super) fn moment_gap(&self) -> impl Iterator<Item = f64> {
         self.torque.iter().zip(&self.power).map(|(torque, power)| torque - power)
     }

@@ -43,7 +43,7 @@ macro_rules! setters {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Analytic side whose trajectory is the reference; the other side checks it.
+    /// Analytic side whose trajectory is the reference. The second analytic side checks this trajectory.
     pub reference: Reference,
     /// Engines and their settings. Settings that are free here are taken from the scenario or found by the proof.
     pub settings: EngineSettings,
@@ -63,12 +63,12 @@ pub struct Chosen {
 }
 
 impl Chosen {
-    /// The same choice with the engine wrapped by `around`.
+    /// This choice, with the engine wrapped by `around`.
     pub(crate) fn with_engine(self, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>) -> Self {
         Chosen { engine: around(self.engine), ..self }
     }
 
-    /// The same choice without the forces that the engine itself exerts.
+    /// This choice, without the forces that the engine itself exerts.
     pub(crate) fn by_motion_alone(mut self) -> Self {
         self.given.route = EngineSetting::of(self.engine.settings().route);
         self

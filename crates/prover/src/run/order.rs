@@ -1,8 +1,8 @@
 //! Finds an engine that converges with a lower order than its method has.
 //!
-//! The cause is a reading that is half a step late, or a wrong weight.
+//! The cause is a value computed half a step late, or a wrong weight.
 //! A bound from the engine's runs covers such an error at every step, so the size of the error never reveals the fault.
-//! Five runs give three estimates of the order. The order counts if all three are near the same whole number.
+//! Five runs give three estimates of the order. The order counts if all three estimates are near the same whole number.
 //! See docs/numerics/bounds.md.
 
 use crate::sentences;
@@ -23,7 +23,7 @@ use crate::tolerance::Parts;
 const LOW: f64 = 0.75;
 /// Orders are steady if they differ from the same whole number by at most this amount.
 const STEADY: f64 = 0.1;
-/// If an error exceeds rounding and iteration errors by this factor, its order is that of the step.
+/// If an error exceeds this multiple of the rounding and iteration errors, the order of the error is that of the step.
 const CLEAR: f64 = 5.0;
 /// If a bound is below this fraction of the widest conclusive bound, a low order does not matter.
 const NEGLIGIBLE: f64 = 0.01;
@@ -32,7 +32,7 @@ const NEGLIGIBLE: f64 = 0.01;
 /// Returns whether there are such channels.
 ///
 /// # Errors
-/// Those of a run. A numeric error is not returned: it shows nothing.
+/// Those of a run. A numeric error is not returned, because it shows nothing about the order.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> Result<bool, Stopped> {
     let wanted = judge.problem.engine_rel;
     // Across a knot of a law of motion the third derivative jumps, so second differences have order 1 there.
@@ -54,7 +54,7 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> R
         others.truncate(usize::from(asks_sweeps));
         match bank.runs(plain, &others, &mut |_| {}).and_then(|runs| Ok(judge.judge(own.as_ref(), runs)?)) {
             Ok(own) => Ok(Some(own.proof)),
-            // A run that is too coarse shows nothing.
+            // A run that is too coarse shows nothing about the order.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(None),
             Err(stopped) => Err(stopped),
         }

@@ -1,5 +1,5 @@
 //! Judges the forces that an engine itself exerts.
-//! They are judged in addition to the forces that follow from its motion by Newton-Euler equations.
+//! These forces are judged in addition to the forces that follow from the engine's motion by Newton-Euler equations.
 //! A second search tries the engine's routes.
 //! See docs/numerics/forces.md.
 
@@ -59,7 +59,7 @@ pub(super) fn judged(
     for &route in chosen.engine.own_routes(case) {
         let own = by_route(judge, case, chosen, route, sweeps, progress);
         let is_open = matches!(own.verdict, Verdict::Inconclusive { .. });
-        // If several results are inconclusive, one with numbers is preferred.
+        // If several results are inconclusive, a result with numbers is preferred.
         let better = found.as_ref().is_none_or(|found| !is_open || found.failure.is_some());
         if better {
             found = Some(own);

@@ -143,8 +143,9 @@ fn side_checks_find_three_times_their_bound_and_pass_a_fifth() {
 
 /// Symptom: 1e-9 deg from a dead centre the crank pin's acceleration was wrong by 176 %, but the check between the
 /// sides did not find it.
-/// The check's scale was the largest acceleration of the mechanism. Its condition number was that of the worst group.
-/// Now the check uses the numbers from which the channel itself is computed.
+/// The check's scale was the largest acceleration of the mechanism. The check's condition number was that of the worst
+/// group.
+/// The check has since used the numbers from which the channel itself is computed.
 #[test]
 fn regress_a_driving_link_has_its_own_bound_near_a_dead_point() {
     let folded = [
@@ -327,7 +328,8 @@ fn regress_late_readings_converge_with_order_one_and_disagree() {
         // The fault adds a term of the size of a jerk.
         state.motions.iter_mut().for_each(|motion| motion.alpha -= late * motion.omega.powi(3));
     };
-    // Five steps up to 8e-3 s still show the order for the crank-rocker, but not for the faster machine.
+    // Five steps up to 8e-3 s still show the order for the crank-rocker, but not for the faster machine `ov7_base`.
+    // So this machine is tested only with free settings.
     for (name, free) in
         [("crank_rocker", Search::None), ("crank_rocker", Search::Everything), ("ov7_base", Search::Everything)]
     {

@@ -71,7 +71,7 @@ fn against(proof: &EngineProof) -> Vec<String> {
 
 fn nothing(_: &mut State) {}
 
-/// One force is read in the frame of a link instead of the world's.
+/// The components of one force are given in the frame of a link instead of the world frame.
 fn in_a_link_s_frame(state: &mut State) {
     state.forces[JointId(1)] = rotated(state.motions[LinkId(1)].direction, state.forces[JointId(1)]);
 }

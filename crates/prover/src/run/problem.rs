@@ -24,10 +24,11 @@ impl<'a> Problem<'a> {
         Problem { case, oracles, formulas, engine_rel: *engine_rel }
     }
 
-    /// Size, speed and force that follow from the data of the case, whatever moves in it.
-    /// They are the scales for quantities that vanish in the whole mechanism.
-    /// The force is the weight of all links. If larger, it is the force that accelerates them at that speed and size.
-    /// It is zero without masses.
+    /// Size, speed and force that follow from the data of the case, whatever parts of the case move.
+    /// These three values are the scales for quantities that vanish in the whole mechanism.
+    /// The force is the larger of two forces: the weight of all links, and the force that accelerates the links at this
+    /// speed and size.
+    /// The force is zero without masses.
     pub(super) fn built(&self) -> Built {
         let case = self.case;
         let (length, speed) = (case.mechanism.size(), case.drives.top_speed());

@@ -19,7 +19,7 @@ use linkage::work::limited;
 pub(super) struct Runs {
     /// Runs at double, single and half the resolution.
     pub(super) resolutions: [Arc<Observed>; 3],
-    /// Runs at the single resolution with other numbers of sweeps.
+    /// Runs at the single resolution. Their numbers of sweeps differ from that of the judged run.
     pub(super) other_sweeps: OtherSweeps<Arc<Observed>>,
 }
 
@@ -36,9 +36,9 @@ impl Runs {
     }
 }
 
-/// Numbers of sweeps for the runs with which a run with `sweeps` is compared: `sweeps` / `share`, and this number
-/// divided by `share` again.
-/// If `sweeps` is one, the other run has two sweeps.
+/// Numbers of sweeps for the runs that are compared with a run with `sweeps`.
+/// The first number is `sweeps` / `share`; the second is the first number divided by `share`.
+/// If `sweeps` is one, the compared run has two sweeps.
 /// Empty if the iteration leaves no error.
 pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, share: usize) -> Vec<usize> {
     match (sweeps, engine.sweeps(case)) {
@@ -66,7 +66,7 @@ pub(super) struct Bank<'a> {
     watch: Watch,
     /// Number of plain runs made so far.
     pub(super) count: usize,
-    /// Work of these runs, in steps without sweeps.
+    /// Work of the plain runs made so far, in steps without sweeps.
     pub(super) effort: f64,
 }
 
@@ -100,7 +100,7 @@ impl<'a> Bank<'a> {
         size_of_step(self.case) * runs.iter().map(|run| (last - first) * run.work()).sum::<f64>()
     }
 
-    /// Forgets all runs with other numbers of sweeps.
+    /// Forgets all runs with numbers of sweeps that are not in `sweeps`.
     pub(super) fn keep_sweeps(&mut self, sweeps: &[usize]) {
         self.kept.retain(|settings| sweeps.contains(&settings.sweeps));
         self.seen.retain(|(settings, _)| sweeps.contains(&settings.sweeps));
@@ -179,7 +179,8 @@ pub(super) fn rungs(settings: Settings, others: &[usize]) -> Vec<Settings> {
     [settings, at(0.5), at(2.0)].into_iter().chain(other).collect()
 }
 
-/// The same failure, with a message that names the auxiliary run that failed. The user did not request this run.
+/// The failure `stopped`, with a message that names the auxiliary run that failed.
+/// The user did not request the auxiliary run.
 fn in_ladder(stopped: Stopped, what: &str, asked: Settings, controls_error: bool) -> Stopped {
     let told = |message: &str| sentences::the_run_from_which_the_error(&what, &message);
     // Values to try are based on the settings that the user requested.

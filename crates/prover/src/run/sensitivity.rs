@@ -1,4 +1,5 @@
-//! Sensitivity of a free motion to the forces that cause it. This is the condition of the problem, whatever the solver.
+//! Sensitivity of a free motion to the forces that cause it.
+//! The sensitivity is the condition of the problem, whatever the solver.
 //! See docs/numerics/bounds.md.
 
 use crate::bounds::largest_difference;

@@ -23,14 +23,16 @@ pub const BUDGET: f64 = 2e7;
 /// Up to this fraction of the allowed work, a conclusive result is refined further, to the target accuracy.
 const THRIFT: f64 = 0.0015;
 /// The search aims at bounds of this fraction of the widest conclusive bound.
-/// With extrapolation, a bound a hundred times narrower costs little.
+/// With extrapolation, a bound a hundred times narrower than the widest conclusive bound costs little.
 const AIM: f64 = 0.01;
-/// Limit of extrapolations. With more, the weights add more rounding error than the truncation error that they cancel.
+/// Limit of extrapolations. With more extrapolations, the weights add more rounding error than the truncation error
+/// that they cancel.
 const MOST_TIMES: usize = 4;
-/// The coarsest step is at most this multiple of the first step. Coarser steps are tried if rounding dominates.
+/// The coarsest step is at most this multiple of the first step.
+/// Steps coarser than the first step are tried if rounding dominates.
 const COARSEST: f64 = 16.0;
-/// Work that the first runs may always do. It takes some hundredths of a second. Without the first runs there is no
-/// result.
+/// Work that the first runs may always do. This work takes some hundredths of a second.
+/// Without the first runs there is no result.
 pub(super) const FIRST: f64 = 1e4;
 /// After this number of failed runs, more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
@@ -47,7 +49,8 @@ const NEAR: f64 = 8.0;
 
 /// Returns an error if the first runs of an engine, at the settings `rungs`, need more work than `most`.
 /// The error names the requested `budget`.
-/// A step so small that no budget would suffice counts as a mistake of the user. It gives no error here, because the engine itself rejects it.
+/// A step so small that no budget would suffice counts as a mistake of the user.
+/// For such a step this function returns no error, because the engine itself rejects the step.
 pub(super) fn too_much(
     bank: &Bank,
     settings: Settings,
@@ -132,8 +135,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// The same search, but it ends as soon as every channel is conclusive.
-    /// It begins with coarser steps and at least `sweeps` sweeps. No step is below `finest` (s).
+    /// This search, changed to end as soon as every channel is conclusive.
+    /// The changed search begins with coarser steps and at least `sweeps` sweeps. No step is below `finest` (s).
     pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
         (self.aim, self.conclusive, self.finest, self.factor) = (1.0, true, finest, MORE_SWEEPS[1]);
         if self.given.sweeps.is_free() {
@@ -173,7 +176,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     BoundPart::Discretisation
                 }
                 Ok(mut trial) => {
-                    // If the order is wrong, neither the step nor the sweeps help.
+                    // If the order is wrong, neither the step nor the sweeps help, so the search ends.
                     if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged.proof)? {
                         borne_out = trial.judged.proof.against();
                         best = Some(trial);
@@ -205,8 +208,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                     if trial.need.is_of_instants() && self.given.step.is_free() {
                         self.leave_out_less(&trial.judged);
                     }
-                    // A later round replaces the best round if it disagrees, or if the best round disagrees and it does
-                    // not.
+                    // A later round replaces the best round if the later round disagrees, or if its need is less.
+                    // It also replaces a disagreeing best round if the later round is decided.
                     let better = best.as_ref().is_none_or(|best| {
                         let refuted = decided && !best.judged.proof.against().is_empty();
                         disagrees || refuted || trial.need < best.need
@@ -225,7 +228,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
                 Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
                     failure = Some(stopped);
-                    // A failed run may need more sweeps or a smaller step. Most need a smaller step.
+                    // A failed run may need more sweeps or a smaller step. Most failed runs need a smaller step.
                     failed = if self.makes_room() { 0 } else { failed + 1 };
                     if failed > 0 && failed % FAILURES == 0 { BoundPart::Iteration } else { BoundPart::Discretisation }
                 }
@@ -262,8 +265,9 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// Continues with steps that leave out few enough instants. The number left out is proportional to the step.
-    /// Coarser steps decide nothing.
+    /// Continues with steps that leave out few enough instants. The number of instants left out is proportional to the
+    /// step.
+    /// Steps that leave out more instants decide nothing.
     fn leave_out_less(&mut self, judged: &Judged) {
         let most = judged.proof.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
         // The next round halves the step again.
@@ -309,7 +313,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             {
                 next.sweeps *= factor;
             }
-            // Coarser runs with more extrapolations have less rounding error.
+            // Coarser runs with more extrapolations have less rounding error than finer runs with fewer extrapolations.
             BoundPart::Rounding
                 if self.given.step.is_free() && self.coarsest < COARSEST * self.judge.asked.resolution =>
             {
@@ -359,7 +363,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         self.candidates().into_iter().flat_map(|settings| rungs(settings, &[])).collect()
     }
 
-    /// Makes the runs of a round, judges their combinations and returns the best one.
+    /// Makes the runs of a round, judges the combinations of the runs and returns the best combination.
     /// A long search (`is_long`) determines the iteration error whatever the step.
     fn round(&mut self, is_long: bool, progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
         let mut best: Option<Trial> = None;

@@ -98,7 +98,7 @@ pub fn shifted(
     Ok(())
 }
 
-/// Enlarges `drift` to the size of these changes. Values of an angle that differ by a `turn` are equal.
+/// Enlarges `drift` to the size of `changes`. Values of an angle that differ by a `turn` are equal.
 pub fn grow(drift: &mut [f64], changes: impl Iterator<Item = f64>, turn: Option<f64>) {
     for (drift, change) in drift.iter_mut().zip(changes) {
         let change = turn.map_or(change, |turn| change - turn * (change / turn).round()).abs();
@@ -112,7 +112,7 @@ pub fn grow(drift: &mut [f64], changes: impl Iterator<Item = f64>, turn: Option<
 pub(super) struct RoundedInstants {
     /// Instants (rad or s) with their errors, in ascending order.
     at: Vec<(f64, f64)>,
-    /// Changes by channel, in its unit.
+    /// Changes by channel, in the channel's unit.
     drift: Vec<(Channel, Vec<f64>)>,
 }
 

@@ -69,7 +69,7 @@ pub struct Solved {
     /// The solved case: the part of the mechanism on which the claims depend, at the requested instants.
     pub case: Case,
     sides: ObservedSides,
-    /// Lower limit of the error of every channel. It does not depend on which other channels are solved.
+    /// Lower limit of the error of every channel. The limit does not depend on the selection of solved channels.
     least: Vec<f64>,
 }
 
@@ -86,9 +86,10 @@ impl Solved {
         Ok(Solved { case, sides, least })
     }
 
-    /// These results with lower limits of the channels' errors. `of` returns the limits, which are determined from all
+    /// The results, with lower limits of the channels' errors. `of` returns the limits, which are determined from all
     /// channels of the mechanism.
-    /// If the few solved channels are zero except for rounding, their rounding error comes from other channels.
+    /// If the few solved channels are zero except for rounding, their rounding error comes from channels that are not
+    /// solved.
     #[must_use]
     pub fn known_at_least(mut self, of: &dyn Fn(&Channel) -> f64) -> Self {
         self.least = self.sides.trajectory().channels().iter().map(of).collect();

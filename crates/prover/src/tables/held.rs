@@ -66,8 +66,8 @@ impl RowKey {
 pub struct PartyColumn {
     /// The channel in its unit.
     pub claim: Claim,
-    /// Values by row, in the unit of the claim. [`MISSING`] means that nothing was measured. Another NaN means that the
-    /// calculation gave no number.
+    /// Values by row, in the unit of the claim. [`MISSING`] means that nothing was measured.
+    /// Any NaN other than `MISSING` means that the calculation gave no number.
     pub values: Vec<Rounded>,
     /// Scale of the channel in the unit of the claim, from a complete trajectory; `None` if only this column is known.
     pub scale: Option<f64>,
@@ -122,7 +122,7 @@ impl Held {
         Held { at, columns, is_analytic: false, unused: Vec::new(), places }
     }
 
-    /// The same data, marked as results of an analytic side.
+    /// The data of this party, marked as results of an analytic side.
     #[must_use]
     pub fn analytic(self) -> Held {
         Held { is_analytic: true, ..self }
@@ -197,7 +197,7 @@ impl Held {
     }
 
     /// The instants of the party's rows, as crank angles or times.
-    /// If the quantity is not requested, times are preferred.
+    /// If no quantity is requested, times are preferred.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if the requested instants are missing.
@@ -303,7 +303,7 @@ fn in_words(name: &str) -> Option<&'static str> {
 /// A claim of any existing channels.
 ///
 /// # Errors
-/// If the text cannot be read, or a name is not a channel.
+/// If the text cannot be parsed, or a name is not a channel.
 fn claim_of(text: &str) -> std::result::Result<Claim, FormulaFault> {
     let known = |name: &str| PrintedChannel::named(name).map(|own| own.channel);
     let all: Vec<Channel> = match known(text) {
@@ -329,7 +329,7 @@ fn some(names: &[String]) -> String {
     }
 }
 
-/// A message names at most this number of columns. The others are only counted.
+/// A message names at most this number of columns. The remaining columns are only counted.
 const NAMED: usize = 8;
 
 /// Evaluates expressions over the columns of a table.

@@ -39,7 +39,7 @@ pub(super) fn read(path: &Path, size: u64, may: May) -> Result<TextTable> {
     }
 }
 
-/// Reads the columns of numbers. Other columns, such as names, are skipped.
+/// Reads the columns of numbers. Columns without numbers, such as names, are skipped.
 fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextTable>, ParquetError> {
     let file = File::open(path)?;
     // Errors are converted here, because the usual conversion would label an error of the file system as external.
@@ -90,7 +90,7 @@ fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextT
     Ok(Ok(TextTable { names, columns, lines: Vec::new() }))
 }
 
-/// Name of a compression that is not read.
+/// Name of a compression that this reader does not support.
 fn unread(compression: Compression) -> Option<&'static str> {
     match compression {
         Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::GZIP(_) | Compression::ZSTD(_) => None,
@@ -100,7 +100,7 @@ fn unread(compression: Compression) -> Option<&'static str> {
     }
 }
 
-/// Whether a column holds one number in each row: integers that are not dates, times or decimals, or floating-point
+/// Whether a column contains one number in each row: integers that are not dates, times or decimals, or floating-point
 /// numbers.
 fn is_number(column: &ColumnDescriptor) -> bool {
     use ConvertedType as Kind;

@@ -11,8 +11,8 @@ use linkage::error::{Error, ErrorKind, Place, Result};
 /// First and last bytes of a Parquet file.
 pub(super) const MAGIC: [u8; 4] = *b"PAR1";
 
-/// Whether this many bytes may be allocated for a table with this many rows. The number of rows is 0 until they are
-/// counted.
+/// Decides whether this many bytes may be allocated for a table with this many rows.
+/// The number of rows is 0 until the rows are counted.
 pub type May<'a> = &'a dyn Fn(f64, usize) -> Result<()>;
 
 pub(super) fn unread(path: &Path, error: &io::Error) -> Error {

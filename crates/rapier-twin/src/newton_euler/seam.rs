@@ -24,31 +24,33 @@ pub(super) struct Seam {
 pub(super) enum Pair {
     /// The joint's points relative to the mass centres, in the links' frames (m).
     Pin([Vec2; 2]),
-    /// Axis in the frame of the joint's first link, point on the second, and mass centres in the frames of the two links.
+    /// Axis in the frame of the joint's first link, point in the frame of its second link, and mass centres in the
+    /// frames of the two links.
     Slide { axis: JointSide, place: JointSide, centres: [Vec2; 2] },
 }
 
 /// A joint at one instant: arms from the mass centres of its links to its point of action (m, world axes).
-/// For a prismatic joint, also the unit vector across its axis.
+/// For a prismatic joint, the unit vector across its axis is also stored.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stand {
     pub(super) arms: [Vec2; 2],
     pub(super) normal: Option<Vec2>,
 }
 
-/// How a joint of the tree passes the force and moment that its outer link needs on to the inner link.
+/// How a joint of the tree passes on the force and moment that its outer link needs to its inner link.
 /// Each part is a weighted sum of the three numbers x, y and moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
     /// The part that the joint cannot transmit: the moment for a revolute joint, the axial force for a prismatic joint.
     left_over: Term,
-    /// Weights of the transmitted force: of x in x, of x in y (and y in x), of y in y.
+    /// Weights of the transmitted force. They are the weight of x in x, of x in y (equal to that of y in x), and of y
+    /// in y.
     force: Term,
     /// Weights of the moment about the inner link's mass centre.
     moment: Term,
 }
 
-/// Force and moment about a link's mass centre: the x, y and z parts of one term of a linear function.
+/// One term of a linear function for force and moment about a link's mass centre: the parts x, y and z.
 pub(super) type Term = [f64; 3];
 
 impl Seam {

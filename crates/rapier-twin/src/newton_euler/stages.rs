@@ -11,11 +11,12 @@ pub(super) struct Limb {
     pub(super) seam: Seam,
     /// Index of the drive that turns the link about its revolute joint.
     pub(super) drive: Option<usize>,
-    /// Components of cut joints on this link and on the links beyond it. No other component acts on these links.
+    /// Components of cut joints on this link and on the links beyond it. No component of any other cut joint acts on
+    /// these links.
     pub(super) terms: Vec<usize>,
 }
 
-/// Equations that determine some of the components after the others are known.
+/// Equations that determine some of the components after the components of earlier stages are known.
 #[derive(Debug)]
 pub(super) enum Stage {
     /// Two equations for both components of a cut joint; the number is the index of the first component.
@@ -25,7 +26,7 @@ pub(super) enum Stage {
 }
 
 /// The equation of a joint of the tree.
-/// It stores the index of its limb and its unknown terms with their columns in the stage's matrix.
+/// The row stores the index of its limb and its unknown terms with their columns in the stage's matrix.
 /// Known terms are stored separately.
 #[derive(Debug)]
 pub(super) struct Row {
@@ -64,7 +65,7 @@ impl Row {
 }
 
 /// Order in which the components are computed.
-/// First come cut joints whose two components are the only unknowns of two equations; for dyads this is enough.
+/// Cut joints whose two components are the only unknowns of two equations come first; for dyads this is enough.
 /// Then all remaining components are computed together.
 pub(super) fn stages(limbs: &[Limb], cut: &[Range<usize>]) -> Vec<Stage> {
     let mut left: Vec<usize> = (0..limbs.len()).rev().filter(|&number| limbs[number].drive.is_none()).collect();

@@ -12,11 +12,11 @@ use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{Joint, JointKind, Link, LinkId};
 
-/// Joint frequency (Hz), so high that joints are rigid up to rounding.
+/// Joint frequency (Hz). It is so high that joints are rigid up to rounding.
 /// The default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
 const JOINT_FREQUENCY: f64 = 1e12;
 
-/// Damping of a velocity motor (N m s/rad), so high that the prescribed speed is kept up to rounding.
+/// Damping of a velocity motor (N m s/rad). It is so high that the prescribed speed is kept up to rounding.
 pub(super) const RIGID_MOTOR: f64 = 1e30;
 
 /// Rapier's vector.
@@ -58,7 +58,8 @@ pub(super) fn between(joint: &Joint, links: [LinkId; 2]) -> GenericJoint {
 }
 
 /// Index of the free coordinate of a joint made by [`between`].
-/// For a prismatic joint it is the first (along the axis), for a revolute joint the last (the angle).
+/// For a prismatic joint, the index is that of the first coordinate (along the axis).
+/// For a revolute joint, it is that of the last coordinate (the angle).
 pub(super) fn free_coordinate(joint: &Joint) -> usize {
     if joint.slides() { 0 } else { 2 }
 }
@@ -93,7 +94,7 @@ pub(super) fn parameters(settings: &Settings) -> IntegrationParameters {
     let &Settings { resolution, sweeps, substeps, route: _, extrapolated: _ } = settings;
     IntegrationParameters {
         dt: real(resolution),
-        // Rapier's iterations are substeps: each restarts the sweeps from zero.
+        // Rapier's iterations are substeps: each iteration restarts the sweeps from zero.
         num_solver_iterations: substeps,
         num_internal_pgs_iterations: sweeps,
         num_internal_stabilization_iterations: sweeps,

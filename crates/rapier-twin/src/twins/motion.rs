@@ -118,7 +118,7 @@ impl World for Twin {
         let motor = &self.motors[drive];
         let turn = omega * self.substep();
         // A separate body turns by atan(omega dt) per substep, so its target speed is raised accordingly.
-        // Above one radian per substep, the body could not keep the speed anyway.
+        // Above one radian per substep, the body could not keep the speed anyway, so the speed is not raised.
         let omega = if self.multibodies.is_empty() && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
         joint.data.set_motor_velocity(motor.axis, real(omega * motor.sense), real(joints::RIGID_MOTOR));
@@ -161,7 +161,7 @@ impl World for Twin {
         }
         let body = &self.world.bodies[self.bodies[link]];
         let (velocity, step) = (body.linvel(), self.substep());
-        // The body's actual rotation in the substep: see `set_drive`.
+        // The body turns by the arc tangent in a substep, so the actual angular velocity is computed: see `set_drive`.
         let omega = arc_tangent(wide(body.angvel()) * step) / step;
         Some((Vec2::new(wide(velocity.x), wide(velocity.y)), omega))
     }

@@ -8,7 +8,8 @@ use linkage::mechanism::{JointId, LinkId};
 
 impl Twin {
     /// Stores points of action and axes of the joints to be read.
-    /// They are interpolated between the stored frames and the present frames; `share` is the weight of the latter.
+    /// They are interpolated between the stored frames and the present frames; `share` is the weight of the present
+    /// frames.
     /// Rapier gives impulses in the axes at the start of the last substep, which lies between poses that can be read.
     /// Between these poses, frames are assumed to move along a straight line, with errors of second order.
     /// The errors of the impulses themselves are of first order.
@@ -24,7 +25,8 @@ impl Twin {
                     None => (direction, first),
                 },
                 Some(axis) => {
-                    // Along the free axis the rows act at the point on the second body.
+                    // In the direction of the free axis, the rows' point of action coincides with the point on the
+                    // second body.
                     let normal = turned(rotated(direction, axis));
                     (rotated(direction, axis), second - normal * normal.dot(&(second - first)))
                 }
@@ -46,19 +48,22 @@ impl Twin {
         let turning =
             |of: [f64; 2], other: [f64; 2]| of[0] * other[0] * inverse[0][1] + of[1] * other[1] * inverse[1][1];
         let lever = |along: Vec2| arms.map(|arm| cross(arm, along));
-        // Rapier makes a joint's rows orthogonal to each other only between separate bodies.
+        // Rapier makes a joint's rows orthogonal to each other only between separate bodies, so only their impulses are
+        // corrected.
         let is_orthogonal = self.multibodies.is_empty();
         let (force, moment) = match cut.joint.keeps_angle() {
             true => {
                 if is_orthogonal {
                     // Rapier made the row across the axis orthogonal to the row that keeps the angle.
+                    // The impulse of the angle's row is corrected accordingly.
                     rows[2] -= rows[1] * turning(lever(across), [1.0; 2]) / turning([1.0; 2], [1.0; 2]);
                 }
                 (across * rows[1], rows[2])
             }
             false => {
                 if is_orthogonal {
-                    // Rapier made the second row orthogonal to the first.
+                    // Rapier made the second row orthogonal to the first row. The impulse of the first row is corrected
+                    // accordingly.
                     let mass = inverse[0][0] + inverse[1][0] + turning(lever(axis), lever(axis));
                     rows[0] -= rows[1] * turning(lever(axis), lever(across)) / mass;
                 }
@@ -76,7 +81,7 @@ impl Twin {
         let motor = &self.motors[drive];
         let joint = self.world.impulse_joints.get(motor.handle).expect("the motor exists");
         if joint.data.motor_axes.is_empty() {
-            // A motor that is off keeps the impulse of its last step in Rapier.
+            // For a motor that is off, Rapier keeps the impulse of its last active step, so the impulse is not read.
             return 0.0;
         }
         -wide(joint.data.motors[motor.axis as usize].impulse) / self.substep() * motor.sense

@@ -23,15 +23,16 @@ use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, JointId, LinkId, LinkPose};
 
 /// If a tree has at least this many branches, a free motion has a separate multibody for every link on the ground.
-/// The cost of a row of the sweeps grows with the coordinates of the multibodies of its two links.
-/// Coordinates that do not move the links cost as much as the others.
-/// With separate multibodies, a chain of ten four-bars takes 0.6 of the time.
+/// The cost of a row of the sweeps grows with the coordinates of the multibodies of the row's two links.
+/// Coordinates that do not move these links cost as much as coordinates that move them.
+/// With separate multibodies, a chain of ten four-bars takes 0.6 of the time that it takes with one multibody.
 ///
 /// Smaller trees stay in one multibody, and so do prescribed motions, which have the drives' flywheels.
-/// With a multibody for every link on the ground, forces on `ov7_base` at 1.4 ms had errors 60 times as large.
+/// With a multibody for every link on the ground, forces on `ov7_base` at 1.4 ms had errors 60 times as large as with
+/// one multibody.
 /// The likely cause is a test in Rapier.
-/// Rapier takes the Coriolis forces of a multibody from the end of a step.
-/// If these forces would add a hundredth to the multibody's energy, Rapier takes them from the start of the step.
+/// Rapier computes the Coriolis forces of a multibody at the end of a step.
+/// If these forces would add a hundredth to the multibody's energy, Rapier computes them at the start of the step.
 const LARGE: usize = 16;
 
 /// A joint that closes a loop.
@@ -41,19 +42,19 @@ struct Cut {
     index: JointId,
     handle: ImpulseJointHandle,
     /// The link that is Rapier's first body, and the direction of the first row in that link's frame.
-    /// `None` if both are those of the joint itself.
+    /// `None` if Rapier's first body and the direction are those of the joint itself.
     steered: Option<(LinkId, Vec2)>,
     /// Position of the joint at the start of the last substep.
     start: joints::Frame,
 }
 
 /// The motor of a drive.
-/// It connects the driving link to the ground, even if the driving link is joined to a moving link.
-/// It therefore sets the link's speed in the world.
+/// The motor connects the driving link to the ground, even if the driving link is joined to a moving link.
+/// The motor therefore sets the link's speed in the world.
 #[derive(Clone, Debug)]
 struct Motor {
     handle: ImpulseJointHandle,
-    /// The coordinate that it moves.
+    /// The coordinate that the motor moves.
     axis: JointAxis,
     /// +1 if the driving link is the second link of the motor, else -1.
     sense: f64,
@@ -64,7 +65,7 @@ struct Motor {
 struct Place {
     /// Which multibody.
     multibody: usize,
-    /// Index of the first of its coordinates in that multibody.
+    /// Index of the link's first coordinate in its multibody.
     dof: usize,
     /// Its number there.
     id: usize,
@@ -76,19 +77,20 @@ pub(crate) struct Twin {
     tree: SpanningTree,
     joints: Vec<Joint>,
     bodies: Vec<RigidBodyHandle>,
-    /// The multibodies, each given by one of its links; empty if all links are separate bodies. See [`LARGE`].
+    /// The multibodies, each given by one of its links. The list is empty if all links are separate bodies. See
+    /// [`LARGE`].
     multibodies: Vec<MultibodyJointHandle>,
-    /// Links outside the tree. They are separate bodies, or float in a multibody.
+    /// Links outside the tree. These links are separate bodies, or float in a multibody.
     outside: Vec<LinkId>,
     /// Position of every branch's link in the multibodies.
-    /// The sign of its coordinate is that of the child relative to its parent.
+    /// The sign of the link's coordinate is that of the child relative to its parent.
     places: Vec<Place>,
     /// Position of every floating link in the multibodies. Each floating link has three coordinates.
     floating: Vec<Place>,
     cuts: Vec<Cut>,
     /// The motors, one for each drive, in the case's order.
     motors: Vec<Motor>,
-    /// Mass centre of every link, and the inverses of its mass and moment of inertia in this world.
+    /// Mass centre of every link, and the inverses of the link's mass and moment of inertia in this world.
     centres: Vec<Vec2>,
     inverse: Vec<[f64; 2]>,
     /// Angle of the child minus that of its parent (rad), for every branch whose joint keeps this angle constant.
@@ -213,9 +215,9 @@ impl Twin {
         let PhysicsWorld { multibody_joints, bodies, .. } = &mut self.world;
         for &handle in &self.multibodies {
             let (multibody, _) = multibody_joints.get_mut(handle).expect("the multibody exists");
-            // Removes the degrees of freedom of the fixed root. Before this call, the indices below are wrong.
+            // Removes the degrees of freedom of the fixed root. Before this call, the indices below would be wrong.
             multibody.forward_kinematics(bodies, true);
-            // Rapier gives every revolute joint a damping of 0.1 N m s/rad by default.
+            // Rapier gives every revolute joint a damping of 0.1 N m s/rad by default, so this damping is set to zero.
             multibody.damping_mut().fill(0.0);
         }
         let place = |link: LinkId| {

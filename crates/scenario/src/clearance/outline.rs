@@ -7,8 +7,9 @@ use parry2d_f64::transformation::{convex_hull, hertel_mehlhorn_idx};
 /// Upper limit of the number of corners of an outline.
 /// The cost is one distance for every pair of parts and one crossing test for every pair of sides.
 pub const MOST_CORNERS: usize = 500;
-/// If two corners are nearer than this fraction of the outline's extent, they coincide.
-/// If a corner is nearer than this to a side, it lies on the side.
+/// If the distance of two corners, divided by the outline's extent, is below this limit, the corners coincide.
+/// If the distance of a corner from a side, divided by the outline's extent, is below this limit, the corner lies on
+/// the side.
 const TOUCHING: f64 = 1e-9;
 
 /// Reason why corners do not form a polygon. Corners are numbered from 0.
@@ -22,7 +23,7 @@ pub enum Flaw {
     Repeated([usize; 2]),
     /// Two sides that touch or cross. Each is given by the corner at which it begins.
     Crossing([usize; 2]),
-    /// No area: all corners on one line.
+    /// A polygon without area: all corners are on one line.
     Flat,
     /// A coordinate that is NaN or infinite, or a radius that is negative.
     NoNumber,
@@ -53,7 +54,7 @@ impl Outline {
     }
 
     /// A polygon with its interior, rounded by `radius` (m, may be 0).
-    /// The polygon need not be convex, and its corners may be in either sense.
+    /// The polygon need not be convex, and its corners may be in either sense of rotation.
     ///
     /// # Errors
     /// A [`Flaw`] of its corners (m).
@@ -69,8 +70,8 @@ impl Outline {
     }
 
     /// The default outline of a link: capsules of `radius` (m) along the [`ring`] of its points, and the area between
-    /// them.
-    /// A bar is one capsule, a single point a disc.
+    /// the capsules.
+    /// The outline of a bar is one capsule, that of a single point a disc.
     ///
     /// # Errors
     /// [`Flaw::Few`] without a point, [`Flaw::NoNumber`].
@@ -85,14 +86,14 @@ impl Outline {
         }
         let (line, closed) = ring(&apart);
         if !closed {
-            // All points lie on one line, so its two ends suffice.
+            // All points lie on one line, so the two ends of the line suffice.
             let ends = if line.len() > 1 { vec![line[0], line[line.len() - 1]] } else { line };
             return Outline::line(&ends, radius);
         }
         Outline::polygon(&line, radius).or_else(|_| Outline::polygon(&hull(&apart), radius))
     }
 
-    /// Corners of the line or polygon (m). Those of a polygon are counter-clockwise.
+    /// Corners of the line or polygon (m). The corners of a polygon are in counter-clockwise order.
     #[must_use]
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
@@ -111,7 +112,7 @@ impl Outline {
     }
 
     /// Convex parts whose union is the outline without the rounding (m).
-    /// They are points, segments, and counter-clockwise polygons.
+    /// The parts are points, segments, and counter-clockwise polygons.
     #[must_use]
     pub fn parts(&self) -> &[Vec<Vec2>] {
         &self.parts
@@ -125,7 +126,7 @@ impl Outline {
     }
 
     /// Signed distance of a point from the outline (m), negative inside, and the direction in which the distance grows.
-    /// If the point moves, the distance changes by no more than the displacement.
+    /// If the point moves, the distance changes by at most the displacement of the point.
     #[must_use]
     pub fn distance(&self, place: Vec2) -> (f64, Vec2) {
         let (mut least, mut away, mut inside) = (f64::INFINITY, Vec2::new(1.0, 0.0), false);
@@ -191,8 +192,9 @@ fn check_simple(corners: &[Vec2]) -> Result<(), Flaw> {
         for j in i + 1..count {
             let is_next = j == i + 1 || (i == 0 && j == count - 1);
             let touch = if is_next {
-                // Neighbouring sides share a corner. They touch elsewhere if one side folds back onto the other.
-                // The free end of one side then lies on the other side.
+                // Neighbouring sides share a corner. If one side folds back onto the other side, they also touch
+                // elsewhere.
+                // The free end of one side then lies on the other side, so only the free ends are tested.
                 let (one, two) = if j == i + 1 { (side(i), side(j)) } else { (side(j), side(i)) };
                 [(one, two[1]), (two, one[0])].iter().any(|&(own, end)| (end - nearest(end, own)).norm() <= near)
             } else {
@@ -206,7 +208,7 @@ fn check_simple(corners: &[Vec2]) -> Result<(), Flaw> {
     Ok(())
 }
 
-/// Whether two segments cross, or come nearer than `near`.
+/// Whether two segments cross, or come nearer to each other than `near` (m).
 fn meet([a, b]: [Vec2; 2], [c, d]: [Vec2; 2], near: f64) -> bool {
     let apart = |p: Vec2, q: Vec2, r: Vec2, s: Vec2| (cross(q - p, r - p) > 0.0) == (cross(q - p, s - p) > 0.0);
     let crossing = !apart(a, b, c, d) && !apart(c, d, a, b);
@@ -228,8 +230,8 @@ fn foreign(places: &[Vec2]) -> Vec<Foreign> {
 
 /// Convex parts of a simple counter-clockwise polygon. `None` if the polygon has too little area to be divided.
 ///
-/// Ear clipping gives triangles (Meisters 1975). They are merged as long as the parts stay convex (Hertel and Mehlhorn
-/// 1983).
+/// Ear clipping gives triangles (Meisters 1975). The triangles are merged as long as the parts stay convex (Hertel and
+/// Mehlhorn 1983).
 fn convex_parts(corners: &[Vec2]) -> Option<Vec<Vec<Vec2>>> {
     let triangles = triangles(corners)?;
     let of = |part: &Vec<u32>| part.iter().map(|&k| corners[k as usize]).collect::<Vec<Vec2>>();
@@ -268,7 +270,7 @@ fn triangles(corners: &[Vec2]) -> Option<Vec<[u32; 3]>> {
     while left.len() > 3 {
         let count = left.len();
         let around = |k: usize| [left[(k + count - 1) % count], left[k], left[(k + 1) % count]];
-        // The widest ear is cut first. Slivers would make the parts thin.
+        // The widest ear is cut first, because slivers would make the parts thin.
         let ear = (0..count).filter(|&k| is_ear(corners, &left, around(k))).max_by(|&i, &j| {
             let width = |k: usize| sine(around(k).map(|corner| corners[corner]));
             width(i).total_cmp(&width(j)).then(j.cmp(&i))

@@ -10,9 +10,9 @@ use super::outline::Outline;
 pub struct ClearanceBody {
     /// Name for reports.
     pub name: String,
-    /// Its link; [`GROUND`] for the housing.
+    /// Link of the body; [`GROUND`] for the housing.
     pub link: LinkId,
-    /// Its outline in the frame of its link.
+    /// Outline of the body in the frame of its link.
     pub outline: Outline,
 }
 
@@ -31,7 +31,7 @@ pub struct ClearanceQuestion {
     pub bodies: Vec<ClearanceBody>,
     /// Pairs of bodies whose distance is requested, by their indices.
     pub pairs: Vec<[usize; 2]>,
-    /// The required clearance (m): every pair must keep a larger distance. `None` if no clearance is required.
+    /// The required clearance (m): the distance of every pair must be larger. `None` if no clearance is required.
     pub wanted: Option<f64>,
     /// Tolerance of a smallest distance (m). The default is a millionth of the mechanism's size.
     pub tolerance: Option<f64>,
@@ -47,8 +47,8 @@ impl ClearanceQuestion {
     }
 }
 
-/// All pairs of bodies that can meet, except those in `ignored`.
-/// These are all pairs of links that are not joined, and all pairs of a link and the housing.
+/// All pairs of bodies that can meet, except the pairs in `ignored`.
+/// Two links can meet if they are not joined. A link and the housing can always meet.
 #[must_use]
 pub fn pairs(mechanism: &Mechanism, bodies: &[ClearanceBody], ignored: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
@@ -66,13 +66,13 @@ pub fn pairs(mechanism: &Mechanism, bodies: &[ClearanceBody], ignored: &[[usize;
     pairs
 }
 
-/// Whether two links share a joint, or are connected by other links on the same pin.
+/// Whether two links share a joint, or are connected by further links on the same pin.
 #[must_use]
 pub fn are_joined(mechanism: &Mechanism, [a, b]: [LinkId; 2]) -> bool {
     if mechanism.joints().iter().any(|joint| joint.on(a).is_some() && joint.on(b).is_some()) {
         return true;
     }
-    // Follows pins that lie at the same point of the link that they share.
+    // The search follows pins that lie at the same point of a link that they share.
     let pins = mechanism.joints().iter().filter(|joint| joint.is_pin());
     for start in pins.filter_map(|joint| joint.on(a)) {
         let mut pin = vec![(a, start)];

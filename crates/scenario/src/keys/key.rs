@@ -48,9 +48,9 @@ pub enum ValueKind {
     IntegerOrBoolean,
     /// A number whose key ends in a unit of one of these families. The sign states which values are allowed.
     Quantity(&'static [&'static UnitFamily], Sign),
-    /// A list of such numbers.
+    /// A list of numbers whose key ends in a unit of one of these families.
     Quantities(&'static [&'static UnitFamily]),
-    /// A table. Its section has the path of the key.
+    /// A table. The section of the table has the same path as the key.
     Table,
     /// An array of tables.
     Tables,
@@ -115,7 +115,7 @@ impl ValueKind {
     pub(crate) const LIST_OF_ANGLES: ValueKind = ValueKind::Quantities(&[&ANGLE]);
     pub(crate) const LIST_OF_TIMES: ValueKind = ValueKind::Quantities(&[&TIME]);
 
-    /// Quantities that may only have values of this sign.
+    /// The same kind, restricted to quantities with values of the given sign.
     pub(crate) const fn of(self, sign: Sign) -> ValueKind {
         if let ValueKind::Quantity(families, _) = self { ValueKind::Quantity(families, sign) } else { self }
     }

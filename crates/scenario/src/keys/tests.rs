@@ -7,7 +7,7 @@ use super::{Section, section, sections};
 use crate::reader::asked;
 use crate::{Scenario, files_in};
 
-/// Changes of a scenario that make readers request further keys. No scenario of the repository has these keys.
+/// Changes of a scenario that make readers request keys that no scenario of the repository has.
 const CHANGES: [(&str, &str, &str); 7] = [
     (
         "crank_rocker",
@@ -82,8 +82,8 @@ fn every_key_of_the_table_is_read() {
     let mut never = Vec::new();
     for section in sections() {
         // The same keys occur in several sections, for example positions and printed numbers. A single reader reads all
-        // of them.
-        // It suffices that the key is requested in one of these sections.
+        // sections with the same keys.
+        // It therefore suffices that the key is requested in one of these sections.
         let alike = || sections().filter(|other| names(other) == names(section));
         for spelling in section.keys.iter().flat_map(super::FileKey::spellings) {
             if !alike().any(|own| asked.get(own.path).is_some_and(|keys| keys.contains(&spelling))) {

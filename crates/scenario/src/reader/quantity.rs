@@ -1,4 +1,4 @@
-//! Quantities: numbers whose key ends in their unit.
+//! Quantities: numbers whose key ends in the unit of the number.
 
 use crate::sentences;
 use toml::Spanned;
@@ -14,7 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 type Spelled = (&'static UnitFamily, usize, &'static NamedUnit);
 
 /// Lower limit of the magnitude of a quantity in SI.
-/// Above it, squares and products with other quantities do not underflow.
+/// Above this limit, squares and products with other quantities do not underflow.
 const SMALLEST: f64 = 1e-100;
 
 impl<'a> TomlTable<'a> {
@@ -29,24 +29,24 @@ impl<'a> TomlTable<'a> {
         self.row(key).spellings().iter().any(|spelling| self.has(spelling))
     }
 
-    /// A quantity in SI, as described by its row; `None` if it is missing.
+    /// A quantity in SI, as its row describes it; `None` if the quantity is missing.
     pub fn optional_si(&mut self, key: &str) -> Result<Option<f64>> {
         Ok(self.optional_si_of(key)?.map(|(_, value)| value))
     }
 
-    /// A quantity in SI, as described by its row, with the family of its unit; `None` if it is missing.
+    /// A quantity in SI, as its row describes it, with the family of its unit; `None` if the quantity is missing.
     pub fn optional_si_of(&mut self, key: &str) -> Result<Option<(&'static UnitFamily, f64)>> {
         let row = self.row(key);
         self.quantity_in(key, row.kind.families(), row.kind.sign())
     }
 
-    /// A list of quantities in SI, as described by its row, with the family of the unit; `None` if it is missing.
+    /// A list of quantities in SI, as its row describes it, with the family of the unit; `None` if the list is missing.
     pub fn optional_si_list(&mut self, key: &str) -> Result<Option<(&'static UnitFamily, Vec<f64>)>> {
         let family = self.row(key).kind.families()[0];
         Ok(self.optional_quantities(key, family)?.map(|values| (family, values)))
     }
 
-    /// A quantity in SI, as described by its row.
+    /// A quantity in SI, as its row describes it.
     pub fn si(&mut self, key: &str) -> Result<f64> {
         let row = self.row(key);
         self.quantity(key, row.kind.families()[0], row.kind.sign())
@@ -76,7 +76,8 @@ impl<'a> TomlTable<'a> {
         let (family, at, unit) = match self.spelled(base, families) {
             Ok(None) => return Ok(None),
             Ok(Some(found)) => found,
-            // With several families, it is unknown which family was intended, so no value can replace the wrong one.
+            // If there are several families, it is unknown which family was intended. No value can therefore replace
+            // the wrong value, and the reading ends.
             Err(error) if families.len() > 1 => return Err(self.noted(error)),
             Err(error) => return self.instead(Some((families[0], sign.stand_in())), error),
         };
@@ -112,7 +113,7 @@ impl<'a> TomlTable<'a> {
         let si = |(index, element): (usize, &Spanned<DeValue>)| {
             let number =
                 self.finite(key, element).and_then(|number| self.in_range(key, element, unit.to_si(number), family));
-            // Values that replace wrong values must differ from each other, so the index is used.
+            // Values that replace wrong values must differ from each other, so the index of the value is used.
             number.or_else(|error| self.instead(index as f64, error))
         };
         array.iter().enumerate().map(si).collect::<Result<_>>().map(Some)
@@ -135,7 +136,7 @@ impl<'a> TomlTable<'a> {
         Err(self.wrong_at(key, value.span(), message).help(sentences::CHECK_THE_UNIT_AND_THE_EXPONENT))
     }
 
-    /// The only entry that spells `base` in a unit of the families: its family, its index, and the unit.
+    /// The only entry that spells `base` in a unit of the families: the entry's family, index and unit.
     /// All spellings are recorded as requested.
     fn spelled(&mut self, base: &str, families: &[&'static UnitFamily]) -> Result<Option<Spelled>> {
         let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();

@@ -14,10 +14,11 @@ const MOST: usize = 20;
 #[derive(Debug)]
 pub struct Faults {
     all: Vec<Error>,
-    /// Whether all parts that other parts depend on could be read.
-    /// Only then are errors reported that go beyond the keys and values of a table.
+    /// Whether all parts on which other parts of the file depend could be read.
+    /// If they could not be read, only errors about the keys and values of a table are reported.
     pub whole: bool,
-    /// Whether all links and their points could be read. Only then are errors about unknown names reported.
+    /// Whether all links and their points could be read. Errors about unknown names are reported only if they could be
+    /// read.
     pub names: bool,
 }
 
@@ -61,8 +62,8 @@ impl Faults {
 
 impl<'a> TomlTable<'a> {
     /// The result of `read` for the table. All mistakes of its keys and values are reported together.
-    /// Errors about the meaning of the values are reported only without such mistakes, because the mistakes might cause
-    /// them.
+    /// If there are such mistakes, errors about the meaning of the values are not reported, because the mistakes might
+    /// cause these errors.
     pub fn read<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         match self.tried(true, read) {
             (Ok(value), _) => Ok(value),
@@ -73,7 +74,7 @@ impl<'a> TomlTable<'a> {
     /// The result of `read` for the table in spite of mistakes, and the mistakes that `read` notes.
     ///
     /// # Errors
-    /// The error that ends the reading, with the mistakes noted before.
+    /// The noted mistakes if the reading ends early. If no mistake was noted, the error that ends the reading.
     pub fn read_on<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<(T, Option<Error>)> {
         self.goes_on = true;
         let found = read(self);
@@ -87,7 +88,7 @@ impl<'a> TomlTable<'a> {
 
     /// Calls `read`. Returns the value or the error of `read`, and separately the mistakes of keys and values.
     /// If there are such mistakes, neither the value nor the error of `read` is returned.
-    /// The mistakes include unknown names if all `names` could be read.
+    /// If all `names` could be read, the mistakes include unknown names.
     fn tried<T>(
         &mut self,
         names: bool,
@@ -95,7 +96,7 @@ impl<'a> TomlTable<'a> {
     ) -> (std::result::Result<T, Option<Error>>, Option<Error>) {
         self.goes_on = true;
         let found = read(self);
-        // The missing keys are noted here, but unknown keys are not.
+        // The missing keys are noted here, but unknown keys are not noted.
         // If the reading has stopped early, a key that was not requested yet may still be correct.
         self.pair_missing();
         let unknown = std::mem::take(&mut self.unknown_names);
@@ -121,7 +122,8 @@ impl<'a> TomlTable<'a> {
         Error::all(self.faults.iter().cloned()).map_or(Ok(()), Err)
     }
 
-    /// If the reading goes on after mistakes, notes an error and returns `value` in place of the wrong value.
+    /// If the reading continues after mistakes, notes an error and returns `value` in place of the wrong value. If not,
+    /// returns the error.
     pub fn instead<T>(&mut self, value: T, error: Error) -> Result<T> {
         if !self.goes_on {
             return Err(error);
@@ -130,7 +132,7 @@ impl<'a> TomlTable<'a> {
         Ok(value)
     }
 
-    /// Like `instead`, for a name that no other table defines.
+    /// The same as `instead`, for a name that no table of the file defines.
     pub fn unknown_name<T>(&mut self, value: T, error: Error) -> Result<T> {
         if !self.goes_on {
             return Err(error);
@@ -148,7 +150,8 @@ impl<'a> TomlTable<'a> {
     }
 
     /// The error for a key that is missing under all its spellings.
-    /// If another key is a misspelling of it, this is found after all keys have been requested.
+    /// If an unknown key is a misspelling of the missing key, the misspelling is found after all keys have been
+    /// requested.
     pub(super) fn missing(&mut self, spellings: Vec<String>) -> Error {
         self.lacking(spellings, None)
     }
@@ -166,7 +169,7 @@ impl<'a> TomlTable<'a> {
         self.lacking(spellings.iter().map(|&spelling| spelling.into()).collect(), Some(help))
     }
 
-    /// The error for a missing key, and the entry whose key is a misspelling of it.
+    /// The error for a missing key, and the entry whose key is a misspelling of the missing key.
     fn missing_by(&self, spellings: &[String], help: Option<&'static str>) -> (Error, Option<&'a str>) {
         let wanted = choice(spellings.iter().map(String::as_str), "`");
         // The error states the key itself, because the top level has no table name.
@@ -187,7 +190,8 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// Notes the missing keys. An unknown key that is a misspelling of a missing key is named in its error.
+    /// Notes the missing keys. If an unknown key is a misspelling of a missing key, the error of the missing key names
+    /// the unknown key.
     fn pair_missing(&mut self) {
         for (spellings, help) in std::mem::take(&mut self.missing) {
             let (error, misspelt) = self.missing_by(&spellings, help);
@@ -235,14 +239,14 @@ impl<'a> TomlTable<'a> {
         }
     }
 
-    /// The results without errors. Errors of the other results are noted.
+    /// The results without errors. Each error among the results is noted.
     pub(super) fn sound<T>(&mut self, all: Vec<Result<T>>) -> Result<Vec<T>> {
         let sound = all.into_iter().map(|one| one.map(Some).or_else(|error| self.instead(None, error)));
         sound.filter_map(Result::transpose).collect()
     }
 }
 
-/// The keys that readers have requested, by section. A test compares them with the table of keys.
+/// The keys that readers have requested, by section. A test compares these keys with the table of keys.
 #[cfg(test)]
 pub mod asked {
     use std::cell::RefCell;

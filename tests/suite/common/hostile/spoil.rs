@@ -160,7 +160,7 @@ pub fn wide(table: &[u8], columns: usize) -> Vec<u8> {
     lines.flat_map(|line| [vec![line; times].join(&b','), vec![b'\n']].concat()).collect()
 }
 
-/// A Parquet file in which some announced numbers are replaced by large ones.
+/// A Parquet file in which some announced numbers are replaced by large numbers.
 pub fn announced(random: &mut RandomSource, what: &mut Vec<String>) -> Vec<u8> {
     let rows = [0, 1, 100, 100_000, 1 << 20, 60_000_000][random.index(6)];
     let mut own = if rows > 1 << 20 || random.yes() { Announced::run(rows) } else { Announced::zeros(rows) };

@@ -101,8 +101,9 @@ const DISC_AXIS: f64 = 0.8;
 const OUTPUT_AXIS: f64 = -0.35;
 
 /// RPP with rotation: an Oldham coupling.
-/// The centre of the disc moves at twice the speed on a circle whose diameter is the distance of the shafts.
-/// Its position is M = C/2 + |C|/2 unit(2 phi - arg C), and the slide on the crank is e . M = e . C.
+/// The centre of the disc moves at twice the speed of the crank on a circle whose diameter is the distance of the
+/// shafts.
+/// The position of the centre is M = C/2 + |C|/2 unit(2 phi - arg C), and the slide on the crank is e . M = e . C.
 pub fn oldham() -> Sample {
     let far = Vec2::new(0.0, 0.1);
     let links = vec![

@@ -17,8 +17,9 @@ use super::shapes::{Safe, short};
 /// Upper limit of the crank's rotation from its start, for a motion by law or a free motion (rad).
 const FARTHEST: f64 = 3.0 * TAU;
 
-/// Constant speed.
-/// If the range is limited, the grid covers all or part of it; otherwise it may cover more than one revolution.
+/// A motion at constant speed.
+/// If the range is limited, the grid covers all or part of the range; otherwise the grid may cover more than one
+/// revolution.
 pub fn constant(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static str {
     let (mut from, mut to) = (safe.from, safe.to);
     if safe.full {
@@ -37,8 +38,8 @@ pub fn constant(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'sta
     "constant speed"
 }
 
-/// A motion law that starts at rest and moves in the direction with more range.
-/// Its largest speed is the magnitude of the given speed.
+/// A motion law that starts at rest and moves in the direction with the larger range.
+/// The largest speed of the law is the magnitude of the given speed.
 pub fn law(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static str {
     let (top, start) = (spec.speed.abs(), spec.start);
     let room = if safe.full {
@@ -82,7 +83,7 @@ pub fn law(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static s
 
 /// A free motion: released at rest, or started with a speed, or driven by a motor.
 /// The motor's torque has the magnitude of `moment` (N m).
-/// This is the moment of inertia forces and weight on the crank at the nominal speed.
+/// `moment` is the moment of inertia forces and weight on the crank at the nominal speed.
 pub fn free(random: &mut RandomSource, spec: &mut Spec, moment: f64, falls: bool) -> &'static str {
     let speed = spec.speed;
     let kind = if falls { 0 } else { 1 + random.index(3) };
@@ -138,7 +139,7 @@ fn motor(random: &mut RandomSource, speed: f64, moment: f64) -> String {
 
 /// Largest speed of the crank on the grid (rad/s), the first row outside `safe`, and the largest angle from the start
 /// (rad).
-/// The motion is not followed beyond that row, because a singular pose may come next.
+/// The motion is not followed beyond the first row outside `safe`, because a singular pose may come next.
 fn followed(case: &Case, safe: Safe) -> Result<(f64, Option<usize>, f64), String> {
     let case = case.wanting(Wanted::of(&[Stage::Positions, Stage::Velocities]));
     let link = case.crank().link;
@@ -161,7 +162,7 @@ fn followed(case: &Case, safe: Safe) -> Result<(f64, Option<usize>, f64), String
         }
         Ok((top, left, moved))
     };
-    // A motion that only one side can solve is allowed.
+    // A motion that only one side can solve is allowed, so the second side is tried if the first side fails.
     let mut found = follow(&AssurSolver);
     if found.as_ref().is_err_and(|error| error.kind() == ErrorKind::Unsupported) {
         found = follow(&NewtonSolver);

@@ -1,5 +1,5 @@
 //! Shape of a specimen of about one metre: links, joints, start pose.
-//! Also the range of crank angles that is far from singular poses.
+//! The shape also states the range of crank angles that is far from singular poses.
 
 use std::f64::consts::TAU;
 
@@ -17,11 +17,11 @@ use super::super::sketch::RandomSource;
 use super::super::spec::{Spec, four_bar};
 
 /// Upper limit of the condition number of a higher group.
-/// A dyad with a transmission angle of 10 degrees has 11.4.
+/// For comparison, a dyad with a transmission angle of 10 degrees has the condition number 11.4.
 const CONDITION: f64 = 25.0;
 /// Upper limit of the speed of a link divided by the speed of the crank.
 const FASTEST: f64 = 8.0;
-/// If the safe range of crank angles (rad) is shorter than this, the specimen is rejected.
+/// If the safe range of crank angles (rad) is shorter than this value, the specimen is rejected.
 const SHORTEST: f64 = 0.3;
 
 /// A mechanism without masses and loads, and its safe range.
@@ -162,7 +162,7 @@ fn safe(case: &Case) -> Result<Safe, String> {
     }
 }
 
-/// The longest range around `start` in which all samples are good.
+/// The longest range around `start` in which all samples are marked as safe.
 fn around(start: f64, samples: &[(f64, bool)]) -> Safe {
     let reach = |samples: &mut dyn Iterator<Item = &(f64, bool)>| {
         samples.take_while(|(_, good)| *good).last().map_or(start, |(crank, _)| *crank)

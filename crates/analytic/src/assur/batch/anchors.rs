@@ -2,9 +2,9 @@
 //!
 //! Newton's method needs a start near the pose, on the branch of the start pose.
 //! Anchors lie every two degrees of the crank, beginning at the start pose, in both directions.
-//! They are solved in sequence away from the start pose, so that they do not depend on the requested crank angles.
+//! Anchors are solved in sequence away from the start pose, so that they do not depend on the requested crank angles.
 //! Between two anchors, the angle of each link is a polynomial of degree five.
-//! It fits the angle and its first and second transfer functions at both anchors.
+//! The polynomial fits the angle and its first and second transfer functions at both anchors.
 //! The interpolation error grows with the sixth power of the distance between the anchors.
 
 use super::chains::OF_START;
@@ -33,7 +33,7 @@ pub(super) struct Anchors<'a> {
     ways: [Way<'a>; 2],
 }
 
-/// The anchors in one direction.
+/// The anchors in one direction of the crank.
 #[derive(Debug)]
 struct Way<'a> {
     poses: PoseSolver<'a>,
@@ -72,8 +72,8 @@ impl<'a> Anchors<'a> {
         for (row, crank) in cranks.iter().enumerate() {
             let way = &mut self.ways[usize::from(*crank < self.start)];
             let place = (crank - self.start) / way.step;
-            // An infinite `place` lies beyond every interval. NaN selects the first interval, and its fraction of the
-            // interval is also NaN.
+            // An infinite `place` lies beyond every interval. A NaN `place` selects the first interval.
+            // The fraction of the interval is then also NaN.
             let interval = place as usize;
             let is_known = way.reach(self.start, interval);
             let kept = way.intervals.chunks_exact(KEPT * way.links.len()).nth(interval).filter(|_| is_known);
@@ -113,7 +113,7 @@ impl Way<'_> {
         interval < self.count
     }
 
-    /// Reads the direction and the transfer functions of every link.
+    /// Returns the direction and the transfer functions of every link.
     fn read(&self) -> Vec<(Vec2, [f64; 2])> {
         let motions = &self.poses.state.motions;
         self.links.iter().map(|&link| (motions[link].direction, [motions[link].omega, motions[link].alpha])).collect()
@@ -126,8 +126,8 @@ impl Way<'_> {
             let turn = cross(*from, *to).atan2(from.dot(to));
             let (h, h2) = (self.step, self.step * self.step);
             let (first, second) = (h * omega, 0.5 * h2 * alpha);
-            // Remainders at the end of the interval after subtraction of the first two terms: of the angle, its rate
-            // and its second derivative.
+            // Remainders of the angle, its rate and its second derivative at the end of the interval, after subtraction
+            // of the first two terms.
             let angle = turn - first - second;
             let rate = h * omega_to - first - 2.0 * second;
             let bend = h2 * alpha_to - 2.0 * second;

@@ -1,4 +1,4 @@
-//! Constants of individual links and joints, read from a case.
+//! Constants of individual links and joints of a case.
 
 use super::poses::Layout;
 use linkage::case::Case;

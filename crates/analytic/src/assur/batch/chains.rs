@@ -15,7 +15,7 @@ use linkage::mechanism::LinkId;
 /// Numbers per start: direction of the link at the anchor (2), fraction of the interval to the next anchor (1), and
 /// coefficients of the rotation from the anchor (5, rad).
 pub(super) const OF_START: usize = 8;
-/// A link with the joint to its parent, which is the link's pole.
+/// A link, and the joint to its parent. This joint is the link's pole.
 #[derive(Clone, Debug)]
 struct Node {
     body: Body,

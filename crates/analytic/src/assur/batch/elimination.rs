@@ -1,6 +1,7 @@
 //! Linear systems of fixed order for several poses at once, by LU decomposition with partial pivoting.
 //!
-//! Every pose has its own row order: if a lower row has the larger pivot, the two rows are exchanged in that lane only.
+//! Every pose has a separate row order: if a lower row has the larger pivot, the two rows are exchanged in that lane
+//! only.
 
 use pulp::Simd;
 
@@ -112,7 +113,8 @@ impl<S: Simd, const N: usize> Factors<S, N> {
         }
     }
 
-    /// Reads the factors from the working memory. Their determinant is not stored and has no meaning.
+    /// Reads the factors from the working memory. The determinant is not stored, so the determinant of the result has
+    /// no meaning.
     #[inline(always)]
     pub(super) fn kept(work: &Window<S>, mut column: usize) -> Self {
         let (one, zero) = (Lanes::splat(work.simd, 1.0), Lanes::splat(work.simd, 0.0));

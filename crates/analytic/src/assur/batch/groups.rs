@@ -67,9 +67,10 @@ pub(super) struct Groups {
 
 impl Groups {
     /// Returns the constants of a case. The plan must already have placed the start pose of the case.
-    /// `None` if a group is of another kind, a driving link is attached to another driving link, or a load is not a
-    /// moment of resistance.
-    /// Such cases are solved pose by pose.
+    /// Returns `None` if a group is neither an RRR dyad nor a higher group on pins.
+    /// Also returns `None` if a driving link is attached to another driving link, or if a load is not a moment of
+    /// resistance.
+    /// The caller solves such cases pose by pose.
     pub(super) fn of(case: &Case, plan: &SolutionPlan, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
         let simple = |load: &Load| load.resistance().is_some();

@@ -185,7 +185,7 @@ impl<S: Simd> Plane<S> {
         Plane { x: -self.y, y: self.x }
     }
 
-    /// Returns this direction rotated by another: their product as complex numbers.
+    /// Returns this direction rotated by the direction `by`: the product of both as complex numbers.
     #[inline(always)]
     pub(super) fn onwards(self, by: Self) -> Self {
         Plane { x: self.x * by.x - self.y * by.y, y: self.x * by.y + self.y * by.x }

@@ -9,7 +9,7 @@ use linkage::solver::State;
 /// Number of columns for one link's motion: origin (2), direction (2), velocity (2), acceleration (2), angular velocity
 /// (1), angular acceleration (1), in this order.
 const OF_LINK: usize = 10;
-/// Offsets of these six quantities from the link's first column.
+/// Offsets of the six quantities of a link's motion from the link's first column.
 pub(super) const ORIGIN: usize = 0;
 pub(super) const DIRECTION: usize = 2;
 pub(super) const VELOCITY: usize = 4;
@@ -67,7 +67,7 @@ impl Layout {
 }
 
 /// The poses that [`Batch::solve`](super::Batch::solve) has found, one row per crank angle.
-/// Keep it between calls: its memory is reused.
+/// Keep this storage between calls: its memory is reused.
 /// Values beyond the requested stage are meaningless. Methods panic if the row does not exist.
 #[derive(Clone, Debug, Default)]
 pub struct Poses {

@@ -51,7 +51,7 @@ impl Action {
     }
 
     /// Stores a prismatic joint's reaction, given the force on the link and a moment about `pole`.
-    /// This is the moment of all other actions on the link. The reaction of the joint balances it.
+    /// The moment is that of all actions on the link except the joint's reaction. The reaction balances the moment.
     #[inline]
     pub(super) fn put_guided(
         &self,
@@ -67,8 +67,8 @@ impl Action {
 }
 
 /// A link with the joints at which later groups are attached to it.
-/// It contains a copy of the masses: a look-up in the mechanism's list of links would make the force analysis a tenth
-/// slower.
+/// The struct contains a copy of the masses: a look-up in the mechanism's list of links would make the force analysis a
+/// tenth slower.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     link: LinkId,

@@ -1,4 +1,4 @@
-//! Bounds of speeds over a step of the crank. They prove that a dyad passes no singular pose in this step.
+//! Bounds of speeds over a step of the crank. The bounds prove that a dyad passes no singular pose in this step.
 //!
 //! Every dyad that can be singular has a gauge g, a smooth function of the positions of its outer joints.
 //! Inside the gauge's range the dyad can be assembled; at an end of the range it is singular.
@@ -6,8 +6,8 @@
 //! RRP: the distance h of its outer pin from the line of its inner joint, from -l to l.
 //! RPR: the squared distance of its outer pins, from the square of the axes' offset upwards.
 //! PRP: the sine of the angle between its axes, with the sign of its branch, from 0 upwards.
-//! Between two crank angles g differs from linear interpolation by at most M h^2 / 8, where h is the step and M a bound
-//! of the second derivative of g.
+//! Between two crank angles g differs from linear interpolation by at most M h^2 / 8.
+//! Here h is the step and M a bound of the second derivative of g.
 //! M follows from the bounds of the links that carry the dyad. These bounds follow from the crank's motion, group by
 //! group.
 
@@ -64,7 +64,7 @@ pub(in crate::assur) struct Limit {
     pub(in crate::assur) range: [f64; 2],
     /// Bound of the gauge's second derivative by the crank angle.
     pub(in crate::assur) second: f64,
-    /// Crank travel (rad) over which the bound holds.
+    /// Crank travel (rad) for which the bound is valid.
     pub(in crate::assur) way: f64,
 }
 

@@ -30,7 +30,7 @@ use linkage::work::{Count, WorkTally};
 /// branch is lost.
 const MAX_ITERATIONS: usize = 10;
 /// Largest rotation of a link from the last pose (rad) that is accepted as a continuation of the branch.
-/// The limit for a slide is the same fraction of the mechanism's size.
+/// The limit for a slide is this value times the mechanism's size.
 const MAX_TURN: f64 = 0.3;
 
 /// If no unknown changes by more than this (rad), the iteration is the last one.
@@ -40,7 +40,7 @@ const LAST_CHANGE: f64 = 1e-8;
 /// If the last iteration changes no unknown by more than this (rad), its Jacobian is that of the final pose within
 /// rounding error.
 /// Predictions from five steps amplify the rounding error of an angle up to 31 times.
-/// For steps of a tenth of a degree, predictions meet this limit.
+/// For steps of a tenth of a degree, predictions are accurate enough to meet this limit.
 const SAME_POSE: f64 = 4e-14;
 /// Largest correction of a predicted pose (rad). Near a dead point predictions are poor, and the corrected pose may be
 /// on another branch.
@@ -129,7 +129,7 @@ impl Chain {
         let n = contours.nodes.len();
         let none = Vec2::zeros();
         let at = At { arm: none, place: none, velocity: none, acceleration: none };
-        // Joints on the ground do not move.
+        // Joints on the ground do not move, so their velocity and acceleration are zero.
         let root = |side: &JointSide| At { arm: side.local, place: side.local, ..at };
         let world = World {
             arrows: vec![none; contours.arrows.len()],
@@ -300,8 +300,9 @@ impl Chain {
         self.determinant
     }
 
-    /// Reads the slides of the start pose.
-    /// This is possible because the links are still in that pose when the group is placed for the first time.
+    /// Computes the slides of the start pose from the motions of the links.
+    /// This computation is possible because the links are still in the start pose when the group is placed for the
+    /// first time.
     fn read_slides(&mut self, motions: &[Motion]) {
         for (slide, node) in self.slides.iter_mut().zip(&self.contours.nodes) {
             let from = motions[node.parent.link].point(node.parent.local);
@@ -382,7 +383,8 @@ impl Chain {
                 return false;
             }
             self.memory.correct(&self.unknown);
-            // Newton's method converges quadratically: the remaining error is of the order of the square.
+            // Newton's method converges quadratically, so this iteration is the last: the remaining error is of the
+            // order of the square of its change.
             let is_last = within(&self.unknown, LAST_CHANGE);
             for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
                 if is_last && !(SLIDING && node.is_guided()) {
@@ -438,7 +440,8 @@ impl Chain {
             joints[index].place = place;
         }
         self.determinant = self.jacobian.determinant();
-        // The product of many small pivots may underflow to zero. Its sign is still known from the pivots.
+        // The product of many small pivots may underflow to zero. The sign of the determinant is still known from the
+        // pivots.
         let vanishes = self.determinant == 0.0;
         let sign = if vanishes { self.jacobian.determinant_sign() } else { self.determinant.signum() };
         if self.branch == 0.0 {
@@ -478,7 +481,7 @@ impl Chain {
     /// Whether this step might lead over a dead point, near which the squared determinant is linear in the driving
     /// angles.
     /// Such a step would reduce the squared determinant to a small fraction, and must be shortened.
-    /// Otherwise it might end on the other side of a gap between two branches.
+    /// If it were not shortened, it might end beyond a gap between two branches.
     fn is_bold(&self) -> bool {
         let goes = self.step.iter().any(|step| step.abs() > SMALLEST_STEP);
         goes && self.square + self.foreseen() < LEAST_LEFT * self.square

@@ -28,7 +28,7 @@ pub struct Prp {
 }
 
 impl Prp {
-    /// Prepares the dyad `group`. It has only one configuration.
+    /// Prepares the dyad `group`. The dyad has only one configuration.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Self {
         let joints = mechanism.joints();

@@ -39,7 +39,7 @@ struct Pose {
 }
 
 impl Rpp {
-    /// Prepares the dyad `group`. It has only one configuration.
+    /// Prepares the dyad `group`. The dyad has only one configuration.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Self {
         let [slider, pinned] = of_dyad(mechanism, group, |outer, _| outer.slides());

@@ -78,7 +78,7 @@ impl Rpr {
         (axis, axis.dot(&(self.pins[1].place(motions) - self.pins[0].place(motions))))
     }
 
-    /// Returns the dyad in its other configuration.
+    /// Returns the dyad in the configuration other than the present one.
     pub(super) fn flipped(self) -> Self {
         Self { sense: -self.sense, ..self }
     }
@@ -90,14 +90,14 @@ impl Rpr {
     }
 
     /// Limit of the gauge during a step of the crank. `farthest` is the largest squared distance of the pins at the
-    /// ends of the step (m^2). `step` limits the growth of this distance between the ends.
+    /// ends of the step (m^2). `step` is the length of the step (rad). Inside the step the distance can exceed that at the ends by at most `step` times the sum of the pins' speeds.
     pub(super) fn limit(&self, links: &Bounds, farthest: f64, step: f64) -> Option<Limit> {
         let [[v1, a1], [v2, a2]] = [self.pins[0].rates(links)?, self.pins[1].rates(links)?];
         let second = of_square([v1 + v2, a1 + a2], farthest.sqrt() + (v1 + v2) * step);
         Some(Limit { range: [self.across * self.across, f64::INFINITY], second, way: f64::INFINITY })
     }
 
-    /// Writes the bounds of the dyad's links. They hold while the gauge stays above the lower end of `band`.
+    /// Writes the bounds of the dyad's links. The bounds hold while the gauge stays above the lower end of `band`.
     /// They follow from the formulas of omega and alpha.
     pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
         let [Some(first), Some(second)] = self.pins.map(|pin| pin.rates(links)) else { return };

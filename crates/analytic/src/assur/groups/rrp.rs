@@ -3,7 +3,8 @@
 //! The outer pin is P, the inner joint C, r = C - P; the guide has the axis e and its normal n.
 //! C lies on a line along e, so that h = n . r is known and e . r = +-sqrt(l^2 - h^2).
 //! E is the point of the guide's link at C. v_P + omega x r = v_E + s' e gives omega = n . (v_E - v_P) / (e . r).
-//! With the Coriolis part 2 omega_E s' n: alpha = (n . (a_E - a_P + omega^2 r) + 2 omega_E s') / (e . r).
+//! The accelerations, with the Coriolis part 2 omega_E s' n, give alpha = (n . (a_E - a_P + omega^2 r) + 2 omega_E s')
+//! / (e . r).
 //! These equations are derived here from the closure of the vector contour.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
@@ -15,7 +16,7 @@ use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{AssemblyMode, Group, LinkId, Mechanism};
 
-/// If the guide moves, a bound holds for this number of crank steps.
+/// If the guide moves, a bound is valid for this number of crank steps.
 const FAR: f64 = 16.0;
 
 /// RRP dyad, prepared for solving.
@@ -71,7 +72,7 @@ impl Rrp {
         Ok(())
     }
 
-    /// Returns the dyad in its other configuration.
+    /// Returns the dyad in the configuration other than the present one.
     pub(super) fn flipped(self) -> Self {
         Self { sense: -self.sense, ..self }
     }
@@ -106,7 +107,8 @@ impl Rrp {
         Some(Limit { range: [-length, length], second, way: if rests { f64::INFINITY } else { way } })
     }
 
-    /// Writes the bounds of the dyad's links. They hold while the gauge stays in `band`, for `FAR` steps of the crank.
+    /// Writes the bounds of the dyad's links. The bounds hold while the gauge stays in `band`, for `FAR` steps of the
+    /// crank.
     /// They follow from the formulas of omega and alpha, with |e . r| >= l s.
     pub(super) fn bound(&self, band: [f64; 2], step: f64, motions: &[Motion], links: &mut Bounds) {
         let Some((pin, zero, guide, distance)) = self.outer_rates(links, motions, FAR * step) else { return };

@@ -1,11 +1,11 @@
 //! Dyad with three revolute pairs (class II, order 2): closed form of position, velocity and acceleration.
 //!
 //! The outer joints are P1 and P2, the inner joint is P3. r1 = P3 - P1, r2 = P3 - P2, D = r1 x r2 and d = P2 - P1.
-//! Position: r1 = d f + (z x d) h with f = (l1^2 - l2^2 + d^2) / 2 d^2 and 4 D^2 = 4 d^4 h^2 = ((l1 + l2)^2 - d^2) (d^2
-//! - (l1 - l2)^2).
+//! Position: r1 = d f + (z x d) h with f = (l1^2 - l2^2 + d^2) / 2 d^2 and
+//! 4 D^2 = 4 d^4 h^2 = ((l1 + l2)^2 - d^2) (d^2 - (l1 - l2)^2).
 //! Velocity: v1 + omega1 x r1 = v2 + omega2 x r2 gives omega1 = (v2 - v1) . r2 / D and omega2 = (v2 - v1) . r1 / D.
 //! The same equations hold for the accelerations minus their centripetal parts.
-//! They are derived here from the closure of the vector contour.
+//! All these equations are derived here from the closure of the vector contour.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::bounds::{Bound, Bounds, Limit, least_product, of_square};
@@ -19,11 +19,11 @@ struct Arm {
     link: LinkId,
     /// The outer joint on the link that is already known.
     base: JointSide,
-    /// The outer joint in the link's own frame.
+    /// The outer joint in the link's frame.
     outer: Vec2,
-    /// Whether the outer joint is the frame's origin, so that the vector to it is zero.
+    /// Whether the outer joint is the origin of the link's frame. The vector from the origin to the joint is then zero.
     at_origin: bool,
-    /// Vector from outer to inner joint in the link's own frame, divided by the square of its length (1/m).
+    /// Vector from outer to inner joint in the link's frame, divided by the square of its length (1/m).
     inverse_span: Vec2,
 }
 
@@ -42,7 +42,7 @@ pub struct Rrr {
     half: f64,
     /// World vectors from the origins of the known links to the outer joints (m).
     bases: [Vec2; 2],
-    /// World vectors from the origins of the dyad's own links to the outer joints (m).
+    /// World vectors from the origins of the dyad's two links to the outer joints (m).
     outers: [Vec2; 2],
     /// World vectors r1 and r2 from the outer joints to the inner joint (m), and the position of the inner joint (m).
     spans: [Vec2; 2],
@@ -197,7 +197,7 @@ impl Rrr {
         Ok(())
     }
 
-    /// Returns the dyad in its other configuration.
+    /// Returns the dyad in the configuration other than the present one.
     pub(super) fn flipped(self) -> Self {
         Self { half: -self.half, ..self }
     }
@@ -218,13 +218,13 @@ impl Rrr {
     pub(super) fn limit(&self, links: &Bounds, step: f64) -> Option<Limit> {
         let [[v1, a1], [v2, a2]] = self.outer_rates(links)?;
         let range = self.range;
-        // The dyad is assembled at both ends of the step. In between, the outer joints therefore stay within this
-        // distance.
+        // The dyad is assembled at both ends of the step. Between the ends, the distance of the outer joints is
+        // therefore at most this value.
         let most = range[1].sqrt() + (v1 + v2) * step;
         Some(Limit { range, second: of_square([v1 + v2, a1 + a2], most), way: f64::INFINITY })
     }
 
-    /// Writes the bounds of the dyad's links. They hold while the gauge stays in `band`.
+    /// Writes the bounds of the dyad's links. The bounds hold while the gauge stays in `band`.
     /// They follow from omega1 = (v2 - v1) . r2 / D and |D| = l1 l2 s, where 4 l1^2 l2^2 s^2 = (g - low) (high - g).
     pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
         let rates = self.outer_rates(links);

@@ -1,7 +1,8 @@
 //! Reactions near a change point.
 //!
 //! Near a change point, the motion and the power of the drives are smooth, but reactions need not be smooth.
-//! In the singular pose a group is movable. The group carries only loads that do no work along the other branch.
+//! In the singular pose a group is movable.
+//! The group carries only loads that do no work along the branch that the mechanism does not follow.
 //! The reactions to all other loads grow with the inverse of the distance from the change point.
 //! A reaction is therefore the sum of a first-order pole and a smooth part.
 //! The residue of the pole follows from the products of reaction and distance, which are smooth.
@@ -31,7 +32,7 @@ pub(in crate::assur) type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut 
 pub(in crate::assur) struct Unbounded;
 
 impl Window {
-    /// Writes the reactions and balancing moments to `state`. Its motions and angles must be known.
+    /// Writes the reactions and balancing moments to `state`. The motions and angles in `state` must be known.
     /// The driving link is at the angle `place` and has the given angular velocity and acceleration.
     /// `loads` finds the loads from the motions and angles of the links.
     /// In free motion, `shaft` contains the moment on the driving link and the moment of inertia that turns with it.

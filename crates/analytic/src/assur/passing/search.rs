@@ -15,7 +15,7 @@ const FOLLOWED: f64 = 0.2;
 const SMALLEST: f64 = 1e-9;
 /// If the sine of a group is linear and falls below this value, it counts as passing through zero.
 /// Rounding of the lengths leaves a sine of at most the square root of the unit roundoff.
-/// If a larger sine remains, the mechanism has no change point there.
+/// If a larger sine remains, the pose of the smallest sine is not a change point.
 const MET: f64 = 1e-6;
 /// Below this sine, the search stores the slope of the sine, for comparison with the slope at `MET`.
 /// At a dead point the slope grows with the inverse of the sine.

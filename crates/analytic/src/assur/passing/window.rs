@@ -1,11 +1,12 @@
 //! The surroundings of a change point, and polynomials through poses on both sides of it.
 //!
-//! At the distance x, the rounding error of a pose grows as 1 / x, that of the second transfer functions as 1 / x^3.
-//! The error of the polynomials grows with the distance of the nodes.
+//! At the distance x from the change point, the rounding error of a pose grows as 1 / x.
+//! The rounding error of the second transfer functions grows as 1 / x^3.
+//! The error of the polynomials grows with the distance of the nodes from the change point.
 //! Each side has ten nodes at the Chebyshev points of x^2. Their distances are from a tenth of the half width to the
 //! full half width.
-//! This choice is nearly the best compromise between the two errors.
-//! Let r be the distance of the next singular pose (real or complex).
+//! This choice is nearly the best compromise between rounding error and polynomial error.
+//! Let r be the distance from the change point to the next singular pose (real or complex).
 //! Second transfer functions then have errors of about 5e-13 for r = 2 rad, 1e-12 for 1 rad, 4e-12 for 0.6 rad and
 //! 3e-11 for 0.3 rad.
 //! The half widths in these cases are from 0.5 to 0.15 rad.
@@ -31,8 +32,8 @@ const CLEAR: f64 = 0.5;
 /// A change point is passed only if the error of the second transfer functions, divided by the largest of them, is
 /// below this value.
 const WORST: f64 = 1e-6;
-/// If the distance between two change points, divided by the distance between the innermost nodes, is at most this
-/// value, it counts as an effect of rounding or curvature.
+/// Largest distance between two change points that counts as an effect of rounding or curvature, divided by the
+/// distance between the innermost nodes.
 const APART: f64 = 0.2;
 /// Number of secant steps that improve the position of the change point.
 const POLISHING: usize = 4;
@@ -103,8 +104,9 @@ impl Window {
                 let sines: Vec<f64> = window.nodes.iter_mut().map(sine).collect();
                 let (least, most) =
                     sines.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &sine| (a.smaller(sine), b.larger(sine)));
-                // The larger of two values is stored. The first value is about the inverse of the sine of the innermost
-                // pose.
+                // The larger of two condition numbers is stored. The first is about the inverse of the sine of the
+                // innermost pose.
+                // The second follows from the error of the second transfer functions.
                 window.condition =
                     (WEIGHTS * most / least / window.reach).larger((error / (ULPS * f64::EPSILON)).cbrt());
                 Ok(window)

@@ -1,7 +1,8 @@
 //! Multipliers near a change point.
 //!
-//! The Jacobian is singular at the change point. Multipliers generally grow with the inverse of the distance from it.
-//! The reason is that no constraint resists a load that does work along the other branch.
+//! The Jacobian is singular at the change point. Multipliers generally grow with the inverse of the distance from the
+//! change point.
+//! The reason is that no constraint resists a load that does work along the branch that the mechanism does not follow.
 //! The product of multiplier and distance is always smooth.
 
 use super::WITHOUT_POLE;
@@ -20,7 +21,8 @@ const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
 /// If a pose is nearer to a change point than this (rad), multipliers with a nonzero product are not reported.
-/// The position of the change point is known to about 1e-14 rad.
+/// The position of the change point has an error of about 1e-14 rad.
+/// The relative error of these multipliers is this error divided by the distance.
 const NEAREST: f64 = 1e-7;
 
 /// Writes the loads on all links at their motions and angles (rad).

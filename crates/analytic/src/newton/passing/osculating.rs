@@ -15,7 +15,7 @@ fn product([a, da, dda]: Jet, [b, db, ddb]: Jet) -> Jet {
 #[derive(Clone, Debug)]
 pub(super) struct Osculating {
     places: Vec<f64>,
-    /// c0, c1, c2 of every function, first for the first position, then for the next.
+    /// c0, c1, c2 of every function: first for the first position, then for each further position.
     coefficients: Vec<Vec<Jet>>,
 }
 

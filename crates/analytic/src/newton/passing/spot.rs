@@ -32,7 +32,7 @@ pub(super) fn spot(system: &mut System) -> Spot {
     }
 }
 
-/// Places a system at a spot, and factors its Jacobian there.
+/// Places a system at a spot, and factors its Jacobian at this spot.
 pub(super) fn place(system: &mut System, spot: &Spot) -> Result<()> {
     system.q.copy_from_slice(&spot.q);
     system.inputs[0].value = spot.angle;

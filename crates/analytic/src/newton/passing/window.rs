@@ -4,11 +4,11 @@
 //! through sixteen poses.
 //! Among the half widths tried, the chosen one has the smallest difference between two polynomials for the second
 //! derivatives.
-//! One is the osculating polynomial, differentiated twice. The other passes through the second derivatives at all
-//! sixteen poses.
+//! The first polynomial is the osculating polynomial, differentiated twice.
+//! The second polynomial passes through the second derivatives at all sixteen poses.
 //! The two polynomials have different degrees and different data.
-//! At the distance x, the rounding error of second derivatives grows as 1 / x^3. The error of the polynomials grows
-//! with the width.
+//! At the distance x from the change point, the rounding error of second derivatives grows as 1 / x^3.
+//! The error of the polynomials grows with the width.
 
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
@@ -21,26 +21,26 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkId};
 
-/// Number of poses on each side. The next constant contains the indices of the poses used for coordinates, from the
-/// outermost inwards.
+/// Number of poses on each side. `CHOSEN` contains the indices of the poses used for coordinates, from the outermost
+/// inwards.
 const SIDE: usize = 8;
 const CHOSEN: [usize; 3] = [0, 3, 6];
 /// Distance of the innermost pose, divided by the half width.
 const CORE: f64 = 0.2;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025, 0.017, 0.01];
-/// If the path is lost in a window, the next half width is at most this fraction of the failing one.
-/// The reason is another singular pose nearby, towards which multipliers may grow without bound.
+/// If the path is lost in a window, the next half width is at most this fraction of the failing half width.
+/// The path is lost because of another singular pose nearby, towards which multipliers may grow without bound.
 const CLEAR: f64 = 0.5;
 /// A change point is passed only if the error of the second derivatives, divided by the largest derivative, is below
 /// this value.
 const WORST: f64 = 1e-6;
 /// Number of secant steps that improve the position of a change point.
 const SECANTS: usize = 4;
-/// If the distance between two change points, divided by the distance of the innermost pose, is at most this value, it
-/// counts as an effect of rounding.
+/// Largest distance between two change points that counts as an effect of rounding, divided by the distance of the
+/// innermost pose from the change point.
 const APART: f64 = 0.01;
-/// Positions at which the two polynomials are compared, divided by the half width.
+/// Positions at which the two polynomials for the second derivatives are compared, divided by the half width.
 const COMPARED: [f64; 3] = [-0.1, 0.0, 0.1];
 /// Cube root of the sum of the weights' magnitudes. This sum is about four. The polynomials amplify the rounding error
 /// of the poses by this sum.
@@ -110,9 +110,11 @@ impl Window {
                 window.turns = turns;
                 let shares = window.spots.iter().map(|spot| spot.shares[block].abs());
                 let (least, most) = shares.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.smaller(s), b.larger(s)));
-                // The larger of two values is stored. The first value is about the inverse of the sine of the innermost
-                // pose.
-                // The rounding errors of all blocks that are singular together add up.
+                // The larger of two condition numbers is stored. The first is about the inverse of the sine of the
+                // innermost pose.
+                // The second follows from the error of the second derivatives.
+                // The rounding errors of all blocks that are singular together add up, so the first number grows with
+                // their number.
                 let inner = [&window.spots[SIDE - 1].shares, &window.spots[SIDE].shares];
                 let singular = inner[0].iter().zip(inner[1]).filter(|(a, b)| *a * *b < 0.0).count().max(1);
                 window.condition = (WEIGHTS * (singular as f64).cbrt() * most / least / window.reach)
@@ -158,7 +160,7 @@ impl Window {
         }
         spots.sort_by(|a, b| a.angle.total_cmp(&b.angle));
         let at = crossing(&spots, block).unwrap_or(at);
-        // No other change point may lie between the innermost poses: reactions have poles at both change points, but
+        // No second change point may lie between the innermost poses: reactions have poles at both change points, but
         // the position of only one is known.
         let inner = [&spots[SIDE - 1], &spots[SIDE]];
         let passes = |block: &usize| inner[0].shares[*block] * inner[1].shares[*block] < 0.0;
@@ -181,7 +183,7 @@ impl Window {
     }
 
     /// Writes the pose at an angle to a spot. Signs and determinants are those of the window's last pose on the same
-    /// side.
+    /// side of the change point.
     pub(super) fn put(&self, angle: f64, spot: &mut Spot) {
         spot.angle = angle;
         for (index, [q, slope, curve]) in self.coordinates.at(angle - self.at).into_iter().enumerate() {

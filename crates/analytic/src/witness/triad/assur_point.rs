@@ -101,7 +101,7 @@ mod tests {
         let load = known(Vec2::new(3.0, -8.0), Vec2::new(0.5, 0.0));
         let found = reactions(&beam(), &[rest, rest, rest, load]).unwrap();
         let expected = [Vec2::new(0.0, 6.0), Vec2::new(0.0, 2.0), Vec2::new(-3.0, 0.0)];
-        // The tolerance allows for a few operations on numbers below ten.
+        // The tolerance allows for the rounding errors of a few operations on numbers below ten.
         let near = |found: [Vec2; 3]| found.iter().zip(expected).all(|(own, known)| (own - known).norm() < 1e-14);
         assert!(near(found.feet) && near(found.heads), "{found:?}");
         assert_eq!(best(&beam()).sine, 1.0);

@@ -17,10 +17,12 @@
 //! No system of equations is solved.
 //!
 //! Dead points. At the limit positions of a ground lead d alpha / d theta is infinite: this lead cannot be the driver.
-//! There are two kinds of such positions.
-//! If the base link and the *other* lead are in line, the first dyad is at its limit.
+//! There are two kinds of limit positions.
+//! In the first kind, the base link is in line with the ground lead that does not drive.
+//! The first dyad is then at its limit.
 //! The ground lead whose first dyad is farther from its limit is therefore chosen as the driver.
-//! If the crank and lead 3 are in line, both ground leads stand still, and neither is the better driver.
+//! In the second kind, the crank and lead 3 are in line.
+//! Both ground leads then stand still, and both are equally unsuitable as the driver.
 //! The second dyad then changes from one of its two configurations to the other.
 //! Its closing condition holds for both configurations and is smooth in theta.
 //! This condition is solved instead of the angle of the dyad, so such points are passed without difficulty.
@@ -58,8 +60,9 @@ pub struct Transfer {
     /// The conditional driver: 0, 1 or 2 as in [`Triad::leads`].
     pub driver: usize,
     /// Factor by which rounding errors of the angles can be amplified, at least 1.
-    /// It follows from the inverse sines of two angles: the angle between base link and other lead, and the angle
-    /// between lead 3 and the path of its head.
+    /// It follows from the inverse sines of two angles.
+    /// The first angle is between the base link and the ground lead that does not drive.
+    /// The second angle is between lead 3 and the path of its head.
     pub condition: f64,
 }
 
@@ -80,7 +83,7 @@ pub struct ClassChange {
     /// World angle of the crank at crank angle zero (rad).
     zero: f64,
     names: String,
-    /// World position of the crank's pivot, and the vector from there to the crank pin in the crank's frame (m).
+    /// World position of the crank's pivot, and the vector from the pivot to the crank pin in the crank's frame (m).
     pivot: Vec2,
     pin: Vec2,
     /// Indices of the ground leads and of lead 3 among the triad's leads.
@@ -150,11 +153,11 @@ impl ClassChange {
         Ok(change)
     }
 
-    /// Transfer functions at the crank angle `crank` (rad, as the scenario states it). The crank moves there from the
-    /// last angle in small steps.
+    /// Transfer functions at the crank angle `crank` (rad, as the scenario states it). The crank moves from the last
+    /// angle to `crank` in small steps.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the branch has a dead point in between.
+    /// [`ErrorKind::Geometry`] if the branch has a dead point between the two angles.
     pub fn solve(&mut self, crank: f64) -> Result<&Transfer> {
         let from = self.crank;
         let parts = ((crank - from).abs() / TRACKING_STEP).ceil().larger(1.0);

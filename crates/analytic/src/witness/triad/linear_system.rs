@@ -80,7 +80,7 @@ mod tests {
         let Reactions { feet, heads } = reactions(&places, &known).unwrap();
         for k in 0..3 {
             let moment = known[k].about(places.heads[k]) + cross(places.feet[k] - places.heads[k], feet[k]);
-            // The tolerance allows for forces of a few tens of newtons in a well-shaped group.
+            // The tolerance allows for the rounding errors of forces of a few tens of newtons in a well-shaped group.
             assert!((feet[k] + known[k].force - heads[k]).norm() < 1e-13 && moment.abs() < 1e-13);
         }
         let pole = at(7.0, -3.0);

@@ -40,7 +40,7 @@ fn squares_are_covered_or_free_including_their_corners() {
 /// If a side passes over a disc, every point of the disc changes from the left of the side's line to the right, or vice
 /// versa.
 /// At every instant the point lies between the two ends of the side.
-/// This is true for all positions of the ends within their errors.
+/// Both statements are true for all positions of the ends within their errors.
 #[test]
 fn a_side_that_passes_a_disc_passes_all_its_points() {
     // Knuth's MMIX generator: repeatable random numbers.

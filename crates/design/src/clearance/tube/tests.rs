@@ -65,7 +65,7 @@ fn tube(random: &mut Random, half: f64) -> Tube {
 }
 
 /// Random joint of two links, which nearly closes at the middle, and the tubes of both links.
-/// It also states which of the two links belong to the group.
+/// The sample also states which of the two links belong to the group.
 struct Sample {
     joint: Joint,
     tubes: [Tube; 2],
@@ -82,7 +82,7 @@ impl Sample {
         let slides = random.yes();
         let axis = unit(4.0 * random.number());
         if slides {
-            // The axes are nearly parallel, and the sliding point is near the line of the guide.
+            // The axes are nearly parallel and the sliding point is near the guide's line, so the joint nearly closes.
             let turn = unit(random.some(0.01));
             let along = rotated(tubes[0].direction, axis);
             let gap = along * random.some(1.0) + turned(along) * random.some(0.01);
@@ -176,7 +176,7 @@ fn points_stay_within_the_error_of_their_tracks() {
 }
 
 /// Tests the bound on the residuals of a joint.
-/// Links of the group move uniformly. Other links have random poses in their tubes.
+/// Links of the group move uniformly. Links outside the group have random poses in their tubes.
 #[test]
 fn closure_errors_are_within_their_bound() {
     let mut random = Random(2);
@@ -199,7 +199,7 @@ fn closure_errors_are_within_their_bound() {
             }
         }
     }
-    // The bound is also tight.
+    // The bound is also tight: in the tightest sample, the residual is above 0.99 of the bound.
     assert!(tightest.iter().flatten().all(|share| *share > 0.99), "{tightest:?}");
 }
 

@@ -97,8 +97,8 @@ fn places(forces: &Forces, link: LinkId) -> Vec<(String, Vec2)> {
     ends.chain(pushed).filter(|(side, _)| side.link == link).map(|(side, name)| (name, side.local)).collect()
 }
 
-/// Writes the actuators of motors and loads. They have no control input.
-/// The force is `biasprm[0] + biasprm[1] length + biasprm[2] rate`.
+/// Writes the actuators of motors and loads. The actuators have no control input.
+/// The force of an actuator is `biasprm[0] + biasprm[1] length + biasprm[2] rate`.
 pub(super) fn actuators(xml: &mut Xml, model: &MjcfModel, forces: &Forces) {
     if forces.actuators.is_empty() {
         return;

@@ -23,7 +23,7 @@ pub(super) enum Target {
         at: JointSide,
         /// The force.
         force: Vec2,
-        /// Whether the force is given in the axes of the link. Otherwise it is given in those of the world.
+        /// Whether the force is given in the axes of the link. If not, the force is given in the axes of the world.
         follows: bool,
     },
 }
@@ -54,7 +54,8 @@ pub(super) struct Forces {
     pub tendons: Vec<Tendon>,
 }
 
-/// Forces of all motors and loads, except resistances, which are [frictions](super::model::Friction).
+/// Forces of all motors and loads except resistances.
+/// Resistances are [frictions](super::model::Friction) instead.
 pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
     let mut found = Forces::default();
     for drive in model.case.drives.iter() {
@@ -72,7 +73,8 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
             for &(link, sign) in links {
                 sum.extend(model.hinges(link).into_iter().map(|branch| (branch, sign)));
             }
-            // A hinge that turns both links has no effect on the twist between them, so it is left out of the sum.
+            // A hinge that turns both links has no effect on the twist between the two links, so it is left out of the
+            // sum.
             let both: Vec<usize> = sum.iter().filter(|(_, sign)| *sign < 0.0).map(|(branch, _)| *branch).collect();
             let is_common = |branch: usize| both.contains(&branch) && sum.contains(&(branch, 1.0));
             sum.iter().copied().filter(|&(branch, _)| !is_common(branch)).collect::<Vec<_>>()
@@ -85,7 +87,8 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
             };
             found.actuators.push(Actuator { name: name.clone(), target, bias, range: None });
         };
-        // Resistances become frictions elsewhere. Loads that MJCF cannot express have been refused before.
+        // Resistances become frictions elsewhere, and loads that MJCF cannot express have been refused before.
+        // All loads of the remaining kinds become actuators or tendons here.
         if let Load::Moment { link, moment, .. } = load {
             put(Target::Sum(turning(&[(*link, 1.0)])), [constant(moment), 0.0, 0.0]);
         } else if let Load::Force { at, force: [x, y], follows } = load {

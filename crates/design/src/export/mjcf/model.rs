@@ -11,13 +11,13 @@ use linkage::mechanism::{GROUND, JointId, JointKind, LinkId, PerLink, SpanningTr
 use linkage::solver::State;
 
 /// Inertia of a drive's rotor, divided by an upper limit of the mechanism's moment of inertia about any of its points.
-/// Inertia forces are of the size of that moment of inertia times the speed squared.
-/// They therefore change the speed by 1e-9 of its value per radian.
+/// Moments of inertia forces are of the size of that moment of inertia times the speed squared.
+/// These moments therefore change the speed by 1e-9 of its value per radian.
 const ROTOR: f64 = 1e9;
 /// Mass of a massless link, divided by the mass of the whole mechanism. MuJoCo refuses a mass of zero.
 /// A smaller mass would falsify reactions less.
 /// But MuJoCo softens every loop in proportion to the inverse of the masses that the loop connects.
-/// docs/mjcf.md has the figures.
+/// docs/mjcf.md states the resulting errors.
 const LIGHT: f64 = 1e-5;
 /// Radius of gyration of a link without inertia, divided by the link's size.
 /// If the link's size is below the fraction `SHORTEST` of the mechanism's size, this fraction replaces the link's size.
@@ -106,7 +106,7 @@ impl<'a> MjcfModel<'a> {
     }
 
     /// Mass (kg) and moment of inertia (kg m^2) of a link for MuJoCo.
-    /// A value that the link lacks is replaced by that of a light rod.
+    /// If the link has no mass or no inertia, the missing value is that of a light rod.
     #[must_use]
     pub fn inertial(&self, link: LinkId) -> (f64, f64) {
         let link = &self.case.mechanism.links()[link];
@@ -196,7 +196,7 @@ pub(super) struct Body {
     /// The joint's coordinate in the start pose: the slide (m), or the angle of the link minus that of its parent
     /// (rad).
     pub coordinate: f64,
-    /// Its rate at the start (rad/s, m/s).
+    /// Rate of the joint's coordinate at the start (rad/s, m/s).
     pub rate: f64,
 }
 
@@ -214,7 +214,8 @@ pub(super) fn body(case: &Case, start: &State, branch: &TreeBranch) -> Body {
         }
         JointKind::Prismatic { .. } => {
             let axis = joint.axis_on(branch.link).expect("a branch's joint is on its link");
-            // A slide is measured from the first link to the second.
+            // A slide is measured from the first link to the second, so its sign depends on which of the two is the
+            // child.
             let sense = if branch.link == joint.second.link { 1.0 } else { -1.0 };
             let of = |state: &State| state.slide(joint).expect("the joint slides");
             (Freedom::Slide(axis * sense), of(&State::at_start(case))[0], of(start)[1])

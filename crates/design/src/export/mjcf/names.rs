@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::{Joint, LinkId, Mechanism};
 
-/// MuJoCo's own name for the ground.
+/// Name that MuJoCo gives to the ground.
 const WORLD: &str = "world";
 
 /// Site at the joint's point on `link`.

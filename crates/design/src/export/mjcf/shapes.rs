@@ -1,4 +1,4 @@
-//! Simple shapes for display: they have no mass and no contacts.
+//! Simple shapes for display. The shapes have no mass and no contacts.
 
 use super::model::MjcfModel;
 use super::xml::{Xml, about_z, flat, number, numbers};
@@ -19,7 +19,7 @@ pub(super) fn draw(xml: &mut Xml, model: &MjcfModel, link: LinkId, colour: &str)
     let mut places: Vec<Vec2> = Vec::new();
     for joint in mechanism.joints() {
         let Some(place) = joint.on(link) else { continue };
-        // MuJoCo refuses rods without length.
+        // MuJoCo refuses rods without length, so joints at the same position are listed once.
         if places.iter().all(|other| (other - place).norm() > 1e-6 * model.size()) {
             places.push(place);
         }

@@ -14,21 +14,22 @@ use crate::synthesize::task::Task;
 /// Largest crank angle between two rows (rad): 3 degrees.
 const STEP: f64 = std::f64::consts::PI / 60.0;
 /// Lowest cost of a candidate that cannot be assembled over the whole turn.
-/// The cost is twice as high if no pose can be assembled.
+/// If no pose can be assembled, the cost is twice as high.
 const BROKEN: f64 = 100.0;
 /// Fraction of the evaluations that the evolution strategy takes.
 const EVOLUTION: f64 = 0.5;
-/// First step size of the evolution strategy, as a fraction of the bounds.
+/// First step size of the evolution strategy, as a fraction of the range between the bounds.
 /// If the step size falls below `LAST`, the strategy restarts with the first step size.
 const FIRST: f64 = 0.05;
 const LAST: f64 = 1e-5;
-/// Factor by which the step grows after a success.
-/// After a failure, the step is divided by the fourth root of this factor.
-/// The step is therefore stationary if one trial in five succeeds.
+/// Factor by which the step size grows after a success.
+/// After a failure, the step size is divided by the fourth root of this factor.
+/// The step size is therefore stationary if one trial in five succeeds.
 const GROWTH: f64 = 1.5;
 /// Probability that a variable changes from parent to child.
 const CHANGED: f64 = 0.4;
-/// Initial step sizes of COBYLA. The runs follow one another, and each starts from the best candidate so far.
+/// Initial step sizes of the runs of COBYLA. The runs follow one another, and each run starts from the best candidate
+/// so far.
 const RADII: [f64; 4] = [3e-2, 1e-2, 3e-3, 1e-3];
 /// A run of COBYLA ends if the relative change of the cost is below this limit.
 const SETTLED: f64 = 1e-7;
@@ -84,7 +85,8 @@ pub(super) fn refine(task: &Task, candidate: &Candidate) -> Candidate {
 /// Evolution strategy with one parent and one child. The better of the two becomes the parent.
 fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: usize) {
     let mut rng = ChaCha8Rng::seed_from_u64(bench.task.effort.seed);
-    // Every candidate has a separate random stream, beyond the streams of the blocks.
+    // Every candidate has a separate random stream. The numbers of these streams are above those of the blocks'
+    // streams.
     rng.set_stream((1 << 40) + number as u64);
     let mut child = bench.best.clone();
     let mut step = FIRST;
@@ -93,7 +95,7 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
         for (index, share) in child.iter_mut().enumerate() {
             if even(&mut rng) < CHANGED {
                 // The sum of four uniform numbers is approximately normal and has the variance 1 / 3. The factor makes
-                // it 1.
+                // the variance 1.
                 let normal = (0..4).map(|_| even(&mut rng) - 0.5).sum::<f64>() * 3f64.sqrt();
                 *share += step * normal;
                 if zero != Some(index) {
@@ -112,7 +114,7 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
 /// Runs COBYLA from the best candidate so far, with decreasing initial steps.
 fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
     let each = evaluations / RADII.len();
-    // COBYLA would treat zero evaluations as no limit, so it is not called.
+    // COBYLA would treat zero evaluations as no limit. It is therefore not called with zero evaluations.
     if each == 0 {
         return;
     }

@@ -22,7 +22,7 @@ linkage::words! {
 }
 
 impl Sense {
-    /// +1 forward, -1 back, 0 at rest.
+    /// +1 for forward motion, -1 for backward motion, 0 for rest.
     #[inline]
     #[must_use]
     pub fn sign(self) -> f64 {
@@ -37,16 +37,16 @@ impl Sense {
 /// One phase of a turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Phase {
-    /// Crank angle at which it begins (rad, from crank angle zero in the sense of rotation).
+    /// Crank angle at the start of the phase (rad, from crank angle zero in the sense of rotation).
     pub from: f64,
-    /// Crank angle at its end (rad).
+    /// Crank angle at the end of the phase (rad).
     pub to: f64,
     /// Motion of the output.
     pub sense: Sense,
-    /// Required position at the end, as a fraction of the stroke from the rearmost position: 0 to 1.
+    /// Required position at the end of the phase, as a fraction of the stroke from the rearmost position: 0 to 1.
     /// `None` if the search may choose the position.
     pub level: Option<f64>,
-    /// Least displacement of a moving phase, as a fraction of the stroke.
+    /// Smallest displacement of a moving phase, as a fraction of the stroke.
     pub least: f64,
 }
 
@@ -56,7 +56,8 @@ pub struct Timing {
     phases: Vec<Phase>,
     /// Levels at the ends of all phases, if all are known.
     levels: Option<Vec<f64>>,
-    /// Whether the output must follow the smooth curve between the levels, and not only move in the right sense.
+    /// Whether the output must follow the smooth curve between the levels. If not, it must only move in the right
+    /// sense.
     follow: bool,
 }
 
@@ -129,13 +130,13 @@ impl Timing {
         &self.phases
     }
 
-    /// Whether the output must follow [`Timing::wanted`], and not only move in the right sense.
+    /// Whether the output must follow [`Timing::wanted`]. If not, it must only move in the right sense.
     #[must_use]
     pub fn follows(&self) -> bool {
         self.follow
     }
 
-    /// Level required at the end of a phase: given or implied. `None` if it is unknown.
+    /// Level required at the end of a phase, either given or implied by the phases around it. `None` if it is unknown.
     #[must_use]
     pub fn level(&self, phase: usize) -> Option<f64> {
         self.levels.as_ref().map(|levels| levels[phase]).or(self.phases[phase].level)
@@ -143,9 +144,9 @@ impl Timing {
 
     /// Required output at the crank angle `crank` (rad, 0 to a full turn) as a fraction of the stroke (0 rearmost, 1
     /// foremost).
-    /// It is on the smooth curve through all levels.
-    /// The curve is cycloidal, without jumps of the acceleration: u - sin(2 pi u) / 2 pi.
-    /// `None` if not all levels are known.
+    /// The output lies on the smooth curve through all levels.
+    /// This curve is cycloidal, without jumps of the acceleration: u - sin(2 pi u) / 2 pi.
+    /// `None` if a level is unknown.
     #[must_use]
     pub fn wanted(&self, crank: f64) -> Option<f64> {
         let levels = self.levels.as_ref()?;
@@ -161,8 +162,9 @@ fn wrong(key: &str, message: String) -> Error {
     Error::new(ErrorKind::Input, message).key(key)
 }
 
-/// Levels at the ends of all phases: those given, and those that a dwell keeps.
-/// If there is only one motion forward and one back, their ends have the levels 1 and 0.
+/// Levels at the ends of all phases: the given levels, and the levels that a dwell keeps.
+/// If there is only one motion forward and one back, the end of the forward motion has the level 1 and the end of the
+/// backward motion the level 0.
 fn levels(phases: &[Phase]) -> Option<Vec<f64>> {
     let alone = |sense: Sense| phases.iter().filter(|phase| phase.sense == sense).count() == 1;
     let simple = alone(Sense::Forward) && alone(Sense::Back);

@@ -46,9 +46,9 @@ pub struct FaultInstant<'a> {
 /// A size is relative to the affected part: a fraction of a length or of a mass, or an angle in rad.
 #[derive(Clone, Copy)]
 pub enum Plant {
-    /// The fault is in the case given to a party. `None` if the case has no such part.
+    /// The fault is in the case given to a party. `None` if the case has no part that the fault affects.
     Case(fn(&Case, f64) -> Option<Case>),
-    /// The fault is in every state of a party's answer. `None` if the state has no such part.
+    /// The fault is in every state of a party's answer. `None` if the state has no part that the fault affects.
     Answer(fn(FaultInstant, &mut State, f64) -> Option<()>),
     /// The fault is in a formula of the scenario.
     Formula(Mistake),
@@ -61,9 +61,9 @@ pub enum Mistake {
     Slip(Slip),
     /// The value of the whole formula is too large by a relative amount.
     Larger,
-    /// The same quantity of another link, point or joint is claimed.
+    /// The claim names the correct quantity of a wrong link, point or joint.
     Subject,
-    /// Another quantity with the same unit is claimed.
+    /// The claim names a wrong quantity with the correct unit.
     Quantity,
 }
 

@@ -31,7 +31,8 @@ pub(super) fn output(case: &Case) -> LinkId {
     LinkId(case.mechanism.links().len() - 1)
 }
 
-/// The last link without a pin on the ground: its frame moves. If all links have such a pin, the last link.
+/// The last link without a pin on the ground: its frame moves. If all links have a pin on the ground, the last link is
+/// returned.
 pub(super) fn floating(case: &Case) -> LinkId {
     let held = |link: LinkId| {
         let joints = case.mechanism.joints().iter();
@@ -40,7 +41,8 @@ pub(super) fn floating(case: &Case) -> LinkId {
     case.mechanism.links().ids().skip(1).rev().find(|&link| !held(link)).unwrap_or_else(|| output(case))
 }
 
-/// The last link that can turn. The angular rates of other links are only rounding noise.
+/// The last link that can turn. The angular rates of links that cannot turn are only rounding noise, so such a link is
+/// not selected.
 pub(super) fn turner(case: &Case) -> LinkId {
     case.mechanism.links().ids().skip(1).rev().find(|&link| case.can_turn(link)).unwrap_or_else(|| output(case))
 }
@@ -57,7 +59,7 @@ pub(super) fn heaviest(case: &Case) -> Option<LinkId> {
 }
 
 /// The first moving link that is not driven and has joints at two or more positions.
-/// If there is none, the last link with joints at two or more positions.
+/// If no such link exists, the last link with joints at two or more positions is returned.
 pub(super) fn coupler(case: &Case) -> Option<LinkId> {
     let is_driven = |link: LinkId| case.drives.iter().any(|drive| drive.link == link);
     let long = || case.mechanism.links().ids().skip(1).filter(|&link| ends(case, link).is_some());
@@ -101,7 +103,7 @@ pub(super) fn moving_guide(case: &Case) -> Option<JointId> {
     case.mechanism.joints().find(is_moving)
 }
 
-/// The joint between the crank and the next link. If the crank has only its driven joint, that joint.
+/// The joint between the crank and the next link. If the crank has only its driven joint, the driven joint is returned.
 pub(super) fn crank_pin(case: &Case) -> JointId {
     let (own, link) = (case.crank().joint, crank(case));
     let joints = case.mechanism.joints().entries();
@@ -120,7 +122,7 @@ pub(super) fn on_arm(case: &Case, state: &mut State, change: impl FnOnce(&mut Mo
 }
 
 /// World vector from the origin of a link's frame to its last joint position.
-/// If this position is the origin, the vector to the mass centre.
+/// If this position is the origin, the vector to the mass centre is returned.
 pub(super) fn arm(case: &Case, state: &State, link: LinkId) -> Vec2 {
     let last = places(case, link).last().copied().unwrap_or_else(Vec2::zeros);
     let own = &case.mechanism.links()[link];

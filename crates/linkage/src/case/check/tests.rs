@@ -7,12 +7,12 @@ use crate::math::Vec2;
 use crate::mechanism::{AssemblyMode, JointId, JointSide, LinkId, LinkPose, Structure};
 use crate::{Error, ErrorKind};
 
-/// The error for the four-bar after `change`.
+/// The error that the four-bar's case returns after `change`.
 fn refused(change: impl FnOnce(&mut CaseParts)) -> Error {
     turning(four_bar()).with(change).unwrap_err()
 }
 
-/// Asserts the kind, key and words of the error.
+/// Asserts the kind, key and words of the error that `change` causes.
 fn says(kind: ErrorKind, key: &str, words: &[&str], change: impl FnOnce(&mut CaseParts)) {
     let error = refused(change);
     assert_eq!((error.kind(), error.scenario_key()), (kind, Some(key)), "{error}");
@@ -98,7 +98,7 @@ fn invalid_numbers_of_a_motor_are_refused() {
     }
 }
 
-/// Regression: a double pendulum with two driving links has two degrees of freedom.
+/// Regression test with a double pendulum. With two driving links it has two degrees of freedom.
 #[test]
 fn unsupported_combinations_of_drives_are_refused() {
     let links = vec![
@@ -187,7 +187,7 @@ fn a_start_pose_must_close_the_joints_at_the_start_angle() {
     says(Input, "start", &["\"rocker\""], |parts| parts.start.0[LinkId(3)].angle = f64::NAN);
     says(Geometry, "start", &["\"B\"", "e-8 m"], |parts| parts.start.0[LinkId(3)].angle += 1e-8);
     says(Geometry, "start", &["\"crank\"", "1.000e-8 rad"], |parts| parts.drives.crank_mut().start = 1e-8);
-    // Angles of the start pose may differ by whole turns and by rounding errors.
+    // Angles of the start pose may differ from the required angles by whole turns and by rounding errors.
     let turned = turning(four_bar()).with(|parts| {
         parts.start.0[LinkId(2)].angle += 3.0 * std::f64::consts::TAU;
         parts.start.0[LinkId(3)].angle += 1e-14;

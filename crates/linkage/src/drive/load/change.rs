@@ -1,4 +1,4 @@
-//! Changes loads: the same load on other links, at other points or multiplied by a factor.
+//! Changes loads: puts a load on different links, moves its points or multiplies it by a factor.
 
 use super::{Acts, Load, LoadPart, LoadRole, On};
 use crate::drive::Course;
@@ -27,7 +27,7 @@ impl Load {
         }
     }
 
-    /// Returns this load on other links: `number` gives the new number of each of [`Load::links`].
+    /// Returns this load on links with new numbers: `number` gives the new number of each of [`Load::links`].
     #[must_use]
     pub fn on_links(&self, number: impl Fn(LinkId) -> LinkId) -> Load {
         let mut load = self.clone();
@@ -78,14 +78,16 @@ impl Load {
     /// Loads that together equal this load multiplied by `factor`.
     /// For the factor 0 the list is empty. A negative factor reverses the load.
     /// In a spring or damper the factor multiplies the stiffness or damping, but not the free length or angle.
-    /// `None` if no combination of loads has this effect. An example is a reversed resisting force, which would drive.
+    /// `None` if no combination of loads has this effect.
+    /// For example, no load acts like a reversed resisting force, which would drive the loaded point.
     #[must_use]
     pub fn times(&self, factor: f64) -> Option<Vec<Load>> {
         if factor == 0.0 {
             return Some(Vec::new());
         }
         if let (&Load::Resistance { link, moment }, true) = (self, factor < 0.0) {
-            // A reversed resistance drives its link. It is replaced by two moments, one for each sense of rotation.
+            // A reversed resistance drives its link. Two moments replace the reversed resistance, one for each sense of
+            // rotation.
             let acting = |acts, moment| Load::Moment { link, moment: Course::Constant(moment), acts };
             let size = -factor * moment;
             return Some(vec![acting(Acts::CounterClockwise, size), acting(Acts::Clockwise, -size)]);

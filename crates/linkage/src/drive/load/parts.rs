@@ -6,7 +6,7 @@ use crate::mechanism::{JointSide, LinkId};
 /// The sense of rotation of the link for which a moment acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acts {
-    /// The moment acts for any motion of the link, and at standstill.
+    /// The moment acts during any motion of the link, and at standstill.
     Always,
     /// The moment acts while the link turns counter-clockwise, but not at standstill.
     CounterClockwise,
@@ -34,7 +34,7 @@ pub enum On {
     Link(LinkId),
     /// A force on a point.
     Point(JointSide),
-    /// A force between two points. It pulls them together or pushes them apart.
+    /// A force between two points. The force pulls the points together or pushes them apart.
     Points([JointSide; 2]),
     /// A moment between two links. The moment on the second link is opposite to that on the first.
     Links([LinkId; 2]),
@@ -51,7 +51,7 @@ pub struct LoadNature<'a> {
     pub senses: Senses,
     /// Whether the load depends on the size of speeds and not only on their signs.
     pub is_viscous: bool,
-    /// The two links on whose [`Setting::twist`](super::LoadState::twist) the load depends.
+    /// The two links on whose [`LoadState::twist`](super::LoadState::twist) the load depends.
     pub twist: Option<[LinkId; 2]>,
     /// Quantities that may depend on the crank angle.
     pub courses: &'a [Course],
@@ -64,7 +64,7 @@ pub enum LoadRole {
     Amount,
     /// The load is proportional to the number, which must not be negative.
     Size,
-    /// Value, in this unit, at which the load vanishes.
+    /// The number is the free length (m) or free angle (rad), at which the load vanishes.
     Rest {
         /// `m` or `rad`.
         unit: &'static str,
@@ -87,7 +87,7 @@ pub enum LoadPart<'a> {
         /// The number, in SI units.
         value: &'a mut f64,
     },
-    /// Quantities that may depend on the crank angle. The load is proportional to them.
+    /// Quantities that may depend on the crank angle. The load is proportional to these quantities.
     Courses {
         /// Name of the quantities in output, with their unit.
         name: &'static str,

@@ -8,11 +8,11 @@ use crate::mechanism::{LinkId, LinkPose};
 pub struct LoadState<'a> {
     /// Motions of all links. Loads do not use the accelerations.
     pub motions: &'a [Motion],
-    /// Angles of all links (rad), unwrapped. Only torsion springs use them.
+    /// Angles of all links (rad), unwrapped. Only torsion springs use the angles.
     pub angles: &'a [f64],
     /// Poses at t = 0.
     pub start: &'a [LinkPose],
-    /// Crank angle (rad, in the scenario's convention). Only tables use it.
+    /// Crank angle (rad, in the scenario's convention). Only tables use the crank angle.
     pub crank: f64,
 }
 
@@ -32,7 +32,7 @@ pub struct Action {
     pub link: LinkId,
     /// Force (N, world axes).
     pub force: Vec2,
-    /// World coordinates of the point of application (m).
+    /// World coordinates of the point at which the force acts (m).
     pub place: Vec2,
     /// Moment in addition to that of the force (N m), counter-clockwise positive.
     pub moment: f64,

@@ -3,7 +3,9 @@ use std::f64::consts::PI;
 use super::*;
 use crate::mechanism::{LinkId, LinkPose};
 
-/// The ground, and a link at (3, 0) m turned by 90 degrees, moving with (0, 2) m/s and `omega`.
+/// Motions of the ground and of one link.
+/// The link's origin is at (3, 0) m and moves with (0, 2) m/s.
+/// The link is turned by 90 degrees, and its angular velocity is `omega`.
 fn motions(omega: f64) -> [Motion; 2] {
     let moving = Motion {
         origin: Vec2::new(3.0, 0.0),
@@ -53,7 +55,7 @@ fn a_force_keeps_its_direction_or_follows_its_link() {
         let load = Load::Force { at: side(LinkId(1), 1.0, 0.0), force: [x.clone(), y.clone()], follows };
         let found = act(&load, &motions(0.0), &[], 0.5);
         assert_eq!((found[0].force, found[0].place, found[0].moment), (expected, Vec2::new(3.0, 1.0), 0.0));
-        // About the origin: 3 F_y - 1 F_x.
+        // The moment of the force about the origin is 3 F_y - 1 F_x.
         assert!((found[0].about(Vec2::zeros()) - (3.0 * expected.y - expected.x)).abs() < 1e-15);
         assert!(load.needs_angles());
     }
@@ -96,7 +98,7 @@ fn a_spring_pulls_when_it_is_long_and_pushes_when_it_is_short() {
 #[test]
 fn a_damper_resists_the_rate_of_its_length() {
     // The point at (3, 5) moves with (0, 2) - 5 (1, 0) = (-5, 2) m/s when the link turns with 1 rad/s.
-    // Its distance from (0, 1) changes with (-5 * 0.6 + 2 * 0.8) = -1.4 m/s.
+    // The distance of this point from (0, 1) changes with (-5 * 0.6 + 2 * 0.8) = -1.4 m/s.
     let load = Load::Damper { ends: [side(LinkId(0), 0.0, 1.0), side(LinkId(1), 5.0, 0.0)], damping: 10.0 };
     let [ground, link] = act(&load, &motions(1.0), &[], 0.0)[..] else { panic!("two ends") };
     assert!((ground.force - Vec2::new(0.6, 0.8) * -14.0).norm() < 1e-13, "{ground:?}");
@@ -107,8 +109,8 @@ fn a_damper_resists_the_rate_of_its_length() {
 #[test]
 fn a_torsion_spring_counts_turns_from_the_start() {
     // At the start the link's angle is 90 degrees.
-    // Two revolutions later the twist is larger by two revolutions, although the pose may report the angle of the
-    // start.
+    // Two revolutions later the twist is larger by two revolutions. The pose may report the start angle again, but this
+    // must not change the twist.
     let load = Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.5 };
     let still = motions(0.0);
     for turns in [0.0, 2.0, -1.0] {
@@ -164,7 +166,7 @@ fn scaled_loads_act_in_proportion() {
     for load in &loads {
         for omega in [2.0, -1.5] {
             // Only the moment on the link is compared. The opposite moment on the ground is left out, because the sum
-            // would be zero.
+            // of the two moments would be zero.
             let one = moments(std::slice::from_ref(load), omega);
             for factor in [0.0, 0.5, 3.0, -2.0] {
                 match load.times(factor) {
@@ -185,7 +187,7 @@ fn scaled_loads_act_in_proportion() {
     }
 }
 
-/// A load that vanishes when its link reverses has at most a kink. The same holds for a load of size zero.
+/// A load that vanishes when its link reverses has at most a kink. A load of size zero also has at most a kink.
 #[test]
 fn the_jump_of_a_load_is_its_difference_between_both_senses() {
     let one_way = |moment, acts| Load::Moment { link: LinkId(1), moment, acts };

@@ -1,9 +1,9 @@
 //! The elimination of the parent module for orders known at compile time. The compiler unrolls its loops.
 //!
 //! The operations and their order are those of the general elimination, so the results agree bit for bit.
-//! In contrast to the general elimination, NaN is rejected in any position.
-//! For a group of four links it takes a third of the time of the general elimination.
-//! It stores the resulting order of rows, where the general elimination stores each exchange.
+//! In contrast to the general elimination, this elimination rejects NaN in any position.
+//! For a group of four links, this elimination takes a third of the time of the general elimination.
+//! This elimination stores the resulting order of rows. The general elimination stores each exchange of rows.
 
 /// The first `N` numbers of a slice with at least `N` numbers.
 #[inline(always)]
@@ -55,7 +55,7 @@ fn eliminate<const N: usize, const K: usize>(
     true
 }
 
-/// Factors a matrix of order `N` in place, at most 6.
+/// Factors a matrix of order `N` in place; `N` is at most 6.
 /// Returns the sign of the row permutation and the determinant; `None` if the matrix is singular.
 /// `order` receives the row numbers in the order of elimination.
 pub(super) fn factor<const N: usize>(a: &mut [f64], order: &mut [usize], inverse: &mut [f64]) -> Option<(f64, f64)> {
@@ -64,7 +64,7 @@ pub(super) fn factor<const N: usize>(a: &mut [f64], order: &mut [usize], inverse
     let (order, inverse): (&mut [usize; N], &mut [f64; N]) = (first_mut(order), first_mut(inverse));
     *order = std::array::from_fn(|row| row);
     let mut signs = [1.0; 2];
-    // The loop over columns is unrolled. Only then are the bounds of the inner loops known to the compiler.
+    // The loop over columns is unrolled, because only then does the compiler know the bounds of the inner loops.
     macro_rules! each {
         ($($column:literal)*) => {
             $(if $column < N && !eliminate::<N, $column>(rows, order, inverse, &mut signs) {

@@ -16,7 +16,7 @@ const EXACT: Close = Close { value: 0.0, width: 0.0 };
 #[test]
 fn a_sign_change_includes_zero_but_not_nan() {
     assert!(changes(-1.0, 2.0) && changes(2.0, -1.0) && changes(0.0, 1.0) && changes(-1.0, 0.0) && changes(0.0, 0.0));
-    // The product of the two values would underflow to zero.
+    // The product of the two values would underflow to zero, so a test of the product's sign would fail.
     assert!(!changes(1e-200, 1e-200) && !changes(-1e-200, -1e-200));
     assert!(!changes(f64::NAN, 1.0) && !changes(-1.0, f64::NAN) && !changes(f64::NAN, 0.0));
 }
@@ -55,7 +55,7 @@ fn regula_falsi_needs_a_sign_change() {
     assert_eq!(regula_falsi([(0.0, -0.3), (2.0, 1.7)], EXACT, 60, |_| Err("fails")), Err("fails"));
 }
 
-/// This example checks the halving. Plain regula falsi would never move one bound and take 1000 steps or more.
+/// This example checks the halving. Plain regula falsi would never move one bound and would need 1000 steps or more.
 #[test]
 fn regula_falsi_moves_both_ends_of_the_bracket() {
     let mut steps = 0;
@@ -106,7 +106,7 @@ fn the_secant_method_keeps_lengths_positive() {
     assert_eq!(secants((2.0, 3.0), 1.0, 6, |_| Err("fails")), Err("fails"));
 }
 
-/// Close to the zero, values differ only by rounding, and the secant through two such values is arbitrary.
+/// Close to the zero, values differ only by rounding errors, and the secant through two such values is arbitrary.
 #[test]
 fn the_secant_method_stops_at_rounding() {
     let mut asked = 0.0;
@@ -146,7 +146,7 @@ proptest! {
         }
         let polish = sure(polished(zero + 1e-3, 5, 1e-2, |x| Ok(f(x))));
         prop_assert!(near(polish) || a * 1e-4 > b, "{polish}");
-        // The search starts at one end and goes towards the zero, however far away it is.
+        // The search starts at one end and goes towards the zero, however far away the zero is.
         let wide = sure(widened(ends[0], 1e-3, 100.0, |x| Ok(f(x).0))).unwrap();
         prop_assert!(wide[0].0 <= zero && zero <= wide[1].0 && changes(wide[0].1, wide[1].1));
         let of_length = |length: f64| f(low + length).0;

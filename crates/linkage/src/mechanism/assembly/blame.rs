@@ -27,7 +27,7 @@ pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> 
 }
 
 /// The earlier group that must change its configuration so that the group of `error` can be placed.
-/// The other arguments must be those of the call to [`first_choices`] that returned the error.
+/// All arguments except `error` must be those of the call to [`first_choices`] that returned the error.
 ///
 /// If the input gives approximate positions for an earlier group, that group is not blamed.
 #[must_use]
@@ -67,8 +67,8 @@ pub fn blame(
     None
 }
 
-/// Whether another configuration of an earlier group clearly improves the fit of the last group.
-/// `found` is the distance (m) of the last group from its approximate positions after this change.
+/// Whether a changed configuration of an earlier group clearly improves the fit of the last group.
+/// `found` is the distance (m) of the last group from its approximate positions after the change.
 /// The change is a clear improvement if `found` is less than half of the smallest distance without the change.
 fn clearly_nearer(
     mechanism: &Mechanism,
@@ -90,7 +90,7 @@ fn clearly_nearer(
 }
 
 /// Rewrites `error` so that it names the group to blame.
-/// The old message stays. The configuration with which the later group can be placed is added.
+/// The old message stays. The new message adds the configuration with which the later group can be placed.
 #[must_use]
 pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error: &Error) -> Error {
     let names = |group: &Group| group.names(mechanism);

@@ -100,7 +100,7 @@ pub(super) fn distance(group: &Group, wanted: &StartGroup, one: &Configuration) 
     distances.fold(0.0, f64::larger)
 }
 
-/// The configuration nearest to the approximate positions, and its distance from them (m).
+/// The configuration nearest to the approximate positions, and its distance from these positions (m).
 /// The third value is the distance of the second nearest configuration (m).
 /// Both distances are those of the configuration's point that is farthest from its approximate position.
 fn nearest<'a>(
@@ -111,9 +111,8 @@ fn nearest<'a>(
 ) -> Result<(&'a Configuration, f64, Option<f64>)> {
     let mut order: Vec<(f64, &Configuration)> = all.iter().map(|one| (distance(group, wanted, one), one)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // The nearest configuration must satisfy two conditions.
-    // The distance of the second nearest one must be at least twice as large.
-    // Its own distance must not exceed the size of the mechanism.
+    // The distance of the second nearest configuration must be at least twice that of the nearest configuration.
+    // The distance of the nearest configuration must not exceed the size of the mechanism.
     if let [(first, a), (second, b), ..] = order[..]
         && 2.0 * first > second
     {
@@ -141,7 +140,7 @@ fn nearest<'a>(
     }
 }
 
-/// The name of a dyad's mode. For higher groups, whose configurations have no names, `rank` is returned.
+/// The name of a dyad's mode. The configurations of higher groups have no names; for these groups `rank` is returned.
 fn named(mode: AssemblyMode, rank: &'static str) -> &'static str {
     if mode == AssemblyMode::Followed { rank } else { mode.name() }
 }

@@ -21,15 +21,15 @@ pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Resu
     }
 }
 
-/// Sine of a dyad's transmission angle in the given pose; `None` for higher groups. It is zero at a dead point.
+/// Sine of a dyad's transmission angle in the given pose; `None` for higher groups. The sine is zero at a dead point.
 ///
-/// - RRR: signed area of its triangle (first outer, second outer, inner joint) divided by half the product of its two
-///   link lengths. It is positive in the mode [`AssemblyMode::Left`](super::AssemblyMode::Left).
+/// - RRR: signed area of the dyad's triangle (first outer, second outer, inner joint) divided by half the product of
+///   the two link lengths. The sine is positive in the mode [`AssemblyMode::Left`](super::AssemblyMode::Left).
 /// - RRP: e . r / |r| with the direction e of the guide and r from the outer pin to the inner joint.
-///   It is the sine of the angle between the rod and the normal to the guide, positive in the mode
+///   This value is the sine of the angle between the rod and the normal to the guide. The sine is positive in the mode
 ///   [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
-/// - RPR: e . d / |d| with the direction e of the guide and d from the outer pin of the pair's first link to that of
-/// its second link. It is positive in the mode [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
+/// - RPR: e . d / |d| with the direction e of the guide and d from the outer pin of the pair's first link to the outer
+///   pin of its second link. The sine is positive in the mode [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
 /// - RPP: e1 x e2 with the direction e1 of the inner axis and e2 of the outer axis.
 /// - PRP: e1 x e2 with the directions of both outer axes, in the order of the group's links.
 #[must_use]

@@ -1,11 +1,12 @@
 //! All configurations of the five dyads, and their transmission angles.
 //!
-//! A dyad has one outer joint on each link and the inner joint between the links. One scalar equation closes it.
+//! A dyad has one outer joint on each link and the inner joint between the links. One scalar equation closes the dyad.
 //! RRR: the equation is the intersection of two circles.
-//! RRP, and RPR seen from the guide: it is the intersection of a circle and a line.
-//! RPP and PRP: it is the intersection of two lines.
+//! RRP, and RPR seen from the guide: the equation is the intersection of a circle and a line.
+//! RPP and PRP: the equation is the intersection of two lines.
 //! A prismatic pair fixes the angle between its two links.
-//! It keeps the joint's point on the second link on a line through its point on the first link, parallel to the axis.
+//! A prismatic pair also keeps the joint's point on the second link on a line parallel to the axis.
+//! This line goes through the joint's point on the first link.
 
 #[cfg(test)]
 mod tests;
@@ -16,7 +17,7 @@ use crate::math::{Vec2, cross, rotated, turned, unit};
 use crate::mechanism::{Group, GroupKind, Joint, LinkId, LinkPose, Mechanism, Pose};
 use crate::sentences;
 
-/// If the sine of the angle between two axes is below this, they count as parallel.
+/// If the sine of the angle between two axes is below this limit, the axes count as parallel.
 /// At this angle, rounding errors of the axes' directions move the links by more than a ten-thousandth of the
 /// mechanism's size.
 const PARALLEL: f64 = 1e-12;
@@ -228,7 +229,8 @@ fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
 }
 
 /// The guides give the angles of both links.
-/// The slider is then moved along the outer axis until the inner joint's two points are in line with the inner axis.
+/// The slider is then moved along the outer axis until the line through the inner joint's two points is parallel to the
+/// inner axis.
 fn rpp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [swivel, slider] = prismatic_last(members);
     let outer = slider.guide();

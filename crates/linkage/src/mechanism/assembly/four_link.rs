@@ -1,9 +1,9 @@
 //! All real configurations of an Assur group of four links, with any revolute and prismatic pairs.
 //!
-//! There are two kinds of such groups. The class III group of order 3 is a base link on three leads.
+//! Such groups are of two kinds. The class III group of order 3 is a base link on three leads.
 //! The class IV group of order 2 is a movable quadrilateral of two ternary and two binary links.
 //! Seen from one of its ternary links, the class IV group also is a base on three leads.
-//! That ternary link is then the frame, and the other ternary link is the base.
+//! That ternary link is then the frame, and the second ternary link is the base.
 //! The three leads are the two binary links and the world (all links before the group, taken as one body).
 
 use super::mode::{AssemblyMode, Configuration};
@@ -116,8 +116,8 @@ pub(super) fn is_handled(mechanism: &Mechanism, group: &Group, pose: &Pose) -> b
 /// In class IV the base is the last ternary link.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] if there is no configuration, [`ErrorKind::Unsupported`] if the group is neither of the two
-/// kinds.
+/// [`ErrorKind::Geometry`] if there is no configuration.
+/// [`ErrorKind::Unsupported`] if the group is neither of the two kinds that this module handles.
 pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     let layout = Layout::of(mechanism, group, pose).ok_or_else(|| {
         let (links, class) = (group.links.len(), group.class);

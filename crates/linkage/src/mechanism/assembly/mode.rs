@@ -26,7 +26,7 @@ pub enum AssemblyMode {
 }
 
 impl AssemblyMode {
-    /// The same configuration for a dyad with its links in the other order.
+    /// The same configuration, described for a dyad with its two links in reverse order.
     #[must_use]
     pub fn swapped(self) -> Self {
         match self {
@@ -70,7 +70,8 @@ pub struct StartGroup {
     pub near: Vec<(SidePoint, Vec2)>,
 }
 
-/// The configuration chosen for a group at the start, and how clearly it was the nearest one.
+/// The configuration chosen for a group at the start, and how much nearer it was to the approximate positions than the
+/// second nearest configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfigurationChoice {
     /// Its assembly mode.
@@ -78,6 +79,6 @@ pub struct ConfigurationChoice {
     /// Largest distance of the configuration's points from their approximate positions (m), if any were given.
     pub nearest_m: Option<f64>,
     /// Largest distance of the second nearest configuration's points from their approximate positions (m).
-    /// `None` if there is no other configuration, or if not all configurations are known.
+    /// `None` if there is only one configuration, or if not all configurations are known.
     pub next_m: Option<f64>,
 }

@@ -57,7 +57,7 @@ impl Lcg {
     }
 }
 
-/// A mechanism of `count` links and the given joints. Its points are the positions of the joints.
+/// A mechanism of `count` links and the given joints. The mechanism's points are the positions of the joints.
 pub fn mechanism(count: usize, joints: Vec<Joint>) -> Mechanism {
     let link = |index: usize| Link {
         name: if index == 0 { "ground".into() } else { format!("link{index}") },
@@ -78,7 +78,7 @@ pub fn mechanism(count: usize, joints: Vec<Joint>) -> Mechanism {
     Mechanism::new(links, joints).unwrap()
 }
 
-/// The group of `links`, as the structural analysis would find it if all other links were known.
+/// The group of `links`, as the structural analysis would find it if all links outside the group were known.
 pub fn group(mechanism: &Mechanism, links: &[LinkId], kind: GroupKind) -> Group {
     let inside = |joint: JointId| {
         let joint = &mechanism.joints()[joint];

@@ -2,7 +2,8 @@
 //!
 //! Each link is first placed by the approximate positions of its points, and by its joints with links already placed.
 //! Then a Newton method with Levenberg-Marquardt damping closes all joints of the group at once:
-//! (J^T J + lambda) dx = -J^T f. The vector f contains the gaps of all joints; there are as many gaps as unknowns.
+//! (J^T J + lambda) dx = -J^T f. The vector f contains the gaps of all joints. The number of gaps equals the number of
+//! unknowns.
 
 use super::dyads::turn;
 use super::mode::{AssemblyMode, ConfigurationChoice};
@@ -23,7 +24,7 @@ type Near = [(SidePoint, Vec2)];
 /// The limit is at the level of rounding errors.
 const CLOSED: f64 = 1e-13;
 /// Largest number of steps of the damped iteration.
-/// If the drawing has errors of a tenth of a link, about ten steps are enough.
+/// If the drawing has errors of a tenth of a link's length, about ten steps are enough.
 const STEPS: usize = 200;
 
 /// Poses the links of the group near the approximate positions `near`.
@@ -53,7 +54,7 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mu
 }
 
 /// Half the length of the shortest link of the group that carries the point and has a length.
-/// If there is no such link, half the mechanism's size.
+/// If there is no such link, the result is half the mechanism's size.
 fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     let links = group.links.iter().map(|&link| &mechanism.links()[link]);
     let carriers = links.filter(|link| link.points.iter().any(|own| own.name == point));
@@ -99,7 +100,8 @@ fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose:
         let axis = rotated(unit(pose.0[other].angle), joint.axis_on(other)?);
         Some(turn(joint.axis_on(link)?, axis))
     });
-    // The rotation that fits the positions best: the direction of the sum of conj(local) world, as complex numbers.
+    // The rotation that best fits the link to its approximate positions.
+    // It is the direction of the sum of conj(local) world, as complex numbers.
     let fit: Vec2 = places
         .iter()
         .map(|place| (place.0 - local, place.1 - world))
@@ -135,7 +137,7 @@ impl System<'_> {
         gaps.collect()
     }
 
-    /// For a joint that keeps the angle: its axis on the second link.
+    /// The axis on the second link of a joint that keeps the angle. `None` for a joint that does not keep the angle.
     fn second_axis(&self, joint: &Joint, pose: &Pose) -> Option<Vec2> {
         Some(rotated(unit(pose.0[joint.second.link].angle), joint.kind.axes()?[1]))
     }
@@ -196,7 +198,7 @@ impl System<'_> {
         moved
     }
 
-    /// Closes all joints; `None` if that fails.
+    /// Closes all joints. Returns `None` if a joint stays open.
     fn close(&self, pose: &mut Pose) -> Option<()> {
         let square = |gaps: &[f64]| gaps.iter().map(|gap| gap * gap).sum::<f64>();
         let n = self.unknowns();
@@ -232,7 +234,7 @@ impl System<'_> {
         self.polish(pose)
     }
 
-    /// Makes a few undamped Newton steps. The normal equations lose digits, and these steps recover them.
+    /// Makes a few undamped Newton steps. The normal equations lose digits, and these steps recover the lost digits.
     fn polish(&self, pose: &mut Pose) -> Option<()> {
         let n = self.unknowns();
         for _ in 0..4 {
@@ -247,7 +249,7 @@ impl System<'_> {
             jacobian.solve(&mut step);
             *pose = self.moved(pose, &step);
         }
-        // The opening is measured as in the rest of the crate, so that opposite axes count as open.
+        // The opening is measured by `Joint::opening`, so that opposite axes count as open.
         let open = |joint: &Joint| {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| pose.0[side.link].point(side.local));

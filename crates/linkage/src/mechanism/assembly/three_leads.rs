@@ -1,6 +1,7 @@
 //! All poses of a base link on three leads.
 //!
-//! Each lead has one pair with the frame (near) and one pair with the base (far). It imposes one condition on the base.
+//! Each lead has one pair with the frame (near) and one pair with the base (far). The lead imposes one condition on the
+//! base.
 //! O is the position of the base's reference point, b = e^(i beta) its direction, and w the far joint on the base:
 //! - both pairs revolute: O + b w lies on a circle, |O + b w - a| = l;
 //! - near prismatic, far revolute: O + b w lies on a line of the frame, e x (O + b w - a) = h;
@@ -9,13 +10,14 @@
 //!
 //! For a given beta all conditions are circles and lines for O.
 //! Let X = O - c, measured from the centre c of one circle of radius l.
-//! The other two conditions are then linear, p1 + q1 . X = p2 + q2 . X = 0 (two circles by their radical line).
+//! The remaining two conditions are then linear, p1 + q1 . X = p2 + q2 . X = 0 (two circles by their radical line).
 //! With |X| = l this leaves |q2 p1 - q1 p2|^2 = l^2 (q1 x q2)^2.
 //! As a polynomial in e^(i beta), p has the powers -1 to 1.
 //! The powers of q are 0 to 1 for a circle, 0 for a line of the frame and 1 for a line of the base.
 //! So the vector q2 p1 - q1 p2 has the powers -1 to 2, and its square has the powers -3 to 3.
-//! The square is a trigonometric polynomial of degree 3. It has at most six zeros, and all of them can be found.
-//! If all conditions are lines, they meet in one point if a determinant of degree 2 is zero.
+//! The square is a trigonometric polynomial of degree 3. The polynomial has at most six zeros, and all zeros can be
+//! found.
+//! If all conditions are lines, a determinant of degree 2 must be zero, so that the three lines meet in one point.
 
 mod condition;
 
@@ -60,7 +62,8 @@ impl Conditions {
             [] if self.all.iter().any(|one| matches!(one, Condition::Circle { .. })) => self.by_circle()?,
             [] => self.by_lines()?,
             [beta] => self.at_angle(beta)?,
-            // Both pairs of two leads are prismatic, so both fix the base's angle. The base can then slide.
+            // Two of the three leads have two prismatic pairs each, so each of the two fixes the base's angle. The base
+            // can then slide.
             _ => return None,
         };
         if found.iter().any(|&one| self.is_loose(one)) {
@@ -139,7 +142,7 @@ impl Conditions {
         Some(found)
     }
 
-    /// Solutions for a given angle of the base. The remaining two conditions determine its position.
+    /// Solutions for a given angle of the base. The remaining two conditions determine the base's position.
     fn at_angle(&self, beta: f64) -> Option<Vec<Found>> {
         let mut loci = self.all.iter().filter_map(|one| one.locus(unit(beta)));
         let (first, second) = (loci.next()?, loci.next()?);
@@ -196,7 +199,7 @@ impl Conditions {
         }
     }
 
-    /// Rows of the Jacobian with respect to x / size, y / size and beta, and the gaps.
+    /// Rows of the Jacobian with respect to x / size, y / size and beta, each row with the gap of its condition.
     fn rows(&self, (o, beta): Found) -> [([f64; 3], f64); 3] {
         self.all.each_ref().map(|one| {
             let (gap, by_place, by_angle) = one.residual(o, beta, self.size);
@@ -204,7 +207,7 @@ impl Conditions {
         })
     }
 
-    /// Whether the base can move from a pose while all conditions hold.
+    /// Whether the base can move from a pose while all conditions remain satisfied.
     /// The test makes one step along the free direction of the Jacobian, and one step in the opposite direction.
     /// After each step, damped steps return to the conditions. If both results differ from the pose, the base can move.
     /// At a double root the base cannot move.
@@ -219,7 +222,7 @@ impl Conditions {
         let volume: f64 = (0..3).map(|k| rows[0][k] * products[0][k]).sum();
         // The determinant of the normalised rows tends to zero at a double root.
         // A double root is accurate to half the digits, 1e-7 of the size, so the limit of the determinant is larger
-        // than that.
+        // than 1e-7.
         if volume.abs() > 1e-5 * rows.map(norm).iter().product::<f64>() {
             return false;
         }
@@ -231,7 +234,7 @@ impl Conditions {
         })
     }
 
-    /// Pose after damped steps from a given pose. `None` if not all conditions hold after the steps.
+    /// Pose after damped steps from a given pose. `None` if a condition is not satisfied after the steps.
     /// Unlike Newton steps, damped steps do not move along free directions.
     fn settled(&self, mut pose: Found) -> Option<Found> {
         for _ in 0..30 {
@@ -277,7 +280,8 @@ impl Conditions {
             system.solve(&mut step);
             at = (at.0 - Vec2::new(step[0], step[1]) * self.size, at.1 - step[2]);
         }
-        // Lines may intersect far away. Rounding errors are then proportional to that distance.
+        // Lines may intersect far away. Rounding errors are then proportional to the distance of the intersection, so
+        // the limits are too.
         let reach = self.size + best.0.norm();
         let near = (best.0 - start.0).norm() <= 0.1 * reach && (best.1 - start.1).abs() <= 0.1;
         (least <= CLOSED * reach && near).then_some(best)

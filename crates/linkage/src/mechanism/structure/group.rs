@@ -14,7 +14,7 @@ pub enum GroupKind {
     Rrp,
     /// Dyad with two outer revolute pairs and an inner prismatic pair: swinging guide and block.
     Rpr,
-    /// Dyad with an outer revolute pair; the inner and the other outer pair are prismatic.
+    /// Dyad with an outer revolute pair. The inner pair and the second outer pair are prismatic.
     Rpp,
     /// Dyad with two outer prismatic pairs and an inner revolute pair.
     Prp,
@@ -49,13 +49,14 @@ impl GroupKind {
 /// Assur group: a set of links that has no mobility if its outer joints are fixed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
-    /// Its links, in the mechanism's order.
+    /// The group's links, in the mechanism's order.
     pub links: Vec<LinkId>,
-    /// Joints between two of its links.
+    /// Joints between two links of the group.
     pub inner: Vec<JointId>,
     /// Joints with links that are known before the group is solved.
     pub outer: Vec<JointId>,
-    /// Class: 2 for dyads, otherwise the number of sides of its highest closed contour (Artobolevsky).
+    /// Class: 2 for dyads, otherwise the number of sides of the group's closed contour with the most sides
+    /// (Artobolevsky).
     pub class: usize,
     /// Kind of the group.
     pub kind: GroupKind,
@@ -68,7 +69,7 @@ impl Group {
         self.outer.len()
     }
 
-    /// The group's outer joint on `link`, for a link that has exactly one.
+    /// The group's outer joint on `link`, for a link that has exactly one outer joint.
     #[must_use]
     pub fn outer_on(&self, mechanism: &Mechanism, link: LinkId) -> Option<JointId> {
         let mut found = self.outer.iter().copied().filter(|&joint| mechanism.joints()[joint].on(link).is_some());

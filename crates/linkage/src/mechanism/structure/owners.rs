@@ -1,4 +1,5 @@
-//! Ownership of equations. Each equation concerns two links and is owned by one of them. A link owns three equations.
+//! Ownership of equations. Each equation concerns two links and is owned by one of the two. A link owns three
+//! equations.
 
 use crate::sentences;
 use petgraph::algo::tarjan_scc;
@@ -9,9 +10,10 @@ use crate::mechanism::{GROUND, JointId, LinkId, Mechanism};
 
 /// Checks Laman's condition for plane bodies: the joints among k links, the ground included, have at most 3 k - 3
 /// equations.
-/// The function tests an equivalent condition for each joint in turn. It adds three copies of one of the joint's
+/// The function tests an equivalent condition for each joint in turn. The test adds three copies of one of the joint's
 /// equations.
-/// All equations must still find owners. No link, the ground included, may own more than three equations.
+/// All equations, the copies included, must still find owners. No link, the ground included, may own more than three
+/// equations.
 /// Source: Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008.
 pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[JointId]) -> Result<()> {
     let mut owners = Owners::unassigned(mechanism, drives, OWNED);
@@ -21,14 +23,15 @@ pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[JointId]) -> Result<
         let ends = [joint.first.link, joint.second.link];
         owners.add((0..3).map(|_| Equation { joint: index, of_drive: false, ends }));
         owners.assign_from(count, mechanism)?;
-        // The search may have given other equations to other links. They keep these owners when the copies are removed.
+        // The search may have given equations to new owners. These equations keep the new owners when the copies are
+        // removed.
         // All equations except the copies therefore still have owners.
         owners.keep(count);
     }
     Ok(())
 }
 
-/// One scalar equation of a joint or of a drive. It concerns two links, and one of them will own it.
+/// One scalar equation of a joint or of a drive. The equation concerns two links, and one of them will own it.
 #[derive(Clone, Copy)]
 struct Equation {
     joint: JointId,
@@ -101,7 +104,8 @@ impl Owners {
         self.owner.truncate(count);
     }
 
-    /// Finds an owner for one equation. Moves other equations to other owners if necessary (Kuhn's augmenting paths).
+    /// Finds an owner for one equation. Moves already owned equations to new owners if necessary (Kuhn's augmenting
+    /// paths).
     fn assign(&mut self, equation: usize, visited: &mut [bool]) -> bool {
         for link in self.equations[equation].ends {
             let most = if link == GROUND { self.of_ground } else { OWNED };

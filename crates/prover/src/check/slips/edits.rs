@@ -42,7 +42,7 @@ fn quantity<'a>(part: &FormulaTree, parameters: &'a [Parameter]) -> Option<&'a s
     parameters.iter().find(|parameter| parameter.key == *own).and_then(Parameter::short)
 }
 
-/// Other names that may have been meant.
+/// Names that the author of the formula may have meant in place of this part.
 fn others(part: &FormulaTree, names: &[&str], parameters: &[Parameter]) -> Vec<FormulaTree> {
     let NodeShape::Name(own) = &part.shape else { return Vec::new() };
     let quantity = quantity(part, parameters);
@@ -78,7 +78,7 @@ fn rename(tree: &mut FormulaTree, [one, other]: [&str; 2]) {
     }
 }
 
-/// The same symbols in the same order with another grouping that the rules cannot express:
+/// The symbols of the part in the same order, with another grouping that the rules cannot express:
 /// a*b + c + d for a*(b + c + d), a/b + c for a/(b + c), sin(a) + b for sin(a + b), sin(a^2) for sin(a)^2.
 fn regrouped(part: &FormulaTree) -> Option<FormulaTree> {
     let first = first_of(part);

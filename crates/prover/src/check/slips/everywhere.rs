@@ -9,7 +9,8 @@ use formula::{DerivationSheet, FormulaTree, Function, NodeShape, Operator};
 use scenario::Formulas;
 
 /// Tries to correct every quantity and every function at all its occurrences.
-/// The occurrences are first those in the first of the formulas `used`, then those in all of them.
+/// The search first corrects the occurrences in the first of the formulas `used`, then the occurrences in all formulas
+/// `used`.
 /// A part that occurs only once is not a slip of this kind.
 pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimensions: &Dimensions, tried: &mut Tried) {
     use Function::{Cos, Sin, Tan};

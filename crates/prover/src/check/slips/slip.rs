@@ -85,7 +85,8 @@ pub(in crate::check) struct Tried {
 }
 
 impl Tried {
-    /// Judges a corrected slip. It is kept if the formula is then right, or closer than after earlier corrections.
+    /// Judges a corrected slip.
+    /// The correction is kept if the formula is then right, or closer to the mechanism than after earlier corrections.
     pub(super) fn put(&mut self, trial: &mut Trial, changed: &[(usize, FormulaTree)], slip: FormulaSlip, rank: Rank) {
         let Some(left) = trial.left(changed, 0.0) else { return };
         let mended = Mended { slip, rank, left, among: self.count };

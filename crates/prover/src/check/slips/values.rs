@@ -106,7 +106,8 @@ fn meant(trial: &mut Trial, place: usize, wrong: f64) -> Option<(f64, bool)> {
     (right * wrong > 0.0 && (!is_open || is_confused)).then_some((right, is_confused))
 }
 
-/// The number with the fewest digits within the error, if it has few enough.
+/// The number with the fewest digits that agrees with `value` within `error`. `None` if the number needs more than
+/// `DIGITS` digits.
 fn short(value: f64, error: f64) -> Option<f64> {
     (0..DIGITS).find_map(|digits| {
         let own: f64 = format!("{value:.digits$e}").parse().ok()?;

@@ -6,7 +6,7 @@ use linkage::math::{ColumnVector, KeepNan, Matrix};
 
 /// Numbers that are wrong.
 pub struct Wrong<'a> {
-    /// The course rows that the numbers belong to.
+    /// Rows of the course that the wrong numbers belong to.
     pub rows: &'a [usize],
     /// Amounts to add to the numbers to make them right.
     pub differences: Vec<f64>,
@@ -38,7 +38,7 @@ impl TermBasis {
 pub struct WeightedTerm<'a> {
     /// The quantity.
     pub basis: &'a TermBasis,
-    /// Its coefficient, in the unit of the wrong numbers.
+    /// Coefficient of the quantity, in the unit of the wrong numbers.
     pub coefficient: f64,
 }
 

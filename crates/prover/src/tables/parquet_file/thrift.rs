@@ -1,4 +1,5 @@
-//! The compact protocol of Thrift, in which a Parquet file describes itself. It is read without allocating memory.
+//! The compact protocol of Thrift, in which a Parquet file describes itself.
+//! The description is read without allocating memory.
 
 use crate::sentences;
 use std::io::{self, Read};

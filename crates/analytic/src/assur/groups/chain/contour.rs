@@ -27,8 +27,9 @@ pub struct Node {
     pub parent: JointSide,
     /// Index of the parent among the nodes; `None` for a link outside the group.
     pub parent_node: Option<usize>,
-    /// Index of the node whose unknown is this link's angle.
-    /// If the link's joint is revolute, this is the link's node; if prismatic, it is the index stored for its parent.
+    /// Index of the node whose unknown angle determines this link's angle.
+    /// If the joint to the parent is revolute, the index is that of this link's node.
+    /// If the joint to the parent is prismatic, the index is the `spin` of the parent.
     /// `None` if the rotation of a link outside the group determines the angle.
     pub spin: Option<usize>,
     /// Position of the joint to the parent, on the parent's side.
@@ -224,7 +225,7 @@ impl Contours {
         };
         let (second, second_end) = way(found.second, 1.0);
         let (first, first_end) = way(found.first, -1.0);
-        // Arrows common to the beginnings of both paths cancel.
+        // Arrows common to the beginnings of both paths cancel, so they are removed.
         let all = ways.clone();
         ways.retain(|&(arrow, sign)| !all.contains(&(arrow, -sign)));
         let stretch = |(number, sign): (usize, f64)| {

@@ -16,8 +16,8 @@ pub(super) fn copy(from: &[f64], to: &mut [f64]) {
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
     /// For each unknown: its change in the last step, and the first to fourth backward differences of this change.
-    /// They are zero if too few steps are known.
-    /// The next fields are the number of equal steps and the last step (rad of the driving angles).
+    /// The differences are zero if too few steps are known.
+    /// `equal_steps` is the number of equal steps, and `last_step` the last step (rad of the driving angles).
     differences: Vec<[f64; MEMORY]>,
     equal_steps: usize,
     last_step: Vec<f64>,

@@ -17,11 +17,13 @@ pub(super) struct Grounded {
 /// The chain for one choice of the conditional driver.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chain {
-    /// The ground lead that drives, then the other one.
+    /// The ground lead that drives, then the other ground lead.
     pub(super) leads: [Grounded; 2],
     /// Head of lead 3 in the base link's frame (m).
     pub(super) third: Vec2,
-    /// Position of the other head relative to the line from the driver's head to the other foot: +1 left, -1 right.
+    /// Side of the line from the driver's head to the other ground lead's foot on which the other ground lead's head
+    /// lies:
+    /// +1 left, -1 right.
     pub(super) side: f64,
 }
 
@@ -30,7 +32,7 @@ pub(super) struct Chain {
 pub(super) struct Place {
     /// Vector of the driving lead, from foot to head.
     pub(super) driver: Vec2,
-    /// Vector on the base link from the driver's head to the other head.
+    /// Vector on the base link from the driver's head to the head of the other ground lead.
     pub(super) base: Vec2,
     /// Vector of the other ground lead, from foot to head.
     pub(super) other: Vec2,
@@ -50,8 +52,8 @@ pub(super) struct Slopes {
 }
 
 impl Chain {
-    /// Places the first dyad. D is the driver's head, E the other head and G the other foot.
-    /// Let d = |DG|, b = |DE| on the base link, and l the length of the other lead.
+    /// Places the first dyad. D is the driver's head; E and G are the head and the foot of the other ground lead.
+    /// Let d = |DG|, b = |DE| on the base link, and l the length of the other ground lead.
     /// The cosine rule gives, as complex numbers, E = D + DG (b^2 - l^2 + d^2 +- i sqrt((b + l + d)(b + l - d)(d + b -
     /// l)(d - b + l))) / 2 d^2.
     /// The root is four times the area of the triangle by Heron's formula. `None` if the dyad cannot be assembled.
@@ -74,8 +76,8 @@ impl Chain {
 }
 
 impl Place {
-    /// Signed sine of the angle between base link and other lead. It is zero if the conditional driver has a dead point
-    /// in the first dyad.
+    /// Signed sine of the angle between the base link and the ground lead that does not drive.
+    /// It is zero if the conditional driver has a dead point in the first dyad.
     pub(super) fn sine(&self) -> f64 {
         cross(self.base, self.other) / (self.base.norm() * self.other.norm())
     }

@@ -61,7 +61,7 @@ impl Case {
     }
 
     /// Margin to the limit of assembly: positive if the dyad has configurations, negative if not.
-    /// It comes from the triangle inequality or from samples of a function, not from the formulas under test.
+    /// The margin comes from the triangle inequality or from samples of a function, not from the formulas under test.
     fn reach(&self) -> f64 {
         let outer_pin =
             |joint: JointId, link: LinkId| self.place(&self.pose, joint, self.joint(joint).other(link).link);
@@ -77,7 +77,7 @@ impl Case {
             }
             GroupKind::Rrp => {
                 // The function is the squared distance of the inner joint from the outer pin, against the slide.
-                // It is a parabola, which three values determine.
+                // This function is a parabola, which three values determine.
                 let (slider, outer, rod, pin) =
                     if self.joint(JointId(0)).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
                 let ([slider, rod], [outer, pin]) = ([slider, rod].map(LinkId), [outer, pin].map(JointId));
@@ -98,8 +98,8 @@ impl Case {
                 rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
-                // The function is the distance from the line, against the common angle.
-                // It is a sinusoid plus a constant, which three values determine.
+                // The function is the distance from the line, against the angle that both links have in common.
+                // This function is a sinusoid plus a constant, which three values determine.
                 let off = |angle: f64| {
                     let mut pose = self.pose.clone();
                     pose.0[LinkId(3)].angle = angle;
@@ -143,7 +143,7 @@ impl Case {
 /// Checks 100 000 dyads of every kind, in all orders of links and sides.
 /// Every configuration closes and has the mode that it reports. The sign of its transmission sine agrees with that
 /// mode.
-/// Two configurations of a dyad differ.
+/// The two configurations of a dyad differ from each other.
 /// An independent criterion agrees on whether a configuration exists.
 #[test]
 fn random_dyads_of_every_kind() {
@@ -157,8 +157,8 @@ fn random_dyads_of_every_kind() {
             let all = match configurations(&case.mechanism, &case.group, &case.pose) {
                 Ok(all) => all,
                 Err(error) => {
-                    // The independent criterion has other rounding errors, so the two results may differ at the limit
-                    // of assembly.
+                    // The independent criterion has different rounding errors from the module under test. The two
+                    // results may therefore differ at the limit of assembly.
                     assert!(reach <= 1e-14, "{kind:?}: {error}, but there is room of {reach}");
                     assert!(error.kind() == ErrorKind::Geometry && error.way_out().is_some(), "{error}");
                     continue;
@@ -197,7 +197,7 @@ fn random_dyads_of_every_kind() {
         }
         println!("{kind:?}: {some} of {CASES} assembled, closure at worst {worst:.1e} of the size");
         assert!(some > CASES / 5, "{kind:?}: {some}");
-        // The bound 1e-12 is the same as for all closures.
+        // The bound 1e-12 is the same in all tests of closure.
         assert!(worst <= 1e-12, "{kind:?}: {worst}");
     }
 }
@@ -217,7 +217,7 @@ fn parallel_axes_are_refused() {
                 panic!("two prismatic joints");
             };
             // The axes are made parallel. PRP: one base is rotated until its guide is parallel to the guide of the
-            // other base.
+            // second base.
             // RPP: the slider gets two parallel axes.
             let turned_by = |case: &mut Case, angle: f64| {
                 if kind == GroupKind::Prp {

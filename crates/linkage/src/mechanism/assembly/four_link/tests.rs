@@ -57,7 +57,7 @@ struct Tally {
     /// Largest closure error, as a fraction of the size.
     closure: f64,
     /// Number of cases in which the scan finds a double root, up to 1e-9.
-    /// For such a root neither method can decide between two zeros and a near miss.
+    /// For such a root neither the scan nor the module can decide between two zeros and a near miss.
     double: usize,
 }
 
@@ -98,15 +98,16 @@ fn compare(random: &mut Lcg, pairs: Pairs, triad: bool, cases: usize, tally: &mu
     }
 }
 
-/// Asserts the bounds of a tally: the closure error, with the same bound as in other tests, and the number of double
-/// roots.
+/// Asserts two bounds of a tally: that of the closure error, which all tests of closure share, and that of the number
+/// of double roots.
 /// The probability of a double root is some tens times 1e-9^(1/2) per root.
 fn check(tally: &Tally, cases: usize) {
     assert!(tally.closure <= 1e-12, "{tally:?}");
     assert!(tally.double <= 1 + cases / 200, "{tally:?}");
 }
 
-/// Whether to test a larger number of groups. This takes minutes, so only `.ci/nightly` requests it.
+/// Whether to test a larger number of groups than usual. The larger test takes minutes, so only `.ci/nightly` requests
+/// it.
 fn many() -> bool {
     std::env::var_os("LINKPROOF_DRAWS").is_some()
 }
@@ -125,7 +126,8 @@ fn as_many_configurations_as_a_scan_finds() {
 }
 
 /// All distributions of prismatic pairs over the leads.
-/// At most one lead may have two prismatic pairs. Otherwise links would slide in a loop.
+/// At most one lead may have two prismatic pairs. If two leads had two prismatic pairs each, links would slide in a
+/// loop.
 fn sliding() -> impl Iterator<Item = Pairs> {
     let lead = |bits: usize| [bits & 1 == 1, bits & 2 == 2];
     let all = (1..64).map(move |bits: usize| [lead(bits & 3), lead(bits >> 2 & 3), lead(bits >> 4)]);

@@ -4,7 +4,7 @@ use crate::math::KeepNan;
 use crate::mechanism::{GroupKind, JointSide, LinkId};
 
 /// Two base links 6 and 5, pinned to each other, each on two leads.
-/// They form a group of six links and nine joints. All joints are closed in the pose.
+/// Bases and leads form a group of six links and nine joints. All joints are closed in the pose.
 fn case(random: &mut Lcg, slides: impl Fn(&mut Lcg) -> bool) -> (Mechanism, Group, Pose) {
     let mut pose = Pose((0..7).map(|_| random.pose()).collect());
     pose.0[LinkId(0)] = LinkPose::GROUND;
@@ -40,7 +40,7 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
     let mut random = Lcg(21);
     for _ in 0..20 {
         let (mechanism, group, mut pose) = case(&mut random, |random| random.yes());
-        // The poses are random. Far from the closed pose all terms of the Jacobian contribute.
+        // The poses are random, because far from the closed pose all terms of the Jacobian contribute.
         pose.0[1..].iter_mut().for_each(|link| *link = random.pose());
         let system = System { mechanism: &mechanism, group: &group, size: mechanism.size() };
         let rows = system.jacobian(&pose);
@@ -61,7 +61,7 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
     }
 }
 
-/// The approximate positions have errors of two hundredths.
+/// The approximate positions have errors of at most 0.02 m in each coordinate.
 /// The method usually finds the original pose again. Every pose that it returns is closed.
 #[test]
 fn a_rough_drawing_finds_its_configuration() {
@@ -98,8 +98,8 @@ fn a_rough_drawing_finds_its_configuration() {
         }
     }
     println!("{found} found, {refused} refused of 500");
-    // More than 350 of the samples must lead to the original pose.
-    // In the others the drawing is nearer to another configuration, or the pose is nearly singular.
+    // More than 350 of the 500 samples must lead to the original pose.
+    // In the remaining samples the drawing is nearer to a different configuration, or the pose is nearly singular.
     assert!(found > 350, "{found}");
 }
 

@@ -1,4 +1,4 @@
-//! The condition that a lead imposes on the base, and the pose of the lead once the base is placed.
+//! The condition that a lead imposes on the base, and the pose of the lead after the base is placed.
 
 use super::super::dyads::turn;
 use crate::math::angle::wrapped;
@@ -45,7 +45,7 @@ pub enum Locus {
         centre: Vec2,
         radius: f64,
     },
-    /// A line: all O with p + q . O = 0
+    /// A line: all O with p + q . O = 0.
     Line {
         p: f64,
         q: Vec2,

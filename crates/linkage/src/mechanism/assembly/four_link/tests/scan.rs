@@ -2,8 +2,9 @@
 //! The method uses no polynomial, so it is an independent check for the tests of this module.
 //!
 //! For every angle of the base, two leads allow one or two positions of its reference point.
-//! The third lead's condition is a function of the angle. It holds where the function changes sign.
-//! The scan follows the position over all angles at which it exists: forwards on one branch, backwards on the other.
+//! The third lead's condition is a function of the angle. The condition is satisfied where the function changes sign.
+//! The scan follows the position through all angles at which the position exists: forwards on one branch, backwards on
+//! the second branch.
 //! Along this path the function is smooth and periodic.
 //! Samples are closer together where the position changes fast.
 //! Between samples of the same sign the extremum is computed, which distinguishes pairs of zeros from near misses.
@@ -15,12 +16,12 @@ use std::f64::consts::{PI, TAU};
 use crate::math::{Vec2, cross, extremum, root, rotated, turned, unit};
 use crate::mechanism::assembly::three_leads::{LeadPair, PlatformLead};
 
-/// Number of bisections of an interval with a zero. It is also the number of golden section steps for an extremum.
-/// After 60 steps the remaining interval is as small as a rounding error.
+/// Number of bisections of an interval with a zero, and number of golden section steps for an extremum.
+/// After 60 steps the remaining interval is as small as a rounding error of the angle.
 const STEPS: usize = 60;
 
-/// If an extremum divided by the function's largest value is below this, it counts as a double root.
-/// For a double root neither method can decide between two zeros and a near miss.
+/// If an extremum divided by the function's largest value is below this limit, the extremum counts as a double root.
+/// For a double root neither the scan nor the module under test can decide between two zeros and a near miss.
 const DOUBLE: f64 = 1e-9;
 
 /// Result of a scan.
@@ -137,7 +138,7 @@ fn bisect(f: &dyn Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// Position of the smallest value.
+/// Position of the smallest value of `f` between `low` and `high`.
 fn least(f: &dyn Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let Ok([low, high]) = extremum::golden([low, high], STEPS, |x| Ok::<_, Infallible>(-f(x)));
     f64::midpoint(low, high)
@@ -189,7 +190,7 @@ pub fn scanned(leads: &[PlatformLead; 3]) -> Option<Scan> {
         let to = ends.get(index + 1).copied().unwrap_or(ends[0] + TAU);
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         if both(middle, 1.0).0 > 0.0 {
-            // The path runs forwards on one branch and backwards on the other.
+            // The path runs forwards on one branch and backwards on the second branch.
             let on = |turn: f64| both(middle - half * turn.cos(), if turn < PI { 1.0 } else { -1.0 });
             add(&|turn| on(turn).2, &|turn| on(turn).1);
         }
