@@ -1,7 +1,7 @@
 //! Cost of a chain of four-bars as a function of its length.
-//! It is measured for building the case, the analytic sides, the double-double solution, and the judgement of the
+//! The cost is measured for building the case, the analytic sides, the double-double solution, and the judgement of the
 //! sides.
-//! Cost ratios to a chain with a tenth of the links are printed beside the ratios of n and n log n.
+//! The cost divided by that of a chain with a tenth of the links is printed beside the same ratios of n and n log n.
 //!
 //! `cargo bench --bench chain [-- N..]`
 

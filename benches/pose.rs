@@ -57,7 +57,8 @@ fn by_hand(scenario: &Scenario) -> FourBar {
     }
 }
 
-/// Asserts that both solutions are equal; otherwise the ratio is meaningless.
+/// Asserts that the general solver and the hand-written four-bar give equal solutions; otherwise the ratio of their
+/// costs is meaningless.
 fn check(scenario: &Scenario, hand: &FourBar) {
     let omega = scenario.case.crank().at(0.0).rate;
     let mut poses = PoseSolver::new(&scenario.case).unwrap();

@@ -99,8 +99,8 @@ commands! {
         Solve(solve::Args) = solve::solve,
     }
     "Look" {
-        /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
-        /// its range of motion
+        /// Show the structure of a mechanism (links, joints, mobility, driving link and Assur groups), its
+        /// configurations and its range of motion
         Inspect(inspect::Args) = inspect::inspect,
         /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PNG, animated GIF and WebP
         Draw(draw::Args) = draw::draw,
@@ -197,7 +197,7 @@ mod tests {
     }
 
     /// Commands whose only module is `src/cli/NAME.rs`.
-    /// The code of the solvers, of the scenario or of the documents does their work.
+    /// The code of the solvers, of the scenario or of the documents does the work of these commands.
     const ONLY_HERE: [&str; 9] = ["completions", "docs", "inspect", "list", "man", "new", "schema", "solve", "view"];
 
     /// A command's name leads directly to its code: to `src/cli/NAME.rs`, and to the module `NAME` of the crate that

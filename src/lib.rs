@@ -7,7 +7,7 @@
 //! [`check`] judges formulas, and [`compare`] judges tables and recordings of other programs.
 //! `draw` shows a mechanism (feature `command`).
 //!
-//! From a file:
+//! A proof of a scenario file:
 //!
 //! ```
 //! use linkproof::{Options, Scenario, prove};
@@ -20,7 +20,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! From code, in SI units:
+//! A proof of a mechanism that is built in code, in SI units:
 //!
 //! ```
 //! use linkproof::parts::AssemblyMode;
@@ -44,7 +44,7 @@
 //! # Ok::<(), linkproof::parts::Error>(())
 //! ```
 //!
-//! A table, a recording or another program's solution against a scenario:
+//! [`compare`] compares a table, a recording or another program's solution with a scenario:
 //!
 //! ```
 //! use linkproof::parts::{ComparedParty, ComparisonRule, Mapping};

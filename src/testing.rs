@@ -184,7 +184,8 @@ impl Proving {
         self
     }
 
-    /// Starts a group in another assembly mode, `LINK,LINK=MODE`. May be called for several groups.
+    /// Starts a group in the given assembly mode, written `LINK,LINK=MODE`, instead of the mode of the file.
+    /// The method may be called for several groups.
     pub fn mode(mut self, group: impl Into<String>) -> Self {
         self.asked.modes.push(group.into());
         self

@@ -39,7 +39,7 @@ results! { AcceptResults {
     Json = "the results",
 } }
 
-/// Processes all files; a bad file does not stop the others.
+/// Processes all files. If a file is bad, the remaining files are still processed.
 pub(super) fn run(args: &Args) -> u8 {
     let mut document = Document::told_by(advice::told);
     let mut worst = exit_code::AGREE;

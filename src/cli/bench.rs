@@ -110,8 +110,8 @@ pub(super) fn run(args: &Args) -> Result<()> {
     args.outputs.of(Benches::Page).try_for_each(page)
 }
 
-/// Processor time (s) that this thread has used; other work on the machine changes the processor time less than the
-/// elapsed time.
+/// Processor time (s) that this thread has used.
+/// Work of other programs on the machine changes the processor time less than it changes the elapsed time.
 /// On systems other than Linux, the function returns the elapsed time.
 fn used(since: Instant) -> f64 {
     // Linux updates the processor time when the thread yields, so the thread yields before the time is requested.

@@ -32,7 +32,7 @@ results! { ClearanceResults {
     Csv = "distance of every pair at the instants of the grid, for one scenario",
 } }
 
-/// Computes the clearance for every file; a bad file does not stop the others.
+/// Computes the clearance for every file. If a file is bad, the remaining files are still processed.
 pub(super) fn clearance(args: &Args) -> Result<u8> {
     if args.outputs.each().any(|(form, _)| form != ClearanceResults::Json) && args.files.len() > 1 {
         let message = sentences::scenarios_are_given_but_a_drawing(&args.files.len());

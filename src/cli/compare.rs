@@ -227,7 +227,7 @@ fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Co
             let may = |bytes: f64, rows: usize| {
                 let most = Some(args.memory.bytes());
                 memory::check_input(&sentences::the_table(&path.display()), bytes, most)?;
-                // The estimate is a lower limit: columns named like channels may need more memory.
+                // The estimate is a lower limit, because columns named like channels may need additional memory.
                 let compared = if is_solved && rows > 0 { memory::of_comparison(rows, claims, claims) } else { 0.0 };
                 memory::check_input(&sentences::comparing_rows(&rows), compared, most)
             };

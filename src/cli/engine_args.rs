@@ -60,7 +60,7 @@ pub(super) struct MemoryArgs {
     memory: f64,
 }
 
-/// If a run needs more memory (bytes) than this, the command reports the need in advance.
+/// If a run needs more memory than this constant (bytes), the command reports the need in advance.
 const TOLD: f64 = 5e8;
 
 impl MemoryArgs {

@@ -71,7 +71,7 @@ impl Pages {
         Ok(path)
     }
 
-    /// `NAME.html` in the directory; `NAME-2.html` if an earlier scenario had that name.
+    /// Path of a page: `NAME.html` in the directory, or `NAME-2.html` if an earlier scenario had the same name.
     fn place(&mut self, name: &str) -> Result<PathBuf> {
         if !self.is_directory {
             return Ok(self.to.clone());

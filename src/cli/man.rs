@@ -36,7 +36,7 @@ pub(super) fn run(args: &Args, command: Command) -> Result<()> {
     all.iter().try_for_each(|(name, text)| output::make(text, &directory.join(name)))
 }
 
-/// Adds the page of a command and the pages of all its subcommands: names and texts.
+/// Adds the names and texts of the pages of a command and of all its subcommands.
 fn pages(command: &Command, all: &mut Vec<(String, String)>) -> io::Result<()> {
     command.get_subcommands().filter(|own| !own.is_hide_set()).try_for_each(|own| pages(own, all))?;
     let page = Man::new(command.clone());

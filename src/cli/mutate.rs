@@ -48,7 +48,7 @@ results! { Mutations {
     Markdown = "figures and tables",
 } }
 
-/// Plants faults in the proof of every file; a bad file does not stop the others.
+/// Plants faults in the proof of every file. If a file is bad, the remaining files are still processed.
 pub(super) fn run(args: &Args) -> Result<u8> {
     if args.list {
         return output::print(&report::all_kinds(output::width())).map(|()| exit_code::AGREE);

@@ -90,14 +90,18 @@ pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<
     if is_standard(to) { printed(fill) } else { put(&OutputTarget::Named(to), to, None, fill) }
 }
 
-/// Writes text, with its seal, to a file whose name the program chose.
-/// An existing file is replaced if its seal is unbroken. Otherwise the function returns an error.
+/// Writes a file whose name the program chose: `make` writes text with its seal, `make_by` writes bytes unchanged.
+/// `make` replaces an existing file if its seal is unbroken; `make_by` replaces it if `is_ours` accepts its first
+/// bytes.
+/// Otherwise the function returns an error.
 pub(super) fn make(text: &str, to: &Path) -> Result<()> {
     make_by(files::sealed(text, to).as_bytes(), to, &files::is_sealed)
 }
 
-/// Writes text, with its seal, to a file whose name the program chose.
-/// An existing file is replaced if its seal is unbroken. Otherwise the function returns an error.
+/// Writes a file whose name the program chose: `make` writes text with its seal, `make_by` writes bytes unchanged.
+/// `make` replaces an existing file if its seal is unbroken; `make_by` replaces it if `is_ours` accepts its first
+/// bytes.
+/// Otherwise the function returns an error.
 pub(super) fn make_by(bytes: &[u8], to: &Path, is_ours: &dyn Fn(&[u8]) -> bool) -> Result<()> {
     put(&OutputTarget::Made(to, is_ours), to, Some(bytes.len() as u64), |out| out.write_all(bytes))
 }

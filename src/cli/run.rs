@@ -21,7 +21,7 @@ use session::Session;
 
 pub(super) use args::Args;
 
-/// Proves every file. A bad file does not stop the others from being proven.
+/// Proves every file. If a file is bad, the remaining files are still proven.
 pub(super) fn run(args: &Args) -> Result<u8> {
     // If nothing is recorded and no viewer is served, options of recordings have no effect and are refused.
     if !args.live.is_on() {
@@ -57,7 +57,7 @@ fn threads(args: &Args) -> usize {
     }
 }
 
-/// Proves a file; waits until enough memory is free.
+/// Waits until enough memory is free, then proves a file.
 fn prove_file(
     args: &Args,
     live: Option<&Live>,

@@ -34,7 +34,7 @@ pub fn verdict_line(proof: &Proof) -> String {
     format!("{}: {}: {what}; {}", proof.scenario, style::verdict(&proof.verdict), resolution(proof))
 }
 
-/// The step or accuracy of the engine, or the number of engines.
+/// The step or accuracy of a single engine; with several engines, the number of engines.
 pub fn resolution(proof: &Proof) -> String {
     match proof.engines.as_slice() {
         [only] => of_engine(&only.info),

@@ -165,7 +165,7 @@ fn rows_of(over: Over) -> String {
     }
 }
 
-/// A short time in ms, a longer one in s.
+/// A time in words: in ms below 0.1 s, otherwise in s.
 fn duration(seconds: f64) -> String {
     if seconds < 0.1 { format!("{} ms", number(1e3 * seconds)) } else { format!("{} s", number(seconds)) }
 }

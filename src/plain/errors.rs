@@ -65,8 +65,8 @@ fn one(error: &Error, tell: Tell, (word, level): &(&str, Level<'static>)) -> Str
     let title = visible(&title);
     let help = error.way_out_by(tell).map(|help| visible_lines(&help));
     let Some(place) = error.place() else {
-        // Without a location, the text is composed here, because the renderer would draw a margin for non-existent
-        // lines.
+        // Without a location, this function composes the text, because the renderer would draw a margin for
+        // non-existent lines.
         let help = help.map(|help| format!("\n  = help: {help}")).unwrap_or_default();
         return format!("{word}: {title}{help}");
     };

@@ -53,7 +53,7 @@ pub(crate) struct Item<'a> {
 }
 
 impl Item<'_> {
-    /// Channels without figures: their bounds are not finite.
+    /// Number of channels without figures, because their bounds are not finite.
     fn without_figures(&self) -> usize {
         self.proof.reference_trajectory.channels().len() - self.found.channels.len()
     }
@@ -134,7 +134,7 @@ fn changes(comparison: &FigureComparison, text: &mut String) {
     let mut worst: Vec<&Moved> = moved.iter().filter_map(worst_of).collect();
     worst.sort_by(|a, b| b.bounds().total_cmp(&a.bounds()));
     let row = |moved: &&Moved| {
-        // Both figures are shown with enough digits to differ.
+        // The accepted figure and the found figure are shown with enough digits to differ.
         let [accepted, found] = [(moved.accepted, moved.found), (moved.found, moved.accepted)]
             .map(|(value, other)| told_apart(value, other));
         let by = format!("{:+.1e} {}", moved.found - moved.accepted, numbers::shown(unit(&moved.channel)));

@@ -159,7 +159,7 @@ mod tests {
         }
     }
 
-    /// Symptom: two parties were orange, and two blue.
+    /// Symptom: two parties were orange, and two parties were blue.
     #[test]
     fn regress_no_two_parties_look_alike() {
         let looks = |party: usize, filling: Filling| {

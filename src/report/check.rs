@@ -32,7 +32,7 @@ fn grade(judged: &JudgedFormula) -> Grade {
     }
 }
 
-/// One claim, by value or by a derivative, with the side that it fits worse.
+/// One claim, judged by value or by a derivative, and the side that the claim fits worse.
 struct Line<'a> {
     side: &'static str,
     formula: &'a Formula,

@@ -19,7 +19,7 @@ use scenario::Scenario;
 pub(crate) struct Found {
     /// Means over a turn of the crank.
     pub(crate) means: Means,
-    /// Extremes of the reduced moments: of inertia, of resistance.
+    /// Extremes of the reduced moment of inertia and of the reduced moment of resistance.
     pub(crate) extremes: [Extremes; 2],
     /// Moment of inertia of motor and reducer, reduced to the crank (kg m^2).
     pub(crate) added: f64,

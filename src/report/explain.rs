@@ -1,4 +1,4 @@
-//! The work of a proof, how often and why it was done, and the parts that it did not need.
+//! The work of a proof: how often and why each part was done, and the parts that the proof did not need.
 
 use crate::plain::cells::some;
 use crate::sentences;

@@ -12,8 +12,8 @@ use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Mechanism};
 use prover::numbers::{fixed_in, significant};
 use scenario::{Scenario, Undecided};
 
-/// Number of digits of a mass or a moment of inertia: all digits of a scenario, but not the rounding of a unit
-/// conversion.
+/// Number of digits that are shown of a mass or a moment of inertia.
+/// This number shows all digits of a scenario, but hides the rounding error of a unit conversion.
 const SHOWN: usize = 12;
 
 /// The structure as text.

@@ -148,8 +148,8 @@ rows! {
     /// A diagnosis in the JSON report.
     pub struct DiagnosisRow = |diagnosis: &Diagnosis| {} {
         suspect: String = diagnosis.suspect.clone(),
-        /// The party that disagrees with all other parties, if there is one; then a sentence on the agreement of all
-        /// parties.
+        /// `alone`: the party that disagrees with all other parties; `null` if no such party exists.
+        /// `standing`: a sentence on the agreement of all parties.
         alone: Option<String> = match &diagnosis.alone {
             PartyStanding::Alone(name) => Some(name.clone()),
             PartyStanding::Together | PartyStanding::Camps(_) | PartyStanding::Open(_) => None,

@@ -32,7 +32,7 @@ pub(crate) fn text(found: &[Mutated]) -> String {
 
 const LEGEND: &str = sentences::LEAST_MARGIN_DIFFERENCE_OVER_ITS_BOUND;
 
-/// One sentence with the figures.
+/// One sentence with the summary in capitals, the number of kinds, and how many faults were found.
 fn headline(tally: &FaultCounts) -> String {
     let FaultCounts { planted, formulas, trunk_kinds, trunk_found, kinds, .. } = tally;
     if tally.end() == FaultTally::Nothing {

@@ -26,7 +26,7 @@ pub(crate) struct Section<'a> {
 /// How the user can continue, in the words of the calling program.
 #[derive(Clone, Copy)]
 pub(crate) struct Hints<'a> {
-    /// Given the engine's name: the command that shows why the engine does not run.
+    /// Function of an engine's name: it returns the command that shows why the engine does not run.
     pub(crate) why: &'a dyn Fn(&str) -> String,
     /// How to write the section.
     pub(crate) write: &'a str,

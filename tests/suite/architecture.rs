@@ -178,7 +178,7 @@ const HOMES: &[(&str, &str)] = &[
     ("SystemTime", "linkproof::cli"),
     ("stdout", "linkproof::cli"),
     ("stderr", "linkproof::cli"),
-    // The command line only writes files; `outside`, `record`, `scenario` and `tables` read them.
+    // The command line only writes files; `outside`, `recording`, `scenario` and `tables` read files.
     ("fs", "linkproof::cli files lab::outside recording scenario prover::tables"),
     ("File", "files lab::outside recording prover::tables"),
     ("OpenOptions", ""),

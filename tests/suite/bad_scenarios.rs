@@ -298,7 +298,7 @@ fn links_and_joints() {
 #[test]
 fn structure_and_drive() {
     assert_all_refused(&[
-        // A fourth bar between crank and rocker: one pair of joints too many.
+        // A fourth bar joins crank and rocker, so the mechanism has one pair of joints too many.
         Bad {
             edits: &[
                 (

@@ -19,8 +19,8 @@ use linkage::case::Case;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Bound as a fraction of the largest value of the same kind.
-/// It allows a few hundred rounding errors of 1.1e-16, from the crank to the last dyad and back.
+/// Bound on the differences, as a fraction of the largest value of the same kind.
+/// The bound allows a few hundred rounding errors of 1.1e-16, from the crank to the last dyad and back.
 const ROUNDING: f64 = 1e-13;
 /// Acceleration of the crank (rad/s^2); it is not zero, so that terms with it are tested.
 const ALPHA: f64 = 3.7;
@@ -91,7 +91,7 @@ fn turn(case: &Case, count: usize) -> Vec<f64> {
     (0..count).map(|k| case.crank().start + TAU * k as f64 / count as f64).collect()
 }
 
-/// The largest condition number of a group at these poses.
+/// The largest condition number of a group at the poses of `states`.
 fn condition(case: &Case, states: &[State]) -> f64 {
     let pose = |state: &State| {
         let link =

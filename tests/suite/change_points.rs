@@ -61,7 +61,8 @@ fn six_bar(
 }
 
 /// The outer joints of the dyad of a four-bar are farthest apart where crank and frame are in line.
-/// This pose is a change point if coupler and rocker together are exactly as long as this distance.
+/// The pose with crank and frame in line is a change point if coupler and rocker together are exactly as long as the
+/// distance of the outer joints.
 #[test]
 fn no_step_passes_over_the_change_point_of_a_four_bar() {
     let mut random = RandomSource::from_seed(41);
@@ -93,9 +94,9 @@ fn no_step_passes_over_the_change_point_of_a_four_bar() {
     }
 }
 
-/// The outer joints of the dyad of a four-bar are farthest apart where crank and frame are in line.
-/// The pose with crank and frame in line is a change point if coupler and rocker together are exactly as long as the
-/// distance of the outer joints.
+/// A dyad on the rocker of a crank-rocker.
+/// At some crank angle, the distance of the dyad's outer joints has an extreme.
+/// The pose at this crank angle is a change point if the lengths of the dyad's links just allow the extreme distance.
 #[test]
 fn no_step_passes_over_the_change_point_of_a_dyad_on_a_dyad() {
     let mut random = RandomSource::from_seed(43);

@@ -1,4 +1,4 @@
-//! Diagnoses of planted faults: each is either named or left unexplained.
+//! Diagnoses of planted faults: each fault is either named or left unexplained.
 
 mod cases;
 mod engines;

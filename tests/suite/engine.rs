@@ -139,7 +139,7 @@ fn regress_01_the_motor_holds_its_speed_over_many_turns() {
             let angles = run.column(&Channel::named("link.crank.angle_rad").unwrap()).unwrap();
             let steps = case.grid.times.last().unwrap() / engine.settings().resolution;
             for (angle, crank) in angles.iter().zip(run.inputs()) {
-                // Half a unit in the last place of the largest angle per step.
+                // The bound is half a unit in the last place of the largest angle for each step.
                 let bound = 0.5 * epsilon(engine.as_ref()) * 32.0 * steps;
                 assert_within!((angle - crank).abs(), bound, "{}: {angle} at {crank}", engine.name());
             }

@@ -38,12 +38,13 @@ fn regress_equal_cranks_agree_though_the_rocker_has_no_acceleration() {
     let proof = proven(&scenario("parallel_cranks.toml"));
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
     let alpha = of(&proof, "link.rocker.alpha_rad_s2");
-    // The acceleration is zero because of the lengths, not because of the structure, so the sides find rounding errors.
+    // The acceleration is zero because of the lengths, not because of the structure, so the sides compute rounding
+    // errors instead of exact zeros.
     assert!(alpha.bound < 1e-3 * alpha.residual.scale, "{alpha:?}");
 }
 
 /// A crank at constant speed, on a grid that ends beside a dead point.
-/// Only small steps are possible there, so the second differences contain much rounding error.
+/// Only small steps are possible beside the dead point, so the second differences contain much rounding error.
 /// The rounding error is smallest at the largest of these steps.
 #[test]
 fn regress_a_constant_speed_crank_leaves_no_verdict_open() {

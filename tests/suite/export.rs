@@ -38,7 +38,9 @@ fn all() -> Vec<Scenario> {
     let paths = [files(&top), files(&top.join("variants60"))].concat();
     let mut scenarios: Vec<Scenario> =
         paths.iter().map(|path| Scenario::load(path).unwrap_or_else(|error| panic!("{error}"))).collect();
-    // The tests in tests/suite/loads.rs and tests/suite/laws.rs check that other loads and laws are refused.
+    // Only scenarios at constant speed and without loads other than resistances are kept.
+    // The tests in tests/suite/loads/engines.rs and tests/suite/laws.rs check that unsupported loads and laws are
+    // refused.
     let known = |load: &Load| matches!(load, Load::Resistance { .. });
     scenarios.retain(|scenario| scenario.case.is_steady() && scenario.case.loads.iter().all(known));
     assert!(scenarios.len() >= 72, "{}", scenarios.len());
@@ -204,7 +206,7 @@ fn the_rotor_inertia_dominates_the_mechanism() {
         let case = &scenario.case;
         let state = start(case);
         let model = MjcfModel::new(case, &state, &scenario.name, STEP).unwrap();
-        // Inertia reduced to the crank: twice the kinetic energy over the square of the crank's speed.
+        // Inertia reduced to the crank: twice the kinetic energy divided by the square of the crank's speed.
         let energy = |link: LinkId| {
             let (body, motion) = (&case.mechanism.links()[link], &state.motions[link]);
             body.mass * motion.point_velocity(body.mass_centre).norm_squared() + body.inertia * motion.omega.powi(2)

@@ -67,7 +67,7 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
             "rad" => 0.005f64.to_radians(),
             _ => 0.005,
         };
-        // The margin covers the rounding errors of the sides.
+        // The factor 1 + 1e-6 allows for the rounding errors of the sides.
         assert!(check.bound <= half_unit * (1.0 + 1e-6), "{}", check.name());
     }
 }
@@ -135,8 +135,8 @@ fn val_crank_rocker_mean_reduced_inertia_and_resistance() {
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         let means = analytic::reduced::means::means_over_turn(&case, solver).unwrap();
         assert_abs_diff_eq!(means.inertia, 0.164846013, epsilon = 0.5e-9);
-        // The exact value is 100 N m times twice the swing, over one revolution.
-        // The computed value differs by the error of the mean at the two kinks.
+        // The exact mean is 100 N m times twice the swing, divided by one revolution.
+        // The computed mean differs from the exact mean by the error at the two kinks.
         assert_abs_diff_eq!(means.resistance, 100.0 * 2.0 * 32.0 / 360.0, epsilon = 5e-5);
     }
 }

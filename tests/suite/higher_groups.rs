@@ -81,7 +81,7 @@ fn agree(among: Among, tries: usize) {
         // Many mechanisms may end at dead points, but more than a tenth of all mechanisms must be solved.
         assert!(solved * 10 > tries && as_drawn * 2 > tries, "{what}: only {solved}, {as_drawn} of {tries}");
         for stage in Stage::ALL {
-            // The bounds of the published mechanisms, multiplied by the square of `nearness`.
+            // The bounds are those of the published mechanisms, multiplied by the square of `nearness`.
             let bound = match stage {
                 Stage::Positions => 1e-12,
                 Stage::Velocities | Stage::Accelerations => 1e-11,

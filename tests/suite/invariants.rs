@@ -56,7 +56,7 @@ impl Around {
         within(what, (fine - rate).abs(), (fine - coarse).abs() + noise)
     }
 
-    /// The same for a vector.
+    /// Checks that the vector `rate` is the derivative of the vectors `of`, whose values are of size `scale`.
     fn are_slopes(&self, what: &str, scale: f64, of: impl Fn(&State) -> Vec2, rate: Vec2) -> Result<(), TestCaseError> {
         self.is_slope(what, scale, |s| of(s).x, rate.x)?;
         self.is_slope(what, scale, |s| of(s).y, rate.y)

@@ -16,8 +16,8 @@ use crate::cli::tools::Place;
 
 const OLD: &str = "foxglove.websocket.v1";
 const NEW: &str = "foxglove.sdk.v1";
-/// One pass takes half a second.
-/// The budget is small, because the proof does not matter here.
+/// One pass through the motion takes half a second.
+/// The budget is small, because the proof does not matter in these tests.
 const RUN: &str = "run scenarios/pendulum.toml --budget 1e5 --live=0 --slow 0.1";
 
 /// A server in a temporary directory.
@@ -52,7 +52,7 @@ impl Served {
 
 impl Drop for Served {
     fn drop(&mut self) {
-        // If the test passes, the server has already ended, and the call has no effect.
+        // If the test passes, the server has already ended, so `kill` has no effect.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -371,7 +371,7 @@ fn a_viewer_may_request_a_topic_four_times_at_most() {
 }
 
 /// Reads the listening address from the system's list of sockets.
-/// The printed address would be the same for every listening address.
+/// The printed address is not used, because it would be the same for every listening address.
 #[cfg(target_os = "linux")]
 #[test]
 fn live_listens_locally_unless_an_address_is_given() {

@@ -60,7 +60,8 @@ impl Table {
                 case.crank(),
                 (0..rows).map(|row| 0.0361 + 0.127_314_159_265 * f64::from(row)).collect(),
             ),
-            // Rounding of the printed instants may move the last instant beyond the end of the run.
+            // The last instant is the end of the run; rounding of the printed instants may move the last instant beyond
+            // this end.
             false => {
                 let share = |row: i32| (f64::from(row) / f64::from(rows)).powf(1.1);
                 Grid::of_times(case.crank(), (1..=rows).map(|row| last * share(row)).collect())
@@ -236,7 +237,7 @@ fn instants_rounded_too_much_are_inconclusive() {
     }
 }
 
-/// A column of zeros may be zero by structure, or may be a forgotten column.
+/// A column of zeros may belong to a quantity that is zero by structure, or to a quantity that was forgotten.
 /// If the file prints nine digits and omits trailing zeros, its zeros count as exact.
 #[test]
 fn a_zero_column_is_exact_if_others_omit_trailing_zeros() {

@@ -40,7 +40,7 @@ fn every_force_is_judged_twice_and_names_its_origin() {
             "{name}"
         );
         assert_ne!(engine.info.provides[3], own.info.provides[3], "{name}");
-        // The two routes must give different numbers.
+        // The routes by differences and by native impulses must give different numbers.
         let (ours, theirs) = (engine.trajectory.as_ref().unwrap(), own.trajectory.as_ref().unwrap());
         assert!(ours.column(judged[0]).unwrap() != theirs.column(judged[0]).unwrap(), "{name}");
         let worst = own.channels.iter().fold(0.0f64, |worst, own| worst.larger(own.bound / own.residual.scale));

@@ -18,7 +18,8 @@ fn the_reaction_of_a_bare_crank_peaks_with_its_mass_lowest() {
     let peaks = over_range(&Scenario::parse(text, Path::new("bare.toml")).unwrap().case).unwrap();
     let expected = 2.0 * (9.0 * 0.3 + 9.81);
     assert_within!((peaks.reactions[0].value - expected).abs(), 1e-14 * expected, "{peaks:?}");
-    // The value is stationary at its maximum, so the angle is accurate only to the square root of the rounding error.
+    // The reaction is stationary at its maximum, so the angle is accurate only to the square root of the rounding
+    // error.
     assert_within!((peaks.reactions[0].crank - 1.5 * std::f64::consts::PI).abs(), 1e-7, "{peaks:?}");
     assert_eq!(peaks.reactions[0].value, peaks.shaking_force.value);
     assert_within!((peaks.balancing_moment.value - 2.0 * 9.81 * 0.3).abs(), 1e-14 * 6.0);
@@ -55,7 +56,7 @@ fn val_ov7_new_largest_reactions_and_journals() {
     assert_within!((1e3 * journal_diameter(crank.value, 0.01, 200e6) - 8.04).abs(), 0.005);
 }
 
-/// Side 2 has the same value at the refined angle, and no larger value near this angle.
+/// Side 2 has the same reaction at the refined angle, and no larger reaction near this angle.
 #[test]
 fn the_other_side_has_the_same_peaks() {
     for name in ["crank_rocker.toml", "fourth_class.toml", "class3_group.toml"] {

@@ -112,7 +112,7 @@ fn every_link_is_in_equilibrium() {
                 }
                 // The bound allows for the rounding error of a linear system of nine equations, relative to the largest
                 // force.
-                // Lengths are below a metre.
+                // Lengths are below a metre, so the same bound is valid for moments.
                 let bound = 1e-13 * largest;
                 assert_within!(force.norm(), bound, "{} {index} {time}: {force} {moment}", sample.name);
                 assert_within!(moment.abs(), bound, "{} {index} {time}: {force} {moment}", sample.name);
@@ -121,7 +121,7 @@ fn every_link_is_in_equilibrium() {
     });
 }
 
-/// The force of a prismatic joint is perpendicular to its axis, within the rounding of the forces that enter it.
+/// The force of a prismatic joint is perpendicular to the joint's axis, up to the rounding of the largest joint force.
 #[test]
 fn sliders_are_not_pushed_along_their_guides() {
     each(|sample, solver| {
@@ -170,8 +170,8 @@ fn drive_and_frame_agree_with_power_and_momentum() {
 }
 
 /// The order in which a joint names its links does not change the joint.
-/// With the other order, the force changes its sign.
-/// The moment also changes its sign, and is taken about the joint point on the other link.
+/// With the reverse order, the force changes its sign.
+/// The moment also changes its sign, and is taken about the joint point on the link that is then second.
 #[test]
 fn order_of_a_joints_links_does_not_matter() {
     each(|sample, solver| {

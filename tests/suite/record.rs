@@ -237,7 +237,7 @@ fn floats(data: &[u8]) -> Vec<f32> {
         .collect()
 }
 
-/// Engine minus reference, with its sign, in micrometres, microradians and millinewtons.
+/// The recorded difference is engine minus reference, with its sign, in micrometres, microradians and millinewtons.
 #[test]
 fn errors_are_engine_minus_reference_in_small_units() {
     let (_directory, path) = place("errors.mcap");
@@ -293,7 +293,8 @@ fn both_sides_are_read_back_bit_for_bit() {
     assert_eq!(sides.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["reference", "engine"]);
     assert_same(&sides[0].1, &run.reference);
     assert_same(&sides[1].1, &run.engine);
-    // Two thirds of the size are incompressible numbers and the index of 13 thousand messages.
+    // The file must be smaller than 1 MB.
+    // Two thirds of its size are incompressible numbers and the index of 13 thousand messages.
     let size = fs::metadata(&path).unwrap().len();
     assert!(size < 1_000_000, "361 samples of a four-bar take {size} bytes");
 }

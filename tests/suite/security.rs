@@ -41,7 +41,7 @@ fn every_sentence_of_a_guarantee_names_an_existing_test() {
     assert!(guarantees.len() >= 7, "{} guarantees", guarantees.len());
     let mut names = Vec::new();
     for guarantee in guarantees {
-        // A title is a sentence or the beginning of a sentence.
+        // A title is a sentence or the beginning of a sentence, so the check of sentences starts after the title.
         let (_, rest) = guarantee.split_once("**").unwrap();
         for sentence in sentences(rest) {
             let before = names.len();

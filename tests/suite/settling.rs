@@ -261,8 +261,8 @@ mode = "left"
 
 /// Symptom: at every step tried, an engine passed the dead points outside its grid, before the first instant and after
 /// the last.
-/// This happened when the engine covered its whole range, and the search attributed the error to the sweeps.
-/// Here both ends of the grid are 0.15 deg from a dead point.
+/// The engine passed these points when it covered its whole range, and the search attributed the error to the sweeps.
+/// Both ends of the test's grid are 0.15 deg from a dead point.
 #[test]
 fn regress_steps_do_not_cross_dead_points_beyond_the_grid() {
     let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
@@ -274,10 +274,7 @@ fn regress_steps_do_not_cross_dead_points_beyond_the_grid() {
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
 }
 
-/// Symptom: at every step tried, an engine passed the dead points outside its grid, before the first instant and after
-/// the last.
-/// The engine passed these points when it covered its whole range, and the search attributed the error to the sweeps.
-/// Both ends of the test's grid are 0.15 deg from a dead point.
+/// Symptom: on a grid of one instant no channel has a range, and errors "may reach inf".
 #[test]
 fn regress_one_instant_can_be_judged() {
     let mut scenario = shipped("crank_rocker.toml");
@@ -288,7 +285,8 @@ fn regress_one_instant_can_be_judged() {
 }
 
 /// Symptom: a free crank that reverses under a motor of efficiency below 1 disagreed in all channels.
-/// Cause: the motor's moment jumps where the power changes direction, and in the engine it jumped up to a step late.
+/// Cause: the motor's moment jumps where the power changes direction, and in the engine this jump came up to a step
+/// late.
 /// The delay is not a power series of the step, and runs at h and h / 2 had the same error.
 #[test]
 fn regress_a_motor_s_jump_within_a_step_counts_by_its_share() {

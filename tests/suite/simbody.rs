@@ -62,7 +62,7 @@ fn agree(case: &Case, engine: &Simbody, reference: &dyn Solver, condition: f64) 
     worst
 }
 
-/// The required figures are 1e-8 and 1e-7 of half the range.
+/// Errors may be at most 1e-8 of half the range for angles, and 1e-7 of half the range for reactions and moments.
 /// Three accuracies are tested: the loosest useful accuracy, the default, and the tightest accuracy that does not take
 /// minutes.
 /// Under prescribed motion the results at the three accuracies do not differ: see the engine's `noise`.
@@ -341,8 +341,9 @@ fn simbody_is_listed_with_an_accuracy_instead_of_a_step() {
     assert!(engine.told().iter().any(|(name, value)| *name == "accuracy" && value == "1e-8"));
 }
 
-/// The stretched links reach 0.45 m.
-/// The outer joints of the dyad are farther apart beyond acos(0.0475 / 0.24) = 78.5843 deg.
+/// The stretched links of the dyad reach 0.45 m.
+/// At crank angles beyond acos(0.0475 / 0.24) = 78.5843 deg, the outer joints of the dyad are farther apart than 0.45
+/// m.
 #[test]
 fn a_dead_point_is_an_error_with_time_crank_angle_and_joint() {
     let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
@@ -365,7 +366,7 @@ fn a_dead_point_is_an_error_with_time_crank_angle_and_joint() {
     }
 }
 
-/// A slider whose rod is too short beyond 261.347 deg.
+/// A slider-crank whose rod is too short at crank angles beyond 261.347 deg.
 #[test]
 fn a_slider_out_of_reach_is_an_error() {
     let error = default().solve(&sliders::short_rod()).unwrap_err();

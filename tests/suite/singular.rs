@@ -89,7 +89,7 @@ fn dead_points_are_refused() {
 
 /// Symptom: 1e-9 deg from a dead point, side 2 gave the acceleration of the crank pin wrong by 176 %.
 /// Cause: rounding of the huge accelerations of the neighbouring group entered through one elimination over all rows.
-/// The motion of the crank depends on its drive alone, and is exact here.
+/// The motion of the crank depends on its drive alone, and is exact in this test.
 /// The mechanism is ten times as large as that of the fault report, because lever arms above 1 m become pivots of the
 /// elimination.
 #[test]
@@ -159,7 +159,7 @@ fn regress_a_link_that_only_translates_has_no_sense_of_rotation() {
     }
 }
 
-/// The coupler of an almost exact parallelogram does rotate.
+/// The coupler of an almost exact parallelogram rotates, so its rotation has a sense.
 #[test]
 fn a_link_that_turns_slightly_keeps_its_sense() {
     let case = at([0.4, 0.1, 0.4, 0.1 + 1e-9], true, 30.0, &[30.0]);

@@ -114,7 +114,7 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     };
     assert_eq!((local("C") - local("O2")).norm(), 2.0 * (local("B") - local("O2")).norm());
     let mut cranks = upright().to_vec();
-    // The oracles of the scenario for the topmost position are at these angles, to the digits in the file.
+    // The scenario's oracles for the topmost position are at the crank angles of `upright`, to the digits in the file.
     let topmost = || scenario.oracles.iter().filter(|oracle| oracle.name.starts_with("topmost position"));
     for (oracle, crank) in topmost().zip(&cranks) {
         for series in &oracle.series {
@@ -138,8 +138,9 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     }
 }
 
-/// Checks x, v and a of a point by both solvers against a closed form, each relative to its largest value.
-/// The other coordinate must be constant.
+/// Checks x, v and a of a point along `axis`, by both solvers against a closed form, each relative to its largest
+/// value.
+/// The coordinate along the second axis must equal `other` at every instant.
 fn assert_closed_form(name: &str, point: &str, axis: usize, other: f64, form: impl Fn(f64) -> [f64; 3]) {
     let case = shipped(name).case;
     for rows in solved(&case) {
@@ -197,7 +198,8 @@ fn val_quick_return_time_ratio() {
     let swing = (first.angle - second.angle).abs();
     assert_within!((swing - 2.0 * (0.1f64 / 0.3).asin()).abs(), 1e-9, "{swing}");
     // At the extreme positions of the guide, the ram also reverses.
-    // The ram's speed, up to 3 m/s elsewhere, is here only the effect of an angle error of 1e-9 rad.
+    // The ram's speed is up to 3 m/s between these positions.
+    // At these positions, the computed speed is only the effect of an angle error of 1e-9 rad.
     let mut cranks = vec![first.crank, second.crank];
     cranks.sort_by(f64::total_cmp);
     for rows in solved(&case.on(Grid::of_inputs(case.crank(), cranks)).unwrap()) {

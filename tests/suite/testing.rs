@@ -101,7 +101,7 @@ fn settings_apply_to_the_proof() {
     let engines = Options::default().engine(EngineName::Impulse).engine(EngineName::Rapier);
     let both = of(CRANK_ROCKER).with(engines).only(["link.rocker.angle_rad"]).assert();
     assert_eq!(both.engines.iter().map(|engine| engine.info.name).collect::<Vec<_>>(), ["impulse", "rapier"]);
-    // The same step is too coarse for a tighter tolerance.
+    // A step that is fine enough for one tolerance is too coarse for a tighter tolerance.
     let step = || of(CRANK_ROCKER).with(Options::default().step(1e-3)).only(["link.rocker.angle_rad"]);
     assert_eq!(step().assert().verdict.word(), "agree");
     assert_eq!(step().tolerance(1e-6).prove().unwrap().verdict.word(), "inconclusive");

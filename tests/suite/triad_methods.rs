@@ -58,7 +58,8 @@ fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 /// Product of the lengths of the four columns of a group's equations, divided by the absolute value of their
-/// determinant; at least 1. The product is the factor by which rounding of the coefficients can grow in the unknowns.
+/// determinant; at least 1.
+/// The quotient is the factor by which rounding errors of the coefficients can grow in the unknowns.
 fn condition(contours: &Contours) -> f64 {
     let mut matrix = Matrix::zeros(4, 4);
     for (k, side) in contours.sides.into_iter().enumerate() {
@@ -142,7 +143,8 @@ fn all_methods_agree_with_both_solvers_over_the_turn_of_the_published_drive() {
             assert!(found.are_within(1e-13), "{name} {} {found:?}", solver.name());
             assert!(found.condition < 2.0 && found.chain < 2.0, "{found:?}");
             // The motion passes both limits of the ground lead.
-            // The base link and the other lead never come close to one line.
+            // The base link and the lead other than the ground lead never come close to one line, so no exchange
+            // occurs.
             assert_eq!((found.limits, found.exchanges), (2, 0));
         }
     }

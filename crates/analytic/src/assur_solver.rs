@@ -94,8 +94,8 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
         model => model?,
     };
     if model.kinks().meets {
-        // The motion has a change point as a limit. The equations with transfer functions follow the motion beyond this
-        // change point: the momentum selects the branch.
+        // The motion has a change point as a limit, so it is solved with transfer functions.
+        // This method follows the motion beyond the change point, where the momentum selects the branch.
         return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
     }
     let (motion, end) =

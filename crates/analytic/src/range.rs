@@ -180,7 +180,8 @@ pub fn conditions(mechanism: &Mechanism, groups: &[Group], pose: &Pose) -> Vec<f
     groups.iter().map(of).collect()
 }
 
-/// Returns all poses in ascending order of the crank angle.
+/// Follows the curve from `start` in both directions.
+/// Returns its poses in ascending order of the crank angle, and the crank angles that can be reached.
 fn both_ways(tracker: &Tracker, start: &Point) -> Result<(Vec<Point>, Extent)> {
     let forwards = tracker.follow(start, 1.0)?;
     let to = match forwards.end {

@@ -120,15 +120,15 @@ impl TableCell {
     }
 }
 
-/// The numbers of a column, each with the uncertainty left by its printed digits.
+/// The numbers of a column, each with the uncertainty caused by the printing of its digits.
 ///
 /// A column is printed with a fixed number of decimals or of significant digits, and programs omit trailing zeros.
 /// The largest number of decimals or digits of any cell is therefore the fixed number.
 /// The uncertainty is half a unit of the last printed digit. The uncertainty is computed for both formats, and the
 /// larger value counts.
 /// The larger value is always that of the actual format:
-/// With fixed decimals, the largest number has most significant digits.
-/// With fixed significant digits, the smallest number has most decimals.
+/// With fixed decimals, the number of largest magnitude has the most significant digits.
+/// With fixed significant digits, the number of smallest magnitude has the most decimals.
 ///
 /// Several whole numbers may have more digits than all other cells only because of trailing zeros.
 /// The trailing zeros then count as digits lost in rounding, unless all numbers are multiples of a chosen step.
@@ -179,7 +179,8 @@ const FEW: usize = 2;
 /// By chance, about one in eight decimal numbers with eight digits is such a text.
 const TELLING: usize = 8;
 
-/// Precision of the numbers of a column before they were printed, the coarser one first.
+/// Precision of the numbers of a column before the numbers were printed. Single precision comes before double
+/// precision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Precision {
     /// Single: each number has just enough digits to be distinguished from its neighbours.

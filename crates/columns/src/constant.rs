@@ -7,17 +7,17 @@ use formula::Rounded;
 /// Number of digits that single precision always represents.
 const SINGLE: u16 = 7;
 
-/// The numbers of a column of a file, each with the uncertainty left by its printed digits.
+/// The numbers of a column of a file, each with the uncertainty caused by the printing of its digits.
 /// The result is that of [`numbers`], except for a column of zeros.
-/// For a column of zeros, `others` gives the other columns of the file, which also count.
+/// For a column of zeros, the result also depends on `others`, the columns of the file other than this column.
 ///
 /// A constant column does not show its format.
 /// A `0` printed by `%g`, Python and similar formats is an exact zero. A `0` printed by `%.0f` may be any number below
 /// a half.
 /// A file usually has one format. If the format omits trailing zeros, the cells of a column that is not constant differ
 /// in their decimals and in their significant digits.
-/// If the cells of all other columns differ in this way, the zeros have at least the decimals and digits of the
-/// coarsest of the other columns.
+/// If the cells of all columns in `others` differ in this way, the zeros have at least the decimals and digits of the
+/// coarsest of these columns.
 /// Two kinds of columns show that each column may have a separate format. The zeros may then be rounded to the format
 /// of their column.
 /// The first kind has a fixed number of decimals, as from `%.6f`. The second kind contains whole numbers that are not
@@ -75,9 +75,10 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouche
     coarsest
 }
 
-/// Whether all numbers of a column are zero. The other columns of the file count only for such a column.
+/// Whether all numbers of a column are zero. Only for a column of zeros do the file's other columns affect the
+/// uncertainty.
 /// In a format with significant digits, a zero is exact even with few digits.
-/// A constant other than zero may have been rounded to fewer digits than the other columns have.
+/// A constant other than zero may have been rounded to fewer digits than the file's other columns have.
 fn is_zero(cells: &[TableCell]) -> bool {
     is_constant(cells) && cells.iter().any(|cell| cell.value() == 0.0)
 }

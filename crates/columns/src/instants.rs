@@ -5,7 +5,7 @@ use linkage::math::KeepNan;
 
 /// If the probability that a pattern of instants occurs by chance is at most one in this number, the instants count as
 /// exact.
-/// A step that was not chosen looks constant over n steps with the probability 2 / n.
+/// Rounded instants whose step was not chosen look equally spaced over n steps with the probability 1 / n.
 /// A step ends with a zero by chance with the probability 1 / 10, for each zero.
 const EVIDENCE: f64 = 50.0;
 
@@ -147,7 +147,7 @@ mod tests {
             (3, &|row| format!("{:.0}", 2.7777 * row), false),
             (9, &|row| format!("{:.6}", row / 780.0), false),
             (73, &|row| format!("{:.6}", row / 780.0), false),
-            // The step is round, but the first instant is not.
+            // The step is a round number, but the first instant is not, so the instants do not count as chosen.
             (9, &|row| format!("{:.5}", 1.0 / 12.0 + 0.1 * row), false),
             (1, &|_| "0.0417".into(), false),
             (1, &|_| "0".into(), true),

@@ -4,7 +4,7 @@ use crate::cell::is_missing;
 use formula::Rounded;
 use linkage::math::KeepNan;
 
-/// One row of both columns.
+/// One row of the two compared columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowPair {
     /// Index of the row in the column of the party whose instants are used.

@@ -1,12 +1,12 @@
 #![doc = include_str!("../README.md")]
-//!
 //! Loops over rows are in this crate, because this crate is compiled with optimisation.
 //!
 //! - [`read`]: a text with separated columns as a [`TextTable`].
 //! - [`Records`]: the rows of a table whose cells are not all numbers.
-//! - [`TableCell`] and [`numbers`]: the uncertainty left by the printed digits of a column.
-//! - [`numbers_beside`]: the uncertainty left by the printed digits of a column in a file, whose other columns show the
-//!   format of a constant.
+//! - [`TableCell`] and [`numbers`]: the numbers of a column, each with the uncertainty caused by the printing of its
+//!   digits.
+//! - [`numbers_beside`]: the same uncertainty for a column of a file. The file's other columns show the format of a
+//!   constant column.
 //! - [`chosen`]: whether instants were chosen as printed, or rounded.
 //! - [`judge`]: comparison of two columns.
 

@@ -19,7 +19,7 @@ const COMMENTS: [char; 3] = ['#', '%', ';'];
 pub struct TextTable {
     /// Names of the columns; `c1`, `c2`, ... if the text has no names.
     pub names: Vec<String>,
-    /// Numbers of the columns, each with the uncertainty left by its printed digits.
+    /// Numbers of the columns, each with the uncertainty caused by the printing of its digits.
     pub columns: Vec<Vec<Rounded>>,
     /// Line number of every row, from 1; empty if the file has no lines.
     pub lines: Vec<u32>,
@@ -195,7 +195,7 @@ pub(crate) fn divide(line: &str, separator: Option<char>, give: &mut dyn FnMut(&
 }
 
 /// The first cell of a line, and the rest of the line after the separator.
-/// A quoted cell may contain separators. Two quotes stand for one quote character.
+/// A quoted cell may contain separators. Two quotes in a quoted cell denote one quote character.
 fn cell(line: &str, separator: char) -> (Cow<'_, str>, Option<&str>) {
     let own = line.trim_start();
     let Some(quoted) = own.strip_prefix('"') else {

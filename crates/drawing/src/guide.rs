@@ -7,21 +7,23 @@ use super::travel::Travels;
 use linkage::math::{KeepNan, Vec2, cross, turned};
 use linkage::mechanism::{GROUND, Guise, Joint, JointId, JointSide, LinkId, Mechanism};
 
-/// Half length and half width of a block: `FIXED` in a fixed guide, `MOVING` on a moving guide.
+/// Half length and half width of a block, in units of the sketch: `FIXED` in a fixed guide, `MOVING` on a moving guide.
 /// The two sizes differ so that both blocks are visible at the same joint.
 const FIXED: [f64; 2] = [5.0, 3.2];
 const MOVING: [f64; 2] = [3.8, 2.0];
-/// Clearance between a block and the wall beside it.
+/// Clearance between a block and the wall beside it, in units of the sketch.
 const PLAY: f64 = 0.5;
-/// Gap between a piston and the head of its cylinder.
+/// Gap between a piston and the head of its cylinder, in units of the sketch.
 const HEAD: f64 = 2.5;
-/// Length of hatching lines, and their spacing along the rail.
+/// Length of hatching lines, and their spacing along the rail, in units of the sketch.
 const HATCH: f64 = 1.6;
 const PITCH: f64 = 2.0;
-/// A centre line extends at most this far beyond the rail, towards a ground point on the centre line.
+/// A centre line extends at most this far beyond the rail (in units of the sketch), towards a ground point on the
+/// centre line.
 const AXIS: f64 = 150.0;
 /// No rail is drawn in a box around a pivot.
-/// `BELOW` is the distance of the box's centre below the pin, and `BOX` is half its width and height.
+/// `BELOW` is the distance of the box's centre below the pin, and `BOX` is half its width and height, in units of the
+/// sketch.
 const BELOW: f64 = 2.0;
 const BOX: [f64; 2] = [5.2, 5.0];
 /// If one of these words occurs in the name of the joint or of one of its links, the pair is a piston in a cylinder.
@@ -34,7 +36,7 @@ const ON_AXIS: f64 = 1e-6;
 struct Guide {
     guide: JointSide,
     block: JointSide,
-    /// Unit vectors along the guide, in the frame of its link and in that of the block.
+    /// Unit vectors along the guide, in the frame of the guide's link and in the frame of the block's link.
     axes: [Vec2; 2],
     /// Travel of the block from the guide's point (m).
     travel: [f64; 2],
@@ -156,8 +158,8 @@ impl Guide {
 
     /// Rails or bore of a fixed guide, hatched, and its centre line.
     /// Rails are interrupted at pivots.
-    /// Where a rail lies on the line of an earlier rail, the rail is not hatched again: the second hatching would fill
-    /// the gaps.
+    /// Where a rail lies on the line of an earlier rail, the rail is not hatched again.
+    /// A second hatching would fill the gaps between the lines of the first hatching.
     fn fixed(&self, pivots: &[Vec2], drawn: &mut Vec<[Vec2; 2]>) -> Vec<Mark> {
         let u = self.unit;
         let (role, ends) =

@@ -1,5 +1,5 @@
 //! A mechanism assembled as far as possible.
-//! Every group that can be placed is placed; the gaps between the other links are as small as possible.
+//! Every group that can be placed is placed. The gaps at the joints of the remaining links are as small as possible.
 
 mod nearest;
 
@@ -114,7 +114,7 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
                 done = tried;
             }
             Err(error) => {
-                // If the group can be closed, its only fault is an unspecified mode.
+                // If the group can be closed, its only fault is an unspecified mode, so no circles are listed.
                 // If the group cannot be closed, the circles on which its inner pin would lie are listed.
                 if configurations(mechanism, group, &laid.pose()).is_err() {
                     laid.reaches.extend(reaches(mechanism, group, &laid));

@@ -100,7 +100,7 @@ roles! {
     Stop = "stop": Text, None, 0.4, Ground;
     /// A link with three or more points that are not on a line.
     Plate = "plate": Link, Tint, 0.9, Links;
-    /// A link with two points, or with several on a line.
+    /// A link with two points, or with several points on one line.
     Bar = "bar": Link, None, 1.1, Links;
     /// Shows that a bar continues past the pin in its middle.
     Weld = "weld": Link, Ink, 0.2, Links;
@@ -168,7 +168,8 @@ pub enum Fill {
     Ink,
 }
 
-/// Drawing layers, lowest first. Within a layer, larger links lie below smaller ones, so that no link hides another.
+/// Drawing layers, lowest first. Within a layer, larger links lie below smaller links, so that no link hides another
+/// link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
     /// What stands still.

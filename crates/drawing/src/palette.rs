@@ -7,9 +7,9 @@ use linkage::mechanism::LinkId;
 /// A colour for light and dark paper, and the hatching that replaces it in pictures without colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaletteColour {
-    /// Colour on light paper (`#rrggbb`). Its contrast with white is at least 3 : 1.
+    /// Colour on light paper (`#rrggbb`). The contrast of this colour with white is at least 3 : 1.
     pub light: &'static str,
-    /// Colour on dark paper (`#rrggbb`). Its contrast with #16181c is at least 3 : 1.
+    /// Colour on dark paper (`#rrggbb`). The contrast of this colour with #16181c is at least 3 : 1.
     pub dark: &'static str,
     /// Angle of the hatching of plates (deg).
     pub hatch_deg: f64,
@@ -28,7 +28,7 @@ pub const LINKS: [PaletteColour; 7] = [
 
 /// Colour of text and of fixed parts.
 pub const TEXT: PaletteColour = PaletteColour { light: "#1a1a1a", dark: "#eceff4", hatch_deg: 45.0 };
-/// Colour of the background's lines.
+/// Colour of auxiliary lines and symbols, such as axes and mass centres.
 pub const QUIET: PaletteColour = PaletteColour { light: "#767676", dark: "#9aa0aa", hatch_deg: 45.0 };
 /// Colour of loads, springs and dampers.
 pub const LOAD: PaletteColour = PaletteColour { light: "#c1121f", dark: "#ff6b6b", hatch_deg: 45.0 };

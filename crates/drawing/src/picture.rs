@@ -15,14 +15,15 @@ use linkage::mechanism::{GROUND, LinkId, LinkPose, Mechanism};
 /// Radius (mm) of the disc around a link's number, and of the area covered by a pin.
 const NUMBER: f64 = 2.3;
 const CLEAR: f64 = 1.4;
-/// If points are closer to each other on paper than this (mm), they share one label.
+/// If points are closer to each other on paper than this distance (mm), they share one label.
 const ONE: f64 = 0.7;
 /// Dimensions of arrows (mm): `FORCE` is the length for the largest force, and `GRAVITY` the length for gravity.
 /// `MOMENT` is the radius of the arrows of moments.
 const FORCE: f64 = 22.0;
 const GRAVITY: f64 = 12.0;
 const MOMENT: f64 = 6.5;
-/// If a force or moment is below `LEAST` times the largest one, or below `NOTHING` (N, N m), it is not drawn.
+/// If a force or moment is below `LEAST` times the largest force or moment, or below `NOTHING` (N, N m), it is not
+/// drawn.
 /// Such small values are rounding errors.
 const LEAST: f64 = 1e-6;
 const NOTHING: f64 = 1e-9;
@@ -148,8 +149,8 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Positions on paper and texts of the labels for which `wanted` returns true. They are the argument of
-    /// [`Picture::name`].
+    /// Positions on paper and texts of the labels for which `wanted` returns true. These positions and texts are the
+    /// argument of [`Picture::name`].
     #[must_use]
     pub fn names(&self, wanted: impl Fn(Lettering) -> bool) -> Vec<(Vec2, String)> {
         let labels = self.sketch.labels.iter().filter(|label| wanted(label.names));
@@ -177,7 +178,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Writes the numbers of all links beside them.
+    /// Writes the number of every link beside the link.
     pub fn number_links(&mut self) {
         for label in self.sketch.labels.iter().filter(|label| label.names == Lettering::Link) {
             if let Some(at) = self.at(label.at.link, label.at.local) {
@@ -189,7 +190,8 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Writes the number of a link at this point of its frame (m). The number stays there while the link moves.
+    /// Writes the number of a link at the point `local` of its frame (m). The number stays at this point while the link
+    /// moves.
     pub fn number_on(&mut self, link: LinkId, local: Vec2) {
         if let Some(at) = self.at(link, local) {
             draw_number(&mut self.figure, at, link.to_string(), colour(link));

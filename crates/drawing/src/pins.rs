@@ -4,7 +4,7 @@ use super::mark::{Mark, MarkRole};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 
-/// Radius of a pin, and spacing of the rings around it.
+/// Radius of a pin, and spacing of the rings around it, in units of the sketch.
 pub const PIN: f64 = 1.2;
 const RING: f64 = 0.9;
 

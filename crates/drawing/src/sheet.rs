@@ -52,7 +52,8 @@ pub fn columns(cells: usize) -> usize {
     cells.clamp(1, 2)
 }
 
-/// The sheet, with its size (mm). Its upper left corner is the origin; every cell is at least `least` (mm) wide.
+/// The sheet, with its size (mm). The upper left corner of the sheet is the origin.
+/// Every cell is at least `least` (mm) wide.
 #[must_use]
 pub fn sheet(title: &str, subtitle: &str, cells: &[SheetCell], least: f64) -> (DrawnFigure, [f64; 2]) {
     let columns = columns(cells.len());

@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 const DRIVE: f64 = 8.0;
 const SWEEP: f64 = 1.7;
 const AHEAD: f64 = 0.35;
-/// Radius of a motor's circle.
+/// Radius of a motor's circle, in units of the sketch.
 const MOTOR: f64 = 3.4;
 /// Length of an arrow's head, upper limit of this length divided by the arrow's length, and half width of the head.
 const HEAD: f64 = 2.8;
@@ -21,7 +21,7 @@ const HALF: f64 = 0.9;
 const SPIRAL: [f64; 2] = [1.9, 4.6];
 const TURNS: f64 = 2.25;
 const STEPS: usize = 54;
-/// Radius of a torsional damper's drum.
+/// Radius of a torsional damper's drum, in units of the sketch.
 const DRUM: f64 = 5.4;
 
 /// A load drawn as an arrow. The arrow's size and direction are known only for a given state of the mechanism.
@@ -113,7 +113,7 @@ fn moved(mark: Mark, role: MarkRole, by: Vec2) -> Mark {
     Mark { shape, role }
 }
 
-/// An arrow from the origin to `tip` (m), its line and its head, for a sketch of this unit (m).
+/// An arrow from the origin to `tip` (m): its line and its head. The sketch has the unit `u` (m).
 #[must_use]
 pub fn arrow(tip: Vec2, unit: f64) -> Vec<Mark> {
     let length = tip.norm();
@@ -129,8 +129,8 @@ pub fn arrow(tip: Vec2, unit: f64) -> Vec<Mark> {
     ]
 }
 
-/// An arrow around the origin, its arc and its head: counter-clockwise for a `sense` above 0. It begins in the direction
-/// `from` (rad) at the distance `radius` (m), for a sketch of this unit (m).
+/// An arrow around the origin: its arc and its head. The arrow is counter-clockwise for a `sense` above 0.
+/// The arrow begins in the direction `from` (rad) at the distance `radius` (m), for a sketch of this unit (m).
 #[must_use]
 pub fn turning(sense: f64, radius: f64, from: f64, u: f64) -> [Mark; 2] {
     let sense = sense.signum();

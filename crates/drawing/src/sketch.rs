@@ -12,7 +12,7 @@ use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 
 /// Size of a mechanism in units of its sketch, if the size of the picture is unknown.
 const UNITS: f64 = 60.0;
-/// Half length of the stroke at a ground point on a guide.
+/// Half length of the stroke at a ground point on a guide, in units of the sketch.
 const STOP: f64 = 1.4;
 
 /// The unit (m) of a sketch if the size of its picture is unknown: a pin is 2.4 units wide, a block 10 units long.
@@ -141,14 +141,14 @@ impl Sketch {
 
     /// All marks of all links, with the link's number, in drawing order.
     /// The marks are ordered by layer; within a layer, larger links come first.
-    /// Springs and dampers belong to [`Layer::Stretched`].
+    /// The springs and dampers in `stretched` are not in this list; they belong to [`Layer::Stretched`].
     #[must_use]
     pub fn in_order(&self) -> Vec<(LinkId, &Mark)> {
         let mut all: Vec<(Layer, f64, LinkId, &Mark)> = Vec::new();
         for body in &self.bodies {
             all.extend(body.marks.iter().map(|mark| (mark.role.look().layer, body.size, body.link, mark)));
         }
-        // The sort is stable: the marks of one link keep their order.
+        // The sort is stable, so the marks of one link keep their order.
         all.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)).then(a.2.cmp(&b.2)));
         all.into_iter().map(|(_, _, link, mark)| (link, mark)).collect()
     }

@@ -5,7 +5,7 @@ use linkage::drive::{Load, On};
 use linkage::math::Vec2;
 use linkage::mechanism::JointSide;
 
-/// Width of springs and dampers.
+/// Width of springs and dampers, in units of the sketch.
 const WIDTH: f64 = 4.0;
 /// Distance between the middle lines of parallel springs and dampers, divided by their width.
 const APART: f64 = 1.25;

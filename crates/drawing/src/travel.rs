@@ -15,7 +15,7 @@ impl Travels {
         Travels(vec![None; mechanism.joints().len()])
     }
 
-    /// Includes one pose: `point` gives the world position (m) of a point of a link, in the frame of that link.
+    /// Includes one pose: `point` gives the world position (m) of a point that is given in the frame of a link.
     /// `None` or NaN means that the link has no pose.
     pub fn take_in(&mut self, mechanism: &Mechanism, point: impl Fn(LinkId, Vec2) -> Option<Vec2>) {
         for (joint, travel) in mechanism.joints().iter().zip(&mut self.0) {

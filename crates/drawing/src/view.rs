@@ -35,7 +35,7 @@ pub struct Extras {
     pub loads: bool,
     /// Lengths of the links.
     pub dimensions: bool,
-    /// Draws only the names of ground points, and numbers only on links with enough space.
+    /// Whether only the names of ground points are drawn, and numbers only on links with enough space.
     /// Because of this restriction, no label jumps between frames.
     pub is_moving: bool,
 }

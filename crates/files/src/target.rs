@@ -71,7 +71,7 @@ impl OutputTarget<'_> {
         }
     }
 
-    /// If an existing file may not be replaced, the reason in words; otherwise `None`.
+    /// The reason, in words, why an existing file may not be replaced; otherwise `None`.
     pub fn in_the_way(&self) -> Option<String> {
         self.place().err().filter(|error| error.kind() == io::ErrorKind::AlreadyExists).map(|error| error.to_string())
     }

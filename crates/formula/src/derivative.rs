@@ -47,7 +47,8 @@ impl FormulaGraph {
                         let (first, second) = (self.pair(Times, a, right), self.pair(Times, left, b));
                         self.pair(Plus, first, second)
                     }
-                    // The derivative is (a - q b) / r. The quotient q = l / r is the node itself, so it already exists.
+                    // The derivative of l / r is (a - q b) / r, where a and b are the derivatives of l and r. The
+                    // quotient q = l / r is the node itself, so it already exists.
                     Over => {
                         let taken = self.pair(Times, id, b);
                         let above = self.pair(Minus, a, taken);

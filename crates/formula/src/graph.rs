@@ -224,13 +224,13 @@ impl FormulaGraph {
     }
 
     /// All nodes on which the given nodes depend, including the given nodes, arguments first.
-    /// The other nodes of a large graph are not visited.
+    /// Only these nodes are visited, even in a large graph.
     pub(crate) fn needed(&self, nodes: &[NodeId]) -> Vec<NodeId> {
         self.needed_but(nodes, &|_| false)
     }
 
     /// All nodes on which the given nodes depend, including the given nodes, arguments first.
-    /// Nodes that are done, and nodes that only done nodes need, are left out.
+    /// A node for which `is_done` is true is left out, and so is a node that only such nodes need.
     /// Common parts of formulas are therefore visited once.
     pub(crate) fn needed_but(&self, nodes: &[NodeId], is_done: &dyn Fn(NodeId) -> bool) -> Vec<NodeId> {
         let mut needed: BTreeSet<NodeId> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();

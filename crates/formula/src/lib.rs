@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
-//!
 //! - [`FormulaTree`]: a formula as written, with the position of every part.
-//! - [`FormulaGraph`]: many formulas at once, with common parts only once. The graph also forms derivatives.
+//! - [`FormulaGraph`]: many formulas in one graph, which contains each common part only once. The graph also forms
+//!   derivatives.
 //! - [`Program`]: the part of a graph that some of the graph's nodes need, to be run for many inputs.
 //! - [`Rounded`]: a number with a bound on its error.
 //! - [`DerivationSheet`]: a derivation part by part, to search for its errors; [`Products`]: numbers as products.

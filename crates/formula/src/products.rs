@@ -102,7 +102,8 @@ fn put(quantities: &[(f64, Dimension)], next: usize, chosen: &mut Vec<(u8, i8)>,
 }
 
 /// Information (bits) in a number that is known to a relative accuracy. A sixtieth has 3 bits, 1.4715 has 13 bits.
-/// A round number or a simple fraction, also of pi, has few bits. Any other number has as many bits as the accuracy.
+/// A round number, a simple fraction, or a simple fraction of pi has few bits. Any other number has as many bits as the
+/// accuracy.
 /// A number with few bits is easily matched by chance.
 #[must_use]
 pub fn information(value: f64, accuracy: f64) -> f64 {
@@ -163,8 +164,8 @@ mod tests {
             assert_eq!(products.near(size, 1e-6)[0].powers, [(0, 1), (1, 2)], "{size}");
             assert!(products.near(size, 1e-7).is_empty(), "{size}");
         }
-        // The products are m, 1/m, l, 1/l and so on, with the numeric factors. Few of them have the dimension of a
-        // mass.
+        // The products are m, 1/m, l, 1/l and so on, with the numeric factors. Few of the products have the dimension
+        // of a mass.
         assert_eq!(products.alike(2, Some([1.0, 0.0, 0.0])), 1);
         assert_eq!(products.alike(3, Some([1.0, 0.0, 0.0])), 3);
     }

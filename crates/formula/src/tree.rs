@@ -197,8 +197,8 @@ impl fmt::Display for FormulaTree {
             }
             NodeShape::Pair(operator, parts) => {
                 let rank = operator.rank();
-                // A part of the same precedence needs parentheses in three positions: after a minus sign, after a
-                // division sign, and before a power sign.
+                // A part whose operator has the same precedence as the outer operator needs parentheses in three
+                // positions: after a minus sign, after a division sign, and before a power sign.
                 let [left, right] = match operator {
                     Operator::Plus | Operator::Minus | Operator::Times | Operator::Over => [rank, rank + 1],
                     Operator::Power => [rank + 1, NEGATION],

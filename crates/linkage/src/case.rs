@@ -32,7 +32,7 @@ const STANDSTILL: f64 = 1e-12;
 
 /// A complete, checked problem that any solver accepts.
 ///
-/// The parts are readable as fields, for example `case.mechanism`.
+/// The parts are accessible as fields, for example `case.mechanism`.
 /// A case is immutable: [`Case::with`] and similar methods return a changed and checked case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
@@ -70,7 +70,7 @@ impl Case {
         Ok(Case { parts, turning })
     }
 
-    /// Returns the case of these parts without any check.
+    /// Returns a case made of `parts`, without any check.
     /// Tests use this function to plant a fault and to assert which check finds the fault.
     #[cfg(any(test, feature = "fixtures"))]
     #[doc(hidden)]
@@ -86,13 +86,13 @@ impl Case {
         Case { parts, turning: self.turning.clone() }
     }
 
-    /// Returns the parts. To make a new case, change the parts and pass them to [`Case::new`].
+    /// Returns the parts of this case. To make a new case, change the parts and pass them to [`Case::new`].
     #[must_use]
     pub fn into_parts(self) -> CaseParts {
         self.parts
     }
 
-    /// Returns this case with its parts changed by `change`, checked again.
+    /// Changes the parts of this case by `change`, checks the changed parts and returns their case.
     ///
     /// # Errors
     /// The errors of [`Case::new`].
@@ -243,8 +243,8 @@ impl Case {
     }
 
     /// Lever arm of the balancing moments (m): the extent of the largest driving link.
-    /// If a driving link has a slider, the lever arm is at least the size of the mechanism, because the slider's force
-    /// acts at the position of the slider.
+    /// A slider's force acts at the position of the slider. If a driving link has a slider, the lever arm is therefore
+    /// at least the size of the mechanism.
     #[must_use]
     pub fn drive_arm(&self) -> f64 {
         let links = self.mechanism.links();
@@ -300,7 +300,7 @@ impl Case {
     #[must_use]
     pub fn spin(&self, motions: &[Motion], link: LinkId) -> f64 {
         let omega = motions[link].omega;
-        // The result is false if the angular velocity of any link is NaN, so the function then returns zero.
+        // `is_seen` returns false if the angular velocity of any link is NaN, so this function then returns zero.
         let is_seen = || motions.iter().all(|motion| omega.abs() > STANDSTILL * motion.omega.abs());
         if self.can_turn(link) && is_seen() { omega } else { 0.0 }
     }

@@ -38,7 +38,7 @@ pub enum ErrorKind {
 pub struct Place {
     /// Path of the file as the user gave it.
     pub file: PathBuf,
-    /// Whole text of the file, to show the line.
+    /// Whole text of the file, from which the faulty line is displayed.
     pub text: Arc<str>,
     /// Byte range in `text`.
     pub span: Range<usize>,
@@ -171,7 +171,7 @@ impl Error {
         self
     }
 
-    /// Passes every remedy through `change`.
+    /// Replaces every remedy by the result of `change`.
     #[must_use]
     pub fn map_advice(mut self, change: impl FnMut(Advice) -> Advice) -> Self {
         self.0.advice = std::mem::take(&mut self.0.advice).into_iter().map(change).collect();
@@ -250,7 +250,7 @@ impl Error {
     }
 
     /// Names the scenario key (dotted path) at fault.
-    /// A key that is already set stays, because the innermost caller knows the fault best.
+    /// The innermost caller sets its key first and knows the fault best, so a key that is already set stays.
     #[must_use]
     pub fn key(mut self, key: impl Into<KeyPath>) -> Self {
         self.0.key.get_or_insert_with(|| key.into());

@@ -78,7 +78,7 @@ pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
     mechanism(links, &pins).unwrap()
 }
 
-/// A case of a mechanism of dyads, all of them in mode left.
+/// A case of a mechanism of dyads, all of them in the mode `Left`.
 /// Joint 0 drives link 1 from angle zero at 1 rad/s. The case has no gravity, no load and no grid.
 pub fn turning(mechanism: Mechanism) -> Case {
     let left = StartGroup { mode: Some(AssemblyMode::Left), ..StartGroup::default() };

@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// Quantity that an input measures. The input's values are in SI units. Their zero is the zero of the scenario.
+/// Quantity that an input measures. The input's values are in SI units and are measured from the scenario's zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Input {
     /// Angle of a crank, a driving link that turns about its joint.

@@ -1,10 +1,9 @@
 #![doc = include_str!("../README.md")]
-//!
 //! Links, joints and Assur groups are in [`mechanism`], drives and loads in [`drive`], the quantities of an input in
 //! [`input`].
 //! [`case`] defines the problem that every solver receives, [`trajectory`] the result that every solver returns.
-//! [`solver`] and [`engine`] define the traits of solvers and engines, [`work`] counts their work, [`threads`] runs
-//! work in parallel.
+//! [`solver`] and [`engine`] define the traits of solvers and engines.
+//! [`work`] counts the work of solvers and engines, [`threads`] runs work in parallel.
 
 pub mod case;
 pub mod drive;

@@ -37,9 +37,9 @@ pub struct Mechanism {
     /// For every joint: index of its first equation in the list of all joints' equations. The last entry is the total
     /// number of equations.
     rows: Vec<usize>,
-    /// Size of the mechanism (m). Every pose needs the size.
-    /// The size is computed only once, because a link with many points has many more distances between points than
-    /// points.
+    /// Size of the mechanism (m), used in the computation of every pose.
+    /// The size is computed only once, because the computation compares all distances between the points of a link.
+    /// A link with many points has many more such distances than points.
     size: f64,
 }
 
@@ -72,8 +72,8 @@ impl Mechanism {
         let mut on = PerLink::from(vec![Vec::new(); links.len()]);
         for (index, joint) in joints.entries() {
             for side in [joint.first, joint.second] {
-                // A joint that connects a link with itself is listed here like any other joint. `check_names` rejects
-                // it later.
+                // A joint that connects a link with itself is added to that link's list like any other joint.
+                // `check_names` rejects the joint later.
                 on[side.link].push(index);
             }
         }
@@ -130,7 +130,7 @@ impl Mechanism {
         self.joints.find(|joint| joint.name == name)
     }
 
-    /// Guide and block of a sliding joint; `None` for other joints.
+    /// Guide and block of a sliding joint; `None` for a joint that does not slide.
     /// The ground is always the guide.
     /// Of two moving links, the link with the larger size is the guide. If the sizes are equal, the joint's first link
     /// is the guide.

@@ -1,5 +1,5 @@
 //! Catches panics inside an engine or a file reader and turns them into the message of an error.
-//! The panic hook is global to the process, so this library does not set one.
+//! The panic hook is global to the process, so this library sets no hook.
 //! The program's panic hook can call `is_guarded` to find out whether a panic will become an error.
 
 use std::cell::Cell;

@@ -103,7 +103,7 @@ mod tests {
         for threads in [0, 1, 2, 7, 100] {
             let mut finished = Vec::new();
             let work = |&item: &u64| {
-                // The first items take longest.
+                // The first items take longest, so with several threads the items do not finish in order.
                 thread::sleep(Duration::from_millis(20 - item));
                 WorkTally::default().one(Count::Steps);
                 item * item

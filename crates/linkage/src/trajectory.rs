@@ -26,11 +26,12 @@ pub struct Trajectory {
 impl Trajectory {
     /// A trajectory from its grid and one column of values per channel.
     /// The grid has times (s) and values of the input (SI unit, in the scenario's convention).
-    /// The input is taken to be an angle; for other inputs see [`Trajectory::of_input`].
+    /// The input is assumed to be an angle; for other inputs see [`Trajectory::of_input`].
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a value is NaN or infinite (with its channel, time and crank angle), or if lengths
-    /// differ.
+    /// [`ErrorKind::Numeric`] if a value is NaN or infinite (with its channel, time and crank angle).
+    /// [`ErrorKind::Numeric`] also if the list of input values or a column differs in length from the list of times, or
+    /// if channels and columns differ in number.
     pub fn new(times: Vec<f64>, inputs: Vec<f64>, channels: Vec<Channel>, columns: Vec<Vec<f64>>) -> Result<Self> {
         let rows = times.len();
         if inputs.len() != rows || channels.len() != columns.len() || columns.iter().any(|c| c.len() != rows) {

@@ -1,6 +1,5 @@
 //! Exact counts of what solvers and engines do.
-//!
-//! Code that does work counts it in a [`WorkTally`]; a caller reads the counts with [`counted`].
+//! Solvers and engines count their work in a [`WorkTally`]. A caller obtains the counts from [`counted`].
 //! Counts show the cost of a run independently of the machine. Counts never affect a result.
 
 use crate::sentences;

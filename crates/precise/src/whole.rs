@@ -1,5 +1,5 @@
-//! Any mechanism of revolute and prismatic pairs. All constraint equations are solved at once, and so are all equations
-//! of equilibrium.
+//! Solves any mechanism of revolute and prismatic pairs. All constraint equations are solved at once, and so are all
+//! equations of equilibrium.
 //!
 //! The unknowns are the frames of all moving links.
 //! The start pose is followed in steps of at most one degree of the crank.

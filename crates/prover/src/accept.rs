@@ -57,11 +57,11 @@ fn rows(count: usize) -> Vec<usize> {
     rows
 }
 
-/// Rounds a bound up to two digits.
+/// Rounds a bound upwards to two digits.
 fn rounded_up(bound: f64) -> f64 {
     let unit = 10f64.powf(bound.log10().floor() - 1.0);
     let rounded: f64 = format!("{:.1e}", (bound / unit).ceil() * unit).parse().unwrap_or(bound);
-    // Zero stays as it is, and so do numbers too small to have two digits.
+    // A bound of zero, or a bound too small to have two digits, is returned unchanged.
     if rounded >= bound { rounded } else { bound }
 }
 
@@ -123,7 +123,7 @@ pub struct FigureComparison {
     /// Channels whose bound is now much wider than the accepted bound.
     pub wider: Vec<Wider>,
     /// Channels whose accepted bound is much wider than the bound found now.
-    /// The accepted bound would have accepted any similar value.
+    /// With so wide a bound, any similar value would have been accepted.
     pub looser: Vec<Wider>,
     /// Channels without accepted values.
     pub new: Vec<String>,

@@ -1,4 +1,4 @@
-//! All engines of this build. Each engine is one variant and one line here.
+//! All engines of this build. Each engine is one variant and one line in this module.
 
 #[cfg(feature = "simbody")]
 pub use simbody_twin::Simbody;
@@ -75,8 +75,9 @@ pub(crate) fn coarse_step(case: &Case) -> f64 {
 fn step(case: &Case, turn: f64, share: f64) -> f64 {
     let last = case.grid.times.iter().fold(0.0f64, |last, t| last.larger(t.abs()));
     let (by_turn, by_time) = (turn / case.drives.top_speed(), share * if last > 0.0 { last } else { 1.0 });
-    // The rotation does not limit the step of links at rest.
-    // A motion under forces may become much faster than at its start. So the duration also limits the step.
+    // For links at rest, the limit from the rotation is infinite. The duration then limits the step.
+    // A motion under forces may become much faster than at its start. So the duration also limits the step of such a
+    // motion.
     if case.is_free() || !by_turn.is_finite() { by_turn.smaller(by_time) } else { by_turn }
 }
 
@@ -93,7 +94,7 @@ pub fn named(name: &str, step: f64) -> Option<Box<dyn Engine>> {
 }
 
 /// Whether the current thread is inside a call whose panics are caught and returned as errors, such as an engine step.
-/// The panic hook of a program may then print nothing.
+/// The panic hook of a program can call this function and print nothing if the result is true.
 #[must_use]
 pub fn panic_is_caught() -> bool {
     linkage::quiet::is_guarded()

@@ -16,7 +16,7 @@ const MOST_DIGITS: usize = 15;
 const FAR: f64 = 1e-3;
 
 /// If two values differ by at most their bound, digits below this fraction of a value are not shown.
-/// Seven digits remain.
+/// The value is then shown with at most seven digits.
 const NEAR: f64 = 1e-6;
 
 /// An error, a bound or a fraction of a bound: three significant digits.

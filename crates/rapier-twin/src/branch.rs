@@ -13,8 +13,9 @@ use linkage::mechanism::{GROUND, GroupId, LinkPose};
 use linkage::solver::State;
 
 /// Threshold, as a fraction of a group's largest determinant.
-/// If a determinant of the opposite sign is larger than this, the group is on another branch than its start branch.
-/// If the determinant is smaller, its sign is explained by the small opening of the engine's loops at a dead point.
+/// If a determinant of the opposite sign exceeds this threshold, the group is on another branch than its start branch.
+/// If the determinant is smaller, the small opening of the engine's loops at a dead point explains its sign.
+/// The group then counts as being on its start branch.
 const BEYOND: f64 = 0.02;
 
 /// The supervised groups of a case. In a free motion, no group is supervised.

@@ -177,7 +177,7 @@ impl Acting {
         let branch = match self.branch {
             Some(branch) if holds(&branch) => branch,
             _ => {
-                // If the crank is at rest, the speed reached in the trial step selects the branch.
+                // If the crank is at rest, the speed reached in the trial step selects the branch of the motor's law.
                 let towards = if omega == 0.0 { sense * self.setting_off[case.crank().link] } else { 0.0 };
                 *self.branch.insert(motor.branch(omega, if towards < 0.0 { -1.0 } else { 1.0 }))
             }
@@ -242,8 +242,8 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
     Ok(window)
 }
 
-/// Repeats the first step until its accelerations no longer change, because the compensating loads depend on them.
-/// Every trial is undone.
+/// Repeats the first step until its accelerations no longer change.
+/// The repetition is needed because the compensating loads depend on these accelerations. Every trial is undone.
 fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard], step: f64) -> Result<()> {
     for _ in 0..MOST_TRIALS {
         if acting.added.iter().all(Option::is_none) {

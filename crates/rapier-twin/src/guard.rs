@@ -1,6 +1,6 @@
 //! A world under supervision.
-//! Each of these events becomes an error: a loop opens, a link turns too far in one step, a number is NaN or infinite,
-//! or the engine panics.
+//! If a loop opens, a link turns too far in one step, a number is NaN or infinite, or the engine panics, an error is
+//! returned.
 //! The error states time, crank angle, and joint or link.
 //! See docs/numerics/twins.md.
 
@@ -116,7 +116,8 @@ impl<'a> Guard<'a> {
 
     /// Sets all drives for a step between two times (s).
     /// Links with prescribed motion get their mean speed in the step.
-    /// A free crank gets `motor`: target speed (rad/s) and damping (N m s/rad). Other free links get no motor.
+    /// A free crank gets `motor`: target speed (rad/s) and damping (N m s/rad). Free links other than the crank get no
+    /// motor.
     pub(super) fn drive_freely(&mut self, [from, to]: [f64; 2], motor: [f64; 2]) {
         for (index, drive) in self.case.drives.iter().enumerate() {
             match (&drive.motion, index) {
@@ -218,7 +219,8 @@ impl<'a> Guard<'a> {
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] if a link deviates from the start pose by more than the largest loop opening.
-    /// After such a deviation, the engine has passed a dead point into an assembly mode other than that of the start.
+    /// Such a deviation means that the engine has passed a dead point into an assembly mode other than that of the
+    /// start.
     pub(super) fn check_start(&self) -> Result<()> {
         let case = self.case;
         for ((id, link), pose) in case.mechanism.links().entries().zip(&case.start.0).skip(1) {

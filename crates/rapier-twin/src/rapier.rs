@@ -68,7 +68,7 @@ impl Rapier {
         Rapier { build, precision, settings: Settings { resolution: step, sweeps, substeps, route, extrapolated: 0 } }
     }
 
-    /// The engine with the same build and precision but other settings, not extrapolated.
+    /// The engine with the same build and precision but with the given settings, not extrapolated.
     #[must_use]
     pub fn set(&self, settings: Settings) -> Self {
         Rapier { settings: Settings { extrapolated: 0, ..settings }, ..*self }

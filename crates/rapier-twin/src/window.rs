@@ -40,7 +40,7 @@ pub(super) struct Window {
     /// Whether the engine's velocities are read.
     rated: bool,
     ring: Ring,
-    /// Velocity and angular velocity of every link while they are propagated along the tree.
+    /// Velocity and angular velocity of every link, as workspace for their propagation along the tree.
     rates: Vec<(Vec2, f64)>,
     /// Earliest steps that may be the centre of an interpolation: `lowest` for positions, `settled` for second
     /// differences.

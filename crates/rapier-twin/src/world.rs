@@ -78,7 +78,7 @@ impl LinkFrame {
             && (self.direction.y < 0.0) != (direction.y < 0.0)
         {
             // The direction crosses the x axis. On the negative side of this axis, the direction's angle jumps by a
-            // full turn.
+            // full turn, so a full turn is added or subtracted.
             let turn = cross(self.direction, direction);
             if turn > 0.0 && direction.y < 0.0 {
                 *turns += TAU;
@@ -172,7 +172,8 @@ pub trait World {
     fn velocity(&self, link: LinkId) -> Option<(Vec2, f64)>;
 
     /// Reaction in a joint that the tree cuts, from the impulses of the last step.
-    /// The force is that of the first link on the second (N); the moment is about the point on the second link (N m).
+    /// The force is that of the first link on the second link (N).
+    /// The moment is about the point on the second link (N m).
     /// `None` for joints of the tree, which report no reaction.
     /// The world must have been built for reading reactions.
     fn reaction(&self, joint: JointId) -> Option<(Vec2, f64)>;

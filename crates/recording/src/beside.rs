@@ -20,7 +20,8 @@ const MOST: usize = 1000;
 
 /// Prefixes of the metadata keys that describe what the user requests in addition to the scenario's text.
 const ASKED: [&str; 7] = ["modes", "parameters", "start_crank_deg", "grid_", "only", "reference", "record_hz"];
-/// Prefix of the metadata keys of the engine's settings. A proof may have found these settings.
+/// Prefix of the metadata keys of the engine's settings. A proof may have found these settings, so the other
+/// differences between recordings are reported first.
 const ENGINE: &str = "engine";
 
 /// Where a recording goes.
@@ -54,7 +55,7 @@ pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<Strin
 }
 
 /// Difference between the file at `path` and the recording of a run, in words.
-/// `None` if they do not differ or the file does not exist.
+/// `None` if the file and the recording do not differ, or if the file does not exist.
 fn difference(path: &Path, text: &str, metadata: &BTreeMap<String, String>) -> Option<String> {
     match fs::symlink_metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return None,

@@ -49,7 +49,7 @@ pub struct DrawnLink {
     pub lines: Vec<(Vec<[f64; 3]>, f64, [u8; 4])>,
     /// Discs: centre (m), radius (m), colour.
     pub discs: Vec<([f64; 3], f64, [u8; 4])>,
-    /// Triangles, three corners each (m), and their colour.
+    /// Triangles: three corners for each triangle (m), and the colour of the triangles.
     pub areas: Vec<(Vec<[f64; 3]>, [u8; 4])>,
     /// Texts and their positions (m).
     pub texts: Vec<([f64; 3], String)>,

@@ -37,7 +37,7 @@ impl<'a> Forces<'a> {
         (!sides.is_empty()).then_some(Forces { scene, sides, scale })
     }
 
-    /// All arrows at one time. Their identifiers are the same at all times.
+    /// All arrows at one time. The identifier of an arrow is the same at all times.
     pub fn arrows(&self, time: f64, nanoseconds: u64) -> SceneUpdate {
         let mechanism = self.scene.mechanism;
         let mut entities = Vec::new();

@@ -19,7 +19,7 @@ pub struct Brush {
     pub unit: f64,
     /// Red, green, blue, opacity.
     pub rgba: [u8; 4],
-    /// Thickness relative to the first side.
+    /// Thickness divided by that of the first side.
     pub broad: f64,
     /// Height above the plane of motion (m).
     pub z: f64,
@@ -28,7 +28,7 @@ pub struct Brush {
 }
 
 impl Brush {
-    /// Adds a mark to an entity. Mass centres are left out: in a moving picture they look like joints.
+    /// Adds a mark to an entity. Mass centres are left out, because they look like joints in a moving picture.
     pub fn put(&self, mark: &Mark, entity: &mut SceneEntity) {
         if matches!(mark.role, MarkRole::MassCentre | MarkRole::MassQuarter) {
             return;

@@ -34,7 +34,8 @@ impl RecordingOutput {
             // uses no additional threads.
             .compression_threads(0)
             // A seeking writer corrects the chunk's length after the chunk is written.
-            // If such a writer were killed before the correction, no program could open the file.
+            // If such a writer were killed before the correction, no program could open the file. Seeking is therefore
+            // disabled.
             .disable_seeking(true)
             .create(NoSeek::new(BufWriter::new(file)))?;
         Ok(RecordingOutput { writer, flushed: 0, pending: 0 })

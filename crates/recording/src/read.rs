@@ -39,7 +39,7 @@ struct Found {
     first: Option<u16>,
 }
 
-/// Reads every side of a recording, in the order in which they were recorded.
+/// Reads every side of a recording. The sides are in the order in which they were recorded.
 ///
 /// Times, crank angles and values are read back bit for bit, with the rows in the solver's order.
 /// Columns are in the order of subjects in the recording, and within a subject in the order of
@@ -47,7 +47,7 @@ struct Found {
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
-/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if it contains no side, or if a topic lacks samples;
+/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if the file contains no side, or if a topic lacks samples;
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) if a value is not finite.
 pub fn load(path: &Path) -> Result<Vec<(String, Trajectory)>> {
     read_bytes(&bytes(path)?, path)

@@ -29,7 +29,7 @@ pub struct ViewerScene<'a> {
 }
 
 impl<'a> ViewerScene<'a> {
-    /// The scene of all sides that have samples and all positions; `None` if no side has them.
+    /// The scene of all sides that have samples and all positions; `None` if there is no such side.
     pub fn new(mechanism: &'a Mechanism, sides: &[RecordedSide<'a>]) -> Option<Self> {
         let placed = |(number, side): (usize, &RecordedSide<'a>)| {
             let column = |link: &Link, suffix| column(side.trajectory, &format!("link.{}.{suffix}", link.name));
@@ -84,8 +84,8 @@ impl<'a> ViewerScene<'a> {
         times
     }
 
-    /// Frames of all links at a time, with all sides in one message.
-    /// A viewer that jumps in time uses only the last message.
+    /// Frames of all links at a time.
+    /// All sides are in one message, because a viewer that jumps in time uses only the last message.
     pub fn frames(&self, time: f64, nanoseconds: u64) -> FrameTransforms {
         let mut transforms = Vec::new();
         for side in &self.sides {
@@ -161,7 +161,7 @@ pub struct PlacedSide<'a> {
 }
 
 impl PlacedSide<'_> {
-    /// Row of the last sample at or before `time`. If there is no such sample, the row of the first sample.
+    /// Row of the last sample at or before `time`. If there is no such sample, the row of the first sample is returned.
     pub fn row_at(&self, time: f64) -> usize {
         let times = self.trajectory.times();
         let after = self.rows.partition_point(|&row| times[row] <= time);

@@ -125,7 +125,7 @@ fn kinds(subject: ChannelSubject) -> impl Iterator<Item = &'static ChannelKind> 
 
 /// The message of a subject with these channels, named after the subject.
 /// If channels are missing, the name also contains the numbers of the present fields.
-/// Otherwise viewers would confuse messages with the same name but different fields.
+/// Without these numbers, viewers would confuse messages with the same name but different fields.
 pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&ChannelKind]) -> MessageKind {
     let word = if subject == ChannelSubject::Slider { "slider" } else { subject.word() };
     let (suffix, number) = match told {
@@ -188,7 +188,8 @@ mod tests {
     }
 
     /// Only present channels are declared, and message names are unique.
-    /// Otherwise viewers would show missing values as zero, and confuse messages of the same name.
+    /// If absent channels were declared, viewers would show missing values as zero.
+    /// If names were not unique, viewers would confuse messages of the same name.
     #[test]
     fn only_recorded_channels_are_declared() {
         let some: Vec<&ChannelKind> = kinds(ChannelSubject::Slider).filter(|kind| kind.unit == Unit::Metre).collect();

@@ -13,7 +13,7 @@ use linkage::math::Vec2;
 pub struct SidePaint {
     /// Red, green, blue, opacity, each 0 to 255.
     pub rgba: [u8; 4],
-    /// Thickness relative to the first side.
+    /// Thickness divided by that of the first side.
     pub broad: f64,
     /// Height above the plane of motion, in layers.
     pub layer: f64,

@@ -78,7 +78,7 @@ impl<'a> ChannelTable<'a> {
     }
 }
 
-/// Topic of a subject's values on a side, or of their errors on the side "error".
+/// Topic of a subject's values on a side. The side "error" gives the topic of the errors of these values.
 pub fn topic_name(side: &str, subject: ChannelSubject, of: &str) -> String {
     let word = subject.word();
     if of.is_empty() { format!("/{side}/{word}") } else { format!("/{side}/{word}/{of}") }
@@ -86,7 +86,7 @@ pub fn topic_name(side: &str, subject: ChannelSubject, of: &str) -> String {
 
 type Columns<'a> = Vec<(&'static ChannelKind, &'a [f64])>;
 
-/// The columns of each subject (link, point, joint, frame, drive), in the order of their first column.
+/// The columns of each subject (link, point, joint, frame, drive). Subjects are in the order of their first column.
 /// All columns of a sliding joint are together.
 fn by_subject(trajectory: &Trajectory) -> Vec<(ChannelSubject, &str, Columns<'_>)> {
     let mut subjects: Vec<(ChannelSubject, &str, Columns)> = Vec::new();

@@ -127,7 +127,7 @@ fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
     let mut units: Vec<Unit> = trajectory.channels().iter().map(|channel| channel.kind.unit).collect();
     units.sort_by_key(|&unit| place(unit));
     units.dedup();
-    // A drive's numbers rank first, because people look at them first.
+    // A drive's numbers rank first, because users look at them first.
     // The shaking force on the frame ranks last, because it is only a sum.
     let rank = |kind: &ChannelKind| match (kind.subject.is_drive(), kind.subject.is_whole()) {
         (true, _) => 0,

@@ -19,11 +19,11 @@ use linkage::error::{ErrorKind, Result};
 pub enum EngineName {
     /// Rapier in f64, the default: a spanning tree as a multibody, loops closed by impulse joints.
     Rapier,
-    /// The same in single precision; needs the feature `f32`.
+    /// The engine above, in single precision; needs the feature `f32`.
     RapierF32,
     /// Rapier in f64, every link as a separate rigid body.
     Impulse,
-    /// The same in single precision; needs the feature `f32`.
+    /// The engine above, in single precision; needs the feature `f32`.
     ImpulseF32,
     /// Simbody; needs the feature `simbody`, and the library.
     Simbody,

@@ -18,7 +18,7 @@ pub struct OracleFigure {
     pub name: String,
     /// The number as printed.
     pub printed: FigureValue,
-    /// For a number known to be wrong: the finding that explains it, and the correct number.
+    /// For a number known to be wrong: the finding that explains the error, and the correct number.
     pub wrong: Option<(String, FigureValue)>,
 }
 
@@ -40,7 +40,7 @@ pub enum MechanismFigure {
     ReducedInertiaMean,
     /// Mean over a turn of the crank of the moment of resistance reduced to the crank (N m).
     ReducedResistanceMean,
-    /// Speed of the crank (rad/s) at which the motor's moment on it equals the mean resistance.
+    /// Speed of the crank (rad/s) at which the motor's moment on the crank equals the mean resistance.
     SteadyCrankSpeed,
     /// Speed of the motor (rad/s) at the steady crank speed.
     SteadyMotorSpeed,

@@ -36,7 +36,7 @@ pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
 /// Name of the crank's angular velocity in a diagnosis.
 pub const OMEGA: &str = "omega_crank";
 
-/// The formulas of a scenario over their parameters, the crank angle and time.
+/// The formulas of a scenario. They depend on the parameters, the crank angle and the time.
 #[derive(Clone, Debug)]
 pub struct Formulas {
     /// Numbers with names.
@@ -81,7 +81,7 @@ impl Formula {
 }
 
 impl Formulas {
-    /// An empty list of formulas over some parameters.
+    /// An empty list of formulas, and the parameters that added formulas may use.
     #[must_use]
     pub fn over(parameters: Vec<Parameter>) -> Self {
         let mut graph = FormulaGraph::new(&INPUTS, 2);
@@ -172,7 +172,7 @@ impl Formulas {
         None
     }
 
-    /// Calls `then` for the formula `of`, while the formulas in `changed` (by index) have other trees.
+    /// Calls `then` for the formula `of`, while each formula in `changed` (by index) has the tree that `changed` gives.
     /// Formulas that use a changed formula change too. The trees may use [`OMEGA`].
     /// Afterwards the graph is as before. Returns `None` if a name is unknown.
     pub fn with_trees<T>(
@@ -233,8 +233,8 @@ impl Formulas {
         (formulas, kept.len() - 1)
     }
 
-    /// The formulas with another tree in the formula `of`. Formulas that use `of` change too.
-    /// The tree may use [`OMEGA`]. `None` if the tree uses an unknown name.
+    /// These formulas, with `tree` in place of the tree of the formula `of`. Formulas that use `of` change too.
+    /// `tree` may use [`OMEGA`]. `None` if `tree` uses an unknown name.
     #[must_use]
     pub fn with_tree(&self, of: usize, tree: FormulaTree) -> Option<Formulas> {
         let mut formulas = Formulas::over(self.parameters.clone());

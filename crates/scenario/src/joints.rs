@@ -104,7 +104,7 @@ fn joint(table: &mut TomlTable, links: &[Link], before: &[Joint]) -> Result<Join
 /// Names of the points at which a joint lies, on its first and its second link.
 struct Places {
     names: [String; 2],
-    /// Key in the file that states these names.
+    /// Key in the file that states the names of the points.
     key: &'static str,
     rule: &'static str,
 }

@@ -100,7 +100,7 @@ pub struct Scenario {
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
-    /// Formulas over parameters, and their claims.
+    /// Formulas that depend on the parameters, and the claims of the formulas.
     pub formulas: Formulas,
     /// Outlines and the question about distances between them, if the scenario asks this question.
     pub clearance: Option<ClearanceQuestion>,
@@ -150,7 +150,7 @@ impl Scenario {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a mistake in the text.
-    /// [`ErrorKind::Geometry`] if the mechanism cannot take its first pose.
+    /// [`ErrorKind::Geometry`] if the mechanism cannot be assembled in its first pose.
     /// [`ErrorKind::Unsupported`] for a problem that this version cannot solve.
     /// [`ErrorKind::Io`] for a table that cannot be read.
     /// All errors carry the position in the file and the key.
@@ -160,11 +160,12 @@ impl Scenario {
 
     /// Reads the scenario file at `path` with the start `asked` in place of the file's start.
     ///
-    /// Published numbers belong to the file's branch. If the start is on another branch, they are left out.
+    /// Published numbers belong to the file's branch. If the start is on a branch other than the file's branch,
+    /// published numbers are left out.
     /// If the crank angle at t = 0 differs from that of the file, numbers that depend on this angle are also left out.
     /// Such numbers are distances at t = 0 and values at times.
-    /// Values at crank angles are left out in three cases:
-    /// the crank's speed changes, there are further drives, or a torsional spring counts turns from the start.
+    /// Values at crank angles depend on the angle at t = 0 only in three cases:
+    /// the crank's speed is not constant, there are further drives, or a torsional spring counts turns from the start.
     ///
     /// # Errors
     /// The errors of [`Scenario::load`].

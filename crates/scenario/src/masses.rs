@@ -1,9 +1,10 @@
 //! Checks masses that do not fit their mechanism. The usual cause is a wrong unit.
 //!
 //! A double has sixteen digits.
-//! A mass that is too far away or too heavy leaves too few digits for the other quantities of the mechanism.
-//! Its rounding error would then hide the rest of the mechanism from the solvers and the engines, so the mass is
-//! refused.
+//! A mass that is too far from its link, or too heavy compared with the rest of the mechanism, leaves too few digits
+//! for the other quantities of the mechanism.
+//! The rounding error of such a mass would hide the rest of the mechanism from the solvers and the engines, so the mass
+//! is refused.
 
 use crate::sentences;
 use linkage::drive::{Drive, Drives};

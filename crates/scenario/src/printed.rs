@@ -28,7 +28,7 @@ impl Printed {
         Printed { value, digits, half_unit: 0.5 * 10f64.powi(-digits) * (1.0 + 1e-9) }
     }
 
-    /// A number of a column, with the uncertainty that the digits of the column leave.
+    /// A number of a column, with the uncertainty caused by the printing of the column's digits.
     #[must_use]
     pub fn of_column(number: &Rounded) -> Printed {
         let Rounded { value, error } = *number;

@@ -129,8 +129,8 @@ impl OracleSeries {
 }
 
 impl Known<'_> {
-    /// The same channels for a table whose known error is `slack`.
-    /// If the table does not print trailing zeros, `digits` is its number of decimals.
+    /// These channels, for a table whose known error is `slack`.
+    /// If the table does not print trailing zeros, `digits` is the table's number of decimals.
     pub fn of_table(self, digits: Option<i32>, slack: f64) -> Self {
         Known { digits, slack, ..self }
     }
@@ -263,7 +263,7 @@ const COLUMN_HELP: &str = sentences::NAME_THE_COLUMN_OF_CRANK;
 pub(super) const TIME_HELP: &str = sentences::GIVE_A_TIME_WITHIN_THE_RUN;
 
 /// The last instant (s) of a motion that forces determine.
-/// `None` for any other motion, or if another grid replaces the file's grid.
+/// `None` for any other motion, or if the caller's grid replaces the file's grid.
 pub(super) fn end(case: &Case) -> Option<f64> {
     let is_solved = case.is_free() && !case.grid.is_empty();
     is_solved.then(|| case.grid.ascending().last().map_or(0.0, |&row| case.grid.times[row]))

@@ -2,7 +2,7 @@
 
 use linkage::error::{Error, Place};
 
-/// Where a setting was given.
+/// Origin of a setting.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SettingOrigin {
     /// In a scenario file: the dotted key, and its position.

@@ -184,7 +184,7 @@ fn slack(oracle: &mut TomlTable) -> Result<f64> {
     oracle.refuse("slack", sentences::found_explained_by(&slack, &why), help)
 }
 
-/// Printed values minus the channel, in SI; zero by default.
+/// Printed values minus the channel's values, in SI; zero by default.
 fn offset(table: &mut TomlTable, channel: &PrintedChannel) -> Result<f64> {
     match channel.family {
         Some(family) => Ok(table.optional_quantity("offset", family, Sign::Any)?.unwrap_or(0.0)),

@@ -99,7 +99,7 @@ impl Template {
     }
 
     /// The text of a scenario: the template with `dimensions` in place of its dimensions.
-    /// If a scenario may have the name `name`, this is the name of the scenario.
+    /// If `name` is allowed as the name of a scenario, the scenario has this name.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a dimension that the template does not have.
@@ -122,7 +122,8 @@ impl Template {
     fn lacks(&self, key: &str) -> Error {
         let all = parameters(&self.document());
         let keys = || all.iter().map(|(key, _)| key.as_str());
-        // The same key with its unit is a better guess than the nearest spelling, so this key is tried first.
+        // A key that consists of the unknown key and a unit is a better guess than the nearest spelling, so such a key
+        // is tried first.
         let with_unit = keys().find(|own| own.strip_prefix(key).is_some_and(|unit| unit.starts_with('_')));
         let near = with_unit.or_else(|| nearest(key, keys()));
         let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));

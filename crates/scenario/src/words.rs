@@ -38,8 +38,8 @@ pub fn choice<'a>(words: impl IntoIterator<Item = &'a str>, quote: &str) -> Stri
     }
 }
 
-/// "did you mean" with the candidate that is nearest to `word`. If no candidate is near enough, the list of all
-/// candidates.
+/// Returns "did you mean" with the candidate that is nearest to `word`. If no candidate is near enough, returns the
+/// list of all candidates.
 #[must_use]
 pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>, quote: &str) -> String {
     let candidates: Vec<&str> = candidates.into_iter().take(MOST + 1).collect();
@@ -62,8 +62,8 @@ pub fn names<T>(words: Words<T>) -> Vec<&'static str> {
     words.iter().map(|(word, _)| *word).collect()
 }
 
-/// Help for an unknown word: the list of all allowed words, and the allowed word nearest to the unknown word if this
-/// allowed word is near enough.
+/// Help for an unknown word: the list of all allowed words.
+/// If an allowed word is near enough to the unknown word, the help also names the nearest allowed word.
 #[must_use]
 pub fn suggested(word: &str, words: &[&str]) -> String {
     let near = nearest(word, words.iter().copied()).map(|near| sentences::did_you_mean_3(&near));

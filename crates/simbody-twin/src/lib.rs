@@ -24,9 +24,9 @@ use model::Linkage;
 /// The limit is far above rounding error. An opening below the limit does not affect the results.
 const LARGEST_GAP: f64 = 1e-9;
 /// Number of internal steps allowed per radian of crank angle at the default accuracy.
-/// If two instants are less than a radian apart, the same number is allowed between the two instants.
+/// If two instants are less than a radian apart, this number of steps is allowed between the two instants.
 /// `ov7_base` takes 200 steps, and 14 000 steps at an accuracy of 1e-14.
-/// Without a limit the integrator would take hours in tiny steps near a dead point.
+/// Without a limit the integrator would need hours for tiny steps near a dead point.
 const MAX_STEPS: f64 = 2000.0;
 
 /// Simbody 3 as an engine.
@@ -36,8 +36,8 @@ pub struct Simbody {
 }
 
 impl Simbody {
-    /// Default accuracy. The default gives steps of about a degree of the crank, so projections start close to the pose
-    /// in the same assembly mode.
+    /// Default accuracy. The default gives steps of about a degree of the crank.
+    /// Each projection therefore starts close to the pose in the current assembly mode.
     pub const ACCURACY: f64 = 1e-8;
     /// Constraint tolerance divided by the mechanism's extent from the origin.
     /// Under prescribed motion the pose follows from the constraints alone, so a looser tolerance has no benefit.
@@ -107,7 +107,7 @@ impl Engine for Simbody {
     }
 
     fn own_routes(&self, _: &Case) -> &'static [Route] {
-        // The list is empty, because the only method already reports the forces that the engine applies.
+        // The list of methods is empty, because the only method already reports the forces that the engine applies.
         &[]
     }
 
@@ -124,7 +124,7 @@ impl Engine for Simbody {
     }
 
     fn formal_order(&self, _: &Case, _: &ChannelKind) -> f64 {
-        // The order is 1, because errors are proportional to the accuracy.
+        // The order of convergence is 1, because errors are proportional to the accuracy.
         1.0
     }
 

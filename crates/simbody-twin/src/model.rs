@@ -98,7 +98,8 @@ impl Linkage {
         }
     }
 
-    /// Force at the mass centre (N) and moment about it (N m) for every Simbody body, from the loads on the links.
+    /// Force at the mass centre (N) and moment about the mass centre (N m) for every Simbody body, from the loads on
+    /// the links.
     pub(super) fn loads<'a>(&'a self, wrenches: &'a [Wrench]) -> impl Iterator<Item = [f64; 3]> + 'a {
         self.tree.branches.iter().map(|branch| {
             let Wrench { force, moment } = wrenches[branch.link];
@@ -112,7 +113,8 @@ impl Linkage {
             let joint = &case.mechanism.joints()[branch.joint];
             let force = Vec2::from(body.force);
             let places = [joint.first, joint.second].map(|side| state.motions[side.link].point(side.local));
-            // Simbody reports force and moment on the child, at the joint's point on the child.
+            // Simbody reports force and moment on the child, at the joint's point on the child. If the child is the
+            // joint's first link, the signs are reversed and the moment is moved to the point on the second link.
             let (force, moment) = if joint.second.link == branch.link {
                 (force, body.moment)
             } else {

@@ -227,8 +227,8 @@ impl LinkageRun {
             loops: vec![LoopState::default(); loops.len()],
         };
         let mut run = LinkageRun { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
-        // Simbody accepts a free mobilizer without inertia, but its acceleration is not finite. The state is therefore
-        // read here, and a number that is not finite is an error.
+        // Simbody accepts a free mobilizer without inertia, but the acceleration of such a mobilizer is not finite. The
+        // state is therefore read here, and a number that is not finite is an error.
         run.read(false)?;
         Ok(run)
     }

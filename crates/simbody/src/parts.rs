@@ -41,7 +41,7 @@ pub struct Inertia {
     pub inertia: f64,
     /// Additional mass at the mass centre, only for the integrator (kg).
     /// Gravity does not act on this mass. When reactions are read, applied forces balance the inertia of this mass.
-    /// The result is exact if every degree of freedom is prescribed, because accelerations then do not depend on
+    /// The results are exact if every degree of freedom is prescribed, because accelerations then do not depend on
     /// masses.
     /// The mass is needed because Simbody cannot move a free mobilizer without inertia.
     pub extra_mass: f64,
@@ -96,9 +96,9 @@ pub struct IntegrationSettings {
     pub tolerance: f64,
     /// Characteristic time of the motion (s). Rates of constraint errors are kept below `tolerance` / `time_scale`.
     pub time_scale: f64,
-    /// Number of internal steps allowed per time scale. If two instants are less than a time scale apart, the same
-    /// number is allowed between the two instants.
-    /// Without a limit the integrator would take hours in tiny steps near a dead point.
+    /// Number of internal steps allowed per time scale. If two instants are less than a time scale apart, this number
+    /// of steps is allowed between the two instants.
+    /// Without a limit the integrator would need hours for tiny steps near a dead point.
     pub steps: usize,
 }
 

@@ -42,7 +42,8 @@ fn the_library_is_a_simbody_3() {
 
 #[test]
 fn forces_in_a_parallelogram_are_those_of_statics() {
-    // The coupler of 3 kg only translates, on a circle of radius 1 at 4 rad/s. Its acceleration is a = -16 e.
+    // The coupler of 3 kg only translates, on a circle of radius 1 at 4 rad/s.
+    // The acceleration of the coupler is a = -16 e, where e is the unit vector along the crank.
     // The forces of the coupler's two joints add up to m (a - g).
     // The force of each joint follows from the moments about the coupler's middle and about the second pivot.
     // The second crank turns uniformly, and its weight acts at half its length.

@@ -116,7 +116,8 @@ fn let_in(listener: &TcpListener, stage: &Arc<Stage>) {
         let is_full = Arc::strong_count(stage) >= MOST + 2;
         match stream {
             Ok(stream) if !is_full => serve_one(stream, Arc::clone(stage)),
-            // Too many viewers or too many open files: both conditions end after some time, so the server waits.
+            // If there are too many viewers or too many open files, the server waits, because both conditions end after
+            // some time.
             Ok(_) | Err(_) => thread::sleep(REST),
         }
     }

@@ -92,7 +92,7 @@ pub(super) fn search(args: &Args) -> Result<()> {
     args.outputs.deliver(|form| Ok(result(form)), |_| report::text(&story))
 }
 
-/// Comment on the origin of the scenario and its quality.
+/// Comment on the origin and the quality of the scenario.
 fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
     let effort = &task.effort;
     let command = sentences::linkproof_synthesize_search_seed_candidates(

@@ -47,7 +47,7 @@ pub(super) fn motor(case: &Case, trajectory: &Trajectory) -> Value {
     json!({ "x": x, "y": y, "sense": sense, "speed": column, "ratio": motor.ratio, "efficiency": motor.efficiency })
 }
 
-/// The crank's speed (rad/s) at which the motor has no moment; 0 where its law has no such speed.
+/// The crank's speed (rad/s) at which the motor has no moment; 0 if the motor's law has no such speed.
 fn no_load(motor: &Motor) -> f64 {
     let own = match &motor.law {
         MotorLaw::Constant { .. } => 0.0,

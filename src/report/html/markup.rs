@@ -14,7 +14,7 @@ pub(in crate::report) fn escaped(text: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            // HTML does not allow these characters, not even as entities, so these characters are replaced.
+            // HTML does not allow the control characters of this pattern, not even as entities, so they are replaced.
             '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' => out.push('\u{fffd}'),
             _ => out.push(letter),
         }
@@ -22,7 +22,7 @@ pub(in crate::report) fn escaped(text: &str) -> String {
     out
 }
 
-/// JSON for a script element: nothing in it can end the element.
+/// JSON for a script element. No part of the JSON can end the element.
 pub(super) fn contained(json: &str) -> String {
     json.replace('<', "\\u003c")
 }

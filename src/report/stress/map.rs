@@ -126,7 +126,7 @@ mod tests {
     use super::*;
     use lab::stress::named;
 
-    /// Symptom: empty diagrams without a message.
+    /// Symptom: diagrams were empty and showed no message.
     #[test]
     fn regress_a_map_without_data_is_labelled_as_empty() {
         let family = named("step").unwrap();

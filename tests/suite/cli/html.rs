@@ -123,7 +123,7 @@ fn scenario_texts_are_escaped_on_the_page() {
     for markup in ["<b>", "alert(1)</script>", "<!-- "] {
         assert!(!page.contains(markup), "{markup}");
     }
-    // The page has two scripts, and each script ends where it should.
+    // The page has two scripts, and each script has exactly one closing tag.
     assert_eq!([page.matches("<script").count(), page.matches("</script>").count()], [2, 2]);
     assert_eq!(data(&page)["motion"]["links"][0]["name"], "rod");
     assert_alone(&page);

@@ -20,8 +20,8 @@ fn a_dyad_starts_in_the_requested_mode() {
     let place = Place::new();
     let left = rocker(&place, "");
     assert_eq!(rocker(&place, "--mode coupler,rocker=left"), left);
-    // The pivot C is at (0.15, 0.015), the crank pin A on the x axis at 0.025995627740337. The two modes are mirror
-    // images about the line AC.
+    // The pivot C is at (0.15, 0.015) m, the crank pin A on the x axis at 0.025995627740337 m.
+    // The two modes are mirror images about the line AC.
     let axis = 0.015f64.atan2(0.15 - 0.025995627740337);
     let mirrored = |angle: f64| 2.0 * axis - angle;
     let away = |a: f64, b: f64| ((a - b).sin()).abs() + (1.0 - (a - b).cos());

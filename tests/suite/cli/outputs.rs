@@ -173,7 +173,8 @@ fn a_full_device_is_reported_as_such() {
     }
 }
 
-/// A file system of 16 kB, if the kernel lets the user mount one.
+/// The outputs go to a file system of 16 kB.
+/// The test is skipped if the kernel does not let the user mount this file system.
 #[test]
 fn a_full_disk_leaves_no_file() {
     let place = Place::new();

@@ -214,7 +214,7 @@ fn plotjuggler_layouts_name_recorded_curves() {
         place.ok(&format!("run scenarios/crank_rocker.toml {options} --record {name}"));
         let recording = format!("{name}/crank_rocker.mcap");
         let fields = declared(&fs::read(place.path(&recording)).unwrap());
-        // PlotJuggler shows a declared but absent field as zero.
+        // PlotJuggler shows a declared but absent field as zero, so every message must contain all declared fields.
         assert!(fields.values().all(|own| !own.is_empty() && own.values().all(|&there| there)), "{name}: {fields:?}");
 
         let told = place.ok(&format!("view {recording} --with plotjuggler"));

@@ -106,7 +106,7 @@ fn proofs() -> [Proof; 3] {
     [disagrees, open, failed]
 }
 
-/// Both reports state party, verdict and reason for each case.
+/// The JUnit report and the Markdown report state party, verdict and reason for each case.
 #[test]
 fn reports_have_every_verdict_with_judge_and_reason() {
     let proofs = proofs();

@@ -17,7 +17,8 @@ fn starts_as_drawn(sample: &DyadSpecimen, drawn: &[LinkPose]) {
     for (found, drawn) in sample.scenario.case.start.0.iter().zip(drawn) {
         let turn = linkage::math::angle::wrapped(found.angle - drawn.angle);
         let off = (found.origin - drawn.origin).norm().larger(turn.abs());
-        // The bound allows for the rounding error accumulated along the dyads, and is the same as between the solvers.
+        // The bound allows for the rounding error accumulated along the dyads.
+        // The tests of the two solvers against each other use the same bound.
         assert_within!(off, 1e-13 * sample.condition.powi(2), "{off:e}\n{}", sample.spec.toml());
     }
 }

@@ -74,7 +74,7 @@ fn drawn(random: &mut RandomSource, index: u64, is_free: bool) -> Result<Specime
     let mut speed = TAU / 60.0 * random.decades(0.1, 3000.0);
     let swing = (spec.gravity.norm() / (0.3 * size)).sqrt();
     if is_free {
-        // At a lower speed, a free motion would hardly differ from a motion that starts at rest.
+        // At a start speed below half of `swing`, a free motion would hardly differ from a motion that starts at rest.
         speed = if falls { swing } else { speed.larger(0.5 * swing) };
     }
     spec.speed = if random.yes() { speed } else { -speed };

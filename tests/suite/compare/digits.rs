@@ -189,7 +189,7 @@ fn an_error_of_three_units_of_the_last_digit_is_found() {
                 (Format::Exponent(digits), _) => Format::Exponent(digits.min(7)),
                 (Format::Shortest | Format::Single, _) => Format::General(7),
             };
-            // A value that consists of rounding error has no significant digits.
+            // A value that consists of rounding error has no significant digits, so no error is planted in it.
             let has_digits = size > 1e-6 && values[row].abs() > 1e-3 * size && format.unit(values[row]) > 1e-7 * size;
             if has_digits {
                 values[row] += 3.0 * format.unit(values[row]);

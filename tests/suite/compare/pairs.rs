@@ -143,7 +143,7 @@ fn the_interpolation_error_is_in_the_bound() {
     assert_eq!(compared([held(&every(3)), held(&spoiled)], &how).unwrap().verdict.word(), "disagree");
 }
 
-/// The comparison of crank angles finds an error of a millionth.
+/// The comparison of crank angles finds an error of 1e-6 rad.
 #[test]
 fn a_crank_angle_that_is_off_by_a_millionth_is_found() {
     let scenario = scenario("crank_rocker");

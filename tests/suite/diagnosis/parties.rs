@@ -1,4 +1,4 @@
-//! Which party disagrees with all remaining parties, since when, and in which channels first.
+//! The diagnosis states which party disagrees with all remaining parties, since when, and in which channels first.
 
 use linkage::trajectory::{Channel, Trajectory};
 use prover::diagnosis::{DiagnosedParty, PartyStanding, SuspectChannel, since, standing};

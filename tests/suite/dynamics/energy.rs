@@ -86,7 +86,7 @@ fn a_resistance_dissipates_exactly_its_work() {
             }
         };
         let left: f64 = energy(&case, &mut other, at).iter().sum();
-        // The published problem gives the extreme angles; they agree to twelve digits.
+        // The published problem gives the extreme angles; the computed and the published angles agree to twelve digits.
         assert_within!(
             (first - left - 100.0 * way).abs(),
             1e-8 * first.abs(),

@@ -63,7 +63,8 @@ fn val_crank_rocker_printed_means_count_one_position_twice() {
 }
 
 /// The printed greatest reduced resistance is 36.98 N m.
-/// Among the possible methods, only all weights with g = 9.8 m/s^2 round to this value.
+/// Among the possible methods, only the method with all weights and g = 9.8 m/s^2 gives a value that rounds to 36.98 N
+/// m.
 #[test]
 fn val_crank_rocker_printed_greatest_resistance_has_g_of_9_8() {
     let case = shipped("crank_rocker.toml").case;

@@ -176,7 +176,7 @@ fn twin_run_ups_are_of_order_one_and_extrapolate_accurately() {
     let begun = scenario.case.on(Grid::of_times(scenario.case.crank(), begun)).unwrap();
     let angle = |channel: &Channel| channel.kind.unit == Unit::Radian;
     let force = |channel: &Channel| channel.kind.stage >= Stage::Reactions;
-    // The impulse build needs thousands of sweeps, so it simulates only a fifth of the time.
+    // The impulse build needs thousands of sweeps, so it simulates only a fifth of the run-up.
     for (name, route, case) in [
         ("rapier", Route::Differences, &scenario.case),
         ("rapier", Route::Native, &scenario.case),
@@ -260,7 +260,7 @@ fn the_twin_starts_at_a_given_speed() {
     let case = scenario.case.on(Grid::of_times(scenario.case.crank(), vec![0.0, 0.002, 0.05, 0.1])).unwrap();
     let reference = solve(&AssurSolver, &case);
     assert_within!((column(&reference, "link.crank.omega_rad_s")[0] - 9.0).abs(), 1e-14);
-    // Measured: 8.5e-6 and 3.1e-4.
+    // The measured errors are 8.5e-6 for `rapier` and 3.1e-4 for `impulse`.
     // The separate bodies of the impulse build start with a gap in every joint.
     // The gap causes an error that is larger than the error that extrapolation removes.
     for (name, bound) in [("rapier", 2e-5), ("impulse", 1e-3)] {

@@ -159,7 +159,7 @@ fn regress_70_two_substeps_meet_all_accuracy_goals_at_once() {
     assert_within!(largest, 1e-7, "{largest:e}");
 }
 
-/// The value 1e-7 was printed for a crank of half the length, for which the same step opens the loop less.
+/// The opening of 1e-7 was printed for a crank of half the length, for which the same step opens the loop less.
 #[test]
 fn regress_64_half_the_crank_leaves_gaps_below_1e_7() {
     let whole_crank = whole("crank_rocker");
@@ -221,7 +221,8 @@ fn regress_63_extrapolation_raises_the_order_by_one() {
     for residual in residuals(&truth, &runs[1]).unwrap() {
         let kind = residual.channel.kind;
         let noise = engine.at(4.0 * engine.settings().resolution).noise(&case, kind);
-        // In accelerations the third-order term is so small that the fourth-order term dominates, so they are skipped.
+        // In accelerations the third-order term is so small that the fourth-order term dominates, so accelerations are
+        // skipped.
         if kind.stage == Stage::Accelerations || residual.rms <= 100.0 * noise {
             continue;
         }
@@ -314,8 +315,8 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
     }
     // The bounds are tight: for each bound, the error of some channel is at least a fiftieth of the bound.
     // The bound of a slide's moment assumes all masses at a distance of the mechanism's size.
-    // The guided links of `quick_return` and `scotch_yoke` are lighter and nearer than that, so a thousandth of this
-    // bound is enough.
+    // The guided links of `quick_return` and `scotch_yoke` are lighter and nearer than this bound assumes.
+    // For the moments of these slides, an error of a thousandth of the bound is therefore enough.
     used.iter().for_each(|(what, share)| println!("{what:?}: {share:.1e}"));
     for (what, share) in &used {
         let least = if (what.0, what.1) == (Stage::Reactions, "N m") { 1e-3 } else { 1.0 / 50.0 };

@@ -111,7 +111,7 @@ fn the_published_eyelet_needle_drives_keep_their_timing() {
     assert!(new.phases[3].motion < 0.02 && new.phases[0].motion < 0.16, "{:?}", new.phases);
     assert!(new.transmission.is_none());
     assert_within!((new.stroke.to_degrees() - 5.5049).abs(), 1e-3);
-    // The output follows the published table, whose angles start at 0 in steps of 30 degrees.
+    // The output follows the published table, whose crank angles start at 0 and increase in steps of 30 degrees.
     let rocker = task.case.mechanism.link_named("rocker_75").unwrap();
     let times: Vec<f64> = (0..12).map(|k| task.case.crank().time_of(-f64::from(k) * 30f64.to_radians())).collect();
     let states = states(&AssurSolver, &task.case, &times).unwrap();

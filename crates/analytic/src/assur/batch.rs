@@ -49,7 +49,7 @@ pub struct Batch<'a> {
     anchors: Option<Anchors<'a>>,
     work: Vec<Eight>,
     arch: Arch,
-    /// Solves the poses that are not vectorised and produces the error messages.
+    /// Pose solver for the poses that are not vectorised, and for the error messages.
     poses: PoseSolver<'a>,
     /// Last crank angle reached (rad).
     crank: f64,
@@ -121,7 +121,7 @@ impl<'a> Batch<'a> {
         }
         for (row, &crank) in cranks.iter().enumerate() {
             let is_placed = self.is_vectorised() && out.is_placed(row);
-            // If anchors exist, no intermediate poses are solved here: the anchors already contain them.
+            // If anchors exist, they already contain the intermediate poses. No intermediate pose is then solved.
             if !(is_placed && (self.anchors.is_some() || (crank - self.crank).abs() <= STEP)) {
                 let deepest = if is_placed { Stage::Positions } else { deepest };
                 match self.walk(crank, omega, alpha, deepest) {

@@ -58,7 +58,7 @@ pub(super) struct Passing {
 impl Passing {
     /// Starts without a known change point.
     /// `share` is the ratio of the windows' half widths to the usual half widths.
-    /// Two runs with different ratios show the remaining error of the windows.
+    /// The difference between two runs with different ratios shows the remaining error of the windows.
     pub(super) fn new(share: f64) -> Self {
         Passing {
             share,
@@ -207,7 +207,8 @@ const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;
 /// Advice for passing a pose that may be a change point.
 pub(super) fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
-        // The case cannot pass this pose: it is already set to pass change points, or it has several drives.
+        // The case cannot pass this pose, so the advice is to end the grid before it.
+        // The case is already set to pass change points, or it has several drives.
         // A case with several drives cannot pass change points.
         true => sentences::LET_THE_GRID_END_BEFORE_IT,
         false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,

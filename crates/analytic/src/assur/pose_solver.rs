@@ -123,7 +123,7 @@ impl<'a> PoseSolver<'a> {
     /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch. The error states the group and the
     /// angle at which it fails.
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
-        // The solution in one pass needs 1 / omega, which requires a normal number.
+        // The solution in one pass needs 1 / omega. It is therefore used only if omega is a normal number.
         self.in_one_pass = deepest >= Stage::Accelerations && omega.is_normal();
         (self.omega, self.alpha) = (omega, alpha);
         self.go_to(crank)?;

@@ -49,7 +49,7 @@ pub(crate) struct TransferSide<'a> {
     passing: Option<Passing>,
     /// Clearances of the groups at the last pose; used only with several driving links.
     sines: Vec<Option<f64>>,
-    /// Actions in the last call of `accelerate` in a window around a change point.
+    /// The argument `held` of the last call of `accelerate` in a window around a change point.
     held: Option<Held>,
 }
 
@@ -108,7 +108,8 @@ impl<'a> TransferSide<'a> {
     /// Refuses a step over a change point, where a clearance falls to zero and rises again.
     /// For such a step, extrapolation from the end of the step, with the slope at the end, gives a negative clearance
     /// at the beginning.
-    /// A step over a near miss is refused too. With smaller steps, a near miss is no longer refused.
+    /// A step in which the clearance only comes near zero is refused too.
+    /// Smaller steps past the same pose are no longer refused.
     fn keep_clear(&mut self) -> std::result::Result<(), OutOfReach> {
         for ((step, target), at) in self.unit.iter_mut().zip(&self.target).zip(&self.at) {
             *step = target - at;

@@ -21,7 +21,8 @@ pub(super) struct Turns {
 impl Turns {
     /// Starts from a pose whose angles include whole turns.
     pub(super) fn from(pose: &Pose, motions: &[Motion]) -> Self {
-        // The whole turns follow from the difference between the pose's angle and the principal angle of its direction.
+        // The whole turns of a link follow from the difference between its angle in the pose and the principal angle of
+        // its direction.
         // The difference is rounded: on the axis -x, rounding decides whether the principal angle is -pi or pi.
         let whole = |angle: f64, direction: Vec2| ((angle - principal(direction)) / TAU).round();
         let directions: Vec<Vec2> = motions.iter().map(|motion| motion.direction).collect();

@@ -15,7 +15,8 @@ use linkage::mechanism::{PerGroup, PerLink};
 /// If the clearance of a dyad is below this value, a change point may lie within a step.
 /// While the clearance goes from 0.8 to 0 and back, the links of the dyad turn by 106 deg relative to each other.
 /// If they turn [`FAST`] times as fast as the crank, the crank turns by 7 deg meanwhile.
-/// This angle is larger than a step behind a higher group, but smaller than a step of 15 deg for dyads alone.
+/// This rotation of the crank is larger than a step for dyads behind a higher group, but smaller than a step of 15 deg
+/// for dyads alone.
 const NARROW: f64 = 0.8;
 /// If a clearance exceeds this multiple of its expected change over the rest of the step, it is assumed to stay above
 /// zero.

@@ -76,7 +76,8 @@ impl<'t> Targets<'t> {
     }
 }
 
-/// Visits the parts into which the targets divide the method's last step. Removes these targets from the list.
+/// Visits the parts into which the targets divide the last step of the integration. Removes these targets from the
+/// list.
 pub(super) fn parts<const N: usize, F: Flow<N>>(
     flow: &F,
     course: &Course<N>,
@@ -94,7 +95,7 @@ pub(super) fn parts<const N: usize, F: Flow<N>>(
     visit(flow, &[from, to])
 }
 
-/// The course of a state in the method's last step.
+/// The course of a state in the last step of the integration.
 pub(super) struct Course<const N: usize> {
     pub(super) ends: Step<N>,
     pub(super) rates: [[f64; N]; 2],
@@ -186,7 +187,7 @@ mod tests {
         let ratio = error(0.8) / error(0.4);
         // The error of one step falls with the eighth power of its length.
         assert!(ratio > 150.0, "{ratio}");
-        // With the library's order 4, this error would be 1e-5.
+        // If the interpolation had the library's order 4, `error(0.4)` would be 1e-5.
         assert!(error(0.4) < 1e-8, "{}", error(0.4));
     }
 }

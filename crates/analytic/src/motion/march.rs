@@ -183,7 +183,7 @@ fn roughly<const N: usize>(method: &mut Method<N>, x: f64) -> Result<[f64; N]> {
     method.interpolate(x).map_err(|why| lost(x, &format!("{why:?}")))
 }
 
-/// Repeats the last step of a method so that it ends on a bound.
+/// Repeats the last step of the integration so that it ends on a bound.
 /// The bound is the first that the step passed before the position `beyond`.
 fn end_on_bound<const N: usize, F: Flow<N>>(
     flow: &F,
@@ -217,7 +217,7 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
     Ok(Stop::Bound(passed.0))
 }
 
-/// Position in the last step, before `beyond`, at which the method passes a bound. The position is as accurate as the
+/// Position in the last step, before `beyond`, at which the state passes a bound. This position is as accurate as the
 /// interpolation.
 fn crossing<const N: usize, F: Flow<N>>(
     flow: &F,

@@ -39,8 +39,8 @@ pub(crate) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N
     Ok(*a_step(flow, x, y, h)?.y())
 }
 
-/// The method after one step of the length `h`. The error estimate is ignored, because the step is part of an accepted
-/// step.
+/// The integrator object after one DOP853 step of the length `h`. The error estimate is ignored, because the step is
+/// part of an accepted step.
 pub(super) fn a_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<Method<N>> {
     flow.begin(x, y);
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(1e6).atol(1e6).h0(h);

@@ -4,7 +4,7 @@
 //! A driving link does not depend on the groups, and a group does not depend on later groups.
 //! Elimination within the diagonal blocks alone keeps this structure.
 //! Results that do not depend on a group then stay accurate even if this group is near a singular pose.
-//! Elimination over all rows together carried the rounding error of the group's large accelerations into the
+//! Elimination over all rows together would carry the rounding error of the group's large accelerations into the
 //! accelerations of the crank's pin.
 //! Every block also has its own determinant.
 //! The determinant of the whole matrix would keep its sign if the determinants of two blocks change their signs.

@@ -36,7 +36,7 @@ pub(super) struct Embedded<'a> {
     force: Vec<f64>,
     matrix: Lu,
     right: Vec<f64>,
-    /// Actions in the last call of `accelerate` in a window around a change point.
+    /// The argument `held` of the last call of `accelerate` in a window around a change point.
     held: Option<Held>,
     passing: Option<Passing>,
 }

@@ -5,8 +5,8 @@
 //! The remaining columns are vectors of constant length, one per link. With the columns divided by these lengths, the
 //! determinant is a dimensionless number from -1 to 1.
 //! For a dyad the columns are the vectors from the outer joints to the inner joint.
-//! Its determinant is the sine of the transmission angle mu (Alt 1932), and its condition number is cot(mu / 2) for mu
-//! up to 90 degrees.
+//! The determinant of a dyad is the sine of the transmission angle mu (Alt 1932). The condition number of a dyad is
+//! cot(mu / 2) for mu up to 90 degrees.
 //! Groups with sliders keep all columns.
 
 use linkage::math::{KeepNan, Matrix};

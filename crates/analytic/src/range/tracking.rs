@@ -3,7 +3,7 @@
 //!
 //! As a function of the arc length, a limit of rotation is a regular point: the crank's component of the tangent has a
 //! simple zero.
-//! As a function of the crank angle, the pose behaves like a square root at this point.
+//! As a function of the crank angle, the pose behaves like a square root at a limit of rotation.
 //! Where branches cross, the rank of the equations drops.
 //! The smallest singular value of the Jacobian is a lower bound on the distance to another branch.
 //! Steps are kept smaller than this value, so that no step jumps to another branch.
@@ -87,7 +87,8 @@ const FAR: f64 = 50.0;
 /// Beyond this distance from the crank's pivot, in units of the mechanism's size, steps grow in proportion to the
 /// distance.
 const NEAR: f64 = 2.0;
-/// The extrapolation to links at infinity ends if it changes by less than this (rad) when the nearest pose is left out.
+/// The extrapolation to links at infinity ends if its result changes by less than this (rad) when the nearest pose is
+/// left out.
 /// Poses farther out would then give no more information.
 const AGREED: f64 = 1e-9;
 /// Growth factor of the extent between two extrapolations to links at infinity.
@@ -258,7 +259,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// Zero of `f` between the neighbours `a` and `b`, at which `f` has different signs.
-    /// The Illinois method finds its distance from `a`.
+    /// The Illinois method finds the distance of the zero from `a`.
     pub(super) fn zero(&self, a: &Point, b: &Point, f: impl Fn(&Point) -> f64) -> Point {
         let width = a.tangent.dot(&(&b.q - &a.q));
         let ends = [(0.0, f(a)), (width, f(b))];

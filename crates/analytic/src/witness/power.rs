@@ -20,7 +20,7 @@ pub fn of_known_forces(case: &Case, state: &State) -> f64 {
 /// Balancing moment on the crank (N m) for which the powers of all forces sum to zero.
 /// The balancing moments of further drives are reduced to the crank: the result is the sum of all moments times their
 /// speed ratios.
-/// Ideal joints do no work, so reactions do not enter. The crank must turn.
+/// Ideal joints do no work, so the calculation does not need reactions. The crank must turn.
 #[must_use]
 pub fn balancing_moment(case: &Case, state: &State) -> f64 {
     -of_known_forces(case, state) / state.motions[case.crank().link].omega

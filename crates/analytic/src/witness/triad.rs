@@ -80,7 +80,7 @@ impl Triad {
         Some(Triad { base, leads: [lead(group.outer[0])?, lead(group.outer[1])?, lead(group.outer[2])?] })
     }
 
-    /// All groups of this kind in a case.
+    /// All class III groups of order 3 in a case that have revolute pairs only.
     #[must_use]
     pub fn all(case: &Case) -> Vec<Self> {
         case.structure.groups.iter().filter_map(|group| Triad::of(&case.mechanism, group)).collect()

@@ -1,9 +1,9 @@
 //! Distance of two bodies at the middle of a part of the range, with a lower bound over the whole part.
 //!
-//! parry2d computes the nearest points. The bound depends only on the direction between these points.
+//! parry2d computes the nearest points. The bound depends only on the direction between the nearest points.
 //! The distance of two convex parts along a fixed direction is the distance of their extreme corners along this
 //! direction.
-//! Every corner moves uniformly, up to a proven error.
+//! Every corner moves uniformly, up to a proven error, so the bound is valid for any direction.
 //! A wrong pair of nearest points therefore weakens the bound but never invalidates the bound.
 
 use linkage::math::{KeepNan, Vec2, turned};
@@ -15,11 +15,12 @@ use parry2d_f64::shape::{ConvexPolygon, Segment, Shape};
 use super::tube::{Slice, Track};
 use scenario::clearance::Outline;
 
-/// If two convex parts are farther apart than this multiple of the mechanism's size, their nearest points are not
+/// If the distance of two convex parts exceeds this multiple of the mechanism's size, their nearest points are not
 /// computed.
 const FAR: f64 = 1e9;
 
-/// If two convex parts are nearer than this multiple of the mechanism's size, the normals of their sides are tried too.
+/// If two convex parts are nearer than this multiple of the mechanism's size, the normals of their sides are also tried
+/// as directions of the bound.
 /// The direction between the nearest points of such close parts is too inaccurate.
 const CLOSE: f64 = 1e-5;
 
@@ -203,7 +204,8 @@ fn normals(corners: &[Track], sign: f64, ask: &mut impl FnMut(Vec2)) {
 /// Lower bound of the distance of two convex parts along `normal` (m), for crank angles within `half` of the middle.
 /// The bound is the smallest projection of the first part's corners minus the largest projection of the second part's
 /// corners.
-/// This difference is a concave function of the crank angle, so its smallest value lies at an end of the part.
+/// This difference is a concave function of the crank angle, so its smallest value lies at the first or last crank
+/// angle.
 fn apart(first: &[Track], second: &[Track], normal: Vec2, half: f64) -> f64 {
     let at = |by: f64| {
         let low = first.iter().map(|corner| normal.dot(&corner.at) + normal.dot(&corner.rate) * by - corner.error);

@@ -86,8 +86,8 @@ impl DistanceSearch<'_, '_> {
         let mut parts: Vec<(RangePart, Vec<usize>)> =
             self.tubes.parts().map(|part| (part, (0..pairs.len()).collect())).collect();
         while !parts.is_empty() {
-            // All parts of the present size are evaluated before any of them is halved.
-            // A small distance found in one part makes halvings of other parts unnecessary.
+            // All parts of the present size are evaluated before any of them is halved, because a small distance found
+            // in one part makes halvings of other parts unnecessary.
             let mut bounds: Vec<Bounds> = Vec::with_capacity(parts.len());
             for (part, alive) in parts {
                 let slice = self.tubes.at(part)?;

@@ -33,7 +33,7 @@ const MOST_DIVISIONS: usize = 24;
 /// A swept area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
-    /// Area (m2). Within every square that the border crosses, the border is taken as straight.
+    /// Area (m2). Within every square that the border crosses, the border is assumed to be straight.
     pub value: f64,
     /// Proven lower bound: area of the covered squares (m2).
     pub least: f64,
@@ -58,7 +58,7 @@ struct Node {
     sides: Vec<[Track; 2]>,
     parent: Option<u32>,
     halves: Option<u32>,
-    /// Sides over a wider part of the range around this part, computed on demand.
+    /// Sides of the outline with their motion over a wider part of the range around this part, computed on demand.
     window: Option<Window>,
 }
 
@@ -189,7 +189,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
 
     /// Whether a side passes over a disc during a window.
     /// A window is a wider part of the range around a node or around one of its ancestors.
-    /// During the short part of a node itself, a side may only move into a small square and not across it.
+    /// Windows are needed because a node's own part may be so short that no side crosses a whole square within it.
     fn is_passed(&mut self, node: u32, centre: Vec2, about: f64) -> Result<bool> {
         let mut next = Some(node);
         for _ in 0..ANCESTORS {
@@ -343,6 +343,7 @@ fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool 
     }
     // (centre - a) . (b - a) is a quadratic function of the crank angle.
     // The expression with a and b exchanged is quadratic too.
+    // The smallest value of each expression lies at an end of the range part or at the vertex of the parabola.
     let beyond = |a: &Track, b: &Track| {
         let (own, along) = (centre - a.at, b.at - a.at);
         let (moved, turned) = (-a.rate, b.rate - a.rate);
@@ -359,7 +360,7 @@ fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool 
     longest > 4.0 * error && beyond(from, to) && beyond(to, from)
 }
 
-/// Returns the fraction of a square in which `value` + `away` . (place - centre) <= 0.
+/// Returns the fraction of a square's area in which `value` + `away` . (place - centre) <= 0.
 /// `half` is half the length of the square's side.
 fn share(value: f64, away: Vec2, half: f64) -> f64 {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec2::new(x, y) * half);

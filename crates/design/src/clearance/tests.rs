@@ -164,7 +164,8 @@ fn the_first_collision_is_the_first_in_motion_order() {
         // Swept areas need fewer additional poses than the distances.
         assert!(found.work.positions < found.work.poses, "{:?}", found.work);
     }
-    // If change points are passed, the next turn may follow another branch. The range is then not limited to one turn.
+    // If change points are passed, the next turn may follow another branch than the first turn.
+    // The range of such a mechanism is therefore not limited to one turn.
     let smooth = slider_crank().with(|parts| parts.drives.crank_mut().through = true).unwrap();
     let grid = linkage::case::Grid::of_inputs(smooth.crank(), vec![0.0, 3.0 * PI]);
     assert_eq!(range(&smooth.on(grid).unwrap()).unwrap(), [0.0, 3.0 * PI]);
@@ -193,7 +194,7 @@ fn a_proven_distance_allows_for_rounding() {
     let [one, two] = [&solids[0], &solids[3]];
     let places = [&one.placed(&slice), &two.placed(&slice)];
     let found = gap::gap([one, two], places, &slice, rounding, f64::INFINITY, &mut 0);
-    // The post is at rest, so the nearest points lie on the crank's line and on the post.
+    // Lower limit of the distance: height of the post minus height of the crank's end, minus both rounding radii.
     let expected = 0.3 - 0.1 * 0.3f64.sin() - 0.02;
     assert!(found.now > expected - 0.01 && found.now - found.least >= 1.99 * rounding, "{found:?} {rounding}");
 }
@@ -312,7 +313,8 @@ fn swept_areas_match_closed_forms() {
     // The crank sweeps a disc. The piston is a disc and sweeps a strip with round ends.
     near(found.swept[0], PI * 0.12 * 0.12);
     near(found.swept[2], 0.2 * 0.04 + PI * 0.02 * 0.02);
-    // Over 70 deg the swept area is a sector, a band along the sector's border, and a disc.
+    // Over a crank rotation of 70 deg, the area that the crank sweeps is a sector, a band along the sector's border,
+    // and a disc.
     // The band is as wide as the rounding radius.
     let part = case.on(linkage::case::Grid::of_inputs(case.crank(), vec![0.3, 0.3 + PI * 70.0 / 180.0])).unwrap();
     let found = find(&part, &question(&case, radius, &[]), &mut |_| ()).unwrap();

@@ -19,8 +19,8 @@ pub fn slopes(places: &[f64], values: &[f64]) -> Vec<f64> {
     places.windows(2).zip(values.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect()
 }
 
-/// Integrates a function that has the value `start` at the first of `places` and the derivatives `rates` at the
-/// midpoints.
+/// Integrates a function that has the value `start` at the first of `places`.
+/// The function has the derivatives `rates` at the midpoints of the intervals between `places`.
 /// Returns the values at `places`.
 #[must_use]
 pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
@@ -32,7 +32,8 @@ pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
     std::iter::once(start).chain(steps).collect()
 }
 
-/// Returns the slopes of a curve that is periodic over `places` and has the values `rates` at the midpoints.
+/// Returns the slopes of a curve that is periodic over `places`.
+/// The curve has the values `rates` at the midpoints of the intervals between `places`.
 /// Slopes are given at the inner places and at the last place.
 #[must_use]
 pub fn closed_slopes(places: &[f64], rates: &[f64]) -> Vec<f64> {

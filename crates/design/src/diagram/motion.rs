@@ -58,7 +58,7 @@ impl MotionCurve {
     }
 }
 
-/// Lists the possible names: the names of the link or point that `name` contains.
+/// Lists the possible names: the channel names of the link or point whose name occurs in `name`.
 /// If this link or point does not exist, all names of links or all names of points are listed.
 /// If `name` begins with neither `link` nor `point`, the help states how names are formed.
 fn help(all: &[Channel], name: &str) -> String {
@@ -198,7 +198,7 @@ impl MotionDiagram {
             let largest = errors[0].iter().fold(0.0f64, |most, error| most.larger(error.abs()));
             let orders = [order(size[0], size[1]), order(size[1], size[2])];
             let [(rows, values), ..] = runs;
-            // For a curve without motion, the error and the scale are both zero. `share` then returns zero.
+            // For a curve without motion, the error and the scale are both zero. `share` returns zero in this case.
             let share = share(largest, scale);
             MethodResult { method, rows, values, largest, rms: size[0], share, orders }
         });

@@ -40,8 +40,8 @@ pub fn stacked(title: &str, notes: &[String], room: &Room, panels: impl Iterator
     framed(&sheet, MARGIN, title)
 }
 
-/// Returns a sheet as a document. Its upper left corner is the origin; `margin` (mm) is the space on the right and
-/// below.
+/// Returns a sheet as a document. The sheet's upper left corner is the origin.
+/// `margin` (mm) is the space to the right of the sheet and below the sheet.
 pub fn framed(sheet: &DrawnFigure, margin: f64, title: &str) -> String {
     let [low, high] = sheet.bounds();
     document(sheet, [(high.x + margin).ceil(), (margin - low.y).ceil()], title)
@@ -53,7 +53,7 @@ pub struct ValueAxis {
     /// Lower end of the axis, in multiples of `step`. `up` is the upper end.
     bottom: f64,
     up: f64,
-    /// Value between two grid lines.
+    /// Difference of the values of two neighbouring grid lines.
     step: f64,
     /// Scale factor (units per millimetre).
     pub scale: f64,

@@ -48,7 +48,8 @@ pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &Cle
     let scale = fit(extent(asked, &all), ROOM);
     let sketch = Sketch::of(&case.mechanism, &travels, scale).with_drives(&case.mechanism, &case.drives);
     let sketch = sketch.without(&[MarkRole::MassCentre, MarkRole::MassQuarter]);
-    // The walls show the fixed housing. The symbol of a fixed guide would suggest further walls, so it is left out.
+    // If the question has a housing, its walls are drawn. The symbol of a fixed guide would suggest further walls, so
+    // the symbol is left out.
     let has_housing = asked.bodies.iter().any(|body| !body.moves());
     let sketch = if has_housing { sketch.without(&[MarkRole::Bore, MarkRole::Rail, MarkRole::Hatch]) } else { sketch };
     let places: Vec<LinkPlacement> = here.iter().map(|own| LinkPlacement::Here(pose_of(own))).collect();

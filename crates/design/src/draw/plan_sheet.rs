@@ -160,7 +160,7 @@ fn beside(ends: [Vec2; 2], drawn: &[[Vec2; 2]]) -> [Vec2; 2] {
     places.find(|place| !drawn.iter().any(|other| covers(place, other))).unwrap_or(ends)
 }
 
-/// Points of the plan on paper, with the letters of all points that coincide there; the pole is first.
+/// Points of the plan on paper, each with the letters of all points that coincide with it. The pole is the first point.
 fn marks(plan: &VectorPlan) -> Vec<(Vec2, String)> {
     let mut marks: Vec<(Vec2, String)> = Vec::new();
     for tip in &plan.tips {
@@ -193,7 +193,7 @@ fn table(plan: &VectorPlan) -> LegendTable {
         let meaning = vector.meaning.replace(", perpendicular to the ", " ⊥ ").replace(", along the ", " ∥ ");
         let meaning = meaning.replace(", perpendicular to ", " ⊥ ");
         let meaning = meaning.replace("omega^2", "ω²").replace("omega x", "ω ×").replace("alpha", "α");
-        // At a dead point some vectors are only rounding error. The table shows their magnitude as zero.
+        // At a dead point some vectors are only rounding error. The table shows the magnitude of such vectors as zero.
         let size = if plan.paper(vector) > NOTHING { vector.value.norm() } else { 0.0 };
         let cells = vec![
             scripted(&vector.name),

@@ -9,7 +9,7 @@
 //! - A joint that closes a loop is a `connect` of two sites.
 //!   Its third row, along z, is zero in a planar mechanism: the row costs a little time and has no effect.
 //! - A drive is a rotor ([`MjcfModel::rotor`]) on the driven hinge.
-//!   Its inertia is so large that the speed is practically constant: the speed changes by 1e-9 of its value.
+//!   Its inertia is so large that the speed is practically constant: the speed changes by 1e-9 of its value per radian.
 //!   The speed is constant with any integrator and at any step.
 //!   A velocity actuator of the same stiffness diverges, because `implicitfast` solves the constraints without the
 //!   actuator's damping.

@@ -14,7 +14,8 @@
 //! Here e is the guide's unit vector and omega the guide's angular velocity (Coriolis 1835).
 //!
 //! Every vector is computed from the motion of its link. A vector along a guide is computed from the slide.
-//! No vector is computed as the difference of two vectors, so the closure of the polygons is a result.
+//! No vector is computed as the difference of two vectors, so the closure of the polygons is a result, not an
+//! assumption.
 
 use super::builder::Builder;
 use super::names::{Named, NamedPoint, places};

@@ -51,7 +51,7 @@ pub struct Scheme {
     pub scale: f64,
     /// Moving links.
     pub links: Vec<SchemeLink>,
-    /// Named points and their world positions (m), those of the ground first.
+    /// Named points and their world positions (m). The points of the ground come first.
     pub points: Vec<(String, Vec2)>,
     /// Guides, fixed and moving.
     pub guides: Vec<SchemeGuide>,

@@ -53,7 +53,7 @@ linkage::words! {
     /// Kind of the end point of a vector.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum TipKind: word {
-        /// Pole, or a ground point, which coincides with it.
+        /// Pole, or a ground point, which coincides with the pole.
         Fixed = "fixed",
         /// A named point of the mechanism.
         Point = "point",

@@ -20,8 +20,8 @@ pub const BAND: f64 = 0.01;
 pub struct PhaseDone {
     /// Displacement from the beginning of the phase to its end, forward positive (fraction of the stroke).
     pub displacement: f64,
-    /// Largest minus smallest position of the output in the phase (fraction of the stroke). In a dwell it should be
-    /// zero.
+    /// Largest minus smallest position of the output in the phase (fraction of the stroke). In a dwell, this difference
+    /// should be zero.
     pub motion: f64,
     /// Distance travelled in the wrong sense (fraction of the stroke); 0 in a dwell.
     pub wrong: f64,
@@ -85,7 +85,7 @@ impl Achieved {
     }
 
     /// Achieved motion as in [`Achieved::of`].
-    /// If the task leaves the sense of the output open, the sense whose motion is closer to the timing is taken.
+    /// If the task leaves the sense of the output open, the sense whose motion is closer to the timing is chosen.
     ///
     /// # Errors
     /// Those of [`Achieved::of`].

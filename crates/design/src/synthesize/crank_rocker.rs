@@ -73,7 +73,7 @@ impl CrankRocker {
         check(&wish)?;
         let frame = wish.rocker_pivot - wish.crank_pivot;
         let angles = [wish.extreme, wish.extreme + wish.swing];
-        // Vectors from the crank's pivot to B in both positions.
+        // Vectors from the crank's pivot to B in both extreme positions.
         let arms = angles.map(|angle| frame + unit(angle) * wish.rocker);
         let distances = arms.map(|arm| arm.norm());
         let (far, near) = if distances[0] >= distances[1] { (0, 1) } else { (1, 0) };

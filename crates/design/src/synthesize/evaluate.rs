@@ -54,8 +54,8 @@ impl<'a> Evaluator<'a> {
     /// (rad).
     ///
     /// # Errors
-    /// If the mechanism cannot be assembled over the whole turn, or if the output turns fully: the fraction of poses
-    /// reached.
+    /// The fraction of poses reached, if the mechanism cannot be assembled over the whole turn or if the output turns
+    /// fully.
     pub(super) fn run(&mut self, values: &[f64], zero: f64, turns: &[f64]) -> Result<(), f64> {
         self.dimension(values);
         let case = &self.task.case;
@@ -73,7 +73,8 @@ impl<'a> Evaluator<'a> {
         self.unwind()
     }
 
-    /// Computes the output of a mechanism of dyads only, whose poses do not depend on each other.
+    /// Computes the output of a mechanism of dyads only. The poses of such a mechanism at different crank angles do not
+    /// depend on each other.
     fn probe_and_place(
         &mut self,
         mut plan: SolutionPlan,

@@ -190,7 +190,7 @@ mod tests {
 
     #[test]
     fn a_drift_in_a_dwell_counts_twice_its_square() {
-        // The variance of 1001 uniform steps is the range squared over 12.
+        // The variance of 1001 uniform steps is the square of the range divided by 12.
         let drift = unrest((0..=1000).map(|k| 0.02 * f64::from(k) / 1000.0));
         assert!((drift - 2.0 * 0.02f64.powi(2)).abs() < 2e-6, "{drift}");
         assert_eq!(unrest([0.3; 5].into_iter()), 0.0);

@@ -150,7 +150,7 @@ mod tests {
         let mut table = toml_edit::Table::new();
         weigh(&mut table, &body, 2.0);
         let text = table.to_string();
-        // m l^2 / 12 with 0.4 kg and 0.2 m.
+        // The moment of inertia is m l^2 / 12 with m = 0.4 kg and l = 0.2 m.
         for line in ["mass_kg = 0.4", "inertia_kg_m2 = 0.00133333", "x_mm = 100.0, y_mm = 100.0"] {
             assert!(text.contains(line), "{line}: {text}");
         }

@@ -5,8 +5,8 @@
 //! The result therefore depends on the seed and not on the number of threads.
 //! An evolution strategy refines the best candidates, with one parent, one child and the one-fifth rule (Rechenberg
 //! 1973).
-//! This strategy can cross kinks and edges.
-//! Linear approximation within a trust region follows (COBYLA, Powell 1994).
+//! This strategy can cross kinks and edges of the cost.
+//! After the evolution strategy, linear approximation within a trust region refines the result (COBYLA, Powell 1994).
 
 mod candidate;
 mod refine;
@@ -27,7 +27,7 @@ const COARSE: usize = 72;
 /// Candidates per random stream.
 const BLOCK: usize = 4096;
 /// Number of blocks between two calls of `progress`.
-/// It is constant, so that the candidates that are kept do not depend on the number of threads.
+/// This number is constant, so that the candidates that are kept do not depend on the number of threads.
 const ROUND: usize = 16;
 /// Largest number of threads.
 const MOST_THREADS: usize = 256;

@@ -31,7 +31,8 @@ pub struct TaskFile {
 }
 
 impl TaskFile {
-    /// Reads the synthesis file at `path` and the scenario that it names, which is searched in the same directory.
+    /// Reads the synthesis file at `path` and the scenario that this file names.
+    /// The scenario is searched in the directory of the synthesis file.
     ///
     /// # Errors
     /// [`ErrorKind::Io`] if a file cannot be read.
@@ -227,7 +228,7 @@ fn free(variables: &mut Vec<Variable>, variable: Variable) -> TaskNumber {
     TaskNumber::Free(variables.len() - 1)
 }
 
-/// One `[[vary]]`: a point, given by its coordinates or relative to another point of its link.
+/// One entry `[[vary]]`: a point, given by its coordinates or relative to another point of its link.
 fn place(
     mut table: TomlTable,
     mechanism: &Mechanism,

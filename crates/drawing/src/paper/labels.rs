@@ -242,7 +242,7 @@ mod tests {
     #[test]
     fn crowded_labels_still_get_positions() {
         // Each of 2000 labels compares 288 positions with all other labels, twice for every pair of neighbours.
-        // This gives more than 1e12 comparisons.
+        // In total, these are more than 1e12 comparisons, far above the limit `MOST_COMPARED`.
         let crowd: Vec<PlacedLabel> = (0..2000).map(|k| label(0.01 * f64::from(k), 0.0)).collect();
         let places = place_within(&crowd, &Obstacles::default(), 10_000_000);
         assert!(places.iter().zip(&crowd).all(|(at, own)| (at - own.anchor).norm() < 25.0), "{places:?}");

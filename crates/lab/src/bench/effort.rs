@@ -31,7 +31,7 @@ impl RunEffort {
         self.first(&SOLUTIONS)
     }
 
-    /// Inner work: the first of these numbers that was counted: sweeps of an engine, factorisations, iterations, placed
+    /// Inner work: the first number that was counted among sweeps of an engine, factorisations, iterations and placed
     /// groups.
     #[must_use]
     pub fn inner(&self) -> Option<u64> {

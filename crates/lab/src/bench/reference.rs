@@ -14,7 +14,7 @@ use prover::bounds::residuals;
 
 /// Estimated error of the tighter reference, divided by its difference from a run at the usual accuracy.
 /// The tighter reference allows, in every step, a hundredth of the error at the usual accuracy.
-/// The factor of four is the margin `SAFETY` of `prover::run::known`.
+/// The constant is this hundredth times a factor of four, the margin `SAFETY` of `prover::run::known`.
 const LEFT: f64 = 0.04;
 
 /// The reference's own error.
@@ -29,7 +29,7 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// The errors of a point, with a mark if they are too close to the floor.
+    /// The errors of a point, with a mark if they are too close to the reference's error.
     #[must_use]
     pub fn judged(&self, stage: Stage, [max, rms]: [f64; 2]) -> Errors {
         Errors { max, rms, is_limited: !(max >= CLEAR * self.errors[stage as usize]) }

@@ -100,7 +100,7 @@ impl Stage<'_> {
     fn other(&self, own: &Formula, is_meant: &dyn Fn(&Channel, &Channel) -> bool) -> Option<Claim> {
         let claim = own.claim.as_ref()?;
         let [(name, claimed)] = claim.channels.as_slice() else { return None };
-        // The name keeps its unit, such as `deg`.
+        // If both channels are of the same kind, the new name keeps the unit of the claimed name, such as `deg`.
         let unit = name.strip_prefix(&format!("{}.", claimed.channel.subject()))?;
         let is_si = unit == claimed.channel.kind.suffix;
         let all = self.right.channels();

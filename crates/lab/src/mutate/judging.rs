@@ -86,7 +86,7 @@ static IN_A_SIDE: [(&str, &str, usize, &[&str]); 12] = [
         &[BETWEEN, SHAKING],
     ),
     ("crank_rocker", "a reaction at the origin: a force without a couple", 0, &[BETWEEN, SHAKING]),
-    // One channel of the drive and one of the frame.
+    // The two channels that differ are one channel of the drive and one channel of the frame.
     ("crank_rocker", "the driving moment", 2, &[BETWEEN, POWERS, SHAKING]),
     ("five_bar", "the second drive's moment", 2, &[BETWEEN, POWERS, SHAKING]),
     ("five_bar", "the second drive's moment at the last instant", 2, &[BETWEEN, POWERS, SHAKING]),
@@ -128,7 +128,8 @@ static IN_THE_ENGINE: [InTheEngine; 8] = [
     ("crank_rocker", "an angle at the first instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angle at the last instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angular velocity", 1e-2, &["link.rocker.omega_rad_s"], &[OF_POWERS]),
-    // Forces and powers are computed from the accelerations, even if these are wrong.
+    // Forces and powers are computed from the accelerations, even from wrong accelerations, so no check has to
+    // disagree.
     ("crank_rocker", "an angular acceleration", 1.0, &["link.rocker.alpha_rad_s2"], &[]),
     ("crank_rocker", "a reaction", 1.0, &["joint.B.fy_N"], &[]),
     ("crank_rocker", "the driving moment", 0.1, &["drive.torque_N_m", "frame.moment_N_m"], &[OF_POWERS]),
@@ -153,7 +154,7 @@ fn a_fixed_error_in_an_engine_decides_its_verdict() {
             assert_eq!(proof.verdict.word(), "disagree", "{name}: {wrong}: {channels:?} {:?}", proof.checks);
             for own in *must {
                 // For a second drive, only the end of the channel name is given.
-                // The first drive's channel must not match it.
+                // The first drive's channel `drive.torque_N_m` has the same end, so it is excluded.
                 let has = channels
                     .iter()
                     .any(|found| found.ends_with(own) && (own.contains('.') || *found != "drive.torque_N_m"));

@@ -24,7 +24,8 @@ pub struct Sight {
 pub enum FaultyProof {
     /// Something disagrees.
     Detected {
-        /// First detection: the one at the earliest instant; if several are equal, the one with the largest margin.
+        /// First detection: the detection at the earliest instant; among several at this instant, the detection with
+        /// the largest margin.
         first: Sight,
         /// Clearest detection: the one with the largest margin.
         clearest: Sight,

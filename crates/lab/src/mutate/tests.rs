@@ -37,7 +37,7 @@ fn reused_runs_give_the_same_outcome_as_new_ones() {
     for name in ["crank_rocker", "rotary_engine", "pendulum"] {
         let scenario = scenario(name);
         let used = Stage::new(&scenario, &options).unwrap();
-        // Later faults reuse the runs that the first one makes.
+        // The later faults reuse the runs that the first fault makes.
         for (kind, size) in [("moment", Some(1e-7)), ("angle", None), ("reaction", Some(1e-9)), ("omega", Some(1e-6))] {
             for party in [FaultyParty::Newton, FaultyParty::Engine] {
                 let fault = fault(kind, size);
@@ -110,7 +110,7 @@ fn faults_of_sliders_on_moving_guides_are_found_in_every_party() {
     }
 }
 
-/// The fault has an effect only if the loaded link reverses.
+/// The fault `load-always` has an effect only if the loaded link reverses.
 /// No shipped crank reverses under a load of this kind, so the moment acts on a rocker.
 #[test]
 fn a_one_sided_moment_that_always_acts_is_found_in_every_party() {

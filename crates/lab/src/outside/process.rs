@@ -82,7 +82,7 @@ fn wait(child: &mut Child, files: &[&Path], limit: f64, clock: Clock) -> Result<
 fn end_group(child: &Child) {
     if cfg!(unix) {
         let group = format!("-{}", child.id());
-        // If the process group is empty, this is not a failure; the message of `kill` is suppressed.
+        // An empty process group is not a failure, so the message of `kill` is suppressed.
         let _ = Command::new("kill").args(["-KILL", "--", &group]).stderr(Stdio::null()).status();
     }
 }

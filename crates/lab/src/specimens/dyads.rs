@@ -128,8 +128,8 @@ pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
             return None;
         }
         let sine = |pose: &Pose| transmission_sine(mechanism, group, pose).expect("a dyad");
-        // The sign must not change. Where axes become parallel, a slider goes to infinity and returns from the other
-        // side.
+        // The sign of the sine must not change. Where axes become parallel, a slider goes to infinity and returns from
+        // the other side.
         let sign = sine(&poses[0]).signum();
         let least = poses.iter().map(|pose| sign * sine(pose)).fold(1.0, f64::smaller);
         if !(least >= DEAD) {

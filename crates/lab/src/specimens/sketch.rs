@@ -27,7 +27,7 @@ impl RandomSource {
         RandomSource(ChaCha20Rng::from_seed(bytes))
     }
 
-    /// A positive number whose logarithm is uniform.
+    /// A positive number between `from` and `to`, whose logarithm is uniformly distributed.
     pub fn decades(&mut self, from: f64, to: f64) -> f64 {
         10f64.powf(self.number(from.log10(), to.log10()))
     }
@@ -52,7 +52,7 @@ impl RandomSource {
         self.number(-3.1, 3.1)
     }
 
-    /// A vector in any direction.
+    /// A vector in a random direction, with a length between `shortest` and `longest`.
     pub fn vector(&mut self, shortest: f64, longest: f64) -> Vec2 {
         unit(self.angle()) * self.number(shortest, longest)
     }
@@ -99,7 +99,7 @@ impl<'a> SpecimenSketch<'a> {
         let crank_link = sketch.link(pivot);
         sketch.poses[crank_link].angle = zero + start;
         sketch.join(false, 0, crank_link, pivot);
-        // A point at the crank's end determines its length.
+        // A point at the crank's end determines the crank's length.
         let end = sketch.random.vector(crank[0], crank[1]);
         sketch.put(crank_link, "E", pivot + end);
         sketch

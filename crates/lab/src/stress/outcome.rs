@@ -39,7 +39,7 @@ linkage::words! {
 pub struct WorstOfGroup {
     /// The group.
     pub group: QuantityGroup,
-    /// Largest error divided by the channel's scale: half its range in the run.
+    /// Largest error divided by the channel's scale, which is half the channel's range in the run.
     #[serde(deserialize_with = "number")]
     pub error: f64,
     /// Bound of the channel with the largest error, divided by this channel's scale.
@@ -111,7 +111,8 @@ pub struct StressOutcome {
     pub dial: f64,
     /// Number of the sample.
     pub sample: u64,
-    /// Identifies the program, the family's inputs and the case. A stored result with another key is computed again.
+    /// Identifies the program, the family's inputs and the case. A stored result with a different key is computed
+    /// again.
     pub key: String,
     /// Reason why the case does not exist; empty if it exists.
     #[serde(default, skip_serializing_if = "String::is_empty")]

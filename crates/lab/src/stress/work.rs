@@ -35,7 +35,8 @@ pub fn jobs(family: &'static StressFamily, quick: bool, seed: u64, kept: &[Stres
 }
 
 /// Solves the open points on `threads` threads.
-/// After each point, `done` receives all jobs and the number of finished jobs. If it returns an error, the work ends.
+/// After each point, `done` receives all jobs and the number of finished jobs. If `done` returns an error, the work
+/// ends.
 ///
 /// # Errors
 /// The errors of `done`.

@@ -264,8 +264,8 @@ impl Bench<'_> {
         // The comparison run has twice the sweeps.
         // Its iteration error is small compared with that of the run at `settings`.
         // The difference of the two runs is therefore the iteration error at `settings`.
-        // (A proof compares with half of the sweeps. Half of the sweeps cost a quarter of twice the sweeps, but this
-        // comparison overestimates the error.)
+        // (A proof compares with a run with half of the sweeps. That run costs a quarter of a run with twice the
+        // sweeps, but its comparison overestimates the error.)
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }

@@ -10,7 +10,7 @@ use linkage::work::{Count, counted};
 use prover::engines::EngineName;
 
 /// Additional steps of a run outside the interval from the first to the last instant.
-/// They are a few backwards, the same number forwards, and some beyond the end.
+/// They are a few steps backwards, the same number of steps forwards, and some steps beyond the end.
 const EXTRA_STEPS: f64 = 16.0;
 /// Number of tiny steps of a probe in every world.
 const TINY_STEPS: f64 = 5.0;
@@ -25,7 +25,7 @@ struct Costs {
     sweep: f64,
     /// Reading all channels at an instant.
     instant: f64,
-    /// Cost of a step in a world whose reactions are read, divided by the cost of any other step.
+    /// Cost of a step in a world whose reactions are read, divided by the cost of a step in any other world.
     native: f64,
     /// Cost of a tiny step of a probe, divided by the cost of an ordinary step with one substep.
     tiny: f64,

@@ -298,8 +298,8 @@ impl CaseBuilder {
             let carries = |link: LinkId| link == GROUND || all.iter().any(|before| before.link == link);
             let link = if carries(first.link) { second.link } else { first.link };
             all.push(Drive {
-                // A joint that no drive can move has no kind of input. The default is used, because the structural
-                // analysis rejects such a drive later.
+                // A joint that no drive can move has no kind of input. Such a joint gets the default kind, because the
+                // structural analysis rejects the drive later.
                 input: kind.input().unwrap_or_default(),
                 joint,
                 link,

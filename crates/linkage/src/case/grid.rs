@@ -12,7 +12,7 @@ use crate::math::statistics::ascending;
 pub struct Grid {
     /// Times (s), in any order.
     pub times: Vec<f64>,
-    /// Input values at those times (SI unit, in the scenario's convention).
+    /// Input values at the times of the grid (SI unit, in the scenario's convention).
     pub inputs: Vec<f64>,
 }
 

@@ -4,7 +4,7 @@ use super::Case;
 use crate::trajectory::{Channel, Stage};
 
 impl Case {
-    /// Channels selected by `word`, out of all that the case can have, in the order of columns.
+    /// Channels selected by `word`, out of all channels that the case can have, in the order of columns.
     /// A word is the name of a stage (`positions`), a subject (`point.P`, `link.rocker`, `joint.B`, `frame`, `drive`),
     /// a subject's stage (`point.P.positions`) or a channel (`joint.B.fx_N`).
     /// The list is empty for any other word.

@@ -22,7 +22,7 @@ pub struct Scene {
     pub left_out: LeftOut,
 }
 
-/// Names of the parts that a scene leaves out.
+/// Names of the parts that the reduced case leaves out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LeftOut {
     /// Links.

@@ -14,7 +14,7 @@ impl Curve {
     pub(super) fn torque(&self, omega: f64) -> f64 {
         match *self {
             Curve::Line { at_rest, slope } => at_rest + slope * omega,
-            // This form does not divide by the slip, so zero slip needs no special case.
+            // The formula for Kloss's curve below does not divide by the slip, so zero slip needs no special case.
             Curve::Kloss { breakdown_torque, breakdown_slip: b, synchronous_speed } => {
                 let slip = 1.0 - omega / synchronous_speed;
                 2.0 * breakdown_torque * slip * b / (slip * slip + b * b)

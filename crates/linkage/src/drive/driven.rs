@@ -15,7 +15,7 @@ pub enum DriveMotion {
         /// The motor does not affect the motion: the link follows the law even if the motor is too weak for it.
         motor: Option<Motor>,
     },
-    /// Free motion: from t = 0 on, it follows from the loads, weights, inertia and the motor, if any.
+    /// Free motion, which from t = 0 on follows from the loads, weights, inertia and the motor, if any.
     Free {
         /// Speed at t = 0 (rad/s), counter-clockwise positive.
         initial_speed: f64,
@@ -129,7 +129,7 @@ impl Drive {
         self.by_law(MotionLaw::end)
     }
 
-    /// Time (s) at which the angular acceleration jumps; `None` if it never does.
+    /// Time (s) at which the angular acceleration jumps; `None` if there is no jump.
     #[must_use]
     pub fn jump(&self) -> Option<f64> {
         self.by_law(MotionLaw::jump)
@@ -170,7 +170,8 @@ impl Drive {
     }
 
     /// The motor of the link. The motor of a free link drives the link.
-    /// The motor of a link under a law does not: only the motor's speed under load is to be computed.
+    /// The motor of a link under a law does not drive the link. Only the speed of this motor under load is to be
+    /// computed.
     #[must_use]
     pub fn motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -343,7 +344,7 @@ mod tests {
             let motion = DriveMotion::Free { initial_speed: 0.5, nominal_speed: 4.0 * sense, motor: None };
             let free = Drive { motion, ..drive };
             assert_eq!((free.sense(), free.initial_speed()), (sense, 0.5), "{:?}", free.motion);
-            // Crank angles refer to the nominal motion, so both drives have the same state.
+            // Crank angles refer to the nominal motion, so the free drive and its nominal drive have the same state.
             assert_eq!(free.at(2.0), free.nominal().at(2.0));
             assert_eq!((free.time_of(3.0), free.nominal().initial_speed()), (2.5 * sense / 4.0, 4.0 * sense));
         }

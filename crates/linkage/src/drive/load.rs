@@ -1,9 +1,8 @@
-//! Loads on links other than gravity and inertia.
-//!
+//! Loads on links, apart from gravity and inertia.
 //! This file alone defines each kind of load.
 //! The definition consists of its variant, its action on the links ([`Load::act`]), its dependencies ([`Load::nature`])
 //! and its numbers ([`Load::parts`]).
-//! All other code calls these methods. The syntax in files is defined by the scenario reader.
+//! Code in other files calls these methods. The syntax in files is defined by the scenario reader.
 
 mod change;
 mod parts;

@@ -26,7 +26,7 @@ pub struct InputState {
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s, not zero), counter-clockwise positive.
     ConstantSpeed(f64),
-    /// Constant acceleration from rest to a final speed. After that the speed is constant.
+    /// Constant acceleration from rest to a final speed. After the acceleration the speed is constant.
     Ramp {
         /// Final speed (rad/s, not zero), counter-clockwise positive.
         speed: f64,
@@ -69,7 +69,7 @@ impl MotionLaw {
         }
     }
 
-    /// Time (s) at which the angular acceleration jumps; `None` if it never does.
+    /// Time (s) at which the angular acceleration jumps; `None` if there is no jump.
     #[must_use]
     pub fn jump(&self) -> Option<f64> {
         match *self {
@@ -159,7 +159,8 @@ const HALVINGS: usize = 60;
 /// Fraction s of the duration at which s - sin(2 pi s) / 2 pi equals `gone`.
 /// The fraction is found by bisection, because the function has zero slope at both ends.
 fn cycloid(gone: f64) -> f64 {
-    // Because of rounding errors the angle may lie outside the law's range by a small amount, so 1e-15 is allowed.
+    // Because of rounding errors, the fraction `gone` may lie slightly outside 0 to 1, so an excess of 1e-15 is
+    // allowed.
     if !(-1e-15..=1.0 + 1e-15).contains(&gone) {
         return f64::NAN;
     }

@@ -36,7 +36,7 @@ pub enum MotorLaw {
     Table {
         /// Speeds (rad/s), ascending, at least two.
         speeds: Vec<f64>,
-        /// Torques at these speeds (N m).
+        /// Torques at the speeds of the table (N m).
         torques: Vec<f64>,
     },
 }
@@ -257,7 +257,7 @@ mod tests {
             let at = pair[0].speeds[1];
             assert_eq!(at, pair[1].speeds[0]);
             let jump = (pair[0].moment(at) - pair[1].moment(at)).abs();
-            // The moment jumps only at standstill, because the losses change sign there.
+            // The moment jumps only at standstill, because the losses change sign at standstill.
             assert!(jump < 1e-12 || at == 0.0, "{at} {jump}");
             assert_eq!(motor.branch(at, 1.0), pair[1]);
             assert_eq!(motor.branch(at, -1.0), pair[0]);

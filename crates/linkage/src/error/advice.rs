@@ -54,12 +54,12 @@ pub enum Advice {
     DoublePrecision,
     /// Another engine.
     OtherEngine,
-    /// Another method for the reactions.
+    /// A method for the reactions other than the present method.
     OtherRoute {
         /// Names of the methods that work.
         routes: &'static [&'static str],
     },
-    /// Another analytic side as the reference of a proof.
+    /// An analytic solver other than the present one as the reference of a proof.
     OtherReference {
         /// Name.
         solver: &'static str,
@@ -73,9 +73,9 @@ pub enum Advice {
     ShortenGrid,
     /// An analysis of the range of motion, which shows what limits the crank and which links turn fully.
     LookAtRange,
-    /// Another configuration of an Assur group.
+    /// A configuration of an Assur group other than the present configuration.
     Configuration {
-        /// What the user can specify, as a text.
+        /// Text that says what the user can specify.
         give: String,
     },
     /// The solution as a table instead of the requested form.

@@ -18,7 +18,7 @@ type Coefficients = Vec<Complex<f64>>;
 
 /// If the distance of a root of the derivative from the unit circle exceeds this limit, the root is not used.
 /// A rounding error moves a simple root only by an amount of the error's size.
-/// A rounding error moves a nearly double root by its square root, 1e-8, times the condition number of the root.
+/// A nearly double root moves by the square root of the rounding error, 1e-8, times the condition number of the root.
 /// The limit may be generous, because a superfluous root only adds one more candidate.
 const ON_CIRCLE: f64 = 1e-3;
 /// If a value divided by the argument `scale` is below this limit, the value counts as zero.

@@ -106,7 +106,7 @@ fn closed(points: &[(f64, f64)], period: f64) -> (Vec<f64>, Vec<f64>) {
     points.iter().copied().chain([(x + period, y)]).unzip()
 }
 
-/// Lengths and slopes of the chords.
+/// Lengths and slopes of the straight lines between neighbouring points.
 fn differences(knots: &[f64], values: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let h: Vec<f64> = knots.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let slope = values.windows(2).zip(&h).map(|(pair, h)| (pair[1] - pair[0]) / h).collect();

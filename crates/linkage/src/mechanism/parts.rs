@@ -31,7 +31,8 @@ impl Link {
     }
 
     /// The lever arm of forces on the link (m): the largest distance between two points, mass centre included.
-    /// For a link with a single point, such as a flywheel, the lever arm is the radius of gyration.
+    /// If a link with mass has a single point at its mass centre, as a flywheel has, the lever arm is the radius of
+    /// gyration.
     /// For a link with a single point and no mass, the lever arm is 0.
     #[must_use]
     pub fn extent(&self) -> f64 {

@@ -1,9 +1,9 @@
 //! Spanning tree of a linkage: which joint carries which link, and which joints are cut.
-//!
 //! In the tree used for runs, prismatic joints are never cut, so their constraints are satisfied exactly.
 //! All prismatic joints fit into the tree, because structural analysis rejects loops of prismatic joints alone.
-//! An engine also works if prismatic joints are cut. Its order of convergence is then 2.
-//! For both choices the largest error of any channel, relative to half its range, was measured at a step of 1e-3 s.
+//! An engine also works if prismatic joints are cut. The engine's order of convergence is then 2.
+//! Two trees were compared by the largest error of any channel, relative to half the channel's range, at a step of 1e-3
+//! s.
 //! In the following list, the first number is for a tree that keeps prismatic joints.
 //! The second number is for a tree that cuts the innermost joint of each loop, whatever the joint's kind.
 //! The errors are 1.4e-4 and 2.0e-4 for a slider-crank, and 8.3e-4 and 1.2e-3 for a swinging guide.
@@ -114,7 +114,7 @@ impl SpanningTree {
 
     /// Returns the tree for runs, changed so that it contains the given joints.
     /// Each given joint must be on the ground or on a link that the earlier given joints reach.
-    /// The given joints stay in the tree even if joints not given here also reach their links.
+    /// The given joints stay in the tree even if the tree could reach their links through joints that are not given.
     /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
     /// Without this rule the driven joint would be cut, although it must be a coordinate of the tree.
     #[must_use]
@@ -263,8 +263,8 @@ mod tests {
 
     #[test]
     fn a_prismatic_joint_stays_in_the_tree() {
-        // The tree of the four-bar cuts the joint between coupler and rocker. This joint becomes prismatic, so the
-        // crank pin is cut instead.
+        // The tree of the four-bar cuts the joint between coupler and rocker. If this joint is made prismatic, the tree
+        // cuts the crank pin instead.
         let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
         let mut joints = four_bar().joints().to_vec();
         joints[2] = Joint { kind, ..joints[2].clone() };

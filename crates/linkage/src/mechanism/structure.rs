@@ -163,7 +163,7 @@ fn check_connected(mechanism: &Mechanism) -> Result<()> {
 }
 
 /// Rejects closed loops of prismatic pairs alone.
-/// Such a loop constrains the angle between its links twice and leaves it free to slide.
+/// Such a loop constrains the angle between its links twice and leaves the links free to slide.
 fn check_sliders(mechanism: &Mechanism) -> Result<()> {
     let mut part: Vec<LinkId> = mechanism.links().ids().collect();
     for joint in mechanism.joints().iter().filter(|joint| joint.keeps_angle()) {

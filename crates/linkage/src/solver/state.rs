@@ -1,10 +1,10 @@
-//! The state of a mechanism. All solvers use this form.
+//! The state of a mechanism, in the form that all solvers use.
 
 use crate::case::Case;
 use crate::math::{KeepNan, Motion, Vec2, cross, unit};
 use crate::mechanism::{GROUND, Joint, PerJoint, PerLink};
 
-/// State of the whole mechanism at one instant. All solvers use this form.
+/// State of the whole mechanism at one instant, in the form that all solvers use.
 #[derive(Clone, Debug)]
 pub struct State {
     /// Motion of every link's frame. The ground's motion is [`Motion::REST`].
@@ -55,8 +55,8 @@ impl State {
     }
 
     /// Shaking force (N) and shaking moment about the origin (N m).
-    /// They are the sums of the actions of three sources on the frame: joints with the ground, drives, and springs and
-    /// dampers fastened to the ground.
+    /// Force and moment are the sums of the actions on the frame.
+    /// These actions come from joints with the ground, drives, and springs and dampers fastened to the ground.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
         // Drives are mounted on the frame. The moment of a drive on the frame is opposite to its balancing moment.
@@ -82,7 +82,7 @@ impl State {
 
     /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
     /// In a prismatic joint the opening is measured perpendicular to the guide.
-    /// The angle between the joint's two axes (rad) also counts. It is multiplied by `size` (m).
+    /// The angle between the joint's two axes (rad), multiplied by `size` (m), also counts as an opening.
     #[must_use]
     pub fn opening(&self, case: &Case, size: f64) -> [f64; 2] {
         let mut largest = [0.0; 2];

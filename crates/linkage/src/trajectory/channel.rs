@@ -73,9 +73,9 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 
 /// All channels, in the order of columns. Vectors are in world axes.
 /// Angles are counter-clockwise from world +x and count whole turns. Moments are counter-clockwise positive.
-/// The force of a joint acts from its first link on its second.
-/// The slide of a prismatic joint is the distance along its axis, from its point on the first link to that on the
-/// second.
+/// The force of a joint is the force of its first link on its second link.
+/// The slide of a prismatic joint is the distance along its axis, from its point on the first link to its point on the
+/// second link.
 /// The moment of a prismatic joint acts from the first link on the second, about the joint's point on the second link.
 /// The force on the frame is the sum of the forces of the frame's joints and of the drive. The moment on the frame is
 /// about the origin.

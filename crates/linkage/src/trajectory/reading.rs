@@ -1,4 +1,4 @@
-//! Subjects of channels, and the quantities of a state that the table of channels reads.
+//! Subjects of channels, and the quantities of a state that the table of channels contains.
 
 /// Subject of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -9,7 +9,7 @@ pub enum ChannelSubject {
     Point,
     /// A joint.
     Joint,
-    /// A prismatic joint. These rows are additional: a prismatic joint also has the rows of every joint.
+    /// A prismatic joint. The rows of this subject are additional: a prismatic joint also has the rows of every joint.
     Slider,
     /// The frame. All joints with the ground and the drive act on it.
     Frame,

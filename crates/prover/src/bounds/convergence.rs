@@ -196,8 +196,9 @@ mod tests {
 
     #[test]
     fn orders_below_a_half_are_untrusted_and_extrapolation_guarded() {
-        // Differences of 1.1 and 1 give an order of 0.14. Used alone, this order would give an error of ten times the
-        // finer difference.
+        // Differences of 1.1 and 1 give an order of 0.14. Used alone, this order would give an error of eleven times
+        // the finer difference.
+        // The estimate uses an order of 0.5 instead.
         let slow = Convergence::of(&[2.1], &[1.0], &[0.0], false, 2.0, 0.0);
         assert!((slow.observed - 1.1f64.log2()).abs() < 1e-12 && !slow.is_trusted());
         assert!((slow.error - 1.1 / (1.0 - 0.5f64.sqrt())).abs() < 1e-12, "{slow:?}");
@@ -283,7 +284,7 @@ mod tests {
             let mut runs = [2.0f64, 1.0, 0.5].map(|h| vec![h * h, 2.0 * h * h]);
             runs[place][0] = f64::NAN;
             let found = Convergence::of(&runs[0], &runs[1], &runs[2], false, 2.0, 0.0);
-            // The double step determines the order but does not enter the estimate.
+            // A NaN of the double step does not enter the estimate, but the estimate is then not trusted.
             let bound = found.parts(0.0).sum();
             assert!(bound.is_nan() || !found.is_trusted(), "{place}: {found:?}");
             assert!(found.limit(&runs[1], &runs[2], false).is_none(), "{place}: {found:?}");

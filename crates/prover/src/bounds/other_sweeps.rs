@@ -82,7 +82,7 @@ impl OtherSweeps<&[f64]> {
             // Even small differences of the channel are then not rounding, and the error is infinite (unknown).
             [Some(_), Some(_)] if self.growth > 1.0 => f64::INFINITY,
             [Some(fewer), Some(_)] => match self.growth(single, noise, periodic) {
-                // A difference that is only rounding is taken as the error itself.
+                // If the last difference is only rounding, this difference is the error.
                 0.0 => last(fewer),
                 own => last(fewer) * part_left(own.larger(self.growth), self.factor),
             },

@@ -340,13 +340,13 @@ mod tests {
         let all = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![3.0, 4.0])]);
         assert_eq!(magnitudes(&all), [2e9, 2e9]);
         assert_eq!(magnitudes_by(&all, &[0, 0], &|_, _| true), [2e9, 2e9]);
-        // Numbers of another set do not count, unless that set feeds this one.
+        // Numbers of another set count only if that set feeds the channel's set.
         assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from == to), [2e9, 4.0]);
         assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from <= to), [2e9, 2e9]);
-        // The scale of an error, however, is the channel's own range.
+        // The scale of the channel, however, is half the channel's own range.
         assert_eq!(scales(&all), [1.5e9, 0.5]);
-        // If the channel's own range is only rounding, it is not the scale. An example is the shaking force of a
-        // balanced mechanism.
+        // If the channel's own range is only rounding, it does not determine the scale. An example is the shaking force
+        // of a balanced mechanism.
         let balanced = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![0.0, 1e-7])]);
         assert_eq!(scales(&balanced), [1.5e9, 2e6]);
     }
@@ -395,7 +395,8 @@ mod tests {
         assert_eq!([3e-9, 4e-8, 1.0].map(|own| built.unless(own, Unit::Newton)), [30.0, 4e-8, 1.0]);
     }
 
-    /// Each quantity that vanishes has the size that follows from the crank: here 6 rad in 4 s, 3 m and 500 N.
+    /// Each quantity that vanishes has the size that follows from the crank's rotation of 6 rad in 4 s, the coordinates
+    /// up to 3 m, and the forces up to 500 N.
     #[test]
     fn sizes_of_zero_channels_follow_from_the_crank() {
         let names =

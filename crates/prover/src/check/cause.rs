@@ -253,8 +253,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
         return Some(found);
     }
     // Largest remainder that counts as evidence for a slip.
-    // By chance, one of `among` equally simple slips leaves a remainder as small at two instants with the probability
-    // `CHANCE`.
+    // With the probability `CHANCE`, at least one of `among` equally simple slips leaves so small a remainder at two
+    // instants by chance.
     let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
     let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
     let mostly = |own: Mended| FormulaCause::Mostly { cause: Box::new(FormulaCause::Slip(own.slip)), left: own.left };

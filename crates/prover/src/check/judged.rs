@@ -147,6 +147,7 @@ impl JudgedFormula {
         let at = FormulaAtInstant { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
         // If the mechanism's value is hardly more accurate than the formula's value, the formula is not the cause of
         // the lost digits.
+        // So the digits do not count as lost.
         let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
         // At the end of a function's domain, such as acos at 1, the derivative is not finite although the value is
         // right.

@@ -24,7 +24,7 @@ pub struct Missing {
     pub beside: Option<String>,
     /// The missing expression with its sign: `+ m*g*s*cos(phi)`, `/ cos(beta)^3`.
     pub what: String,
-    /// Whether it is a factor rather than a term.
+    /// Whether the missing expression is a factor rather than a term.
     pub is_factor: bool,
 }
 

@@ -53,7 +53,7 @@ pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimen
     };
     let bases = bases(course, &wrong);
     let largest = wrong.differences.iter().fold(0.0, |largest: f64, own| largest.larger(own.abs()));
-    // A term that only cancels a wrong constant does not explain it.
+    // If the formula is constant, a term that only cancels this constant is not an explanation and is rejected.
     let formula = trial.pairs.first()?.formula.value;
     let is_constant = trial.gives_one_number();
     let monomials = Monomials::of(&trial.formulas, trial.index, &[], dimensions);

@@ -67,7 +67,7 @@ impl<'a> Trial<'a> {
         let formula = &formulas.list[index];
         let rows = course.rows(formula);
         let mut pairs = judge::pairs(formulas, (formula, claim), course, &rows)?;
-        // Nothing can be tried at instants at which the claimed quantity is undefined, such as a value reduced to a
+        // An instant is left out if the claimed quantity is undefined at this instant, such as a value reduced to a
         // crank at rest.
         let has_number = |pair: &Pair| pair.mechanism.value.is_finite() && pair.mechanism.error.is_finite();
         let kept = rows.iter().zip(&pairs).filter(|(_, pair)| has_number(pair));

@@ -37,7 +37,7 @@ fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows:
     claims.iter().map(column).collect()
 }
 
-/// Compares a scenario (the party `which`) with the other party at the instants of the other.
+/// Compares a scenario (the party `which`) with the party `other` at the instants of `other`.
 pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &ComparisonRule) -> Result<SidePair> {
     let Side { name, held } = other;
     let at = held.at(how.by)?;
@@ -108,7 +108,7 @@ fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
     let mut all: Vec<f64> = Vec::with_capacity(rows.len());
     for row in at.ascending() {
         let Rounded { value, error } = at.values[row];
-        // Rounding may put an instant slightly outside the motion.
+        // Rounding may put a time slightly outside the motion. Such a time is moved to the nearer end of the motion.
         let within = if at.is_crank { value } else { within(scenario.case.crank(), value) };
         let value = if (within - value).abs() <= error { within } else { value };
         if all.last() != Some(&value) {

@@ -117,10 +117,11 @@ impl Compared {
     }
 }
 
-/// Whether a cause may be named although a difference remains. Three kinds of causes may not:
-/// With a remainder, a fitted number has no clear meaning.
-/// Numerical derivatives resemble values that are late by half a row.
-/// At constant speed, a rotated drive resembles late rows.
+/// Whether a cause may be named although a difference remains.
+/// A fitted number may not be named, because its meaning is then unclear. The start angle of a drive is an exception:
+/// at constant speed, a rotated drive resembles late rows.
+/// Numerical derivatives may not be named, because they resemble values that are late by half a row.
+/// A single wrong row may not be named.
 fn may_leave(cause: &DisagreementCause) -> bool {
     match cause {
         DisagreementCause::Case(Change { part, how: PartChange::Instead { .. } }) => {

@@ -39,9 +39,9 @@ impl Course {
         Course { at, values, fourth }
     }
 
-    /// The value at an instant, interpolated by the cubic through the four rows around it.
-    /// Its error is the error of the rows plus the first neglected term.
-    /// NaN outside the rows, or if the rows are too few.
+    /// The value at an instant, interpolated by the cubic through the four rows around the instant.
+    /// The value's error is the error of the rows plus the first neglected term.
+    /// The value is NaN outside the rows, or if the rows are too few.
     pub(super) fn value(&self, wanted: f64) -> Rounded {
         let next = self.at.partition_point(|&at| at < wanted);
         if next == 0 || next == self.at.len() || self.at.len() < FEWEST {
@@ -100,7 +100,8 @@ mod tests {
     fn row_errors_propagate_with_their_weights() {
         let at: Vec<f64> = (0..20).map(f64::from).collect();
         let values: Vec<Rounded> = at.iter().map(|&at| Rounded { value: at, error: 1e-6 }).collect();
-        // Midway between two rows the weights are -1/16, 9/16, 9/16 and -1/16. Their sizes add up to 5/4.
+        // Midway between two rows the weights are -1/16, 9/16, 9/16 and -1/16.
+        // The absolute weights add up to 5/4. So equal errors of the four rows are multiplied by up to 5/4.
         let found = Course::new(&at, &values, None).value(9.5);
         assert!((found.error - 1.25e-6).abs() < 1e-12, "{found:?}");
     }

@@ -20,7 +20,7 @@ impl DiagnosedParty<'_> {
         self.bounds.iter().find(|(own, _)| own == channel).map(|(_, bound)| *bound)
     }
 
-    /// Whether the two parties differ in a channel by more than the sum of their bounds.
+    /// Whether this party and `other` differ in a channel by more than the sum of their bounds.
     fn contradicts(&self, other: &DiagnosedParty) -> bool {
         self.trajectory.iter().any(|(channel, ours)| {
             let (Some(own), Some(theirs)) = (self.bound(channel), other.bound(channel)) else { return false };

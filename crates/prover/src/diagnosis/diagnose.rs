@@ -34,7 +34,7 @@ pub struct Diagnosis {
 }
 
 impl Diagnosis {
-    /// The channels that left their bounds first, at the same instant.
+    /// The channels that exceeded their bounds first, all at the same instant.
     #[must_use]
     pub fn first(&self) -> &[Since] {
         let Some(first) = self.since.first() else { return &[] };

@@ -158,7 +158,7 @@ pub fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joi
     let (mut links, mut joints) = (parts.mechanism.links().to_vec(), parts.mechanism.joints().to_vec());
     change(&mut links, &mut joints);
     for link in &mut links {
-        // A rotating link cannot have inertia without mass. The added mass is so small that it has no effect.
+        // A rotating link with inertia must have a mass. So a mass is added that is too small to have an effect.
         if link.mass == 0.0 && link.inertia > 0.0 {
             link.mass = 1e-12;
         }

@@ -205,7 +205,7 @@ impl Wrong<'_> {
                 (0..self.times.len()).all(|row| self.times[row] == time || self.gap(row).abs() <= self.bound)
             }
             // `late`, `others` and `derived` examine these slips, because the slips need the solution at instants or in
-            // channels that are not compared here.
+            // channels that are not compared.
             DataSlip::Late { .. } | DataSlip::Clock { .. } | DataSlip::Instead(_) | DataSlip::Opposite(_) => false,
             DataSlip::Exchanged(_) | DataSlip::Between { .. } | DataSlip::Magnitude(_) => false,
             DataSlip::Differences { .. } | DataSlip::NoCoriolis(_) | DataSlip::About(_) => false,

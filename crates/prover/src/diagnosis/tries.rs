@@ -50,7 +50,8 @@ impl Candidate {
 /// A free motion is first followed for a short time. Later it may not depend on its cause in a simple way, and its
 /// solution costs more.
 pub(super) struct Tries<'a> {
-    /// The first instant, whose solution costs almost nothing. Another configuration already shows at this instant.
+    /// The first instant, whose solution costs almost nothing. A changed configuration is already visible at this
+    /// instant.
     pub(super) first: Bench<'a>,
     pub(super) soon: Bench<'a>,
     pub(super) thin: Bench<'a>,

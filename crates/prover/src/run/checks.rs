@@ -181,7 +181,7 @@ fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
         of: &|run: &Observed| gaps(run).into_iter().map(|gap| share(gap, scale)).collect(),
         value: share(largest_size(&gaps(runs.single())), scale),
         kind,
-        // The factor is 2, because both moments may have this rounding error.
+        // The factor is 2, because each of the two moments may have the rounding error of a moment.
         noise: if scale == 0.0 { 0.0 } else { 2.0 / scale },
         note: match by_differences {
             true => sentences::BOTH_FROM_THE_SAME_ACCELERATIONS,

@@ -30,7 +30,7 @@ impl Dependence {
         // Maps the last groups of a set to the index of the set, so that each set is determined only once.
         let mut known: BTreeMap<Vec<GroupId>, usize> = BTreeMap::new();
         for channel in channels {
-            // Of the groups that a link depends on, its own group is the last.
+            // Of the groups that a link depends on, the link's own group is the last. So this group determines the set.
             let tops = match case.is_free() || channel.kind.stage >= Stage::Reactions {
                 true => all.clone(),
                 false => {

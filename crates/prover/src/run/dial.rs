@@ -52,7 +52,8 @@ fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
     match (&*verdict, &again) {
         (Verdict::Agree { .. }, _) => *verdict = again,
         (Verdict::Disagree { .. }, _) if beyond => *verdict = again,
-        // The corrected value of a printed number is no longer within its bound.
+        // The corrected value of a printed number is no longer within its bound, so the new verdict replaces the old
+        // one.
         (Verdict::Expected { .. }, Verdict::Disagree { .. }) => *verdict = again,
         (Verdict::Disagree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }, _) => {}
     }

@@ -177,7 +177,7 @@ impl EngineProof {
     /// Verdict on the own forces as it enters the engine's verdict.
     /// Inconclusive own forces are reported but do not change the verdict, because the motion and its forces are judged
     /// without them.
-    /// Impulses are of a lower order and need the true masses, with many sweeps.
+    /// Impulses converge with a lower order than the motion. They need the true masses and many sweeps.
     #[must_use]
     pub fn added(&self) -> Option<&Verdict> {
         let own = self.own_forces.as_ref().map(|own| &own.verdict);

@@ -46,7 +46,8 @@ pub(super) fn prove(
     let Judged { mut proof, run, .. } = match found {
         Ok(found) => found,
         Err(Stopped { error, kept, spent }) => {
-            // If no work is left for finer steps, only the coarse steps may have failed, not the engine.
+            // If no work remains for finer steps, perhaps only the coarse steps failed. So the verdict is inconclusive
+            // with the advice to allow more work.
             let (verdict, failure) = match spent {
                 None => (Verdict::open(error.message()), Some(error)),
                 Some(work) => {

@@ -260,7 +260,7 @@ impl<'a> Judge<'a> {
             stage >= Stage::Accelerations && self.asks.has(channel.kind) && noise > MOST_ROUNDING * wanted * scale
         });
         let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
-        // Impulses of the first steps are always read from later steps, whatever their rounding error.
+        // Impulses of the first steps are always computed from later steps, whatever their rounding error.
         let impulses = self.asks == Asks::OwnForces;
         (is_open || impulses).then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
     }

@@ -123,7 +123,8 @@ pub(super) struct Known {
     /// Absolute crank angle at every instant of a prescribed motion (rad). Both sides receive this angle rounded to a
     /// double.
     turned: Vec<f64>,
-    /// Whether a channel is an angle. The numbers of angles already include their revolutions.
+    /// Whether a channel is an angle. The rounding of the crank angle is not added for angles, because their numbers
+    /// already include their revolutions.
     is_angle: Vec<bool>,
 }
 
@@ -320,7 +321,8 @@ mod tests {
         let far = text[..text.find("[[oracle]]").unwrap()]
             .replace("x_mm = 250, y_mm = 0 } # S3", "x_mm = 2500, y_mm = 0 } # S3");
         assert_eq!(of(&text), 1.0);
-        // The mass centre is 2.5 m away, and the coupler is 0.347 m long.
+        // The mass centre is 2.5 m from the joints, and the coupler is 0.347 m long. The factor is the ratio of these
+        // lengths.
         assert!((7.0..7.5).contains(&of(&far)), "{}", of(&far));
     }
 

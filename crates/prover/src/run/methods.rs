@@ -177,7 +177,8 @@ pub fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> {
     let watches: Result<Vec<Watch>> = Triad::all(case).into_iter().map(|triad| Watch::of(case, triad)).collect();
     let mut watches = watches?;
     let mut visit = |row: usize, state: &State| {
-        // The equations of all these methods are singular at a change point.
+        // The equations of all these methods are singular at a change point, so the methods are not used at such a
+        // pose.
         if state.passing.is_none() {
             watches.iter_mut().for_each(|watch| watch.see(case, row, state));
         }

@@ -85,7 +85,8 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = share(parts.sum(), wanted * scale);
         let is_open = matches!(verdict, Verdict::Inconclusive { .. });
-        // If the bound is not the reason why a verdict is inconclusive, no setting can change the verdict.
+        // If the bound is not the reason why a verdict is inconclusive, no setting can change the verdict. The need is
+        // then zero.
         let is_vague = is_open && !convergence.is_trusted();
         let share = if is_open && !is_vague && share <= 1.0 { 0.0 } else { share.larger(0.0) };
         let own = Need { is_vague, share: if share.is_nan() { f64::INFINITY } else { share }, of: Of::Bound };
@@ -125,7 +126,7 @@ impl Pace {
         if self.rounds.len() < ROUNDS || need.is_within(1.0) {
             return false;
         }
-        // Rounds without any bound show no rate of progress.
+        // Rounds without any bound show no rate of progress, so they are ignored.
         let last = &self.rounds[self.rounds.len() - ROUNDS..];
         let Some([before, most]) = last.iter().find(|[_, least]| least.is_finite()) else { return false };
         if *before >= effort {

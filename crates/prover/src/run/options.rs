@@ -45,7 +45,8 @@ macro_rules! setters {
 pub struct Options {
     /// Analytic side whose trajectory is the reference. The second analytic side checks this trajectory.
     pub reference: Reference,
-    /// Engines and their settings. Settings that are free here are taken from the scenario or found by the proof.
+    /// Engines and their settings. Settings that are not given in the options are taken from the scenario or found by
+    /// the proof.
     pub settings: EngineSettings,
     /// Work allowed to find settings that are not given, in steps without sweeps. The default is enough for most cases.
     pub budget: Option<f64>,

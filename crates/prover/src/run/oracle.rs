@@ -166,11 +166,13 @@ impl Told<'_> {
         };
         let row = instants.binary_search_by(|other| other.total_cmp(&at)).expect("solved at this instant");
         let [value, other] = [self.side, self.side.other()].map(|side| self.values[side][row]);
-        // The difference between the two sides limits how accurately any number is known.
+        // The difference between the two sides limits how accurately any number is known. So twice this difference is
+        // added to the known error.
         let known = self.known + 2.0 * (value - other).abs();
         let difference = value - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
-        // A magnitude changes at most as much as its vector.
+        // A magnitude changes at most as much as its vector. So the changes of the components are combined as those of
+        // a vector.
         let drift = self.channels.iter().map(|own| self.rounded.of_point(own, at, point.at_error));
         let instant = drift.fold(0.0, f64::hypot);
         // The error of a side adds to the rounding of the printed number.

@@ -35,7 +35,8 @@ const NEGLIGIBLE: f64 = 0.01;
 /// Those of a run. A numeric error is not returned, because it shows nothing about the order.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> Result<bool, Stopped> {
     let wanted = judge.problem.engine_rel;
-    // Across a knot of a law of motion the third derivative jumps, so second differences have order 1 there.
+    // Across a knot of a law of motion the third derivative jumps, so second differences have order 1 at the knot.
+    // The order of accelerations and forces is then not examined.
     let is_smooth = bank.case.is_steady();
     let is_low = |own: &ChannelProof| {
         let Convergence { observed, formal, .. } = own.convergence;

@@ -281,7 +281,7 @@ fn engine_proven(scenario: &Scenario, hook: Everywhere, search: Search) -> Engin
 }
 
 /// Two faults are planted: an opening that does not vanish with the step, and a moment that disagrees with its powers.
-/// Both faults are far below 1 % of the size.
+/// The opening is far below 1 % of the mechanism's size. The moment is far below 1 % of the largest moment.
 #[test]
 fn engine_checks_find_errors_that_do_not_vanish_with_the_step() {
     let scenario = parsed("crank_rocker", &text("crank_rocker"));
@@ -384,7 +384,8 @@ fn side_differences_are_reported_as_multiples_of_the_bound() {
     );
 }
 
-/// A resistance opposes either direction of motion. Weights rise as far as they fall.
+/// If the drive is reversed, only the sign of the steady speeds changes.
+/// A resistance opposes either direction of motion, and weights rise as far as they fall.
 #[test]
 fn a_reversed_drive_has_the_reversed_steady_speed() {
     let speeds = |rpm: &str| {

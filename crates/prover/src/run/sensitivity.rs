@@ -42,7 +42,8 @@ mod tests {
     use scenario::of_repository;
 
     /// In stronger gravity, a pendulum released from rest passes the same positions in a shorter time.
-    /// The time is shorter by the square root of the factor: theta(t; (1 + e) g) = theta(t sqrt(1 + e); g).
+    /// If gravity is multiplied by 1 + e, the time is divided by sqrt(1 + e): theta(t; (1 + e) g) = theta(t sqrt(1 +
+    /// e); g).
     /// Each derivative adds one more factor sqrt(1 + e).
     #[test]
     fn sensitivity_of_a_pendulum_to_gravity_is_that_to_time_scale() {

@@ -94,7 +94,7 @@ pub(super) struct Settling<'a, 'b> {
     finest: f64,
     /// Factor by which the sweeps were last multiplied.
     factor: usize,
-    /// Whether the last round was near the requested bound.
+    /// Whether the bound of the last round was near the requested bound.
     near: bool,
     /// Largest step (s) for which runs stay clear of the dead centres; `None` until it is needed.
     room: Option<f64>,
@@ -270,7 +270,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     /// Steps that leave out more instants decide nothing.
     fn leave_out_less(&mut self, judged: &Judged) {
         let most = judged.proof.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
-        // The next round halves the step again.
+        // The next round halves the step again, so a step of `most` is small enough.
         while self.now.resolution > most && !self.is_finest() {
             self.now.resolution *= 0.5;
         }
@@ -287,7 +287,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
         let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
         if is_cramped {
-            // The next round halves the step again. The largest permitted step keeps rounding small.
+            // The next round halves the step again, so half of `most` is small enough.
+            // The step is as large as permitted, because a large step keeps rounding small.
             if self.finest == 0.0 {
                 self.now.resolution = self.now.resolution.smaller(ROOM * 0.5 * most);
             }

@@ -42,7 +42,8 @@ pub(super) fn read(path: &Path, size: u64, may: May) -> Result<TextTable> {
 /// Reads the columns of numbers. Columns without numbers, such as names, are skipped.
 fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextTable>, ParquetError> {
     let file = File::open(path)?;
-    // Errors are converted here, because the usual conversion would label an error of the file system as external.
+    // This function converts errors itself, because the usual conversion would label an error of the file system as
+    // external.
     let wrong = |error: std::io::Error| ParquetError::General(error.to_string());
     announced::check_description(&file).map_err(wrong)?;
     let reader = SerializedFileReader::new(file.try_clone()?)?;

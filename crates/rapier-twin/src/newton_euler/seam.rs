@@ -37,14 +37,14 @@ pub(super) struct Stand {
     pub(super) normal: Option<Vec2>,
 }
 
-/// How a joint of the tree passes on the force and moment that its outer link needs to its inner link.
-/// Each part is a weighted sum of the three numbers x, y and moment.
+/// Transfer of force and moment through a joint of the tree, from the needs of its outer link to the needs of its inner
+/// link.
+/// Each part of the transfer is a weighted sum of the three numbers x, y and moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
     /// The part that the joint cannot transmit: the moment for a revolute joint, the axial force for a prismatic joint.
     left_over: Term,
-    /// Weights of the transmitted force. They are the weight of x in x, of x in y (equal to that of y in x), and of y
-    /// in y.
+    /// Weights of the transmitted force: the weight of x in x, of x in y (equal to that of y in x), and of y in y.
     force: Term,
     /// Weights of the moment about the inner link's mass centre.
     moment: Term,

@@ -62,7 +62,7 @@ impl Twin {
         }
     }
 
-    /// Sets the frames of all links after they were moved into poses.
+    /// Sets the frames of all links after the links were moved into poses.
     pub(super) fn put_frames(&mut self, poses: &[LinkPose]) {
         for ((&body, frame), pose) in self.bodies.iter().zip(&mut self.frames).zip(poses).skip(1) {
             let (origin, direction) = place(self.world.bodies[body].position());

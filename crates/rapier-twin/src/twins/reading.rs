@@ -8,8 +8,8 @@ use linkage::mechanism::{JointId, LinkId};
 
 impl Twin {
     /// Stores points of action and axes of the joints to be read.
-    /// They are interpolated between the stored frames and the present frames; `share` is the weight of the present
-    /// frames.
+    /// Points and axes are interpolated between the stored frames and the present frames.
+    /// `share` is the weight of the present frames.
     /// Rapier gives impulses in the axes at the start of the last substep, which lies between poses that can be read.
     /// Between these poses, frames are assumed to move along a straight line, with errors of second order.
     /// The errors of the impulses themselves are of first order.
@@ -71,7 +71,7 @@ impl Twin {
             }
         };
         // The impulse is that of the last substep, and acts on Rapier's first body.
-        // The reaction is the force on the joint's second link, so the sign depends on the order of the bodies.
+        // The reaction is the force on the joint's second link, so its sign depends on the order of the bodies.
         let swapped = cut.steered.is_some_and(|(link, _)| link != cut.joint.first.link);
         let duration = if swapped { self.substep() } else { -self.substep() };
         Some((force / duration, moment / duration))

@@ -1,4 +1,4 @@
-//! Rapier's worlds; one source for both precisions.
+//! Rapier's worlds, from one source for both precisions.
 //! This module is compiled against `rapier2d-f64` and against `rapier2d`.
 
 mod joints;
@@ -83,7 +83,7 @@ pub(crate) struct Twin {
     /// Links outside the tree. These links are separate bodies, or float in a multibody.
     outside: Vec<LinkId>,
     /// Position of every branch's link in the multibodies.
-    /// The sign of the link's coordinate is that of the child relative to its parent.
+    /// A positive coordinate of a link means a positive displacement of the link relative to its parent.
     places: Vec<Place>,
     /// Position of every floating link in the multibodies. Each floating link has three coordinates.
     floating: Vec<Place>,

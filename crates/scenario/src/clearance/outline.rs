@@ -21,7 +21,7 @@ pub enum Flaw {
     Many(usize),
     /// Two corners at the same position.
     Repeated([usize; 2]),
-    /// Two sides that touch or cross. Each is given by the corner at which it begins.
+    /// Two sides that touch or cross. Each side is given by the corner at which it begins.
     Crossing([usize; 2]),
     /// A polygon without area: all corners are on one line.
     Flat,
@@ -40,7 +40,7 @@ pub struct Outline {
 
 impl Outline {
     /// A line through the given points (m), rounded by `radius` (m).
-    /// It is a chain of capsules, or a disc around a single point.
+    /// The outline is a chain of capsules, or a disc around a single point.
     ///
     /// # Errors
     /// [`Flaw::Few`] without a point, [`Flaw::Many`], [`Flaw::NoNumber`].

@@ -15,10 +15,10 @@ const MOST: usize = 20;
 pub struct Faults {
     all: Vec<Error>,
     /// Whether all parts on which other parts of the file depend could be read.
-    /// If they could not be read, only errors about the keys and values of a table are reported.
+    /// If one of these parts could not be read, only errors about the keys and values of a table are reported.
     pub whole: bool,
-    /// Whether all links and their points could be read. Errors about unknown names are reported only if they could be
-    /// read.
+    /// Whether all links and their points could be read. Errors about unknown names are reported only if all links and
+    /// points could be read.
     pub names: bool,
 }
 

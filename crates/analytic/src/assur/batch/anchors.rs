@@ -127,7 +127,7 @@ impl Way<'_> {
             let (h, h2) = (self.step, self.step * self.step);
             let (first, second) = (h * omega, 0.5 * h2 * alpha);
             // Remainders of the angle, its rate and its second derivative at the end of the interval, after subtraction
-            // of the first two terms.
+            // of the polynomial's linear and quadratic terms.
             let angle = turn - first - second;
             let rate = h * omega_to - first - 2.0 * second;
             let bend = h2 * alpha_to - 2.0 * second;

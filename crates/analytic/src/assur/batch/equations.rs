@@ -28,7 +28,7 @@ impl Groups {
         for driver in &self.drivers {
             driver.turn(deepest, tile);
         }
-        // Becomes NaN as soon as one group cannot be assembled.
+        // `reach` becomes NaN as soon as one group cannot be assembled.
         let mut reach = Lanes::splat(tile.simd, 0.0);
         for (part, first) in &self.parts {
             let own = match part {

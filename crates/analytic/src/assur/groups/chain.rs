@@ -49,6 +49,7 @@ const MAX_CORRECTION: f64 = 0.01;
 /// is extrapolated from the last steps.
 const LEAST_LEFT: f64 = 0.25;
 /// If the driving angles change by no more than this (rad), a jump to another branch is impossible.
+/// The fall of the determinant then does not limit the step.
 const SMALLEST_STEP: f64 = 1e-6;
 /// A pose is singular if the ratio of its determinant to the largest determinant so far is below this value.
 /// At a change point the determinant is linear in the driving angles.
@@ -440,7 +441,7 @@ impl Chain {
             joints[index].place = place;
         }
         self.determinant = self.jacobian.determinant();
-        // The product of many small pivots may underflow to zero. The sign of the determinant is still known from the
+        // The product of many small pivots may underflow to zero. The sign of the determinant is then computed from the
         // pivots.
         let vanishes = self.determinant == 0.0;
         let sign = if vanishes { self.jacobian.determinant_sign() } else { self.determinant.signum() };

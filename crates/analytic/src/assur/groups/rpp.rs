@@ -30,7 +30,7 @@ pub struct Rpp {
     side: f64,
 }
 
-/// Values that positions, velocities and accelerations share.
+/// Values of a pose that are used for positions, velocities and accelerations.
 struct Pose {
     axis: Vec2,
     inner_axis: Vec2,

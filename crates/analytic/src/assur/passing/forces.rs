@@ -36,7 +36,7 @@ impl Window {
     /// The driving link is at the angle `place` and has the given angular velocity and acceleration.
     /// `loads` finds the loads from the motions and angles of the links.
     /// In free motion, `shaft` contains the moment on the driving link and the moment of inertia that turns with it.
-    /// Each neighbouring pose then has the same speed, and the acceleration that balances its driving link.
+    /// Each neighbouring pose then has the given angular velocity, and the acceleration that balances its driving link.
     /// A residue is then a property of the motion.
     pub(in crate::assur) fn reactions(
         &self,

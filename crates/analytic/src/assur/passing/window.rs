@@ -10,7 +10,7 @@
 //! Second transfer functions then have errors of about 5e-13 for r = 2 rad, 1e-12 for 1 rad, 4e-12 for 0.6 rad and
 //! 3e-11 for 0.3 rad.
 //! The half widths in these cases are from 0.5 to 0.15 rad.
-//! Among the half widths tried, the chosen one changes the result least when nodes are left out.
+//! Of all half widths tried, the one is chosen for which the result changes least when nodes are left out.
 
 use std::f64::consts::PI;
 
@@ -180,7 +180,8 @@ impl Window {
             if let (Some(a), Some(b)) = (a, b) {
                 return a * b < 0.0 && is_apart(low + (high - low) * a / (a - b));
             }
-            // A dyad counts only if extrapolation from both sides leads to a change point away from the middle.
+            // A dyad counts as having another change point only if extrapolation from both sides leads to a change
+            // point away from the middle of the window.
             let places = inner.map(|index| {
                 let node = &mut self.nodes[index];
                 let own = clearance(&mut node.plan, &mut node.motions.clone(), group);

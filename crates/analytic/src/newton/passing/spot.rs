@@ -55,7 +55,7 @@ pub(super) fn walked(system: &mut System, from: &Spot, to: f64) -> Result<Spot> 
     Ok(found)
 }
 
-/// The pose at an angle that is nearest to the expected one.
+/// The pose at the angle `angle`, corrected by Newton's method from the coordinates `expected`.
 pub(super) fn settled(system: &mut System, angle: f64, expected: &[f64]) -> Result<Spot> {
     system.q.copy_from_slice(expected);
     system.inputs[0].value = angle;

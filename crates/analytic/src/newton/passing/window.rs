@@ -21,8 +21,8 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkId};
 
-/// Number of poses on each side. `CHOSEN` contains the indices of the poses used for coordinates, from the outermost
-/// inwards.
+/// Number of poses on each side of the change point. `CHOSEN` contains the indices of the poses used for coordinates,
+/// from the outermost inwards.
 const SIDE: usize = 8;
 const CHOSEN: [usize; 3] = [0, 3, 6];
 /// Distance of the innermost pose, divided by the half width.
@@ -113,8 +113,8 @@ impl Window {
                 // The larger of two condition numbers is stored. The first is about the inverse of the sine of the
                 // innermost pose.
                 // The second follows from the error of the second derivatives.
-                // The rounding errors of all blocks that are singular together add up, so the first number grows with
-                // their number.
+                // The rounding errors of all blocks that are singular together add up, so the first condition number
+                // grows with the number of these blocks.
                 let inner = [&window.spots[SIDE - 1].shares, &window.spots[SIDE].shares];
                 let singular = inner[0].iter().zip(inner[1]).filter(|(a, b)| *a * *b < 0.0).count().max(1);
                 window.condition = (WEIGHTS * (singular as f64).cbrt() * most / least / window.reach)

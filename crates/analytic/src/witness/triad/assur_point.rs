@@ -4,7 +4,7 @@
 //! The moments on the lead about its head give the component across the lead, `N_n = -M_head / l`.
 //! The forces along two leads pass through the intersection S of their lines, the singular Assur point.
 //! The moments about S on the base link and these two leads contain one unknown: the force along the third lead.
-//! The equilibrium of the same three links gives the forces along the first two leads.
+//! The equilibrium of the base link and these two leads also gives the forces along the first two leads.
 //! The equilibrium of each lead gives the reaction at its head.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 //! There are three Assur points, one for each pair of leads. The method uses the pair whose angle is nearest to a right
@@ -22,7 +22,7 @@ pub struct AssurPoint {
     pub leads: [usize; 3],
     /// World position of the Assur point (m); infinite or NaN if all leads are parallel.
     pub place: Vec2,
-    /// Sine of the angle between the two lines, from 0 to 1.
+    /// Sine of the angle between the lines of the two leads, from 0 to 1.
     pub sine: f64,
 }
 
@@ -57,7 +57,8 @@ pub fn reactions(places: &Places, known: &[KnownResultant; 4]) -> Result<Reactio
     });
     let point = best(places);
     let ([i, j, k], pole) = (point.leads, point.place);
-    // The actions on the base link and on the leads i and j. Lead k acts on the base link at its head.
+    // The moments are those of the actions on the base link and on the leads i and j.
+    // Lead k acts on the base link at its head with the force `third`.
     let third = across[k] + known[k].force;
     let with_two = |pole: Vec2| {
         let at_feet: f64 = [i, j].map(|lead| cross(places.feet[lead] - pole, across[lead])).iter().sum();

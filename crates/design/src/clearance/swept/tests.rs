@@ -8,8 +8,8 @@ use super::super::tests::slider_crank;
 use super::*;
 use linkage::mechanism::LinkId;
 
-/// A crank of 0.1 m, rounded by 0.02 m, sweeps a disc of 0.12 m.
-/// Every covered square lies inside the disc and every free square outside.
+/// A crank of length 0.1 m with a rounding radius of 0.02 m sweeps a disc of radius 0.12 m.
+/// Every covered square lies inside the disc, and every free square lies outside the disc.
 #[test]
 fn squares_are_covered_or_free_including_their_corners() {
     let case = slider_crank();

@@ -108,8 +108,9 @@ impl Sample {
     }
 
     /// Residuals of the joint's two equations.
-    /// Revolute: the two links' points coincide.
-    /// Prismatic: the second link's point lies on the first link's line, and the axes of both links are parallel.
+    /// For a revolute joint, the equations state that the two links' points coincide.
+    /// For a prismatic joint, the equations state that the second link's point lies on the first link's line, and that
+    /// the axes of both links are parallel.
     fn open(&self, places: [Place; 2]) -> [f64; 2] {
         let sides = [self.joint.first, self.joint.second];
         let [first, second] = [0, 1].map(|k| point(&self.tubes[k], places[k], sides[k].local));

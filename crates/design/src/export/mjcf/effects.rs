@@ -84,7 +84,7 @@ fn end(load: &str, index: usize) -> String {
     format!("{load}.{}", ["first", "second"][index])
 }
 
-/// Positions at which loads act on a link, with the names of their sites.
+/// Positions at which loads act on a link, each with the name of its site.
 fn places(forces: &Forces, link: LinkId) -> Vec<(String, Vec2)> {
     let ends = forces.tendons.iter().flat_map(|tendon| {
         let named = |(index, side): (usize, &JointSide)| (*side, end(&tendon.name, index));

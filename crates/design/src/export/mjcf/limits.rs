@@ -1,4 +1,4 @@
-//! Refuses loads and drives that MJCF cannot express, and names them.
+//! Refuses loads and drives that MJCF cannot express. The error names the load or drive.
 
 use crate::sentences;
 use linkage::drive::{Acts, Drive, Load, MotorLaw};
@@ -36,7 +36,7 @@ pub(super) fn check_drive(drive: &Drive) -> Result<()> {
     if let Some(motor) = drive.moving_motor() {
         return line(&motor.law).map(|_| ());
     }
-    // A rotor can only keep a constant speed.
+    // A rotor can only keep a constant speed, so a drive with a changing speed is refused.
     match drive.constant_speed() {
         Some(_) => Ok(()),
         None => Err(refused(sentences::a_drive_with_the_law(&drive.law_name()), sentences::GIVE_THE_DRIVE_A_CONSTANT)),

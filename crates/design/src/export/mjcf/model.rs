@@ -11,7 +11,7 @@ use linkage::mechanism::{GROUND, JointId, JointKind, LinkId, PerLink, SpanningTr
 use linkage::solver::State;
 
 /// Inertia of a drive's rotor, divided by an upper limit of the mechanism's moment of inertia about any of its points.
-/// Moments of inertia forces are of the size of that moment of inertia times the speed squared.
+/// The inertia forces cause moments of about this moment of inertia times the square of the speed.
 /// These moments therefore change the speed by 1e-9 of its value per radian.
 const ROTOR: f64 = 1e9;
 /// Mass of a massless link, divided by the mass of the whole mechanism. MuJoCo refuses a mass of zero.
@@ -187,7 +187,7 @@ pub(super) enum Freedom {
 /// A link as a body within its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Body {
-    /// Origin of the link's frame in that of its parent, in the start pose (m).
+    /// Origin of the link's frame in the frame of the parent link, in the start pose (m).
     pub offset: Vec2,
     /// Angle of the link minus that of its parent in the start pose (rad).
     pub turn: f64,

@@ -98,8 +98,8 @@ fn body(xml: &mut Xml, model: &MjcfModel, forces: &Forces, link: LinkId) {
         if model.is_lent(link) {
             xml.comment(sentences::IT_HAS_NO_MASS_OR_NO_INERTIA);
         }
-        // Three equal moments of inertia satisfy the triangle inequality. Those about x and y have no effect in planar
-        // motion.
+        // Three equal moments of inertia satisfy the triangle inequality. The moments of inertia about x and y have no
+        // effect in planar motion.
         let (centre, mass, inertia) = (flat(data.mass_centre), number(mass), numbers([inertia; 3]));
         xml.leaf(format_args!(r#"inertial pos="{centre}" mass="{mass}" diaginertia="{inertia}""#));
         joint(xml, model, index);

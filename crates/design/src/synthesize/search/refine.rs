@@ -16,7 +16,7 @@ const STEP: f64 = std::f64::consts::PI / 60.0;
 /// Lowest cost of a candidate that cannot be assembled over the whole turn.
 /// If no pose can be assembled, the cost is twice as high.
 const BROKEN: f64 = 100.0;
-/// Fraction of the evaluations that the evolution strategy takes.
+/// Fraction of the allowed evaluations that the evolution strategy may use.
 const EVOLUTION: f64 = 0.5;
 /// First step size of the evolution strategy, as a fraction of the range between the bounds.
 /// If the step size falls below `LAST`, the strategy restarts with the first step size.

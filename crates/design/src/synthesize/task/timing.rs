@@ -136,7 +136,8 @@ impl Timing {
         self.follow
     }
 
-    /// Level required at the end of a phase, either given or implied by the phases around it. `None` if it is unknown.
+    /// Level required at the end of a phase, either given or implied by the phases around it. `None` if the level is
+    /// unknown.
     #[must_use]
     pub fn level(&self, phase: usize) -> Option<f64> {
         self.levels.as_ref().map(|levels| levels[phase]).or(self.phases[phase].level)

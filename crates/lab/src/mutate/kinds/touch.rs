@@ -114,7 +114,8 @@ pub(super) fn crank_pin(case: &Case) -> JointId {
         .unwrap_or(own)
 }
 
-/// Changes the motion of the last turning link, given its arm; `None` if the arm has zero length.
+/// Changes the motion of the last turning link. `change` receives this motion and the arm of the link.
+/// Returns `None` if the arm has zero length.
 pub(super) fn on_arm(case: &Case, state: &mut State, change: impl FnOnce(&mut Motion, Vec2)) -> Option<()> {
     let link = turner(case);
     let arm = arm(case, state, link);

@@ -109,8 +109,8 @@ fn a_damper_resists_the_rate_of_its_length() {
 #[test]
 fn a_torsion_spring_counts_turns_from_the_start() {
     // At the start the link's angle is 90 degrees.
-    // Two revolutions later the twist is larger by two revolutions. The pose may report the start angle again, but this
-    // must not change the twist.
+    // Two revolutions later the twist is larger by two revolutions. A pose that reports the start angle again must not
+    // change the twist.
     let load = Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.5 };
     let still = motions(0.0);
     for turns in [0.0, 2.0, -1.0] {

@@ -118,7 +118,7 @@ fn the_secant_method_stops_at_rounding() {
     assert!((sure(found) - 3f64.ln()).abs() < 1e-10, "{found:?}");
 }
 
-/// A cubic that rises everywhere and has this zero. Returns value and slope.
+/// A cubic that rises everywhere and is zero at `zero`. Returns value and slope.
 fn cubic(zero: f64, a: f64, b: f64) -> impl Fn(f64) -> (f64, f64) {
     move |x: f64| {
         let d = x - zero;

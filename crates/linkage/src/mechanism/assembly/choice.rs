@@ -75,7 +75,8 @@ fn nothing_asked(group: &Group) -> Error {
     }
 }
 
-/// Words for the rough places: "the rough place of point "B" is", or "the rough places of points "B" and "C" are".
+/// Words for the approximate positions: "the rough place of point "B" is", or "the rough places of points "B" and "C"
+/// are".
 fn rough_places(wanted: &StartGroup) -> String {
     let names: Vec<String> = wanted.near.iter().map(|(point, _)| format!("\"{}\"", point.name)).collect();
     match &names[..] {

@@ -133,7 +133,7 @@ fn prismatic_last<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
     if a.outer.slides() { [b, a] } else { [a, b] }
 }
 
-/// Both links, sorted in the order of the inner joint: first its first link, then its second link.
+/// Both links, sorted in the order of the inner joint: the inner joint's first link, then its second link.
 fn in_pair_order<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
     if a.inner.first.link == a.link { [a, b] } else { [b, a] }
 }

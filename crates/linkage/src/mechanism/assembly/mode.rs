@@ -7,21 +7,23 @@ use crate::mechanism::pose::SidePoint;
 /// The assembly mode of a group: which real configuration it has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AssemblyMode {
-    /// Dyad: the inner joint lies to the left of the directed line between the outer joints, from the first link's to
-    /// the second link's.
+    /// Dyad: the inner joint lies to the left of the directed line from the first link's outer joint to the second
+    /// link's outer joint.
     Left,
-    /// Dyad: the inner joint lies to the right of the line from the first link's outer joint to the second link's.
+    /// Dyad: the inner joint lies to the right of the directed line from the first link's outer joint to the second
+    /// link's outer joint.
     Right,
     /// RRP dyad: along the axis of its prismatic pair, the inner joint lies ahead of the outer pin.
-    /// RPR dyad: along that axis, the outer pin of the pair's second link lies ahead of the outer pin of its first
-    /// link.
+    /// RPR dyad: along the axis of its prismatic pair, one outer pin lies ahead of the second outer pin.
+    /// The pin ahead is on the pair's second link, the pin behind on the pair's first link.
     Ahead,
     /// RRP dyad: along the axis of its prismatic pair, the inner joint lies behind the outer pin.
-    /// RPR dyad: along that axis, the outer pin of the pair's second link lies behind the outer pin of its first link.
+    /// RPR dyad: along the axis of its prismatic pair, one outer pin lies behind the second outer pin.
+    /// The pin behind is on the pair's second link, the pin ahead on the pair's first link.
     Behind,
     /// RPP or PRP dyad, which has only one configuration.
     Only,
-    /// Higher group: the configuration that the group has in the start pose and from there on.
+    /// Higher group: the configuration that the group has in the start pose and keeps during the motion.
     Followed,
 }
 
@@ -50,7 +52,7 @@ impl AssemblyMode {
     }
 }
 
-/// One real configuration of a group, for a given pose of the links before it.
+/// One real configuration of a group, for a given pose of the links that are solved before the group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configuration {
     /// Its mode.

@@ -281,7 +281,7 @@ impl Conditions {
             at = (at.0 - Vec2::new(step[0], step[1]) * self.size, at.1 - step[2]);
         }
         // Lines may intersect far away. Rounding errors are then proportional to the distance of the intersection, so
-        // the limits are too.
+        // the limits are also proportional to this distance.
         let reach = self.size + best.0.norm();
         let near = (best.0 - start.0).norm() <= 0.1 * reach && (best.1 - start.1).abs() <= 0.1;
         (least <= CLOSED * reach && near).then_some(best)

@@ -130,8 +130,9 @@ impl Owners {
         self.owner[index]
     }
 
-    /// The strongly connected components, in the order in which they can be solved. The links of each component are
-    /// sorted.
+    /// The strongly connected components of the graph of dependences between links, in the order in which they can be
+    /// solved.
+    /// The links of each component are sorted.
     pub(super) fn parts(&self, mechanism: &Mechanism) -> Vec<Vec<LinkId>> {
         let mut graph = DiGraph::<(), ()>::new();
         for _ in mechanism.links() {

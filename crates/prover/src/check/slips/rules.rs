@@ -47,7 +47,7 @@ const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Function, "acos(a) => asin(a); atan(a); cos(a)"),
     (SlipKind::Function, "atan(a) => asin(a); acos(a); tan(a)"),
     (SlipKind::Function, "atan2(a, b) => atan2(b, a)"),
-    // An example is a small angle used in place of its sine.
+    // A function is missing. For example, a small angle is used in place of its sine.
     (SlipKind::Function, "u => sin(u); cos(u); tan(u); asin(u); atan(u)"),
     (SlipKind::Power, "a^b => a; a^2; a^3; a^4; a^0.5"),
     (SlipKind::Power, "sqrt(a) => a"),

@@ -58,8 +58,8 @@ linkage::words! {
 }
 
 /// Order of slips, smallest for the simplest.
-/// The parts: whether the units contradict the slip, whether it occurs at many positions, whether it is in a step, and
-/// its kind.
+/// The order has four parts: whether the units contradict the slip, whether the slip occurs at many positions, whether
+/// it is in a step, and its kind.
 type Rank = (bool, bool, bool, SlipKind);
 
 /// A slip mended.

@@ -1,4 +1,4 @@
-//! Finds terms that numbers lack, by least squares over quantities of the mechanism.
+//! Finds terms that are missing from wrong numbers, by least squares over quantities of the mechanism.
 //! The quantities are sines and cosines of the links' angles, squares of their speeds, and their accelerations.
 
 use crate::check::KnownTrajectory;

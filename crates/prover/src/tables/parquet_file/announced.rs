@@ -52,7 +52,7 @@ pub(super) fn check_description(file: &File) -> io::Result<()> {
             return Ok(());
         }
         match (field, found) {
-            // A group has at most as many columns as the description has bytes.
+            // A group cannot have more columns than the description has bytes. A larger number is rejected.
             (CHILDREN, Found::Number(count)) if (0..=length.cast_signed()).contains(&count) => own = count,
             (CHILDREN, Found::Number(_) | Found::Other) => {
                 return Err(wrong(sentences::IT_ANNOUNCES_COLUMNS_THAT_ARE_NOT_THERE));
@@ -135,7 +135,8 @@ pub(super) fn check_pages(file: &File, rows: u64, column: &ColumnChunkMetaData) 
             return Err(wrong(sentences::its_pages_have_more_values(&rows)));
         }
         let most = match page.dictionary {
-            // A dictionary stores every value with at least four bytes.
+            // A dictionary stores every value with at least four bytes. A dictionary with more values than its bytes
+            // allow is rejected.
             Some(count) if count > held / 4 => {
                 return Err(wrong(sentences::a_dictionary_of_bytes_has_values(&held, &count)));
             }

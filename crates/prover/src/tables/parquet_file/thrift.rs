@@ -92,7 +92,7 @@ impl<R: Read> Walk<R> {
         }
     }
 
-    /// The elements of a list, or of a map with two kinds.
+    /// Walks over `count` elements of a list, or of a map with two kinds of elements.
     fn each(&mut self, count: u64, kinds: &[u8], depth: usize, at: [i64; 2], tell: Tell) -> io::Result<()> {
         self.elements = self.elements.saturating_add(count);
         if self.elements > MOST {

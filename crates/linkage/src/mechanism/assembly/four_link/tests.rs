@@ -98,8 +98,8 @@ fn compare(random: &mut Lcg, pairs: Pairs, triad: bool, cases: usize, tally: &mu
     }
 }
 
-/// Asserts two bounds of a tally: that of the closure error, which all tests of closure share, and that of the number
-/// of double roots.
+/// Asserts two bounds of a tally: a bound on the closure error and a bound on the number of double roots.
+/// The bound on the closure error is that of all tests of closure.
 /// The probability of a double root is some tens times 1e-9^(1/2) per root.
 fn check(tally: &Tally, cases: usize) {
     assert!(tally.closure <= 1e-12, "{tally:?}");
@@ -159,7 +159,7 @@ fn a_group_that_can_move_is_refused() {
         let mut joints = case.mechanism.joints().to_vec();
         for pair in joints.chunks_mut(2) {
             // All leads are parallel and equally long: the world vector between the two joints of a lead is the same
-            // for each.
+            // for all leads.
             let Some(lead) =
                 [pair[0].first.link, pair[0].second.link].into_iter().find(|&link| pair[1].on(link).is_some())
             else {
