@@ -40,7 +40,8 @@ impl FourBar {
         [ax, ay, px, py, px - dx, py - dy]
     }
 
-    /// Positions, velocities, accelerations, all reactions and the balancing moment at one crank angle (constant speed).
+    /// Positions, velocities, accelerations, all reactions and the balancing moment at one crank angle (constant
+    /// speed).
     #[inline(never)]
     pub fn solve(&self, angle: f64, w1: f64) -> Forces {
         let (s, c) = angle.sin_cos();

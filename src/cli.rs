@@ -102,7 +102,8 @@ commands! {
         /// Show the structure of a mechanism (links, joints, mobility, driving link and Assur groups), its
         /// configurations and its range of motion
         Inspect(inspect::Args) = inspect::inspect,
-        /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PNG, animated GIF and WebP
+        /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PNG, animated GIF and
+        /// WebP
         Draw(draw::Args) = draw::draw,
         /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
         Plan(plan::Args) = plan::plan,
@@ -117,7 +118,8 @@ commands! {
     "Design" {
         /// Largest reactions over the range of the grid, and the smallest journals that carry them
         Bearings(bearings::Args) = bearings::bearings,
-        /// Smallest distances of links from each other and from a housing over the whole turn, first collision, swept areas
+        /// Smallest distances of links from each other and from a housing over the whole turn, first collision, swept
+        /// areas
         Clearance(clearance::Args) = clearance::clearance,
         /// The mechanism reduced to its crank; its steady motion under its motor; flywheel and run-up; choice of a
         /// motor
@@ -135,7 +137,8 @@ commands! {
         Stress(stress::Args) = stress::run,
         /// Plant faults in one party of a proof, or in code that all parties share, and say which faults are found
         Mutate(mutate::Args) = mutate::run,
-        /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and numbers
+        /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and
+        /// numbers
         Bench(bench::Args) = bench::run,
     }
     "Help" {

@@ -197,7 +197,7 @@ pub(crate) struct Document {
 }
 
 impl Document {
-    /// An empty document; `tell` words the advice.
+    /// An empty document; `tell` puts the advice into words.
     pub(crate) fn told_by(tell: Tell) -> Self {
         Document { files: Vec::new(), errors: Vec::new(), tell }
     }

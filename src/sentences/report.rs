@@ -322,7 +322,7 @@ linkage::sentences! {
     ratio_rpm_to_rpm(ratio, rated, turning) = "  ratio     {ratio:.6} ({rated:.0} rpm to {turning:.4} rpm)";
     motor_kw_rpm_synchronous_rpm(name, kilowatts, rated, synchronous, torque) = "motor\n  {name}: {kilowatts} kW, {rated:.0} rpm, synchronous {synchronous:.0} rpm, rated torque {torque}";
     asked_kw_with_an_efficiency(asked, efficiency) = "  required  {asked} at an efficiency of {efficiency}";
-    power_peak_at_times_rad_kw(peak, at, wanted, power) = "power\n  peak      {peak} at {at}, times the required {wanted:.6} rad/s: {power}";
+    power_peak_at_times_rad_kw(peak, at, wanted, power) = "power\n  peak      {peak} at {at}; multiplied by the required speed of {wanted:.6} rad/s: {power}";
     // report/mutate.rs
     OPEN_IN_THE_TRUNK = "Not found in the part that all parties share (trunk):";
     NOT_FOUND_IN_ONE_PARTY = "Not found in one party:";

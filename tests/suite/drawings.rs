@@ -109,7 +109,8 @@ fn a_loop_that_cannot_close_is_drawn_with_its_gap() {
     assert!(told.contains("apart, but its links span") && told.contains("stays open by"), "{told}");
     let text = fs::read_to_string(&picture).unwrap();
     let document = roxmltree::Document::parse(&text).unwrap();
-    // A is at (60, 0), B is 45 mm from (300, 0) in the direction 40 deg. The gap is the distance AB minus both rod lengths.
+    // A is at (60, 0), B is 45 mm from (300, 0) in the direction 40 deg. The gap is the distance AB minus both rod
+    // lengths.
     let gap = (300.0 + 45.0 * f64::to_radians(40.0).cos() - 60.0).hypot(45.0 * f64::to_radians(40.0).sin()) - 190.0;
     let written = texts(&document)
         .into_iter()

@@ -119,7 +119,7 @@ fn column(
     (name, format, values)
 }
 
-/// The checks of all tables, each beside the scenario as one `[[oracle]]`.
+/// Proves the scenario with every table added as one `[[oracle]]`, and returns the checks of these tables.
 fn checks(scenario: &str, tables: &[Table]) -> Vec<Check> {
     let directory = tempfile::tempdir().unwrap();
     let mut text = scenario.to_string();
@@ -174,7 +174,7 @@ fn correct_tables_are_never_refused_by_time_or_crank_angle() {
             let word = check.verdict.word();
             assert_ne!(word, "disagree", "{path}: {}", told(&check, &tables));
             (all, agreed) = (all + 1, agreed + usize::from(word == "agree"));
-            rounded += usize::from(check.basis.to_string().contains("for the rounding of the instant"));
+            rounded += usize::from(check.basis.to_string().contains("covers the rounding of the instant"));
         }
     }
     println!("{agreed} of {all} series agree, {rounded} with rounded instants in the bound");

@@ -43,7 +43,8 @@ fn crank_at(d: f64, a: f64, reach: f64) -> Option<f64> {
 }
 
 /// The interval of crank angles around `start` in which |b - c| <= |AC| <= b + c.
-/// If the interval contains neither 0 nor 180 deg, it lies in the half plane of `start`. Otherwise it is symmetrical about 0 or 180 deg.
+/// If the interval contains neither 0 nor 180 deg, it lies in the half plane of `start`. Otherwise it is symmetrical
+/// about 0 or 180 deg.
 fn closed_form([d, a, b, c]: [f64; 4], start: f64) -> Option<[f64; 2]> {
     let (stretched, folded) = (crank_at(d, a, b + c), crank_at(d, a, (b - c).abs()));
     match (folded, stretched) {

@@ -97,7 +97,7 @@ fn regress_an_ambiguous_start_is_refused() {
     assert!(error.message().contains("from rest in either sense") && error.way_out().is_some(), "{error}");
 }
 
-/// A pendulum on a driven crank is at rest when the motion begins; its load acts against the beginning motion.
+/// A pendulum on a driven crank is at rest when the motion begins; its load acts against the motion that then begins.
 /// Symptom: at that instant, the momentum of the whole mechanism lacked this load, so a correct motion disagreed.
 #[test]
 fn regress_a_load_on_a_link_that_starts_at_rest_agrees() {

@@ -30,7 +30,7 @@ const ROUNDING: f64 = 1e-20;
 /// Limit of the change that is used instead of `SETTLED` in steps between requested instants.
 const NEAR: f64 = 1e-10;
 
-/// The same as [`solve`](super::solve), for any mechanism of some tens of links.
+/// The same as [`solve`](super::solve), for mechanisms with revolute and prismatic pairs and up to some tens of links.
 ///
 /// # Errors
 /// The errors of [`solve`](super::solve).

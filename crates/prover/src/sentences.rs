@@ -134,7 +134,7 @@ linkage::sentences! {
     WHAT_IT_EXERTS_ITSELF_BESIDE = "the forces that the engine itself exerts, besides those computed from its motion";
     own_forces(engine) = "{engine}, own forces";
     other_settings(engine) = "{engine}, other settings";
-    THE_GIVEN_STEP_PROVES_NOTHING = "the given step is inconclusive: tries the settings that the proof would choose";
+    THE_GIVEN_STEP_PROVES_NOTHING = "the result with the given step is inconclusive, so the settings that the proof would choose are tried";
     the_work_that_was_allowed_is_done(error) = "the work limit was reached without a usable run: {error}";
     ITS_ERROR_FROM_ITS_OWN_RUNS = "estimates its error from its own runs";
     FINDS_ITS_SETTINGS_AND_ITS_ERROR = "chooses its settings and estimates its error from its own runs";

@@ -430,7 +430,8 @@ mod tests {
 
     /// All links move away together, as sliders can: no link turns and no loop opens.
     /// The links reach 5 m from the origin, and the drive turns at 1 rad/s.
-    /// In a step of a millisecond, a point at 5 m travels 5 mm. A displacement of 5 cm is ten times this travel.
+    /// In a step of a millisecond, a point at 5 m travels 5 mm. The limit of ten times the speed is thus near 5 cm per
+    /// step.
     #[test]
     fn spurious_energy_stops_the_run() {
         for build in BUILDS {

@@ -36,8 +36,8 @@ const FLYWHEEL: f64 = 1.0;
 /// Each link therefore has at least the mean mass, and at least the moment of inertia of a rod of that mass.
 /// The contribution of these additions to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
 ///
-/// In a free motion, the crank also carries rotor and gearbox.
-/// The stand-ins then depend on the world's tree, and loads compensate the stand-ins ([`Added`](super::added::Added)).
+/// In a free motion, the moment of inertia of the crank includes that of rotor and gearbox.
+/// The additions then depend on the world's tree, and loads compensate the additions ([`Added`](super::added::Added)).
 pub(super) fn masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     let mut masses = bare_masses(case, tree);
     if case.is_free() {

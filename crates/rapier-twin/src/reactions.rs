@@ -60,8 +60,8 @@ impl<'a> Reactions<'a> {
             }
             Route::Probe => {
                 // A world placed in a pose has no gap to correct in its first substep.
-                // In the second substep the world corrects the gap of the first substep, and the impulses would contain
-                // all of that correction.
+                // A second substep would correct the gap that the first substep leaves, and the impulses would contain
+                // the whole correction.
                 // A tiny step therefore has a single substep.
                 let undivided = engine.set(Settings { substeps: 1, ..engine.settings });
                 let probe = Probe::new(case, reporting(&undivided)?, probe_turn(engine.precision));

@@ -22,7 +22,8 @@ impl SimbodyModel {
     /// Adds a body and returns its number.
     ///
     /// # Errors
-    /// A parent that does not exist, a number that is not finite, a negative mass or inertia, or an axis that is not a unit vector.
+    /// A parent that does not exist, a number that is not finite, a negative mass or inertia, or an axis that is not a
+    /// unit vector.
     pub fn add(&mut self, body: SimbodyBody) -> Result<usize, Failure> {
         let number = self.bodies.len() + 1;
         let wrong = |what: &str| Err(Failure::of(format!("body {number}: {what}")));

@@ -334,7 +334,7 @@ fn the_json_has_both_values_at_the_worst_instant() {
     assert_eq!(kept, "[tolerance]\nall = { rel = 0.1 }\n");
 }
 
-/// Test reports and comments have the same verdicts.
+/// The JUnit report and the Markdown comment of a comparison give the same verdict.
 /// A mapping never overwrites a file that is not a mapping.
 #[test]
 fn junit_and_markdown_reports_have_the_same_verdicts() {

@@ -112,7 +112,7 @@ fn regress_10_a_weight_at_rest_is_reported_in_world_axes_whichever_body_is_first
 /// Story 11.
 /// Symptom: native forces do not converge, or converge to a wrong value.
 /// Cause: wrong time stamp, wrong sign, or wrong substep.
-/// Every joint is tested, whichever tree cuts it.
+/// The trees together cut every joint, so the force of every joint is tested.
 #[test]
 fn regress_11_native_force_and_torque_converge_with_first_order() {
     let moving = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;

@@ -25,8 +25,8 @@ fn found(scenario: &Scenario, quantity: &str) -> Vec<[f64; 3]> {
     all.map(|at| [at.crank, at.mechanism, at.bound]).collect()
 }
 
-/// The reduced equation of motion computes I* from transfer functions.
-/// The quantities of this test come from the kinetic energy and the power that each side finds.
+/// The reduced model computes the reduced inertia and the reduced moment from transfer functions.
+/// The channels that this test compares with the model come from the kinetic energy and the power that each side finds.
 #[test]
 fn reduced_quantities_match_the_equation_of_motion() {
     for name in ["crank_rocker", "crank_rocker_runup", "class3_group", "compressor", "ov7_base", "quick_return"] {

@@ -30,7 +30,8 @@ impl Slide {
         rotated(back, block.point(self.block.local) - guide.origin)
     }
 
-    /// Velocity and acceleration of the sliding point along the guide, relative to the guide's link, as world vectors (SI).
+    /// Velocity and acceleration of the sliding point along the guide, relative to the guide's link, as world vectors
+    /// (SI).
     pub fn rates(&self, mechanism: &Mechanism, state: &State) -> Option<[Vec2; 2]> {
         let joint = &mechanism.joints()[self.joint];
         let [_, speed, growth] = state.slide(joint)?;

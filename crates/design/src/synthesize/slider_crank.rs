@@ -46,7 +46,8 @@ pub struct SliderCrank {
     pub near: [f64; 2],
     /// Time of the slower stroke divided by that of the faster stroke, at a constant speed of the crank.
     pub time_ratio: f64,
-    /// Largest angle between the rod and the slider's line (rad): the pressure angle; the transmission angle is its complement.
+    /// Largest angle between the rod and the slider's line (rad): the pressure angle; the transmission angle is its
+    /// complement.
     pub pressure: f64,
 }
 

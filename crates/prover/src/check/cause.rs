@@ -213,8 +213,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
                 let is_near = own.rank.2 == rank.2 || trial.is_constant();
                 return own.rank.1 == rank.1 && is_near && !is_same && kinds.insert((own.slip.kind, own.rank.2));
             }
-            // By chance, a wrong factor can have the same effect as a wrong or exchanged name; both explanations are then reported. For
-            // example, if a = 2 b, then `a` in place of `b` has the same effect as a factor of 2.
+            // By chance, a wrong factor can have the same effect as a wrong or exchanged name; both explanations are
+            // then reported. For example, if a = 2 b, then `a` in place of `b` has the same effect as a factor of 2.
             let is_number = |kind: SlipKind| kind == SlipKind::Factor;
             let is_other = own.rank.1 == rank.1
                 && (matches!(rank.3, SlipKind::Name | SlipKind::Exchanged) && is_number(own.slip.kind)

@@ -16,7 +16,7 @@ use columns::Allowance;
 pub struct ComparisonRule {
     /// Allowed differences. If a channel has several allowed differences, the last one counts.
     pub allowed: Vec<Allowed>,
-    /// Quantity by which rows are matched; `None` for times if both parties have times.
+    /// Quantity by which rows are matched. `None`: times if both parties have times, otherwise crank angles.
     pub by: Option<By>,
     /// Whether a table may be interpolated between its instants.
     pub interpolates: bool,

@@ -104,8 +104,8 @@ pub(super) struct Known {
     magnitudes: Vec<f64>,
     /// The side that serves as the reference.
     reference: Reference,
-    /// Sensitivity of a motion under forces to these forces, channel by channel. It also multiplies the forces' relative rounding
-    /// errors.
+    /// Sensitivity of a motion under forces to these forces, channel by channel. It also multiplies the forces'
+    /// relative rounding errors.
     /// Empty for a prescribed motion.
     pub(super) sensitivity: Vec<f64>,
     /// Integration error of each side in every channel, in its unit; zeros for a prescribed motion.

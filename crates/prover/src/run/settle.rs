@@ -287,7 +287,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
         let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
         if is_cramped {
-            // The next round halves the step again, so half of `most` is small enough.
+            // The next round needs a step of at most a quarter of `most`. It halves this step, which may thus be half
+            // of `most`.
             // The step is as large as permitted, because a large step keeps rounding small.
             if self.finest == 0.0 {
                 self.now.resolution = self.now.resolution.smaller(ROOM * 0.5 * most);

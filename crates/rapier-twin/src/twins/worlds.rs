@@ -32,7 +32,8 @@ use linkage::mechanism::{GROUND, Joint, JointId, LinkId, LinkPose};
 /// one multibody.
 /// The likely cause is a test in Rapier.
 /// Rapier computes the Coriolis forces of a multibody at the end of a step.
-/// If these forces would add a hundredth to the multibody's energy, Rapier computes them at the start of the step.
+/// The test: if these forces would add more than a hundredth of the multibody's kinetic energy, Rapier computes them at
+/// the start of the step.
 const LARGE: usize = 16;
 
 /// A joint that closes a loop.

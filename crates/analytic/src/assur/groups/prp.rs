@@ -5,8 +5,8 @@
 //! C1 and C2 are the positions of C on the two links at slide zero.
 //! E1 and E2 are the points of the guides' links at C. Their velocities satisfy v_E1 + s' e = v_E2 + t' b.
 //! The accelerations satisfy the same equation, with their Coriolis parts.
-//! The equations are derived from the closure of the vector contour. In Artobolevsky's classification, the PRP dyad is the class II group of
-//! the fourth kind.
+//! The equations are derived from the closure of the vector contour. In Artobolevsky's classification, the PRP dyad is
+//! the class II group of the fourth kind.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
 use super::bounds::{Bounds, Limit};

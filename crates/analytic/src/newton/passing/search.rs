@@ -16,8 +16,8 @@ const MET: f64 = 1e-7;
 const LINEAR: f64 = 1e-4;
 const MOST_STEPS: usize = 200;
 
-/// During a search for a change point, Newton's method ends at changes below this value. Near a change point, rounding
-/// errors are amplified.
+/// Newton's method ends at corrections below this value during a search. The usual limit is too small: near a change
+/// point, rounding errors are amplified.
 const COARSE: f64 = 1e-7;
 
 /// Searches for the angle (rad) at which the determinant of a block passes through zero, about `ahead` (rad) from a

@@ -61,7 +61,8 @@ pub struct Configuration {
     pub links: Vec<LinkPose>,
 }
 
-/// The required first pose of one group. The links are in the order of [`Group::links`](crate::mechanism::Group::links).
+/// The required first pose of one group. The links are in the order of
+/// [`Group::links`](crate::mechanism::Group::links).
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct StartGroup {
     /// Required assembly mode.

@@ -31,7 +31,8 @@ use condition::{Condition, Locus};
 /// A pose of the base: position of its reference point, and angle.
 type Found = (Vec2, f64);
 
-/// The three conditions. Frame coordinates are measured from a joint of the frame, base coordinates from a joint of the base.
+/// The three conditions. Frame coordinates are measured from a joint of the frame, base coordinates from a joint of the
+/// base.
 pub(super) struct Conditions {
     all: [Condition; 3],
     size: f64,
