@@ -169,7 +169,7 @@ mod tests {
         assert!(message.contains("line 2 has the byte 0xE4, in Latin-1 the letter `\u{e4}`"), "{message}");
         assert!(help.contains("iconv -f WINDOWS-1252"), "{help}");
         let (message, help) = told(b"MCAP0\r\n\x01\0\0");
-        assert!(message.contains("no text") && help == "give a text file in UTF-8", "{message} {help}");
+        assert!(message.contains("not a text file") && help == "give a text file in UTF-8", "{message} {help}");
     }
 
     #[test]

@@ -64,7 +64,7 @@ fn syntax_errors_are_reported_with_position_and_remedy() {
         ("arctan2(y, x)", 0..7, "atan2"),
         ("0,5*x", 1..2, "decimal point"),
         ("(x + y", 0..1, "`)`"),
-        ("x + y)", 5..6, "open it"),
+        ("x + y)", 5..6, "add `(`"),
         ("x +", 3..3, "number"),
         ("x * / y", 4..5, "number"),
         ("s = x", 2..3, "right side"),

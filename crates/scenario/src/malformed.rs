@@ -126,7 +126,7 @@ mod tests {
                 "{text}"
             );
         }
-        assert!(told("x = -0,25\n").1.ends_with("write -0.25"));
+        assert!(told("x = -0,25\n").1.ends_with("with a point: -0.25"));
         for text in ["x = 30,\n", "x = [1,2\n", "x = 1 2\n", "x = 1,2,3\n", "x = ,5\n"] {
             assert!(!told(text).1.contains("decimal comma"), "{text}");
         }

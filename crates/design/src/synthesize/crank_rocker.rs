@@ -199,14 +199,14 @@ mod tests {
         for (bad, kind, words) in [
             (CrankRockerSpec { swing: 0.0, ..wish }, ErrorKind::Input, "the swing is 0 deg"),
             (CrankRockerSpec { rocker: -1.0, ..wish }, ErrorKind::Input, "length is -1 m"),
-            (CrankRockerSpec { rocker_pivot: Vec2::zeros(), ..wish }, ErrorKind::Input, "one point"),
+            (CrankRockerSpec { rocker_pivot: Vec2::zeros(), ..wish }, ErrorKind::Input, "two pivots coincide"),
             (CrankRockerSpec { extreme: f64::NAN, ..wish }, ErrorKind::Input, "not finite"),
             // The two positions of B are symmetric about the line of the pivots, so both positions are equally far from
             // O.
             (
                 CrankRockerSpec { rocker_pivot: Vec2::new(0.15, 0.0), extreme: -0.3, swing: 0.6, ..wish },
                 ErrorKind::Geometry,
-                "no length",
+                "zero length",
             ),
             (CrankRockerSpec { extreme: -0.3, swing: 1.0, ..wish }, ErrorKind::Geometry, "passes between"),
         ] {

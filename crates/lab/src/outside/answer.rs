@@ -144,7 +144,7 @@ mod tests {
     fn any_other_output_is_a_failure_with_a_reason() {
         let table = || Ok("t_s\n0\n".to_string());
         for (output, reason) in [
-            ("", "nothing"),
+            ("", "empty"),
             ("hello", "no JSON"),
             ("[]", "not a JSON object"),
             ("{}", "no \"seconds\""),

@@ -133,6 +133,6 @@ mod tests {
         let structure = Structure::of(&mechanism, &[JointId(0)]).unwrap();
         let wanted = [StartGroup { mode: Some(AssemblyMode::Left), ..StartGroup::default() }];
         let error = first_pose(&mechanism, &structure, &[0.0], &wanted).unwrap_err();
-        assert!(error.to_string().contains("3.000000 m apart, its links span 3.950000 to 4.050000 m"), "{error}");
+        assert!(error.to_string().contains("3.000000 m apart, but its links span 3.950000 to 4.050000 m"), "{error}");
     }
 }

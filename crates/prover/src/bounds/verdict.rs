@@ -341,7 +341,10 @@ mod tests {
         let (_, advice) = told(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1, reference: 0.0 });
         assert_eq!(advice, [Advice::SmallerStep { to: None }]);
         let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.5, rounding: 0.1, reference: 0.0 });
-        assert!(reason.ends_with("iteration error") && advice == [Advice::MoreSweeps { to: None }], "{reason}");
+        assert!(
+            reason.ends_with("iteration error: too few sweeps") && advice == [Advice::MoreSweeps { to: None }],
+            "{reason}"
+        );
         let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.1, rounding: 0.5, reference: 0.0 });
         assert!(reason.ends_with("most of it is rounding"), "{reason}");
         assert_eq!(advice, [Advice::LargerStep { to: None }, Advice::DoublePrecision]);
@@ -365,7 +368,7 @@ mod tests {
         let parts = Parts { discretisation: 0.5, ..Parts::default() };
         let open = Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2).from_settings(1e-3, false, 0);
         let told = open.reason(Advice::to_string).unwrap();
-        assert!(told.ends_with("proves something; choose a smaller time step, such as 5e-4 s"), "{told}");
+        assert!(told.ends_with("is conclusive; choose a smaller time step, such as 5e-4 s"), "{told}");
         assert_eq!(Verdict::open("nothing was run").reason(Advice::to_string).unwrap(), "nothing was run");
         assert_eq!(Verdict::Agree { margin: 1.0 }.reason(Advice::to_string), None);
     }

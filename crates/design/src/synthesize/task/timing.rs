@@ -228,9 +228,9 @@ mod tests {
         use Sense::{Back, Dwell, Forward};
         for (all, words) in [
             (vec![(360.0, Forward, None)], "found 1 phases"),
-            (vec![(200.0, Forward, None), (100.0, Back, None)], "leads from 200"),
+            (vec![(200.0, Forward, None), (100.0, Back, None)], "runs from 200"),
             (vec![(200.0, Forward, None), (350.0, Back, None)], "ends at 350"),
-            (vec![(200.0, Forward, None), (360.0, Dwell, None)], "no phase goes back"),
+            (vec![(200.0, Forward, None), (360.0, Dwell, None)], "no phase moves back"),
             (vec![(200.0, Forward, Some(1.5)), (360.0, Back, None)], "share of the stroke"),
         ] {
             let error = Timing::of(phases(&all)).unwrap_err();

@@ -36,7 +36,7 @@ fn a_drive_belongs_to_a_moving_link_and_its_joint() {
     says(Input, "drive", &["link 4", "4 links"], |parts| parts.drives.crank_mut().link = LinkId(4));
     says(Input, "drive", &["\"ground\"", "\"O\""], |parts| parts.drives.crank_mut().link = LinkId(0));
     says(Input, "drive", &["\"rocker\"", "\"O\""], |parts| parts.drives.crank_mut().link = LinkId(3));
-    says(Input, "drive", &["already driven"], |parts| {
+    says(Input, "drive", &["driven already"], |parts| {
         let crank = parts.drives.crank().clone();
         parts.drives = Drives::new(crank.clone(), vec![crank]);
     });
@@ -67,7 +67,7 @@ fn invalid_numbers_of_a_drive_are_refused() {
 #[test]
 fn a_start_beyond_the_allowed_turns_is_refused() {
     for start in [-7e5, 7e5, 1e18] {
-        says(Input, "start.crank", &["turns away", "1e5"], |parts| parts.drives.crank_mut().start = start);
+        says(Input, "start.crank", &["turns from zero", "1e5"], |parts| parts.drives.crank_mut().start = start);
     }
 }
 
@@ -148,12 +148,12 @@ fn unsupported_combinations_of_drives_are_refused() {
     assert!(error.kind() == Unsupported && error.message().contains("is attached to a moving link"), "{error}");
     let ramp = Drive::prescribed(JointId(0), LinkId(1), 0.0, 0.0, MotionLaw::Ramp { speed: 1.0, time: 1.0 });
     let error = of(ramp, free(JointId(1), None)).unwrap_err();
-    assert!(error.kind() == Unsupported && error.message().contains("changes"), "{error}");
+    assert!(error.kind() == Unsupported && error.message().contains("variable speed"), "{error}");
 }
 
 #[test]
 fn the_structure_of_another_mechanism_is_refused() {
-    says(Input, "structure", &["of 1 parts", "of 2"], |parts| parts.structure.groups = Vec::new().into());
+    says(Input, "structure", &["of 1 parts", "give 2"], |parts| parts.structure.groups = Vec::new().into());
     says(Input, "structure", &[], |parts| {
         parts.structure = Structure::of(&class_four(1.0, 1.0), &[JointId(0)]).unwrap()
     });
@@ -182,7 +182,7 @@ fn loads_need_existing_links_and_valid_numbers() {
 
 #[test]
 fn a_start_pose_must_close_the_joints_at_the_start_angle() {
-    says(Input, "start", &["3 places", "4 links"], |parts| parts.start.0 = parts.start.0[1..].to_vec().into());
+    says(Input, "start", &["3 link poses", "4 links"], |parts| parts.start.0 = parts.start.0[1..].to_vec().into());
     says(Input, "start", &["ground"], |parts| parts.start.0[LinkId(0)].angle = 1e-15);
     says(Input, "start", &["\"rocker\""], |parts| parts.start.0[LinkId(3)].angle = f64::NAN);
     says(Geometry, "start", &["\"B\"", "e-8 m"], |parts| parts.start.0[LinkId(3)].angle += 1e-8);
