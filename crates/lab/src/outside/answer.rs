@@ -145,7 +145,7 @@ mod tests {
         let table = || Ok("t_s\n0\n".to_string());
         for (output, reason) in [
             ("", "empty"),
-            ("hello", "no JSON"),
+            ("hello", "not JSON"),
             ("[]", "not a JSON object"),
             ("{}", "no \"seconds\""),
             ("{\"refused\": \"a slider\"}", "refuses: a slider"),
