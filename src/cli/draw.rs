@@ -1,7 +1,7 @@
 //! `linkproof draw`.
 
 use crate::sentences;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::engine_args::side;
 use super::output::{self, refused};
@@ -118,9 +118,7 @@ pub(super) fn draw(args: &Args) -> Result<()> {
                 [one] if !load::is_standard_input(one) => one.file_stem().unwrap_or_default().to_string_lossy(),
                 _ => "mechanisms".into(),
             };
-            let name = format!("{stem}.svg");
-            output::make(&String::from_utf8_lossy(&bytes), Path::new(&name))?;
-            output::print(&format!("{name}\n"))?;
+            output::make_here(&String::from_utf8_lossy(&bytes), &format!("{stem}.svg"))?;
         }
     }
     all.iter().filter_map(|own| own.fault.as_ref()).for_each(output::warn);

@@ -47,14 +47,10 @@ pub(super) fn export(args: &Args) -> Result<()> {
     let all = if all.is_empty() { vec![(Exports::Mjcf, Path::new(""))] } else { all };
     for (form, to) in all {
         let text = text(form).map_err(|error| explained(case, error))?;
-        if to != Path::new("") {
-            output::write(&text, to)?;
-            continue;
+        match to == Path::new("") {
+            true => output::make_here(&text, &format!("{}{}", scenario.name, form.form().sign()))?,
+            false => output::write(&text, to)?,
         }
-        // The program chose this file name, so the name is printed.
-        let name = format!("{}{}", scenario.name, form.form().sign());
-        output::make(&text, Path::new(&name))?;
-        output::print(&format!("{name}\n"))?;
     }
     Ok(())
 }

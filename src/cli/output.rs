@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::{advice, exit_code};
 use crate::plain::errors;
-use crate::plain::style::{COLUMNS, fitted};
+use crate::plain::style::{COLUMNS, within};
 use anstream::AutoStream;
 use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
@@ -43,9 +43,12 @@ pub(super) fn apart(targets: &[(&str, &Path)]) -> Result<()> {
         true => path.to_path_buf(),
         false => fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or_else(|_| path.to_path_buf()),
     };
+    // The command chooses the name for an empty path.
     let is_file = |to: &Path| to != Path::new("/dev/null") && to != Path::new("");
-    for (k, (one, to)) in targets.iter().enumerate().filter(|(_, (_, to))| is_file(to)) {
-        if let Some((other, _)) = targets[k + 1..].iter().find(|(_, other)| place(to) == place(other)) {
+    let files: Vec<_> =
+        targets.iter().filter(|(_, to)| is_file(to)).map(|(option, to)| (option, to, place(to))).collect();
+    for (k, (one, to, place)) in files.iter().enumerate() {
+        if let Some((other, ..)) = files[k + 1..].iter().find(|(.., other)| place == other) {
             let message = match one == other {
                 true => sentences::two_results_go_to(&to.display()),
                 false => sentences::and_both_name(one, other, &to.display()),
@@ -90,18 +93,20 @@ pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<
     if is_standard(to) { printed(fill) } else { put(&OutputTarget::Named(to), to, None, fill) }
 }
 
-/// Writes a file whose name the program chose: `make` writes text with its seal, `make_by` writes bytes unchanged.
-/// `make` replaces an existing file if its seal is unbroken; `make_by` replaces it if `is_ours` accepts its first
-/// bytes.
-/// Otherwise the function returns an error.
+/// Writes text with its seal to a file whose name the program chose.
+/// An existing file is replaced if its seal is unbroken; otherwise it is an error.
 pub(super) fn make(text: &str, to: &Path) -> Result<()> {
     make_by(files::sealed(text, to).as_bytes(), to, &files::is_sealed)
 }
 
-/// Writes a file whose name the program chose: `make` writes text with its seal, `make_by` writes bytes unchanged.
-/// `make` replaces an existing file if its seal is unbroken; `make_by` replaces it if `is_ours` accepts its first
-/// bytes.
-/// Otherwise the function returns an error.
+/// Like [`make`], in the working directory; then prints the name, because the user did not choose it.
+pub(super) fn make_here(text: &str, name: &str) -> Result<()> {
+    make(text, Path::new(name))?;
+    print(&format!("{name}\n"))
+}
+
+/// Writes bytes, unchanged, to a file whose name the program chose.
+/// An existing file is replaced if `is_ours` accepts its bytes; otherwise it is an error.
 pub(super) fn make_by(bytes: &[u8], to: &Path, is_ours: &dyn Fn(&[u8]) -> bool) -> Result<()> {
     put(&OutputTarget::Made(to, is_ours), to, Some(bytes.len() as u64), |out| out.write_all(bytes))
 }
@@ -133,7 +138,7 @@ fn put(
 /// Writes text for people to standard output, wrapped to the width of the terminal.
 /// A reader that has closed the pipe (`| head`) is not an error.
 pub(super) fn print(text: &str) -> Result<()> {
-    data(&fitted(text, width()))
+    data(&within(text, width()))
 }
 
 /// Writes text for programs to standard output, without changes.
@@ -241,5 +246,5 @@ fn say(text: &str) {
     let mut stream = io::stderr();
     let width = columns_of(if stream.is_terminal() { terminal_size_of(&stream) } else { None });
     // If standard error is closed, an error cannot be reported, so a failure to write is ignored.
-    let _ = writeln!(stream, "{}", fitted(text, width));
+    let _ = writeln!(stream, "{}", within(text, width));
 }

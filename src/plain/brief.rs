@@ -112,7 +112,7 @@ pub fn worst(proof: &Proof, width: Option<usize>, text: &mut String) {
             found,
             numbers::error(difference),
             numbers::error(bound),
-            unit.into(),
+            unit,
         ]);
     }
     say!(text, "\n{}", trimmed(&table));
@@ -125,15 +125,15 @@ fn at(side: &Trajectory, channel: &Channel, time: f64) -> Option<f64> {
 }
 
 /// Factor and symbol of the unit for display: degrees and millimetres.
-fn read(unit: Unit) -> (f64, &'static str) {
+fn read(unit: Unit) -> (f64, String) {
     match unit {
-        Unit::Radian => (1f64.to_degrees(), "deg"),
-        Unit::Metre => (1e3, "mm"),
+        Unit::Radian => (1f64.to_degrees(), "deg".into()),
+        Unit::Metre => (1e3, "mm".into()),
         Unit::RadianPerSecond
         | Unit::RadianPerSecondSquared
         | Unit::MetrePerSecond
         | Unit::MetrePerSecondSquared
         | Unit::Newton
-        | Unit::NewtonMetre => (1.0, unit.shown()),
+        | Unit::NewtonMetre => (1.0, unit.to_string()),
     }
 }

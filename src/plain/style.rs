@@ -72,7 +72,7 @@ pub fn wrapped(text: &str, width: Option<usize>, indent: usize) -> String {
 /// Text in lines of at most `width` columns, if a width is given.
 /// Continuation lines begin below the text of their line: behind `error: `, or behind the name of a value.
 /// Lines of a file in a message stay as they are.
-pub(crate) fn fitted(text: &str, width: Option<usize>) -> String {
+pub(crate) fn within(text: &str, width: Option<usize>) -> String {
     let Some(width) = width else { return text.into() };
     let fit = |line: &str| match textwrap::core::display_width(line) > width && !is_quoted(line) {
         true => wrapped(line, Some(width), hanging(line)),
@@ -106,16 +106,16 @@ mod tests {
 
     #[test]
     fn long_lines_have_a_hanging_indent() {
-        for (line, fitted) in [
+        for (line, lines) in [
             ("error: no such file or directory", "error: no such file or\n       directory"),
             ("  = help: name another file here", "  = help: name another\n          file here"),
             ("source   a book of mechanisms", "source   a book of\n         mechanisms"),
             ("12 | mass_kg = 1 # a long comment", "12 | mass_kg = 1 # a long comment"),
             ("short", "short"),
         ] {
-            assert_eq!(super::fitted(line, Some(22)), fitted);
+            assert_eq!(super::within(line, Some(22)), lines);
         }
-        assert_eq!(super::fitted("a long line of words", None), "a long line of words");
+        assert_eq!(super::within("a long line of words", None), "a long line of words");
     }
 
     #[test]

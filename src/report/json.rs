@@ -148,12 +148,12 @@ rows! {
     /// A diagnosis in the JSON report.
     pub struct DiagnosisRow = |diagnosis: &Diagnosis| {} {
         suspect: String = diagnosis.suspect.clone(),
-        /// `alone`: the party that disagrees with all other parties; `null` if no such party exists.
-        /// `standing`: a sentence on the agreement of all parties.
+        /// The party that disagrees with all other parties; `null` if no such party exists.
         alone: Option<String> = match &diagnosis.alone {
             PartyStanding::Alone(name) => Some(name.clone()),
             PartyStanding::Together | PartyStanding::Camps(_) | PartyStanding::Open(_) => None,
         },
+        /// A sentence on the agreement of all parties.
         standing: String = standing(&diagnosis.alone),
         /// The channels that exceed their bounds, the earliest first.
         since: Vec<SinceRow> = diagnosis.since.iter().map(SinceRow::of).collect(),

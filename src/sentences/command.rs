@@ -200,7 +200,6 @@ linkage::sentences! {
     // cli/synthesize/target.rs
     NAME_ANOTHER_FILE = "name another file";
     the_scenario_found_would_overwrite(source) = "the scenario found would overwrite its source, {source}";
-    A_SCENARIO_IS_WRITTEN_TO_A_FILE = "a scenario is written to a file that ends in .toml, or to standard output with `-`";
     // cli/view.rs
     layout_plotjuggler_file_file_being(to) = "layout     {to}\nplotjuggler -l FILE, with the layout above as FILE: the layout loads the recording.\n";
     layout_open_in_foxglove_or_lichtblick(to, args) = "layout     {to}\n1. Open {args} in Foxglove or Lichtblick (open local file).\n2. Layouts, import from file: the layout above. The mechanism then moves beside its plots.\n";

@@ -1,5 +1,6 @@
 //! Only the command line may name its options and commands, and set the panic hook of the process.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -106,6 +107,29 @@ fn only_the_command_line_names_its_options_and_commands() {
         wrong.extend(found.map(|(line, text)| format!("{}:{line}: \"{text}\"", file.display())));
     }
     assert!(wrong.is_empty(), "give advice as `linkage::error::Advice`:\n{}", wrong.join("\n"));
+}
+
+/// The compiler does not report unused items of a macro from another crate.
+#[test]
+fn every_sentence_is_used() {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let crates = fs::read_dir(top.join("crates")).unwrap().map(|entry| entry.unwrap().path());
+    let mut unused = Vec::new();
+    for source in crates.chain([top.to_path_buf()]).map(|path| path.join("src")) {
+        let is_list =
+            |path: &PathBuf| path.components().any(|part| part.as_os_str().to_string_lossy().starts_with("sentences"));
+        let (lists, code): (Vec<PathBuf>, Vec<PathBuf>) = rust_files(&source).into_iter().partition(is_list);
+        let texts = |paths: &[PathBuf]| paths.iter().map(|path| fs::read_to_string(path).unwrap()).collect::<String>();
+        let code = texts(&code);
+        let words: BTreeSet<&str> = code.split(|sign: char| !sign.is_alphanumeric() && sign != '_').collect();
+        for line in texts(&lists).lines().filter(|line| line.ends_with("\";") && line.contains(" = \"")) {
+            let name = line.trim_start().split(|sign: char| !sign.is_alphanumeric() && sign != '_').next().unwrap();
+            if !words.contains(name) {
+                unused.push(format!("{}: {name}", source.display()));
+            }
+        }
+    }
+    assert!(unused.is_empty(), "{unused:#?}");
 }
 
 #[test]

@@ -17,25 +17,6 @@ linkage::sentences! {
     SIDE_ASSUR = "side 1 (assur)";
     SIDE_ASSUR_INTEGRATED_A_HUNDRED = "side 1 (assur), integrated with a tolerance a hundred times tighter";
     DIFFERENCE_OF_BOTH_SIDES_AT_THE_TIGHTER = "difference of both sides at the tighter tolerance, or the remaining error of the tighter integration";
-    // mutate/judging.rs
-    AN_ANGULAR_VELOCITY_BY_A_SHARE = "an angular velocity, by a share";
-    DRIVING_MOMENT_FROM_REACTIONS_AND_FROM_POWERS = "driving moment from reactions and from powers (rapier)";
-    THE_SECOND_DRIVE_MOMENT_AT_ONE_INSTANT = "the second drive's moment at one instant";
-    THE_SECOND_DRIVE_MOMENT = "the second drive's moment";
-    THE_DRIVING_MOMENT = "the driving moment";
-    AN_ANGULAR_ACCELERATION = "an angular acceleration";
-    AN_ANGULAR_VELOCITY = "an angular velocity";
-    AN_ANGLE_AT_THE_LAST_INSTANT = "an angle at the last instant";
-    AN_ANGLE_AT_THE_FIRST_INSTANT = "an angle at the first instant";
-    THE_MOMENT_IN_A_GUIDE = "the moment in a guide";
-    THE_SECOND_DRIVE_MOMENT_AT_THE_LAST = "the second drive's moment at the last instant";
-    A_REACTION_AT_THE_ORIGIN = "a reaction at the origin: a force without a couple";
-    A_REACTION_BY_THE_SAME_AMOUNT = "a reaction, by the same amount in two joints of the frame: a couple without a force";
-    CLOSURE_OF_ALL_JOINTS_ASSUR = "closure of all joints (assur)";
-    A_CLOSED_LOOP_IS_OPEN = "a closed loop is open (m)";
-    ASSUR_AGAINST_NEWTON = "assur against newton";
-    BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS = "balancing moment from equilibrium and from powers (assur)";
-    SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS = "shaking force and moment from reactions and from momentum (assur)";
     // mutate/plan.rs
     PLANT_FEWER_OF_THEM_SOME = "plant fewer faults: select some kinds or one party, or omit the sizes";
     planting_faults_takes_the_work(scenario, faults, work, budget) = "{scenario}: planting {faults} faults costs about {work} steps of a four-bar; {budget} are allowed";

@@ -4,6 +4,7 @@
 //! So every function takes a number of digits or the resolution of the value.
 
 use linkage::math::KeepNan;
+pub use linkage::trajectory::shown_unit as shown;
 
 /// Number of digits of an error or a bound. An estimate does not justify more digits.
 const DIGITS: usize = 3;
@@ -128,12 +129,6 @@ pub fn quantity(value: f64, unit: &str) -> String {
 #[must_use]
 pub fn percent(share: f64) -> String {
     format!("{} %", significant(100.0 * share, 2))
-}
-
-/// A unit as people write it: `N·m`, `kg·m²`, `rad/s²`.
-#[must_use]
-pub fn shown(unit: &str) -> String {
-    unit.replace("N m", "N·m").replace("kg m", "kg·m").replace("^2", "²")
 }
 
 /// A number followed by a blank and its unit, or the number alone if the unit is empty.

@@ -115,16 +115,12 @@ fn drive(table: &mut TomlTable, mechanism: &Mechanism, before: &[Drive], start: 
         let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
         table.refuse("joint", sentences::there_is_no_joint(&name), suggestion(&name, names, "\""))
     };
-    let law = match law(table, input.at(start)) {
-        Ok(law) => law,
-        Err(error) => {
-            if whole && known.is_none() {
-                let unknown = unknown(table);
-                table.part(unknown.map(|_| ()));
-            }
-            return Err(error);
-        }
-    };
+    let law = law(table, input.at(start));
+    if law.is_err() && whole && known.is_none() {
+        let missing = unknown(table);
+        table.part(missing.map(|_| ()));
+    }
+    let law = law?;
     let zero = table.optional_si("zero")?.unwrap_or(0.0);
     let motion = motion(table, law)?;
     let through = through(table)?;

@@ -93,25 +93,25 @@ pub fn groups(
         }
     }
     faults.end()?;
-    let given: Vec<bool> = wanted.iter().map(Option::is_some).collect();
     // If configurations are to be listed, missing assembly modes are no error, because no choice is required.
     if lists == Lists::No {
-        missing(start, &given, mechanism, structure, asked)?;
+        missing(start, |index| wanted[index].is_some(), mechanism, structure, asked)?;
     }
     Ok(wanted.into_iter().map(Option::unwrap_or_default).collect())
 }
 
-/// Refuses a start that lacks assembly modes. `given` marks the groups whose start the file states.
+/// Refuses a start that lacks assembly modes.
+/// `is_given` says whether the file states the start of a group; the groups in `asked` are requested elsewhere.
 fn missing(
     start: &TomlTable,
-    given: &[bool],
+    is_given: impl Fn(GroupId) -> bool,
     mechanism: &Mechanism,
     structure: &Structure,
     asked: &[(GroupId, StartGroup)],
 ) -> Result<()> {
     let is_asked = |index: GroupId| asked.iter().any(|(other, _)| *other == index);
-    let open = structure.groups.entries().zip(given).filter(|((index, _), given)| !**given && !is_asked(*index));
-    let missing: Vec<&Group> = open.map(|((_, group), _)| group).collect();
+    let open = structure.groups.entries().filter(|(index, _)| !is_given(*index) && !is_asked(*index));
+    let missing: Vec<&Group> = open.map(|(_, group)| group).collect();
     // A group without named modes is not reported here, because the search for the first pose reports it.
     let named = |group: &&&Group| !modes_of(group.kind).is_empty();
     let names: Vec<String> =
@@ -135,15 +135,8 @@ pub fn also_missing(
     asked: impl FnOnce(&Structure) -> Vec<(GroupId, StartGroup)>,
 ) -> Option<Error> {
     let structure = Structure::of(mechanism, drives).ok()?;
-    let is_given = |group: &Group| {
-        stated.iter().any(|own| {
-            let mut links = own.links.clone();
-            links.sort_unstable();
-            links == group.links
-        })
-    };
-    let given: Vec<bool> = structure.groups.iter().map(is_given).collect();
-    missing(start, &given, mechanism, &structure, &asked(&structure)).err()
+    let is_given = |index: GroupId| stated.iter().any(|own| group_of(&own.links, &structure) == Some(index));
+    missing(start, is_given, mechanism, &structure, &asked(&structure)).err()
 }
 
 fn group(

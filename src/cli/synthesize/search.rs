@@ -64,8 +64,10 @@ pub(super) struct CheckArgs {
 }
 
 pub(super) fn search(args: &Args) -> Result<()> {
-    args.outputs.of(SearchResults::Scenario).try_for_each(|to| is_no_source(to, &args.file))?;
     let TaskFile { mut task, drawing } = TaskFile::load(&args.file)?;
+    for to in args.outputs.of(SearchResults::Scenario) {
+        [&args.file, &drawing.path].into_iter().try_for_each(|source| is_no_source(to, source))?;
+    }
     let effort = &mut task.effort;
     effort.seed = args.seed.unwrap_or(effort.seed);
     effort.candidates = args.candidates.unwrap_or(effort.candidates);
@@ -82,7 +84,6 @@ pub(super) fn search(args: &Args) -> Result<()> {
     let own = Task { case: bare.case, ..task.clone() };
     let achieved = Achieved::of(&own, found.forward)?;
     let text = redraw::redrawn(&task, &drawing.text, &values, &comment(args, &own, &achieved))?;
-    args.outputs.of(SearchResults::Scenario).try_for_each(|to| is_no_source(to, &drawing.path))?;
     let story = Story { task: &own, achieved: &achieved, search: Some((&found, &values)) };
     let result = |result| match result {
         SearchResults::Scenario => text.clone(),

@@ -96,9 +96,7 @@ impl State {
         largest
     }
 
-    /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
-    /// In a prismatic joint the opening is measured perpendicular to the guide.
-    /// The angle between the joint's two axes (rad), multiplied by `size` (m), also counts as an opening.
+    /// Largest moment (N m): of a drive, or of a joint's force at `arm` (m).
     #[must_use]
     pub fn largest_moment(&self, arm: f64) -> f64 {
         let torques = self.torques.iter().map(|torque| torque.abs());

@@ -40,17 +40,6 @@ impl Unit {
         }
     }
 
-    /// The unit as people write it, for example `rad/s²` and `N·m`.
-    #[must_use]
-    pub const fn shown(self) -> &'static str {
-        match self {
-            Unit::RadianPerSecondSquared => "rad/s²",
-            Unit::MetrePerSecondSquared => "m/s²",
-            Unit::NewtonMetre => "N·m",
-            Unit::Radian | Unit::RadianPerSecond | Unit::Metre | Unit::MetrePerSecond | Unit::Newton => self.symbol(),
-        }
-    }
-
     /// Suffix of names of quantities in this unit, for example `rad_s2`.
     #[must_use]
     pub const fn suffix(self) -> &'static str {
@@ -67,8 +56,14 @@ impl Unit {
     }
 }
 
+/// The symbol of a unit as people write it: `N·m`, `kg·m²`, `rad/s²`.
+#[must_use]
+pub fn shown_unit(symbol: &str) -> String {
+    symbol.replace("N m", "N·m").replace("kg m", "kg·m").replace("^2", "²")
+}
+
 impl fmt::Display for Unit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.shown())
+        f.pad(&shown_unit(self.symbol()))
     }
 }
