@@ -68,8 +68,9 @@ fn main() {
                 let engine = Rapier::new(build, Precision::Double, step);
                 let engine = engine.set(Settings { sweeps, ..engine.settings() });
                 let last = STEPS as f64 * step;
-                // The engine also does ten steps outside the grid: before its start and after its end.
-                // `bare` therefore gets additional steps, so that its work is nearly that of the engine.
+                // The engine also does sixteen steps outside the grid: six backwards from t = 0, the same six forwards,
+                // and four beyond the end.
+                // `bare` therefore gets sixteen additional steps, so that its work is nearly that of the engine.
                 let none = base.on(Grid::of_times(base.crank(), vec![last])).unwrap().wanting(Wanted::of(&[]));
                 let all = |every: usize| {
                     let times = (0..=STEPS / every).map(|k| every as f64 * step * k as f64).collect();

@@ -1,4 +1,5 @@
 //! A four-bar written by hand, as in a special-purpose program, for comparison with the general solver.
+//! O is the pivot of the crank, A joins crank and coupler, B joins coupler and rocker, C is the pivot of the rocker.
 
 /// Lengths, pivots and masses of one four-bar; SI units, mass centres on the links' centre lines.
 #[derive(Clone, Copy)]

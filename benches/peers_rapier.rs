@@ -1,7 +1,7 @@
 //! Rapier's part of the comparison with other engines in `benches/peers`, as CSV.
 //! It gives error and time of single runs, and of combinations of runs at h, h/2, h/4, ...
-//! `cargo bench --bench peers_rapier -- REPEATS FILE...` times each run REPEATS times, of which the shortest time
-//! counts. Each FILE is a scenario file.
+//! `cargo bench --bench peers_rapier -- REPEATS FILE...` times each run REPEATS times; the shortest time counts.
+//! Each FILE is a scenario file.
 
 use linkage::math::KeepNan;
 use std::path::Path;
@@ -28,7 +28,7 @@ const FINEST: f64 = 1.2e-5;
 /// percent.
 const SWEEPS: [usize; 2] = [12, 16];
 
-/// Crank angle (rad) and reaction (N) over the grid, and the shortest time of the run (s).
+/// Crank angle (rad) and reaction (N) over the grid, and the shortest times (s) with and without reading reactions.
 struct Run {
     columns: Vec<Vec<f64>>,
     seconds: f64,

@@ -1,5 +1,6 @@
-//! Cost of writing a recording, divided by the cost of the proof that it stores.
-//! The cost of writing is also divided by the cost of the plain MCAP writer for the same prepared messages.
+//! Cost of a proof and its recording together, divided by the cost of the proof alone.
+//! For a long recording, the cost of the plain MCAP writer for the same prepared messages is divided by the cost of
+//! writing the recording.
 //! Only ratios from one run are printed: `cargo bench --bench record`.
 
 use std::collections::BTreeMap;
@@ -20,8 +21,9 @@ use scenario::Scenario;
 
 /// Number of timings; the shortest counts, because other activity of the machine only adds time.
 const REPEATS: usize = 9;
-/// Samples per second of mechanism time; in the long recording, samples per revolution.
+/// Samples per second of mechanism time.
 const RATE: f64 = 1000.0;
+/// Samples per revolution in the long recording.
 const LONG: usize = 20_000;
 
 fn scenario(name: &str) -> Scenario {

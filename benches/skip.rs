@@ -1,5 +1,5 @@
-//! Cost of answering a single question, divided by the cost of the whole stored solution.
-//! It is measured for both sides, and for Rapier at one setting.
+//! Cost of the whole solution, divided by the cost of answering a single question.
+//! The ratio is measured for both sides, and for Rapier at one setting.
 //! Only ratios from one run are printed: `cargo bench --bench skip`.
 
 use std::hint::black_box;

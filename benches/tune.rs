@@ -55,7 +55,8 @@ fn seconds(engine: &dyn Engine, case: &Case, repeats: usize) -> f64 {
     shortest
 }
 
-/// Cost of the settings of a row: a constant plus a part proportional to the number of steps.
+/// Cost of the settings of a row, which differ only in the step: a constant plus a part proportional to the number of
+/// steps.
 /// Runs at two steps determine the constant and the proportional part.
 struct Clock<'a> {
     case: &'a Case,
@@ -75,7 +76,7 @@ impl Clock<'_> {
             let slope = (b - a) / (1.0 / fine - 1.0 / coarse);
             self.fit = [b - slope / fine, slope];
         }
-        // If a run with steps of one degree fails, the cost is unknown and counts as infinite.
+        // If a run with steps of one or two degrees fails, the cost is unknown and counts as infinite.
         let price = self.fit[0] + self.fit[1] / own.resolution;
         if price.is_finite() { price } else { f64::INFINITY }
     }

@@ -19,7 +19,7 @@ const STEPS: [f64; 3] = [0.8, 0.24, 0.08];
 const ACCURACIES: [f64; 2] = [1e-4, 1e-10];
 /// Number of timings; the shortest counts. Runs longer than a second are timed once.
 const REPEATS: usize = 3;
-/// Sweeps of the multibody build; the flywheel makes this number sufficient in this benchmark.
+/// Sweeps of the multibody build; the flywheel on the twin's driving link makes this number sufficient here.
 /// The impulse build needs its full default number.
 const SWEEPS: usize = 256;
 

@@ -60,7 +60,7 @@ impl Solver for Freudenstein {
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         let mut state = State::at_rest(case);
         for (row, (&t, &crank)) in case.grid.times.iter().zip(&case.grid.inputs).enumerate() {
-            let (theta, omega) = (case.crank().world_angle(crank) - self.base, case.crank().at(t).rate);
+            let (theta, omega) = (case.crank().coordinate(crank) - self.base, case.crank().at(t).rate);
             let [coupler, rocker] = self.angles(theta);
             let [r1, r2, r3, _] = self.lengths;
             let between = (coupler - rocker).sin();

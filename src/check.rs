@@ -35,7 +35,7 @@ pub(crate) struct Words {
 const WORDS: Words = Words { formula: "formula", channel: "channel", step: "steps", valid: "valid", error: "error" };
 
 impl FormulaQuestion {
-    /// Whether `formula` is `channel`.
+    /// The question whether `formula` equals `channel`.
     pub fn of(formula: impl Into<String>, channel: impl Into<String>) -> FormulaQuestion {
         FormulaQuestion { formula: formula.into(), channel: channel.into(), ..FormulaQuestion::default() }
     }
@@ -62,7 +62,8 @@ impl FormulaQuestion {
 
 /// Judges every `[[formula]]` of a scenario that claims a channel.
 /// The values and the derivatives of the formula are compared with both analytic sides at all instants of the grid.
-/// The bound of these comparisons is the rounding error of the formula.
+/// The bound of a comparison is the sum of three errors: the rounding error of the formula, the error of the side, and
+/// the error that the formula claims, if any.
 /// If a formula is wrong and the cause is simple, the result names the cause.
 ///
 /// ```

@@ -48,7 +48,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use linkage::error::Result;
 use output::End;
 
-/// Most columns of help.
+/// Largest width of the help (columns).
 const WIDEST: usize = 100;
 
 /// Builds planar mechanisms twice, analytically and as a Rapier multibody, and proves that the two agree.

@@ -3,7 +3,8 @@
 //!
 //! A [`Scenario`] contains a [`Case`].
 //! An analytic side and an engine solve the case, and their trajectories are compared.
-//! [`prove`] solves the case on both sides and compares the trajectories; [`solve`] gives only the analytic solution.
+//! [`prove`] solves the case with both analytic sides and with engines, and compares the trajectories.
+//! [`solve`] gives only the analytic solution.
 //! [`check`] judges formulas, and [`compare`] judges tables and recordings of other programs.
 //! `draw` shows a mechanism (feature `command`).
 //!

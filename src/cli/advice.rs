@@ -77,7 +77,7 @@ mod tests {
             (Advice::MoreMemory { to: 5.23e9 }, "allow more memory, such as --memory 5.3"),
             (Advice::OtherEngine, "use another engine: `linkproof list --solvers` lists them"),
             (Advice::OtherReference { solver: "newton" }, "use side \"newton\" as the reference: --reference newton"),
-            (Advice::AllResults, "all of them with -o FILE.json"),
+            (Advice::AllResults, "-o FILE.json lists all of them"),
             ("check the lengths".into(), "check the lengths"),
             (Advice::ShortenGrid, "shorten the grid to the crank angles that can be reached on this branch"),
         ] {

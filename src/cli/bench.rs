@@ -24,7 +24,7 @@ use scenario::{Scenario, files_in};
 
 /// Name of the file with the numbers of all scenarios.
 const TOTAL: &str = "bench.json";
-/// Directory without `-o`.
+/// Output directory if `-o` is not given.
 const NAME: &str = "bench";
 /// Time limit for one call of a peer (s).
 const LIMIT: f64 = 60.0;

@@ -19,7 +19,7 @@ type Result<T, E = Error> = std::result::Result<T, E>;
 pub(super) enum Which {
     /// Every engine of this build.
     All,
-    /// This one.
+    /// This engine.
     One(EngineName),
 }
 

@@ -23,7 +23,7 @@ const STEP_DEG: f64 = 10.0;
 pub(super) struct Pages {
     to: PathBuf,
     is_directory: bool,
-    /// Names that are taken.
+    /// Names already used for pages, without the ending.
     taken: BTreeSet<String>,
 }
 

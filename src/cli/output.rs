@@ -159,7 +159,7 @@ fn printed(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
 /// Smallest width of a table in columns; in a narrower terminal, the terminal itself wraps the lines.
 const LEAST: usize = 60;
 
-/// Columns of the terminal, or 80 if standard output is not a terminal.
+/// Columns of the terminal. If standard output is not a terminal: the environment variable `COLUMNS`, otherwise 80.
 pub(super) fn columns() -> usize {
     width().unwrap_or(COLUMNS)
 }
@@ -180,7 +180,7 @@ fn columns_of(terminal: Option<(Width, Height)>) -> Option<usize> {
 pub(super) fn report(report: &str) -> Result<()> {
     let choice = AutoStream::choice(&io::stdout());
     let mut text = AutoStream::new(Vec::new(), choice);
-    // A vector takes everything.
+    // Writing to a vector never fails.
     let _ = text.write_all(report.as_bytes());
     print(&String::from_utf8_lossy(&text.into_inner()))
 }

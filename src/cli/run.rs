@@ -47,7 +47,8 @@ pub(super) fn run(args: &Args) -> Result<u8> {
 }
 
 /// Number of files that are proven in parallel.
-/// With `--write`, the number is one, because a file that is given twice must be read again after it was written.
+/// With `--write`, the number is one if a file is given twice, because this file must be read again after it was
+/// written.
 fn threads(args: &Args) -> usize {
     let mut seen = BTreeSet::new();
     let is_new = |file: &PathBuf| seen.insert(fs::canonicalize(file).unwrap_or_else(|_| file.clone()));

@@ -47,7 +47,7 @@ results! { Solutions {
     Csv = "one row per instant",
 } }
 
-/// Who solves.
+/// The solver: an analytic side or an engine.
 #[derive(Clone, Copy, Debug)]
 enum With {
     Side(Reference),

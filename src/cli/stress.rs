@@ -13,7 +13,7 @@ use lab::stress::{FAMILIES, Job, StressFamily, StressOutcome, jobs, run_all};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::threads::cores;
 
-/// Directory without `-o`.
+/// Output directory if `-o` is not given.
 const NAME: &str = "stress";
 /// Seed of random mechanisms by default.
 const SEED: u64 = 1;

@@ -18,13 +18,13 @@ pub struct PictureOptions {
     pub each_mode: bool,
     /// Whether to draw gravity, and forces and moments as arrows with their sizes.
     pub loads: bool,
-    /// Lengths of the links.
+    /// Whether to write the lengths of the links into the picture.
     pub dimensions: bool,
     /// Whether to draw the paths of all points without a joint.
     pub all_traces: bool,
-    /// Paths of these points.
+    /// Names of the points whose paths are drawn.
     pub traces: Vec<String>,
-    /// Who solves.
+    /// Analytic solver.
     pub solver: Reference,
     /// Width of a bitmap in pixels; `None` for 800.
     pub width: Option<u32>,
@@ -32,7 +32,7 @@ pub struct PictureOptions {
     pub frames: Option<usize>,
     /// Time that a turn takes in an animation (s); `None` for 4.
     pub seconds: Option<f64>,
-    /// What messages call `traces`.
+    /// Name of `traces` in messages.
     #[doc(hidden)]
     pub traces_key: Option<&'static str>,
 }
@@ -46,7 +46,7 @@ pub enum Medium {
     Png,
     /// A bitmap that moves.
     Gif,
-    /// The same, smaller.
+    /// A bitmap that moves, in a smaller file than a GIF.
     WebP,
 }
 

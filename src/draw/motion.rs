@@ -12,7 +12,7 @@ use linkage::trajectory::Stage;
 /// Number of instants of a revolution at which travels and paths are computed.
 const INSTANTS: usize = 180;
 
-/// The states of a free motion on the grid, if the crank does not make a full revolution.
+/// The states of a free motion on the grid, if there are several drives or the crank does not make a full revolution.
 /// An example is a pendulum, which swings although its crank could rotate fully.
 pub(super) fn swung(case: &Case, solver: &dyn Solver) -> Option<Vec<State>> {
     let states = case.is_free().then(|| visited(&case.wanting(seen()), solver))??;

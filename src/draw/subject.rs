@@ -12,7 +12,7 @@ use drawing::{Sketch, Travels, acting, unit};
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, GroupId, JointId, LinkId, LinkPose, Mechanism, Structure};
+use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, GroupId, LinkId, LinkPose, Mechanism, Structure};
 use linkage::solver::State;
 use scenario::{Draft, Scenario};
 
@@ -39,7 +39,7 @@ pub(crate) struct Drawn {
     loads: Vec<linkage::drive::Load>,
     gravity: Vec2,
     pub(super) shots: Vec<Shot>,
-    /// Above each shot.
+    /// Lines of text above each shot.
     headings: Vec<Vec<String>>,
     travels: Travels,
     traces: Vec<Trace>,
@@ -177,8 +177,11 @@ impl Drawn {
         let laid = match &draft.structure {
             Ok(structure) => lay(&draft.mechanism, structure, &angles, &draft.starts),
             Err(fault) => {
-                let drivers: Vec<(LinkId, JointId)> =
-                    draft.drives.iter().map(|drive| (drive.link, drive.joint)).collect();
+                let driving = |drive: &Drive| {
+                    let &Drive { link, joint, input, .. } = drive;
+                    DrivingLink { link, joint, input, in_group: draft.mechanism.joints()[joint].on(GROUND).is_none() }
+                };
+                let drivers: Vec<DrivingLink> = draft.drives.iter().map(driving).collect();
                 lay_loose(&draft.mechanism, &drivers, &angles, fault.clone())
             }
         };
@@ -246,7 +249,7 @@ fn of_guess(draft: &Draft) -> Option<String> {
 
 /// World angles of the driving links: the crank at an angle (rad), the other driving links at their start angles.
 fn angles(drives: &[Drive], crank: f64) -> Vec<f64> {
-    let angle = |(index, drive): (usize, &Drive)| drive.world_angle(if index == 0 { crank } else { drive.start });
+    let angle = |(index, drive): (usize, &Drive)| drive.coordinate(if index == 0 { crank } else { drive.start });
     drives.iter().enumerate().map(angle).collect()
 }
 

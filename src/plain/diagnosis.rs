@@ -52,7 +52,7 @@ pub fn text(diagnosis: &Diagnosis) -> String {
     text
 }
 
-/// Who stands against whom.
+/// Which parties disagree with each other, in words.
 #[must_use]
 pub fn standing(standing: &PartyStanding) -> String {
     match standing {

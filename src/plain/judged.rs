@@ -17,7 +17,7 @@ linkage::words! {
         Agree = "AGREE",
         /// Inconclusive.
         Open = "INCONCLUSIVE",
-        /// It disagrees.
+        /// The numbers disagree.
         Disagree = "DISAGREE",
     }
 }
@@ -46,7 +46,7 @@ pub fn counts<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> [usize; 4]
     counts
 }
 
-/// What is judged.
+/// Kind of a judged number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Sort {
     /// A channel of an engine.

@@ -29,7 +29,7 @@ linkage::words! {
         Checked = "checked",
         /// The file did not exist, and was written.
         Written = "written",
-        /// It was written anew.
+        /// The file was written again, with the figures of this run.
         Renewed = "renewed",
         /// No figure has changed, so the file stays unchanged.
         Kept = "kept",
@@ -42,11 +42,11 @@ linkage::words! {
 pub(crate) struct Item<'a> {
     /// The proof that gave the figures.
     pub(crate) proof: &'a Proof,
-    /// What was found.
+    /// Figures of this run.
     pub(crate) found: &'a Accepted,
     /// The changes; `None` if nothing was accepted before.
     pub(crate) comparison: Option<&'a FigureComparison>,
-    /// What was done.
+    /// Action on the file.
     pub(crate) deed: Deed,
     /// The file of accepted figures.
     pub(crate) file: &'a Path,

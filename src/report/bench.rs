@@ -13,7 +13,7 @@ use linkage::trajectory::Stage;
 /// Names and values that describe machine and build.
 pub(crate) type Machine = [(&'static str, String)];
 
-/// For each of these errors, the report names the fastest party.
+/// For each of these errors, the report names the fastest engine or peer.
 const DECADES: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
 /// Time of a point divided by the time of side 1.

@@ -9,7 +9,7 @@ use crate::sentences;
 use lab::bench::{Bench, BenchPoint, CLEAR, CostAxis, MethodOwner, front};
 use linkage::trajectory::Stage;
 
-/// Errors in the cells of the tables.
+/// Errors for which the cells of the tables state the times.
 const WITHIN: [f64; 3] = [1e-3, 1e-6, 1e-9];
 /// Largest number of failure reasons listed for a scenario.
 const REASONS: usize = 6;

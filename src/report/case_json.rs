@@ -43,7 +43,7 @@ pub(crate) fn text(name: &str, case: &Case, start: &State) -> String {
         "links": links.collect::<Vec<_>>(), "joints": joints.collect::<Vec<_>>(),
         "drives": case.drives.iter().map(|own| drive(case, own)).collect::<Vec<_>>(),
         "loads": case.loads.iter().map(|own| load(case, own)).collect::<Vec<_>>(),
-        "size_m": case.mechanism.size(), "top_speed_rad_s": case.drives.top_speed(),
+        "size_m": case.mechanism.size(), "top_speed_rad_s": case.drives.top_speed(case.mechanism.size()),
         "free": case.is_free(), "times_s": case.grid.times,
         "channels": case.channels().iter().map(|channel| json!({
             "name": channel.to_string(), "stage": channel.kind.stage.name(), "unit": channel.kind.unit.symbol(),

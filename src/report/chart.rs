@@ -9,7 +9,7 @@ use linkage::mechanism::LinkId;
 /// Margins between a cell and the frame of its diagram (mm): left, right, top, bottom.
 const ROOM: [f64; 4] = [17.0, 5.0, 9.0, 12.0];
 const GRID: Style = solid("#d4d4d4", 0.15);
-/// Thin strokes.
+/// Thin dashed line.
 pub(super) const DASHED: Style = Style { dash: "1.6 1.2", ..solid(GREY, 0.3) };
 /// Font size of numbers (mm).
 pub(super) const SMALL: f64 = 3.0;

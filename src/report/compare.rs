@@ -17,7 +17,7 @@ use prover::check::FormulaCause;
 use prover::compare::{Compared, Contradiction, Explained, PartyComparison, RowPair, SidePair};
 use prover::numbers;
 
-/// Number of channels shown for an agreeing pair in a short report.
+/// Number of channels shown for a pair in a short report.
 const SHOWN: usize = 3;
 /// If a number is known only to rounding error and is smaller than this fraction of the other number, it is shown as
 /// zero.
@@ -105,7 +105,7 @@ fn looks_like_a_simulation(pair: &SidePair, own: &Compared) -> bool {
     own.is_derived && own.since.is_some() && !own.is_gross() && !is_explained
 }
 
-/// Which two are compared.
+/// Names of the two compared parties.
 pub(super) fn who(paths: [&Path; 2], pair: &SidePair) -> String {
     let [first, second] = [0, 1].map(|side: usize| match pair.names[side].as_str() {
         "" => paths[side].display().to_string(),
@@ -142,7 +142,7 @@ fn rank(own: &Compared) -> f64 {
     }
 }
 
-/// What was not compared.
+/// Lines about what was not compared, and about rows that contradict each other or jump back.
 fn notes(pair: &SidePair) -> String {
     let mut text = String::new();
     if pair.unshared > 0 {

@@ -9,7 +9,7 @@ use design::draw::significant;
 use prover::numbers;
 use scenario::Scenario;
 
-/// The diagram as text: the largest and the mean error of every method.
+/// The diagram as text: the largest error, the rms error and the observed orders of every method.
 pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     let mut text = String::new();
     say!(text, sentences::over_one_turn_in_divisions(&scenario.name, &diagram.course.0[0], &diagram.divisions));
@@ -33,7 +33,7 @@ pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
 }
 
 /// The points as CSV, one row per point, with 17 significant digits.
-/// The columns are the method, the position, the value by the method, and the true value.
+/// The columns are the method, the channel, the crank angle, the time, the value by the method, and the exact value.
 pub(crate) fn points(diagram: &MotionDiagram) -> String {
     let mut text = String::from("method,channel,crank_rad,t_s,value,exact\n");
     for found in &diagram.found {

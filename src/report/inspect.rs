@@ -110,7 +110,8 @@ fn structure(scenario: &Scenario) -> Value {
     let groups = list(structure.groups.iter().zip(&case.modes).zip(&scenario.choices), |((group, mode), choice)| {
         json!({
             "links": list(&group.links, |&own| link(own)), "inner_joints": list(&group.inner, |&own| joint(own)),
-            "outer_joints": list(&group.outer, |&own| joint(own)), "class": group.class, "order": group.order(),
+            "outer_joints": list(&group.outer, |&own| joint(own)),
+            "given_joints": list(&group.given, |&own| joint(own)), "class": group.class, "order": group.order(),
             "kind": group.pairs(), "mode": mode.name(),
             "transmission_angle_rad": transmission_sine(mechanism, group, &case.start).map(|sine| sine.abs().asin()),
             "from_rough_place_m": choice.nearest_m, "next_from_rough_place_m": choice.next_m,
@@ -119,7 +120,10 @@ fn structure(scenario: &Scenario) -> Value {
     json!({
         "schema": 1, "scenario": scenario.name, "title": scenario.title, "mobility": structure.mobility,
         "formula": structure.formula(mechanism), "groups": groups, "links": links, "joints": joints,
-        "drivers": list(&structure.drivers, |&(own, at)| json!({"link": link(own), "joint": joint(at)})),
+        "drivers": list(
+            &structure.drivers,
+            |own| json!({"link": link(own.link), "joint": joint(own.joint), "input": own.input.noun()}),
+        ),
         "start_crank_rad": case.crank().start,
     })
 }

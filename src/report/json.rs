@@ -207,7 +207,8 @@ rows! {
         limit: Option<f64> = proof.limit,
         worst_t_s: f64 = residual.worst_time,
         worst_crank_rad: f64 = residual.worst_crank,
-        /// Number of instants that are not judged, because a drive or a loaded link reverses at these instants.
+        /// Number of instants that are not judged: a drive or a loaded link reverses at these instants, or a free
+        /// motion begins.
         left_out: usize = proof.left_out,
     }
 

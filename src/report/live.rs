@@ -40,27 +40,27 @@ pub(crate) enum Request {
     Subscribe(Vec<(u32, u64)>),
     /// Ends the subscriptions with these numbers.
     Unsubscribe(Vec<u32>),
-    /// Another way of playing.
+    /// Changes playback.
     Control(Control),
 }
 
 /// Playback as requested by a viewer.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Control {
-    /// Whether it moves.
+    /// Whether playback runs.
     pub plays: bool,
     /// Playback speed: log time that passes per second of the clock.
     pub speed: f32,
     /// Log time (ns) to go to.
     pub seek: Option<u64>,
-    /// Number of the request, as the viewer writes it.
+    /// Identifier of the request, chosen by the viewer.
     pub id: String,
 }
 
-/// How it is played.
+/// Playback state of a viewer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct State {
-    /// Whether it moves.
+    /// Whether playback runs.
     pub plays: bool,
     /// Log time (ns).
     pub time: u64,
@@ -139,7 +139,7 @@ pub(crate) fn time(time: u64) -> Vec<u8> {
     [&[2][..], &time.to_le_bytes()].concat()
 }
 
-/// The playback state; `id` is the number of the request that this message answers, or empty.
+/// The playback state; `id` is the identifier of the request that this message answers, or empty.
 pub(crate) fn state(state: &State, id: &str) -> Vec<u8> {
     let (head, jumped, length) = ([5, u8::from(!state.plays)], [u8::from(state.jumped)], id.len() as u32);
     let (time, speed) = (state.time.to_le_bytes(), state.speed.to_le_bytes());

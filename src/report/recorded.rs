@@ -36,7 +36,7 @@ pub(crate) fn metadata(proof: &Proof) -> BTreeMap<String, String> {
     metadata
 }
 
-/// The verdict at the start, and every disagreement at its worst instant.
+/// The verdict at the start, and every number that disagrees or is open, at its worst instant.
 pub(crate) fn log(proof: &Proof, tell: Tell) -> Vec<LogEntry> {
     let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::smaller);
     let level = |verdict: &Verdict| match grade(verdict) {

@@ -101,7 +101,7 @@ pub(crate) fn json(story: &Story) -> String {
     }))
 }
 
-/// Data of the picture: a point for every degree, and the required curve at the angles where the task states it.
+/// Data of the picture: a point for every half degree, and the required curve at the angles where the task states it.
 pub(crate) fn diagram(story: &Story) -> TimingDiagram {
     let (task, achieved) = (story.task, story.achieved);
     let rows = (0..achieved.turns.len()).step_by((achieved.turns.len() / 720).max(1));

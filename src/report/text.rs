@@ -57,7 +57,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     text
 }
 
-/// An engine, its resolution and the sources of its numerical error.
+/// An engine, its resolution, and the runs from which its error is estimated.
 fn described(info: &EngineInfo) -> String {
     let resolution = info.settings.resolution;
     let [at, coarse, fine] = [resolution, 2.0 * resolution, resolution / 2.0].map(seconds);

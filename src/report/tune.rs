@@ -28,7 +28,7 @@ pub(crate) struct Section<'a> {
 pub(crate) struct Hints<'a> {
     /// Function of an engine's name: it returns the command that shows why the engine does not run.
     pub(crate) why: &'a dyn Fn(&str) -> String,
-    /// How to write the section.
+    /// Option or function that writes the section, such as `--write`.
     pub(crate) write: &'a str,
 }
 

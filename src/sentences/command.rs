@@ -6,7 +6,7 @@ linkage::sentences! {
     nothing_was_accepted_of_there(file, place) = "{file} has no accepted figures: {place} does not exist";
     // cli/advice.rs
     such_as(name, to) = ", such as {name} {to}";
-    ALL_OF_THEM_WITH_JSON = "all of them with -o FILE.json";
+    ALL_OF_THEM_WITH_JSON = "-o FILE.json lists all of them";
     ASK_FOR_A_LARGER_ERROR_OTHER = "ask for a larger error, other channels (--channel) or more engines (--engine all)";
     name_a_column_of_linkproof(groups) = "name a column of `linkproof solve`, such as joint.A.fx_N, or a group: {groups}";
     READ_THEM_OFF_A_TABLE_OF_LINKPROOF = "take the values from a table of `linkproof solve` instead";
@@ -72,7 +72,7 @@ linkage::sentences! {
     the_catalogue_has_no_motor(rpm) = "the catalogue has no motor with a synchronous speed of {rpm} rpm";
     GIVE_A_NUMBER_FROM_TO = "give a number from 1 to 1000000";
     points_is(points) = "--points is {points}";
-    GIVE_A_NUMBER_OF_DEGREES = "give a number of degrees above zero, such as 10";
+    GIVE_A_NUMBER_OF_DEGREES = "give at least 0.00036 deg, such as 10: a table has at most 1000000 rows per turn";
     step_deg_is(step_deg) = "--step-deg is {step_deg}";
     // cli/engine_section.rs
     CHECK_THAT_THE_FILE_MAY_BE_WRITTEN = "check that the file is writable, or copy the section by hand";

@@ -332,8 +332,8 @@ linkage::sentences! {
     in_the_trunk_of_kinds_are_found(found, all, percent) = "; in the part that all parties share (trunk) {found} of {all} kinds are found by outside references ({percent})";
     FAULTS_IN_ONE_PARTY = "faults in one party";
     NOTHING_PLANTED_NO_FAULT_OF_THE_KINDS = "NOTHING PLANTED  no fault of the requested kinds changes a result, so detection is not tested";
-    LEAST_MARGIN_DIFFERENCE_OVER_ITS_BOUND = "least margin: difference over its bound of what sees the fault most clearly, where it is least clear.
-found down to: sizes above this are found in every scenario, to a factor of two; relative, angles in rad.";
+    LEAST_MARGIN_DIFFERENCE_OVER_ITS_BOUND = "least margin: the smallest ratio of difference to bound over all found faults of a kind in one party or formula; for each fault the channel or check with the largest ratio counts.
+found down to: faults larger than this are found in every scenario, to a factor of two; relative sizes, angles in rad.";
     no_fault_of_the_kinds_asked(name, instead, formulas) = "{name}: no fault of the requested kinds changes a result; kinds that do: {instead}{formulas}\n";
     NO_FORMULA_OF_IT_CLAIMS_AN_EXACT = "; no formula of the scenario claims an exact value, so formula faults cannot be planted";
     // report/plan.rs
@@ -362,7 +362,7 @@ found down to: sizes above this are found in every scenario, to a factor of two;
     error_over_the_scale(group) = "{group}: error divided by the channel's scale";
     // report/stress/summary.rs
     no_mechanism_at(at, why) = "  not a valid mechanism at {at}: {why}";
-    points_of_results_agree_are_inconclusive(points, silent, panics, verdicts, agree, open, against, fails, refused) = "{points} points: {silent}, {panics}; of {verdicts} results {agree} agree, {open} are inconclusive, {against} disagree, {fails} fail with a reason; {refused} points are not a valid mechanism, with a reason";
+    points_of_results_agree_are_inconclusive(points, silent, panics, verdicts, agree, open, against, fails, refused) = "{points} points: {silent}, {panics}; of {verdicts} results {agree} agree, {open} are inconclusive, {against} disagree, {fails} fail with a reason; {refused} points gave no results, each with its reason";
     NO_SILENT_WRONG_NUMBER = "no silent wrong number";
     // report/synthesize.rs
     a_dwell_ends_where_the_output(value) = "A dwell ends when the output is {value} % of the stroke away from the middle of its extremes. A motion ends at its extreme position.";
@@ -422,7 +422,7 @@ found down to: sizes above this are found in every scenario, to a factor of two;
     of_values(judged, of) = "{judged} of {of} values";
     of_channels(disagree, all) = "{disagree} of {all} channels";
     the_crank_angle_and_of_channels(disagree, all) = "the crank angle and {disagree} of {all} channels";
-    the_crank_angle_and_none(all) = "the crank angle, but none of the {all} channels";
+    the_crank_angle_and_none(all) = "the crank angle disagrees; all {all} channels agree";
     all_channels(agree) = "all {agree} channels agree";
     THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH = "The other differences are below 2 % of their scale, as an integration method or its time step can cause. Bounds cover only rounding of the data and the uncertainty of the analytic sides: state how accurate the other party is.";
     ALL_WITHIN_THEIR_BOUNDS = ", all within their bounds";

@@ -123,11 +123,11 @@ const NEVER: &[(&str, &str)] = &[
     // Reports show results of the analytic crate and of design work, but compute no motion.
     ("linkproof::report", "analytic::assur analytic::assur_solver analytic::motion analytic::newton rapier_twin"),
     ("linkproof::cli", "rapier_twin"),
-    // Drawings of mechanisms do not depend on the solver.
+    // Random mechanisms are made without a solver.
     ("lab::specimens", "analytic prover linkage::solver"),
     // `lab::outside` starts foreign programs, but does not use the solvers of this project.
     ("lab::outside", "analytic prover linkage"),
-    // Diagrams, drawings and exports accept the states of any solver.
+    // Diagrams and exports accept the states of any solver; the task of a synthesis needs no solver.
     ("design::diagram", "analytic"),
     ("design::export", "analytic"),
     ("design::synthesize::task", "analytic linkage::solver"),
@@ -137,7 +137,7 @@ const NEVER: &[(&str, &str)] = &[
 /// Foreign crates are used only in the module that wraps them.
 /// Only the command line uses the clock and the terminal.
 /// Only the modules that read or write files use the file system.
-/// Unordered hash tables are banned, so that no result depends on their order.
+/// Outside `recording`, unordered hash tables are banned, so that no result depends on their order.
 const HOMES: &[(&str, &str)] = &[
     ("mcap", "recording"),
     ("foxglove", ""),
@@ -178,7 +178,7 @@ const HOMES: &[(&str, &str)] = &[
     ("SystemTime", "linkproof::cli"),
     ("stdout", "linkproof::cli"),
     ("stderr", "linkproof::cli"),
-    // The command line only writes files; `outside`, `recording`, `scenario` and `tables` read files.
+    // The command line only writes files; `files`, `outside`, `recording`, `scenario` and `tables` read files.
     ("fs", "linkproof::cli files lab::outside recording scenario prover::tables"),
     ("File", "files lab::outside recording prover::tables"),
     ("OpenOptions", ""),
@@ -211,7 +211,7 @@ const HOMES: &[(&str, &str)] = &[
 /// side.
 const SIDES: [&[&str]; 2] = [&["assur", "assur_solver.rs"], &["newton"]];
 
-/// Upper limit of the lines of a file; a longer file has more than one purpose.
+/// A file must have fewer lines than this; a longer file has more than one purpose.
 const MOST_LINES: usize = 600;
 
 /// Words that no code may contain.
@@ -551,8 +551,8 @@ fn files_are_short_and_free_of_stopgaps() {
             if lines >= MOST_LINES {
                 wrong.push(format!("{}: {lines} lines, fewer than {MOST_LINES} are allowed; split it", file.display()));
             }
-            // This file names the banned words, and the boundary to Simbody has its own test, so both files are
-            // skipped.
+            // This file names the banned words, and the boundary to Simbody has its own test, so banned words are not
+            // searched for in these two files.
             let own = file.ends_with("suite/architecture.rs") || file.ends_with("simbody/src/ffi.rs");
             let told = |line: &str| line.trim_start().starts_with("//");
             let code: String = text.lines().filter(|line| !told(line)).collect::<Vec<_>>().join("\n");

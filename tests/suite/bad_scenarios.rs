@@ -1,5 +1,6 @@
-//! Errors in a scenario file and their messages. Each case is one edit of a good scenario. Each case asserts the kind
-//! of error, the line, the key, and the words that help the user.
+//! Errors in a scenario file and their messages.
+//! Each case is a good scenario with one or a few edits, and asserts the kind of error, the line, the key, and the
+//! words that help the user.
 
 use std::path::Path;
 

@@ -28,7 +28,7 @@ fn end(case: &Case, way: f64, steps: usize, deepest: Stage) -> Result<Vec<Vec2>>
 }
 
 /// A four-bar with crank, coupler, rocker and frame of these lengths.
-/// A dyad joins the point `at` of the rocker to the ground at `pivot`.
+/// The dyad, if there is one, joins the point `at` of the rocker to the ground at `pivot`.
 fn six_bar(
     [crank, coupler, rocker, frame]: [f64; 4],
     dyad: Option<(Vec2, Vec2, [f64; 2])>,
@@ -60,8 +60,8 @@ fn six_bar(
     }
 }
 
-/// The outer joints of the dyad of a four-bar are farthest apart where crank and frame are in line.
-/// The pose with crank and frame in line is a change point if coupler and rocker together are exactly as long as the
+/// The outer joints of the dyad of a four-bar are farthest apart where the crank points away from the rocker's ground
+/// joint (crank angle pi). This pose is a change point if coupler and rocker together are exactly as long as the
 /// distance of the outer joints.
 #[test]
 fn no_step_passes_over_the_change_point_of_a_four_bar() {

@@ -38,7 +38,7 @@ pub(crate) fn table(columns: &[(&str, Vec<f64>)]) -> Raw {
     }
 }
 
-/// `EXPR=CHANNEL`, line by line.
+/// The mapping with these lines, each `EXPR=CHANNEL`.
 fn mapping(lines: &[&str]) -> Mapping {
     let mut mapping = Mapping::default();
     lines.iter().for_each(|line| mapping.push(Mapped::parse(line, "a test").unwrap()));

@@ -22,7 +22,8 @@ fn agrees(what: &str, spec: &Spec) {
 }
 
 /// A parallelogram between its change points.
-/// All angular speeds are equal, and all angular accelerations vanish.
+/// Crank and rocker rotate at the same constant speed, and the coupler only translates.
+/// All angular accelerations therefore vanish.
 /// Without gravity, the balancing moment vanishes too.
 fn parallelogram() -> Spec {
     let mut spec = four_bar([0.4, 0.1, 0.4, 0.1], true);
@@ -104,7 +105,7 @@ fn regress_a_link_of_a_single_point_has_a_size() {
         agrees_by(reference.name(), &parsed(&free), &Options::default().reference(reference));
     }
     // Two further cases of the pendulum: the link turned at constant speed, and the link driven from rest by a motor.
-    // In the case with the motor, the mass centre of the link is in the pivot, like that of a flywheel.
+    // With the motor, the mass centre of the link is in the pivot, like that of a flywheel, or 1 mm beside it.
     let driven = without(&without(&free, "motion ="), "zero_deg");
     agrees_by("driven", &parsed(&driven), &Options::default());
     let motor = "motion = \"free\"\ninitial_speed_rad_s = 0\n";

@@ -181,7 +181,7 @@ fn configurations_are_drawn_side_by_side_with_their_names() {
     assert_ne!(one, svg(&[&file("ov7_base")]));
 }
 
-/// If the file leaves the mode open, the command points to the list of configurations.
+/// If the file leaves the mode open, the command points to `--each-mode`, which draws all configurations.
 #[test]
 fn a_missing_mode_can_be_chosen_from_the_picture() {
     let directory = tempfile::tempdir().unwrap();
@@ -284,8 +284,7 @@ fn wrong_input_is_refused_with_a_remedy() {
     }
 }
 
-/// The drawing has rings at a pin that joins three links, a cross at a point without a joint, and a zigzag for a
-/// spring.
+/// A pin that joins three links has a ring, and loads have a colour of their own.
 #[test]
 fn marks_distinguish_pins_and_loads() {
     let rings = |name: &str| {

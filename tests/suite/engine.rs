@@ -57,7 +57,7 @@ fn double(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
     stepping(dt).filter(|engine| !single(engine.as_ref()))
 }
 
-/// Checks order of convergence 2 in every channel whose error is not rounding, over the steps h, h/2 and h/4.
+/// Checks the formal order of convergence in every channel whose error is not rounding, over the steps h, h/2 and h/4.
 fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>, solver: &dyn Solver) {
     let reference = solve(solver, case);
     for engine in engines {

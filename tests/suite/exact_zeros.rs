@@ -66,8 +66,8 @@ fn translating_links_take_the_scale_of_rotating_ones() {
             assert!(own.residual.scale >= tenth * (1.0 - 1e-9), "{link}{suffix}: {own:?}");
         }
     }
-    // In this mechanism no channel is zero throughout, so a small channel keeps its small scale.
-    // The small scale is at least a thousandth of the natural size.
+    // A channel that is small, but not zero throughout, keeps its small scale.
+    // This scale is at least a thousandth of the natural size.
     let crank = proven(&shipped("crank_rocker.toml"));
     let small = crank.engine().channels.iter().filter(|own| own.residual.scale < 0.05 * natural(&crank, ".ax_m_s2"));
     assert!(small.count() > 0);

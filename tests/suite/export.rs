@@ -26,7 +26,7 @@ fn exported(case: &Case, name: &str) -> String {
     mjcf(case, &AssurSolver, name, STEP).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// Every shipped scenario that can be exported.
+/// The shipped scenarios at constant speed whose only loads are resistances; all of them can be exported.
 fn all() -> Vec<Scenario> {
     let top = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
     let files = |directory: &std::path::Path| {
@@ -217,7 +217,7 @@ fn the_rotor_inertia_dominates_the_mechanism() {
     }
 }
 
-/// The crank-rocker with other names; its points have only the names of their joints.
+/// The crank-rocker with other names of its links and of its second joint.
 fn renamed(names: [&str; 4], joint: &str) -> Case {
     let case = crate::common::shipped("crank_rocker.toml").case;
     let mut links = case.mechanism.links().to_vec();
@@ -251,7 +251,7 @@ fn names_that_mujoco_does_not_take_are_refused() {
     refused(&renamed(["ground", "crank", "world", "rocker"], "A"), &["world", "links.world"]);
 }
 
-/// Characters that could end an attribute or a file name are removed from exported names.
+/// A mechanism refuses names with characters that could end an attribute or a file name, so none is ever exported.
 #[test]
 fn names_with_special_meaning_are_refused() {
     let links = crate::common::shipped("crank_rocker.toml").case.mechanism.links().to_vec();

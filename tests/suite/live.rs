@@ -16,7 +16,7 @@ use crate::cli::tools::Place;
 
 const OLD: &str = "foxglove.websocket.v1";
 const NEW: &str = "foxglove.sdk.v1";
-/// One pass through the motion takes half a second.
+/// One pass through the motion of 3 s takes 0.3 s.
 /// The budget is small, because the proof does not matter in these tests.
 const RUN: &str = "run scenarios/pendulum.toml --budget 1e5 --live=0 --slow 0.1";
 
@@ -52,7 +52,7 @@ impl Served {
 
 impl Drop for Served {
     fn drop(&mut self) {
-        // If the test passes, the server has already ended, so `kill` has no effect.
+        // A test that has called `end` has ended the server already, and `kill` then has no effect.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

@@ -15,7 +15,7 @@ use scenario::Scenario;
 
 use crate::compare::digits::{Format, RandomSource};
 
-/// A column of instants: format, size of its unit, name.
+/// A column of instants: format, number of its units in an SI unit, name.
 type Instants = (Format, f64, &'static str);
 
 const TIMES: [Instants; 7] = [

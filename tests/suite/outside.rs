@@ -27,7 +27,8 @@ fn loaded(path: &Path) -> Scenario {
 
 /// The files cover cases that are missing in the shipped files:
 /// two resistances on one link, a massless coupler under forces, an eccentric RPR dyad, a PRP dyad on moving guides, an
-/// offset guide at negative speed, a drive's joint named backwards, and a motor's initial speed on a tree.
+/// offset guide at negative speed, a drive's joint with its links in reverse order, and a motor with
+/// an initial speed on an open chain.
 #[test]
 fn external_numbers_hold_on_both_sides_and_in_the_engine() {
     let files = files("tests/outside/scenarios");

@@ -60,7 +60,8 @@ fn exerted_forces_need_a_free_route_and_requested_forces() {
     assert!(proven(&still, &Options::default()).engine().own_forces.is_none());
 }
 
-/// The finest run determines the error of the given step.
+/// No run for the exerted forces is finer than half of the given step.
+/// The proof makes the run with half of the step anyway, to estimate the error of the given step.
 #[test]
 fn a_given_step_is_extrapolated_from_coarser_ones_only() {
     let scenario = shipped("crank_rocker.toml");
@@ -88,7 +89,7 @@ fn every_engine_has_its_own_exerted_forces() {
     }
 }
 
-/// In the run with twice the given step, the impulses of the first five steps still contain an error that the sweeps
+/// In the run with twice the judged step, the impulses of the first five steps still contain an error that the sweeps
 /// have not yet corrected.
 /// These impulses are left out; all later impulses are judged.
 #[test]

@@ -52,8 +52,8 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
                 let count = if word == "agree" { &proven } else { &open };
                 count.set(count.get() + 1);
             }
-            // The run-up leads some mechanisms out of the range in which they can be assembled, so these errors are
-            // allowed.
+            // The engine starts a few steps before the grid. These steps lead some mechanisms out of the range in which
+            // they can be assembled, so these errors are allowed.
             Err(error) => {
                 let says = |words| error.message().contains(words);
                 proptest::prop_assert!(

@@ -306,7 +306,7 @@ fn groups_of_four_links_lose_two_configurations_at_their_limits() {
                 let joint = &case.mechanism.joints()[case.crank().joint];
                 let pivot = joint.other(case.crank().link).local;
                 let own = joint.on(case.crank().link).unwrap();
-                pose.0[case.crank().link] = LinkPose::through(own, pivot, case.crank().world_angle(crank));
+                pose.0[case.crank().link] = LinkPose::through(own, pivot, case.crank().coordinate(crank));
                 configurations(&case.mechanism, &case.structure.groups[GroupId(0)], &pose)
                     .map_or(0, |all| all.len() as i32)
             };
@@ -341,7 +341,8 @@ fn asked(case: &Case, degrees: f64) -> Case {
     case.on(Grid::of_inputs(case.crank(), vec![degrees.to_radians()])).unwrap()
 }
 
-/// Both solvers and the list of configurations report the reachable crank angles, to 1e-6 deg.
+/// The errors of both solvers and of the list of configurations are explained by the reachable crank angles, to 1e-6
+/// deg.
 #[test]
 fn an_unreachable_angle_is_refused_with_the_reachable_range() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
@@ -435,7 +436,8 @@ fn loss_of_digits_at_a_dead_point_follows_the_condition_number() {
 }
 
 /// If two sums of link lengths differ by only a millionth, the mechanism has no change point.
-/// The shortest link is the frame, so all other links rotate fully about it.
+/// The shortest link is the frame. The sign of the difference decides whether all other links rotate fully about it, or
+/// none.
 #[test]
 fn nearly_equal_sums_of_lengths_are_no_change_point() {
     let of = |more: f64| FourBar::of_lengths([1.0, 2.0, 3.0, 2.0 + more]).of_type;

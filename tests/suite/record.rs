@@ -1,5 +1,5 @@
 //! Recordings are read back bit for bit.
-//! Equal runs give equal recordings, and a recording never destroys an older recording.
+//! Equal runs give equal recordings, and a recording replaces an older one only if both are of the same run.
 
 mod picture;
 mod sliders;
@@ -135,7 +135,9 @@ fn value(mechanism: &Mechanism, channel: &Channel, time: f64) -> f64 {
             }
         }
         ChannelSubject::Drive => reactions(mechanism, &motions).1,
-        ChannelSubject::Slider | ChannelSubject::Motor => panic!("a four-bar on a crank has no {channel}"),
+        ChannelSubject::Slider | ChannelSubject::Motor | ChannelSubject::Thrust | ChannelSubject::FurtherThrust => {
+            panic!("a four-bar on a crank has no {channel}")
+        }
     }
 }
 

@@ -55,7 +55,7 @@ fn scenes_of_shipped_scenarios_keep_all_values() {
     }
 }
 
-/// The random mechanisms have loads between links, several drives and sliders, which no shipped scenario has.
+/// The random mechanisms combine loads between links, several drives and sliders; no shipped scenario has all three.
 #[test]
 fn scenes_of_random_mechanisms_keep_all_values() {
     for index in 0..draws(10) as u64 {

@@ -16,7 +16,8 @@ fn case_of(text: &str) -> Case {
     Scenario::parse(text, Path::new("setting_off.toml")).unwrap_or_else(|error| panic!("{error}")).case
 }
 
-/// Both analytic sides and all engines in double precision with the time step `step` (s), each with its bound.
+/// Both analytic sides, and both builds of Rapier in double precision with the time step `step` (s), each with its
+/// bound.
 fn solvers(step: f64) -> Vec<(Box<dyn Solver>, f64)> {
     let mut all: Vec<(Box<dyn Solver>, f64)> = vec![(Box::new(AssurSolver), 1e-11), (Box::new(NewtonSolver), 1e-11)];
     for name in ["rapier", "impulse"] {

@@ -150,7 +150,7 @@ fn regress_the_first_step_of_a_start_from_rest_is_left_out() {
     }
 }
 
-/// A free motion over ten thousand steps of the grid.
+/// A free motion over five seconds.
 /// The sides differ by more than the rounding of a pose, but by less than their integration error.
 /// A run with a tighter accuracy shows the integration error.
 #[test]
@@ -171,7 +171,7 @@ fn regress_a_long_run_up_is_bounded_by_its_integration_error() {
     assert!(positions.value > 1e-13 && positions.bound > 1e-12 && positions.bound < 1e-9, "{positions:?}");
 }
 
-/// A parallelogram whose crank passes at `gap` degrees from both change points.
+/// A parallelogram whose grid keeps the crank `gap` degrees away from both change points.
 fn parallelogram(gap: f64, more: &str) -> Scenario {
     let (to, step) = (180.0 - gap, gap);
     parsed(&format!("{PARALLELOGRAM}from_deg = {gap}\nto_deg = {to}\nstep_deg = {step}\n{more}"))
@@ -261,7 +261,8 @@ mode = "left"
 
 /// Symptom: at every step tried, an engine passed the dead points outside its grid, before the first instant and after
 /// the last.
-/// The engine passed these points when it covered its whole range, and the search attributed the error to the sweeps.
+/// Cause: the engine makes a few steps before the grid and beyond it, and the search attributed the error of the
+/// crossing to the sweeps.
 /// Both ends of the test's grid are 0.15 deg from a dead point.
 #[test]
 fn regress_steps_do_not_cross_dead_points_beyond_the_grid() {

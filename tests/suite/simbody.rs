@@ -26,7 +26,7 @@ fn scenarios() -> Vec<String> {
     let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios");
     let names = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
-    // The engine refuses drives whose speed changes.
+    // The engine refuses motion laws other than constant speed; free motions have a test of their own.
     names.retain(|name| shipped(name).case.is_steady());
     names.sort();
     assert!(names.len() >= 12, "{names:?}");
@@ -146,7 +146,7 @@ fn variants_of_a_four_bar_agree() {
     }
 }
 
-/// Largest change of each kind of channel when one joint of a four-bar is displaced by `open` (m), by the reference.
+/// Largest change of each kind of channel when one joint of a four-bar is displaced by `open` (m), computed by side 1.
 fn felt(spec: &Spec, open: f64) -> BTreeMap<(Stage, &'static str), f64> {
     let case = |spec: &Spec| spec.scenario().unwrap().case;
     let truth = solve(&AssurSolver, &case(spec));
@@ -202,7 +202,8 @@ fn laws_other_than_constant_speeds_are_refused_by_name() {
     assert!(error.message().contains("law \"cycloidal\"") && error.way_out().is_some(), "{error}");
 }
 
-/// The loads of the press, and a force against the motion of its ram, before and after the start.
+/// The loads of the press, a force against the motion of its ram, and a torsional spring and a resistance on its rod.
+/// The instants lie before and after the start.
 #[test]
 fn loads_of_all_sorts_agree() {
     let case = shipped("loaded_slider.toml").case;

@@ -50,8 +50,8 @@ fn regress_change_points_are_refused() {
         is_refused("over", &at(parallelogram, left, 60.0, &[95.0, 175.0, 185.0, 275.0]), 180.0);
         is_refused("over, in one step of one degree", &at(parallelogram, left, 179.5, &[179.5, 180.5]), 180.0);
         is_refused("back over", &at(parallelogram, left, 60.0, &[60.0, -10.0]), 0.0);
-        // Two cases that the fault report does not name: a kite, and lengths whose longest two sum to as much as the
-        // shortest two.
+        // Two cases that the fault report does not name: a kite, and lengths whose longest and shortest sum to as much
+        // as the other two.
         is_refused("kite", &at([0.3, 0.2, 0.2, 0.3], left, 90.0, &[90.0, 200.0]), 180.0);
         is_refused("sum", &at([0.5, 0.1, 0.25, 0.35], left, 90.0, &[90.0, 170.0, 190.0]), 180.0);
     }
@@ -175,7 +175,8 @@ fn regress_a_crank_without_length_is_refused() {
     assert!(error.scenario_key().is_some(), "{error}");
 }
 
-/// Beyond a dead point of the followed branch, configurations are found in the opposite direction.
+/// If the direct way to a crank angle crosses a dead point, the configurations at this angle are found by way of the
+/// opposite direction of rotation.
 #[test]
 fn regress_configurations_beyond_a_dead_point_are_found() {
     // The crank swings between 44 and 316 deg.

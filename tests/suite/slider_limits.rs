@@ -52,7 +52,7 @@ fn no_solver_continues_beyond_parallel_axes() {
     }
 }
 
-/// At 244.158 deg the rod of `short_rod` is in line with the normal of the guide: a dead point.
+/// At crank angle 261.347 deg the rod of `short_rod` is in line with the normal of the guide: a dead point.
 #[test]
 fn a_start_at_a_dead_point_of_a_slider_is_reported() {
     let case = short_rod();

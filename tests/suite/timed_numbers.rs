@@ -41,7 +41,7 @@ fn told(t: &str, value: f64) -> String {
     )
 }
 
-/// Verdicts, as words, on the published number of a scenario text, one per side.
+/// Verdicts, as words, on the `[[oracle]]` number of a scenario text, one per side.
 fn verdicts(text: &str) -> Vec<&'static str> {
     let proof = prove(&read(text, Path::new("disc.toml")), &Options::default()).unwrap();
     let own = proof.checks.iter().filter(|check| check.family.contains("closed form"));

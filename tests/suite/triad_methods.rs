@@ -142,8 +142,8 @@ fn all_methods_agree_with_both_solvers_over_the_turn_of_the_published_drive() {
             // The solver adds its rounding errors, so the bound is 1e-13.
             assert!(found.are_within(1e-13), "{name} {} {found:?}", solver.name());
             assert!(found.condition < 2.0 && found.chain < 2.0, "{found:?}");
-            // The motion passes both limits of the ground lead.
-            // The base link and the lead other than the ground lead never come close to one line, so no exchange
+            // The motion passes both limits of the first ground lead.
+            // The base link never comes close to one line with the ground lead that does not drive, so no exchange
             // occurs.
             assert_eq!((found.limits, found.exchanges), (2, 0));
         }
@@ -275,7 +275,7 @@ fn class_change_is_lost(case: &Case, times: &[f64]) -> bool {
 }
 
 /// Compares the methods on `count` random mechanisms.
-/// Returns the number of exchanges of a conditional driver and of dead points.
+/// Returns the number of exchanges of a conditional driver, and the number of dead points.
 fn on_random_mechanisms(moving: bool, count: u32) -> [usize; 2] {
     let config = Config {
         cases: count,

@@ -28,7 +28,7 @@ to_s = 0.5
 step_s = 0.05
 "#;
 
-/// Settings that change the course of a run-up in time.
+/// Kinds of faults that change the course of a run-up in time.
 const COURSE: [&str; 17] = [
     "initial-speed",
     "initial-speed-missing",

@@ -106,7 +106,7 @@ fn changed_output_lines_are_detected() {
     }
 }
 
-/// Pictures that the page shows, with the names under which they are made.
+/// Names of the pictures that the page shows; the commands write the pictures under these names.
 fn pictures(page: &str) -> impl Iterator<Item = &str> {
     page.split("](tutorial/").skip(1).map(|rest| rest.split_once(')').unwrap().0)
 }

@@ -93,13 +93,13 @@ fn closed_form_ranges_match_the_traced_curves() {
     assert_eq!((full, crossed), (19, vec![(16, SingularityKind::ChangePoint)]));
 }
 
-/// Angle (deg) from the direction `from` to the direction `to`, counter-clockwise, minus `expected`.
+/// Difference (rad) between the angle from `from` to `to`, counter-clockwise, and the angle `expected` (deg).
 fn off(from: Vec2, to: Vec2, expected: f64) -> f64 {
     wrapped(to.y.atan2(to.x) - from.y.atan2(from.x) - expected.to_radians()).abs()
 }
 
-/// The given pose, constructed by hand, closes all joints. Where the pose is not singular, both solvers find it, with
-/// its angles.
+/// The given pose, constructed without the solvers, closes all joints.
+/// Where the pose is not singular, both solvers find it, with its angles.
 #[test]
 fn the_given_pose_closes_all_joints_of_the_file() {
     let mut singular = 0;

@@ -1,4 +1,5 @@
-//! Wrong tables, as engineers and students make them; the kinds of these tables were not used to develop the diagnosis.
+//! Wrong tables, as engineers and students make them, in two halves.
+//! The diagnosis was improved with the first half; the second half was tried only afterwards.
 //! All wrong tables are found, no false cause is named, and most causes are named.
 
 mod first_half;
@@ -23,9 +24,9 @@ use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 enum Make {
     /// Passages of the scenario's text and their replacements.
     Text(&'static [(&'static str, &'static str)]),
-    /// Another case.
+    /// A change of the case that is solved.
     Case(fn(&mut CaseParts)),
-    /// Columns that were spoiled.
+    /// A change of the columns of a correct solution.
     Values(fn(&mut Sheet)),
 }
 
@@ -39,7 +40,7 @@ struct Wrong {
     named: &'static [&'static str],
 }
 
-/// The correct columns of a table.
+/// The columns of a table, correct until a change spoils them.
 struct Sheet {
     times: Vec<f64>,
     columns: Vec<(String, Vec<f64>)>,

@@ -34,8 +34,7 @@ impl Solver for AssurSolver {
         let mut poses = if case.wants_angles() { PoseSolver::counting_turns(case)? } else { PoseSolver::new(case)? };
         let deepest = case.wanted.deepest();
         for (done, row) in case.grid.ascending().into_iter().enumerate() {
-            let drive = case.crank().at(case.grid.times[row]);
-            poses.solve(case.grid.inputs[row], drive.rate, drive.acceleration, deepest)?;
+            poses.solve_row(row, deepest)?;
             visit(row, poses.with_angles())?;
             progress((done + 1) as f64 / case.grid.len() as f64);
         }

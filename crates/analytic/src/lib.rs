@@ -4,6 +4,8 @@
 
 pub mod assur;
 mod assur_solver;
+#[cfg(test)]
+mod given;
 pub mod modes;
 pub mod motion;
 pub mod newton;

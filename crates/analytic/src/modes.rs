@@ -63,7 +63,7 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
     let t = case.crank().time_of(crank);
     let omega = if case.is_steady() { case.crank().at(t).rate } else { case.crank().top_speed() };
     let (angles, omegas) =
-        (case.drives.world_angles(crank), case.drives.ratios(t).map(|ratio| ratio * omega).collect::<Vec<f64>>());
+        (case.drives.coordinates(crank), case.drives.ratios(t).map(|ratio| ratio * omega).collect::<Vec<f64>>());
     poses.solve(crank, omega, 0.0, Stage::Velocities)?;
     let state = poses.with_angles().clone();
     let followed: Vec<LinkPose> =

@@ -22,7 +22,7 @@ pub use grashof::{FourBar, FourBarType};
 pub use measure::GroupCondition;
 pub use singularity::{Singularity, SingularityKind, ValueAtCrank};
 
-use constraints::Constraints;
+use constraints::{Constraints, Given};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
@@ -164,7 +164,8 @@ fn interval([from, to]: [Singularity; 2]) -> String {
 /// Velocities are undetermined in such a pose.
 #[must_use]
 pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
-    let constraints = Constraints::of(mechanism, Vec2::zeros(), Vec::new());
+    let given = group.given.iter().map(|&joint| Given(joint)).collect();
+    let constraints = Constraints::of(mechanism, Vec2::zeros(), given);
     let jacobian = constraints.at(&constraints.coordinates_of(pose)).jacobian;
     !(measure::of(&constraints.block(&jacobian, group), mechanism, group, pose).determinant.abs() > SINGULAR)
 }
@@ -174,7 +175,8 @@ pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
 /// The error of a link grows with the product of the condition numbers of its group and the groups before it.
 #[must_use]
 pub fn conditions(mechanism: &Mechanism, groups: &[Group], pose: &Pose) -> Vec<f64> {
-    let constraints = Constraints::of(mechanism, Vec2::zeros(), Vec::new());
+    let given = groups.iter().flat_map(|group| &group.given).map(|&joint| Given(joint)).collect();
+    let constraints = Constraints::of(mechanism, Vec2::zeros(), given);
     let jacobian = constraints.at(&constraints.coordinates_of(pose)).jacobian;
     let of = |group| measure::of(&constraints.block(&jacobian, group), mechanism, group, pose).condition;
     groups.iter().map(of).collect()

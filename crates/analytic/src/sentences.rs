@@ -1,6 +1,9 @@
 //! All sentences that this crate can show, collected in one list.
 
 linkage::sentences! {
+    // range/tracking.rs
+    ONE_OF_SEVERAL_DRIVES_CHANGES = "the range of motion is a curve only if all drives have constant speeds, and one of several drives changes its speed";
+    GIVE_THE_DRIVES_CONSTANT_SPEEDS = "give all drives constant speeds";
     // assur/passing.rs
     PASS_IT_WITH_THROUGH_SMOOTH = "pass it with `through = \"smooth\"` in [drive], if two branches meet there";
     LET_THE_GRID_END_BEFORE_IT = "end the grid before it";
@@ -41,7 +44,7 @@ linkage::sentences! {
     driving_links_are_free_at_most(free, most_freedoms) = "{free} driving links move freely, but at most {most_freedoms} can be solved";
     // motion/march.rs
     IT_RUNS_AWAY_OR_A_LOAD_TURNS = "the motion runs away, or a load reverses all the time: check loads and motor, or end the grid earlier";
-    of_the_motion_has_gone_in_pieces(last, x, value) = "the motion took {value} pieces for the first {x:.9} s of {last} s";
+    of_the_motion_has_gone_in_pieces(last, x, value) = "the motion had to be divided into {value} pieces within the first {x:.9} s of {last} s";
     NO_STEP_REACHES_ITS_BOUND = "no time step ends at the boundary of its piece";
     ITS_STEPS_BECOME_TOO_SMALL = "its steps become too small, as at a singular pose (dead point or change point)";
     of_steps_it_is_only_on_of(steps, way, last) = "{steps} steps have covered only {way} of {last}";

@@ -176,7 +176,7 @@ const FEW: usize = 2;
 
 /// A column counts as single precision only if at least this many cells have eight or more digits.
 /// In addition, each cell must be the shortest text of a number in single precision.
-/// By chance, about one in eight decimal numbers with eight digits is such a text.
+/// By chance, about one in five decimal numbers with eight digits is such a text.
 const TELLING: usize = 8;
 
 /// Precision of the numbers of a column before the numbers were printed. Single precision comes before double

@@ -16,8 +16,8 @@ const SINGLE: u16 = 7;
 /// a half.
 /// A file usually has one format. If the format omits trailing zeros, the cells of a column that is not constant differ
 /// in their decimals and in their significant digits.
-/// If the cells of all columns in `others` differ in this way, the zeros have at least the decimals and digits of the
-/// coarsest of these columns.
+/// If the cells of all columns in `others` differ in this way, apart from constant columns and steps, the zeros have at
+/// least the decimals and digits of the coarsest of these columns.
 /// Two kinds of columns show that each column may have a separate format. The zeros may then be rounded to the format
 /// of their column.
 /// The first kind has a fixed number of decimals, as from `%.6f`. The second kind contains whole numbers that are not
@@ -46,7 +46,8 @@ struct Vouched {
     precision: Precision,
 }
 
-/// Evidence from the columns `others`; `None` if these columns give no evidence.
+/// Evidence from the columns `others`.
+/// `None` if these columns give no evidence, or if the format of one of them does not omit trailing zeros.
 fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouched> {
     let mut coarsest: Option<Vouched> = None;
     for column in others {

@@ -46,7 +46,7 @@ pub struct Allowance {
 /// Two columns at the same rows.
 #[derive(Clone, Copy, Debug)]
 pub struct Beside<'a> {
-    /// What both say.
+    /// Values of the first and the second party.
     pub values: [&'a [Rounded]; 2],
     /// Times (s) and crank angles (rad) of the rows; NaN if unknown.
     pub places: [&'a [f64]; 2],
@@ -54,7 +54,7 @@ pub struct Beside<'a> {
     pub drift: &'a [f64],
     /// Period of a quantity, such as a whole turn. Values that differ by a multiple of the period mean the same.
     pub turn: Option<f64>,
-    /// What is allowed.
+    /// Difference that is allowed in addition to the known part of the bound.
     pub allowance: Allowance,
     /// Selects which of the two columns is the reference.
     pub measure: ScaleColumn,
@@ -63,7 +63,7 @@ pub struct Beside<'a> {
 /// Selects the reference of two columns: the first, unless only the second comes from an analytic side.
 #[derive(Clone, Copy, Debug)]
 pub struct ScaleColumn {
-    /// Its number, from 0.
+    /// Index of the reference column: 0 or 1.
     pub party: usize,
     /// Whether the reference comes from an analytic side. If an analytic side has no number in a row, no number is
     /// expected.
@@ -177,7 +177,7 @@ mod tests {
             // The second party is now the reference. The bound therefore depends on the second party's number, 26.
             let by_other = judge(&Beside { measure: ScaleColumn { party: 1, is_analytic: false }, ..both });
             assert_eq!(by_other.largest.unwrap().bound, 0.1 * 26.0);
-            // With a turn of 5, a difference of 4 becomes -1.
+            // With a turn of 5, the difference -4 becomes 1.
             let turned = judge(&Beside { turn: Some(5.0), ..both });
             assert_eq!((turned.largest.unwrap().row, turned.largest.unwrap().difference.abs()), (1, 1.0));
         }

@@ -56,7 +56,7 @@ pub struct TableFault {
     pub at: Range<usize>,
     /// What was found.
     pub message: String,
-    /// The way out.
+    /// The remedy.
     pub help: String,
 }
 
@@ -70,7 +70,7 @@ pub struct Twice {
 }
 
 impl Twice {
-    /// The way out.
+    /// The remedy.
     pub const HELP: &str = sentences::GIVE_EVERY_COLUMN_A_NAME;
 
     /// The first name that occurs twice. Columns without a name do not count, because no request can refer to them.
@@ -162,13 +162,14 @@ pub fn read(text: &str) -> Result<TextTable, TableFault> {
     Ok(TextTable { names, columns, lines: places })
 }
 
-/// The number in a cell. Decimal commas are accepted if commas do not separate the cells.
+/// The number in a cell. A decimal comma is accepted.
+/// If commas separate the cells, only a cell in quotes can contain a decimal comma.
 fn number(cell: &str) -> Option<TableCell> {
     TableCell::parse(cell)
         .or_else(|| (cell.matches(',').count() == 1).then(|| TableCell::parse(&cell.replace(',', ".")))?)
 }
 
-/// The lines that are not comments, each with the position of its first byte.
+/// The lines that are neither blank nor comments, each with the position of its first byte.
 /// Trailing tabs stay, because they may separate empty cells.
 fn lines(text: &str) -> impl DoubleEndedIterator<Item = (usize, &str)> {
     let begin = text.as_ptr() as usize;

@@ -76,7 +76,8 @@ pub struct ClearanceResult {
     pub pairs: Vec<PairClearance>,
     /// Swept areas of the question's moving bodies: index of the body and area.
     pub swept: Vec<(usize, Area)>,
-    /// Parts of the range (rad) for which no bound could be proven. These parts lie around singular poses.
+    /// Parts of the range (rad) for which no bound could be proven.
+    /// These parts lie around singular poses, or remain when the limit of the work is reached.
     pub open: Vec<[f64; 2]>,
     /// Error bound of the smallest distances (m).
     pub tolerance: f64,
@@ -225,6 +226,7 @@ fn cranks(case: &Case) -> Result<Vec<f64>> {
 }
 
 /// Returns the first and the last crank angle of the grid, in the direction of motion (rad).
+/// If the poses repeat after a turn, the range is limited to one turn.
 fn range(case: &Case) -> Result<[f64; 2]> {
     let [low, mut high] = ends(cranks(case)?);
     let dyads = case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);

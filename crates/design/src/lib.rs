@@ -1,5 +1,5 @@
 //! Design of a mechanism whose numbers are proven. This crate is not part of the proof.
-//! The crate covers bearings, clearance, diagrams, export, flywheel, motor choice and synthesis.
+//! The crate covers bearings, clearance, diagrams, export, flywheel, motor choice, plans and synthesis.
 
 pub mod bearings;
 pub mod clearance;

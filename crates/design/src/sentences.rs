@@ -8,7 +8,7 @@ linkage::sentences! {
     THE_BREAKDOWN_TORQUE_IS_NOT_ABOVE = "the breakdown torque is not above the rated one";
     CHECK_THE_TWO_SPEEDS_AND_THEIR = "check the two speeds and their units";
     THE_RATED_SPEED_IS_NOT_BELOW = "the rated speed is not below the synchronous one";
-    ADD_A_TABLE_MOTORS_FOR_EACH = "add a table `[[motors]]` for each";
+    ADD_A_TABLE_MOTORS_FOR_EACH = "add a table `[[motors]]` for each motor";
     THE_CATALOGUE_HOLDS_NO_MOTOR = "the catalogue contains no motor";
     GIVE_THE_PATH_OF_A_CATALOGUE = "give the path of a catalogue of motors, such as catalogues/motors.toml";
     the_catalogue_cannot_be_read(path, error) = "the catalogue {path} cannot be read: {error}";
@@ -110,7 +110,7 @@ linkage::sentences! {
     // synthesize/redraw.rs
     GIVE_THE_TEXT_OF_THE_SCENARIO = "give the text of the scenario that the task names";
     the_drawing_has_no_where(name) = "the text of the drawing has no `{name}`, which the scenario of the task has";
-    left_out_of_the_drawing_because(keys) = "\nThese keys of the drawing are left out, because they are valid for its own dimensions only: {keys}.\nThe comments below come from the drawing.";
+    left_out_of_the_drawing_because(keys) = "\nThese keys of the drawing are left out, because they are valid only for the original dimensions: {keys}.\nThe comments below come from the drawing.";
     the_file_is_not_valid_toml(error) = "the file is not valid TOML: {error}";
     // synthesize/achieved.rs
     THE_MECHANISM_CANNOT_BE_ASSEMBLED = "the mechanism cannot be assembled over a whole turn of its crank, or its output does not rock";
@@ -153,8 +153,8 @@ linkage::sentences! {
     GIVE_A_DECIMAL_NUMBER_FOR_A_CENTRAL = "give a decimal number; 0 for a central slider-crank";
     the_stroke_is(stroke) = "the stroke is {stroke} m";
     // synthesize/task.rs
-    THE_SEARCH_HAS_NO_CANDIDATES = "the search has no candidates, no refinements or no evaluations";
-    GIVE_COUNTS_OF_OR_MORE_AND_NO_MORE = "give counts of 1 or more, and no more refinements than candidates";
+    THE_SEARCH_HAS_NO_CANDIDATES = "a count of the search is outside its limits";
+    GIVE_COUNTS_OF_OR_MORE_AND_NO_MORE = "give counts from 1 to 1000000000, and no more refinements than candidates";
     LEAVE_TRANSMISSION_OUT = "leave `transmission` out";
     A_SMALLEST_TRANSMISSION_ANGLE_IS_ASKED = "a smallest transmission angle is required, but higher groups have no transmission angle";
     NOTHING_MAY_VARY = "no dimension may vary";
@@ -185,9 +185,9 @@ linkage::sentences! {
     point_of_the_drawing_lies(point_name) = "point \"{point_name}\" of the drawing coincides with another point of the link: its joints cannot be distinguished";
     link_has_no_point(link_name, name) = "link \"{link_name}\" has no point \"{name}\"";
     LET_FROM_BE_THE_SMALLER_OF_THE_TWO = "make `from` the smaller of the two";
-    THE_GREATEST_VALUE_IS_BELOW = "the greatest value is below the least one";
+    THE_GREATEST_VALUE_IS_BELOW = "`to` is below `from`";
     GIVE_A_WHOLE_NUMBER_FROM_ON = "give a whole number of at least 0";
-    found_but_a_count_is_not_negative(found) = "found {found}, but a count is not negative";
+    found_but_a_count_is_not_negative(found) = "found {found}, but a count must not be negative";
     GIVE_LESS_THAN_DEG_TO_DEG = "give less than 90 deg; 30 to 45 deg are usual";
     a_transmission_angle_of_deg(transmission) = "a transmission angle of {transmission:.6} deg cannot be kept over a turn";
     AN_OUTPUT_IS_ONE_LINK_OR_ONE_POINT = "an output is one link or one point";

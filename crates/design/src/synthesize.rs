@@ -23,7 +23,8 @@ use std::f64::consts::PI;
 
 /// Time of the slower stroke divided by that of the faster stroke, at a constant speed of the crank:
 /// K = (pi + |theta|) / (pi - |theta|).
-/// `theta` (rad) is the difference between the directions of crank and coupler in the two extreme positions.
+/// `theta` (rad) is the angle between the directions from the crank's pivot to the output's pin in the two extreme
+/// positions.
 fn time_ratio(theta: f64) -> f64 {
     (PI + theta.abs()) / (PI - theta.abs())
 }

@@ -8,7 +8,8 @@ use linkage::error::{Error, ErrorKind};
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 use linkage::mechanism::assembly::{configurations, first_choices};
 use linkage::mechanism::{
-    AssemblyMode, GROUND, Group, GroupId, GroupKind, JointId, LinkId, LinkPose, Mechanism, Pose, StartGroup, Structure,
+    AssemblyMode, DrivingLink, GROUND, Group, GroupId, GroupKind, JointId, LinkId, LinkPose, Mechanism, Pose,
+    StartGroup, Structure,
 };
 
 /// A joint is open if its gap is larger than this fraction of the mechanism's size.
@@ -30,9 +31,11 @@ pub struct Laid {
     pub faults: Vec<Error>,
     /// Assembly mode of each group that is placed.
     pub modes: Vec<GroupPlacement>,
+    /// Poses of the links that are not placed, with the shapes of bodies that given joints determine.
+    shape: Option<Pose>,
 }
 
-/// How a group stands.
+/// The configuration of a placed group.
 #[derive(Clone, Copy, Debug)]
 pub struct GroupPlacement {
     /// Number of the group.
@@ -48,7 +51,7 @@ impl Laid {
     #[must_use]
     pub fn whole(pose: impl IntoIterator<Item = LinkPose>) -> Laid {
         let places = pose.into_iter().map(LinkPlacement::Here).collect();
-        Laid { places, gaps: Vec::new(), reaches: Vec::new(), faults: Vec::new(), modes: Vec::new() }
+        Laid { places, gaps: Vec::new(), reaches: Vec::new(), faults: Vec::new(), modes: Vec::new(), shape: None }
     }
 
     /// Whether nothing is missing.
@@ -57,15 +60,20 @@ impl Laid {
         self.faults.is_empty() && self.places.iter().all(|place| matches!(place, LinkPlacement::Here(_)))
     }
 
-    fn start(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], angles: &[f64]) -> Laid {
+    fn of_structure(mechanism: &Mechanism, structure: &Structure, angles: &[f64]) -> Laid {
+        let laid = Laid::start(mechanism, &structure.drivers, angles);
+        Laid { shape: Some(structure.driving_pose(mechanism, angles)), ..laid }
+    }
+
+    fn start(mechanism: &Mechanism, drivers: &[DrivingLink], angles: &[f64]) -> Laid {
         let mut laid = Laid::whole([]);
         laid.places = vec![LinkPlacement::Nowhere; mechanism.links().len()];
         laid.places[GROUND] = LinkPlacement::Here(LinkPose::GROUND);
-        for (&(link, joint), &angle) in drivers.iter().zip(angles) {
-            let joint = &mechanism.joints()[joint];
-            let base = joint.other(link);
-            if let (Some(local), Some(pose)) = (joint.on(link), laid.places[base.link].pose()) {
-                laid.places[link] = LinkPlacement::Here(LinkPose::through(local, pose.point(base.local), angle));
+        for (driver, &angle) in drivers.iter().zip(angles).filter(|(driver, _)| !driver.in_group) {
+            let joint = &mechanism.joints()[driver.joint];
+            if let Some(pose) = laid.places[joint.other(driver.link).link].pose() {
+                let placed = joint.driven(driver.link, pose, driver.input, angle);
+                laid.places[driver.link] = LinkPlacement::Here(placed);
             }
         }
         laid
@@ -73,7 +81,23 @@ impl Laid {
 
     /// The poses of all links; links without a pose are at the origin.
     fn pose(&self) -> Pose {
-        Pose(self.places.iter().map(|place| place.pose().copied().unwrap_or(LinkPose::GROUND)).collect())
+        let shape = |link: LinkId| self.shape.as_ref().map_or(LinkPose::GROUND, |shape| shape.0[link]);
+        Pose(
+            self.places
+                .iter()
+                .enumerate()
+                .map(|(link, place)| place.pose().copied().unwrap_or_else(|| shape(LinkId(link))))
+                .collect(),
+        )
+    }
+
+    /// The poses of all links for the configurations of a group.
+    fn pose_for(&self, mechanism: &Mechanism, structure: &Structure, group: &Group, angles: &[f64]) -> Pose {
+        let mut pose = self.pose();
+        if group.kind == GroupKind::Driven {
+            structure.place_driven(mechanism, group, angles, &mut pose);
+        }
+        pose
     }
 
     fn has(&self, mechanism: &Mechanism, group: &Group) -> bool {
@@ -86,10 +110,10 @@ impl Laid {
 }
 
 /// Assembles a mechanism with this structure.
-/// Driving links have these world angles (rad), and `starts` selects the mode of every group.
+/// Driven joints have these coordinates (rad or m), and `starts` selects the mode of every group.
 #[must_use]
 pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts: &[StartGroup]) -> Laid {
-    let mut laid = Laid::start(mechanism, &structure.drivers, angles);
+    let mut laid = Laid::of_structure(mechanism, structure, angles);
     let mut done: Vec<GroupId> = Vec::new();
     for (index, group) in structure.groups.entries() {
         if !laid.has(mechanism, group) {
@@ -129,7 +153,7 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
 /// Assembles a mechanism that has no structure, because it has too few or too many links or joints.
 /// The function places the dyads that it finds.
 #[must_use]
-pub fn lay_loose(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], angles: &[f64], fault: Error) -> Laid {
+pub fn lay_loose(mechanism: &Mechanism, drivers: &[DrivingLink], angles: &[f64], fault: Error) -> Laid {
     let mut laid = Laid::start(mechanism, drivers, angles);
     laid.faults.push(fault);
     while let Some(group) = dyad(mechanism, &laid) {
@@ -166,7 +190,7 @@ fn dyad(mechanism: &Mechanism, laid: &Laid) -> Option<Group> {
             [true, false, true] => GroupKind::Prp,
             [true, true, true] => return None,
         };
-        Some(Group { links, inner: vec![inner], outer: outer.to_vec(), class: 2, kind })
+        Some(Group { links, inner: vec![inner], outer: outer.to_vec(), given: Vec::new(), class: 2, kind })
     })
 }
 
@@ -210,10 +234,14 @@ fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)
         let centre = laid.places[base.link].pose()?.point(base.local);
         joint.is_pin().then_some((centre, (pin - own).norm()))
     };
+    // The lengths of bodies of changing shape are not those of their links.
+    if !group.is_rigid() {
+        return Vec::new();
+    }
     group.links.iter().zip(&group.outer).filter_map(of_link).collect()
 }
 
-/// At most `most` configurations of a mechanism whose driving links have these world angles (rad).
+/// At most `most` configurations of a mechanism whose driven joints have these coordinates (rad or m).
 /// Each configuration is assembled as far as possible.
 /// A group whose configurations are not all known is placed in the mode that `starts` selects.
 #[must_use]
@@ -225,7 +253,7 @@ pub fn all_modes(
     most: usize,
 ) -> Vec<Laid> {
     let mut found: Vec<Laid> = Vec::new();
-    let mut open = vec![(Laid::start(mechanism, &structure.drivers, angles), 0)];
+    let mut open = vec![(Laid::of_structure(mechanism, structure, angles), 0)];
     while let Some((mut laid, index)) = open.pop().filter(|_| found.len() < most) {
         let Some(group) = structure.groups.get(GroupId(index)) else {
             found.push(close(mechanism, laid));
@@ -235,7 +263,7 @@ pub fn all_modes(
             open.push((laid, index + 1));
             continue;
         }
-        match configurations(mechanism, group, &laid.pose()) {
+        match configurations(mechanism, group, &laid.pose_for(mechanism, structure, group, angles)) {
             Ok(all) => {
                 for (number, one) in all.into_iter().enumerate().rev() {
                     let mut next = laid.clone();

@@ -191,11 +191,11 @@ pub enum Layer {
 pub struct Look {
     /// Colour of its line.
     pub ink: Ink,
-    /// What it encloses.
+    /// Fill of the area that a closed line encloses.
     pub fill: Fill,
     /// Thickness of the mark's line, in units of the sketch.
     pub width: f64,
-    /// Where it lies.
+    /// Layer of the drawing in which it lies.
     pub layer: Layer,
 }
 

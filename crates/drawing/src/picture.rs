@@ -41,7 +41,7 @@ pub const ALARM: &str = "#d11149";
 /// Where a link is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinkPlacement {
-    /// Here.
+    /// Exact pose.
     Here(LinkPose),
     /// Approximate pose: the link is drawn with dashes.
     Loose(LinkPose),

@@ -113,7 +113,7 @@ fn moved(mark: Mark, role: MarkRole, by: Vec2) -> Mark {
     Mark { shape, role }
 }
 
-/// An arrow from the origin to `tip` (m): its line and its head. The sketch has the unit `u` (m).
+/// An arrow from the origin to `tip` (m): its line and its head. The sketch has the unit `unit` (m).
 #[must_use]
 pub fn arrow(tip: Vec2, unit: f64) -> Vec<Mark> {
     let length = tip.norm();

@@ -108,7 +108,7 @@ impl FormulaGraph {
     #[must_use]
     pub fn input(&self, index: usize) -> NodeId {
         assert!(index < self.inputs, "there are {} inputs", self.inputs);
-        // They were put first.
+        // The inputs were added first, so the index of an input is also the number of its node.
         NodeId(index as u32)
     }
 

@@ -154,7 +154,7 @@ fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMod
 }
 
 fn negative(part: FormulaTree) -> FormulaTree {
-    // The minus is directly before the part, except for spaces between the minus and the part.
+    // The range begins one byte before the part: at the minus, or at a space between the minus and the part.
     let at = part.at.start.saturating_sub(1)..part.at.end;
     FormulaTree { shape: NodeShape::Negative(Box::new(part)), at }
 }

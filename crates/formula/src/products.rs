@@ -12,13 +12,13 @@ type Dimension = Option<[f64; 3]>;
 /// A product of powers of quantities, times a number.
 #[derive(Clone, Debug)]
 pub struct Product {
-    /// Its size.
+    /// Absolute value of the product.
     pub value: f64,
-    /// Whether it is negative.
+    /// Whether the product is negative.
     pub is_negative: bool,
     /// Complexity of the product. A quantity adds 2, the square of a quantity adds 3.
     pub weight: usize,
-    /// The number.
+    /// The numeric factor.
     pub number: f64,
     /// Indices of quantities with their exponents.
     pub powers: Vec<(u8, i8)>,

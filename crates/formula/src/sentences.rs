@@ -30,7 +30,7 @@ sentences! {
     there_is_no(name) = "there is no `{name}`";
     known_are(names) = "known names: {names}";
     // parse.rs
-    WRITE_ATAN2_WITH_THE_SINE = "write atan2(y, x), with the sine's side first";
+    WRITE_ATAN2_WITH_THE_SINE = "write atan2(y, x): first y, then x";
     needs_arguments(function, function_2) = "{function} needs {function_2} arguments";
     CLOSE_IT_BEHIND_THE_NAME = "close it after the name: `body 2.x`";
     THIS_BACKQUOTE_OPENS_NO_NAME = "this backquote does not enclose a name";
@@ -40,7 +40,7 @@ sentences! {
     WRITE_IT_BY_SIN_COS_AND_TAN = "write it with sin, cos and tan";
     WRITE_LN_FOR_THE_NATURAL = "write ln for the natural logarithm, ln(x)/ln(10) for that to base 10";
     write_it_with_parentheses_phi(function) = "write it with parentheses: {function}(phi)";
-    the_function_has_no_argument(function) = "the function `{function}` has no argument";
+    the_function_has_no_argument(function) = "the function `{function}` is written without its argument";
     WRITE_A_NUMBER_SUCH_AS = "write a number such as 1.5e-3";
     is_no_finite_number(written) = "`{written}` is not a finite number";
     THIS_IS_NOT_CLOSED = "this `(` is not closed";

@@ -31,7 +31,7 @@ impl Operator {
         }
     }
 
-    /// How closely it binds.
+    /// Precedence: an operator with a larger number binds tighter.
     pub(crate) const fn rank(self) -> u8 {
         match self {
             Operator::Plus | Operator::Minus => 1,
@@ -64,7 +64,7 @@ pub enum NodeShape {
 /// A formula, or a part of one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormulaTree {
-    /// What it is.
+    /// Kind of the part.
     pub shape: NodeShape,
     /// Byte range of the part in the text.
     pub at: Range<usize>,
@@ -197,8 +197,8 @@ impl fmt::Display for FormulaTree {
             }
             NodeShape::Pair(operator, parts) => {
                 let rank = operator.rank();
-                // A part whose operator has the same precedence as the outer operator needs parentheses in three
-                // positions: after a minus sign, after a division sign, and before a power sign.
+                // A part whose operator has the same precedence as the outer operator needs parentheses to the right of
+                // `+`, `-`, `*` and `/`, and to the left of `^`.
                 let [left, right] = match operator {
                     Operator::Plus | Operator::Minus | Operator::Times | Operator::Over => [rank, rank + 1],
                     Operator::Power => [rank + 1, NEGATION],
@@ -296,7 +296,7 @@ pub struct FormulaFault {
     pub message: String,
     /// Byte range of the faulty text.
     pub at: Range<usize>,
-    /// The way out.
+    /// The remedy.
     pub help: String,
 }
 

@@ -19,7 +19,7 @@ linkage::sentences! {
     DIFFERENCE_OF_BOTH_SIDES_AT_THE_TIGHTER = "difference of both sides at the tighter tolerance, or the remaining error of the tighter integration";
     // mutate/plan.rs
     PLANT_FEWER_OF_THEM_SOME = "plant fewer faults: select some kinds or one party, or omit the sizes";
-    planting_faults_takes_the_work(scenario, faults, work, budget) = "{scenario}: planting {faults} faults costs about {work} steps of a four-bar; {budget} are allowed";
+    planting_faults_takes_the_work(scenario, faults, work, budget) = "{scenario}: planting {faults} faults costs about as much as {work} engine steps of a four-bar; the work limit is {budget}";
     PROVE_IT_WITHOUT_A_FAULT = "prove it without a fault, and correct what disagrees";
     disagrees_without_a_fault_so(scenario) = "{scenario} disagrees without a fault, so every fault would count as found";
     // mutate/planted.rs
@@ -78,7 +78,7 @@ linkage::sentences! {
     the_work_that_was_allowed(message) = "{message}; the work limit was reached";
     no_settings_meet_an_error(significant, tells) = "no settings reach an error of at most {significant} of the scale: {tells}";
     does_not_run_it(name) = "{name} cannot run the scenario";
-    comes_to(name, significant) = "{name} reaches {significant}";
+    comes_to(name, significant) = "{name} reaches an error of {significant}";
     GIVE_A_SHARE_OF_A_CHANNEL = "give a fraction of a channel's scale between 0 and 1, such as 1e-4";
     an_error_within_is_wanted(within) = "an error of at most {within} is requested";
 }

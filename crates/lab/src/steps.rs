@@ -1,4 +1,4 @@
-//! Estimate of an engine's steps before a run.
+//! Estimate of an engine's work before a run.
 
 use linkage::case::Case;
 use linkage::engine::{Engine, Settings};

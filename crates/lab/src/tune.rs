@@ -37,7 +37,7 @@ const BUDGET: f64 = 5e6;
 /// The wanted accuracy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WantedAccuracy {
-    /// Largest error allowed, divided by each channel's scale (half its range in the run).
+    /// Largest error allowed, divided by each channel's scale (usually half its range in the run).
     pub within: f64,
     /// Channels by name, or stages (`positions`, `reactions`, ...). If the list is empty, all channels that the
     /// scenario requests are used.
@@ -55,7 +55,8 @@ pub struct Tuning {
     /// Largest error of `best` divided by the channel's scale, predicted without the reference.
     /// The prediction uses the engine's runs at three steps, and a run with twice the sweeps.
     pub predicted: f64,
-    /// The cheapest settings of every engine that meets the request; the cheapest engine is first.
+    /// The cheapest settings of every engine that meets the request, refined if necessary until a proof confirms them.
+    /// Engines with confirmed settings come first; within both sets, the cheapest engine is first.
     pub by_engine: Vec<Candidate>,
     /// Engines that do not meet the request, with the smallest error found.
     /// The error is infinite if no run of the engine finished.

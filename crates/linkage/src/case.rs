@@ -206,23 +206,47 @@ impl Case {
     #[inline]
     #[must_use]
     pub fn state_in(&self, motions: &[Motion], angles: &[f64]) -> InputState {
-        let drive = self.crank();
-        let motion = &motions[drive.link];
+        self.drive_state(self.crank(), motions, angles)
+    }
+
+    /// Value, rate and acceleration of the input of a drive in a state of the mechanism.
+    /// The other arguments are the same as in [`Case::each_load`].
+    #[inline]
+    #[must_use]
+    pub fn drive_state(&self, drive: &Drive, motions: &[Motion], angles: &[f64]) -> InputState {
+        let joint = &self.mechanism.joints()[drive.joint];
+        let [value, rate, acceleration] = match drive.input {
+            Input::Angle => [angles[drive.link], motions[drive.link].omega, motions[drive.link].alpha],
+            Input::Turn => {
+                let [first, second] = [joint.first.link, joint.second.link];
+                let [one, other] = [&motions[first], &motions[second]];
+                [angles[second] - angles[first], other.omega - one.omega, other.alpha - one.alpha]
+            }
+            Input::Slide => joint.slide(motions).expect("the driven joint slides"),
+        };
+        InputState { value: drive.from_coordinate(value), rate, acceleration }
+    }
+
+    /// Rate of the input of a drive (rad/s or m/s) in a state of the mechanism.
+    #[inline]
+    #[must_use]
+    pub fn drive_rate(&self, drive: &Drive, motions: &[Motion]) -> f64 {
+        let joint = &self.mechanism.joints()[drive.joint];
         match drive.input {
-            Input::Angle => InputState {
-                value: drive.from_world(angles[drive.link]),
-                rate: motion.omega,
-                acceleration: motion.alpha,
-            },
+            Input::Angle => motions[drive.link].omega,
+            Input::Turn => motions[joint.second.link].omega - motions[joint.first.link].omega,
+            Input::Slide => joint.slide(motions).expect("the driven joint slides")[1],
         }
     }
 
-    /// Change of the input that corresponds to a rotation of the driving link by `turn` (rad).
+    /// Change of the input that corresponds to a rotation of a driving link by `turn` (rad). A slide changes by the
+    /// fraction `turn` of the mechanism's size.
     #[inline]
     #[must_use]
     pub fn step(&self, turn: f64) -> f64 {
         match self.crank().input {
-            Input::Angle => turn,
+            Input::Angle | Input::Turn => turn,
+            Input::Slide => turn * self.mechanism.size(),
         }
     }
 
@@ -234,9 +258,7 @@ impl Case {
         self.drives.iter().any(Drive::is_free)
     }
 
-    /// Whether forces determine the motion of a driving link (a free motion).
-    /// In a free motion, crank angles are known only from a solved trajectory. The crank angles of the grid belong to
-    /// the nominal motion.
+    /// Whether no motion is free, and every drive has a constant speed.
     #[must_use]
     pub fn is_steady(&self) -> bool {
         !self.is_free() && self.drives.iter().all(|drive| drive.constant_speed().is_some())

@@ -91,7 +91,7 @@ pub fn turning_from(mechanism: Mechanism, crank: f64, group: &StartGroup) -> Cas
     let drives = Drives::from(Drive::prescribed(JointId(0), LinkId(1), 0.0, crank, MotionLaw::ConstantSpeed(1.0)));
     let structure = Structure::of(&mechanism, &drives.joints()).unwrap();
     let groups = vec![group.clone(); structure.groups.len()];
-    let (start, modes) = first_pose(&mechanism, &structure, &drives.world_angles(crank), &groups).unwrap();
+    let (start, modes) = first_pose(&mechanism, &structure, &drives.coordinates(crank), &groups).unwrap();
     Case::new(CaseParts {
         mechanism,
         structure,

@@ -12,11 +12,17 @@ pub enum Input {
     /// The angle is measured counter-clockwise from the link's zero direction and counts whole turns.
     #[default]
     Angle,
+    /// Angle of a joint between two moving links: the angle of the joint's second link minus that of its first link.
+    /// The angle is counter-clockwise positive and counts whole turns.
+    Turn,
+    /// Slide of a prismatic joint: the distance along its axis from its point on the first link to its point on the
+    /// second link.
+    Slide,
 }
 
 impl Input {
     /// All of them.
-    pub const ALL: [Input; 1] = [Input::Angle];
+    pub const ALL: [Input; 3] = [Input::Angle, Input::Turn, Input::Slide];
 
     /// The input with the value `value` (in its SI unit), formatted for messages.
     #[inline]
@@ -30,6 +36,8 @@ impl Input {
     pub const fn noun(self) -> &'static str {
         match self {
             Input::Angle => "crank angle",
+            Input::Turn => "joint angle",
+            Input::Slide => "slide",
         }
     }
 
@@ -37,7 +45,8 @@ impl Input {
     #[must_use]
     pub const fn unit(self) -> &'static str {
         match self {
-            Input::Angle => "rad",
+            Input::Angle | Input::Turn => "rad",
+            Input::Slide => "m",
         }
     }
 
@@ -46,6 +55,8 @@ impl Input {
     pub const fn key(self) -> &'static str {
         match self {
             Input::Angle => "crank_rad",
+            Input::Turn => "joint_rad",
+            Input::Slide => "slide_m",
         }
     }
 
@@ -54,6 +65,8 @@ impl Input {
     pub const fn shown_in(self) -> (&'static str, &'static str) {
         match self {
             Input::Angle => ("deg", "crank_deg"),
+            Input::Turn => ("deg", "joint_deg"),
+            Input::Slide => ("mm", "slide_mm"),
         }
     }
 
@@ -62,7 +75,8 @@ impl Input {
     #[must_use]
     pub fn shown(self, value: f64) -> f64 {
         match self {
-            Input::Angle => value.to_degrees(),
+            Input::Angle | Input::Turn => value.to_degrees(),
+            Input::Slide => value * 1e3,
         }
     }
 
@@ -71,7 +85,8 @@ impl Input {
     #[must_use]
     pub fn read(self, shown: f64) -> f64 {
         match self {
-            Input::Angle => shown.to_radians(),
+            Input::Angle | Input::Turn => shown.to_radians(),
+            Input::Slide => shown / 1e3,
         }
     }
 
@@ -81,7 +96,19 @@ impl Input {
     #[must_use]
     pub const fn period(self) -> Option<(f64, &'static str)> {
         match self {
-            Input::Angle => Some((TAU, "turns")),
+            Input::Angle | Input::Turn => Some((TAU, "turns")),
+            Input::Slide => None,
+        }
+    }
+
+    /// Length that corresponds to one unit of the input, if `size` (m) is the size of the mechanism.
+    /// A slide is a length itself. An angle moves points by up to the size of the mechanism.
+    #[inline]
+    #[must_use]
+    pub const fn reach(self, size: f64) -> f64 {
+        match self {
+            Input::Angle | Input::Turn => size,
+            Input::Slide => 1.0,
         }
     }
 }
@@ -109,13 +136,15 @@ mod tests {
 
     #[test]
     fn an_input_is_printed_with_name_and_unit_and_read_back() {
-        let input = Input::Angle;
-        let half = input.at(std::f64::consts::PI);
+        let half = Input::Angle.at(std::f64::consts::PI);
         assert_eq!(
             (half.to_string(), format!("{half:.1}")),
             ("crank angle 180.0000 deg".into(), "crank angle 180.0 deg".into())
         );
-        assert_eq!(input.read(input.shown(0.75)), 0.75);
-        assert!(input.key().ends_with(input.unit()) && input.shown_in().1.ends_with(input.shown_in().0));
+        assert_eq!(format!("{:.1}", Input::Slide.at(0.25)), "slide 250.0 mm");
+        for input in Input::ALL {
+            assert_eq!(input.read(input.shown(0.75)), 0.75);
+            assert!(input.key().ends_with(input.unit()) && input.shown_in().1.ends_with(input.shown_in().0));
+        }
     }
 }

@@ -19,7 +19,7 @@ pub use parts::{GROUND, Guise, Joint, JointKind, JointSide, Link, Point};
 pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
 pub use spanning_tree::{SpanningTree, TreeBranch};
-pub use structure::{Group, GroupKind, Structure};
+pub use structure::{DrivenJoint, DrivingLink, Group, GroupKind, Structure};
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;

@@ -23,9 +23,8 @@ crate::sentences! {
     joint_drives_link_not(name, turned, said) = "joint \"{name}\" drives link \"{turned}\", not \"{said}\"";
     TAKE_STRUCTURE_OF_THE_MECHANISM = "use `Structure::of` with the mechanism and its driven joints";
     the_structure_of_parts_is_not_that_of_mechanism(given, own) = "the structure, of {given} parts, does not match mechanism and drives, which give {own} parts";
-    has_a_motor_but_only_the_crank(names) = "{names} has a motor, but only a motor of the crank can be solved";
+    has_a_motor_but_only_the_crank(names) = "{names} has a motor, but only the crank may have a motor";
     hangs_on_a_moving_link_but_the_motion(names) = "{names} is attached to a moving link, but the motion is prescribed";
-    has_a_speed_that_changes(names) = "{names} has a variable speed, but there are other drives";
     GIVE_THE_CRANK_ANGLE_OF_THE_START = "give the crank angle of the start within a turn";
     starts_turns_away_the_limit(names, turns, value) = "{names} starts {turns} turns from zero; the limit is {value}";
     has_a_number_that_is_not_finite(names, drive) = "{names} has a number that is not finite: {drive}";
@@ -140,8 +139,8 @@ crate::sentences! {
     the_configuration_found_from_the_rough(point, distance, half) = "in the configuration found from the approximate positions, point \"{point}\" is {distance:.4} m from its approximate position, more than half a link ({half:.4} m)";
     NO_CONFIGURATION_OF_THE_GROUP = "no configuration of the group is found from the approximate positions";
     // mechanism/structure.rs
-    DRIVE_A_LINK_THAT_IS_HINGED = "drive a link that is hinged to the ground by a revolute joint";
-    the_driven_joint_does_not_turn(mechanism) = "the driven joint \"{mechanism}\" does not turn a link relative to the ground or to another driving link";
+    THE_DRIVEN_JOINT_TURNS_LINKS_WITH_KEPT_ANGLES = "the driven joint turns two links whose angle other drives and prismatic joints already keep";
+    DRIVE_ANOTHER_JOINT = "drive another joint, or make one of the prismatic joints revolute";
     the_mobility_is_but_the_number(n, p, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} = {mobility}, but the number of drives is {drives}";
     THE_MECHANISM_IS_OVER_CONSTRAINED = "the mechanism is over-constrained: remove the surplus joints or drives";
     ADD_THE_MISSING_JOINTS_OR_DRIVES = "add the missing joints or drives, or remove the loose links";

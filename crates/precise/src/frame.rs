@@ -29,7 +29,7 @@ impl Frame {
         acceleration: Vector::ZERO,
     };
 
-    /// Vector from the origin to a point of the link.
+    /// Vector from the frame's origin to a point of the link, in world axes.
     pub(crate) fn arm(&self, local: Vec2) -> Vector {
         Vector::of(local).rotated(self.direction)
     }

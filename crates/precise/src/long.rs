@@ -44,7 +44,7 @@ impl Long {
         self.0 + self.1
     }
 
-    /// Its size.
+    /// Absolute value.
     #[must_use]
     pub fn abs(self) -> Long {
         if self.0 < 0.0 { -self } else { self }

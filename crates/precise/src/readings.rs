@@ -100,7 +100,10 @@ impl<'a> Places<'a> {
                     OfFrame::Moment => moment.rounded(),
                 }
             }
-            Reading::Drive(OfDrive::Torque) | Reading::Motor(OfDrive::Torque) => instant.torque.rounded(),
+            Reading::Drive(OfDrive::Effort)
+            | Reading::Motor(OfDrive::Effort)
+            | Reading::Thrust(OfDrive::Effort)
+            | Reading::FurtherThrust(OfDrive::Effort) => instant.torque.rounded(),
         }
     }
 }

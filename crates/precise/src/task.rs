@@ -3,6 +3,7 @@
 use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::mechanism::{GROUND, JointId, LinkId};
 
 use super::Long;
@@ -28,7 +29,7 @@ impl Task {
     pub(crate) fn of(case: &Case) -> Result<Task> {
         let refused = |what: &str| Err(Error::new(ErrorKind::Unsupported, sentences::no_precise_numbers(&what)));
         let drive = case.crank();
-        let Some(speed) = drive.constant_speed().filter(|_| !case.is_free()) else {
+        let Some(speed) = drive.constant_speed().filter(|_| !case.is_free() && drive.input == Input::Angle) else {
             return refused(sentences::ONLY_A_CRANK_AT_CONSTANT);
         };
         if case.drives.len() > 1 {

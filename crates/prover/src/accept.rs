@@ -134,8 +134,9 @@ pub struct FigureComparison {
     /// Verdict words of the accepted and the found proof; `None` if both are `agree`.
     pub proof: Option<[String; 2]>,
     /// The verdict.
-    /// It is disagree if the proof disagrees or if anything other than a bound has changed.
-    /// It is inconclusive if only bounds have changed or if one of the proofs proves nothing.
+    /// It is disagree if the found proof disagrees, or if values, channels or the grid have changed.
+    /// Otherwise it is inconclusive if a bound has changed much, if one of the two proofs does not agree, or if the run
+    /// has no channel.
     pub verdict: Verdict,
 }
 
@@ -255,7 +256,8 @@ fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<
 }
 
 /// Returns the values to store after the run `found`.
-/// Channels that have not moved keep their accepted values. So the file changes only where values have moved.
+/// Channels without moved values and without a much wider or narrower bound keep their accepted values.
+/// So the file changes only where the comparison reports a change. On another grid all values are new.
 #[must_use]
 pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &FigureComparison) -> Accepted {
     if comparison.is_other_grid {

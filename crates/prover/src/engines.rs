@@ -1,4 +1,4 @@
-//! All engines of this build. Each engine is one variant and one line in this module.
+//! All engines of this build. Each engine is one variant of [`EngineName`] and one arm of [`with_step`].
 
 #[cfg(feature = "simbody")]
 pub use simbody_twin::Simbody;
@@ -74,7 +74,8 @@ pub(crate) fn coarse_step(case: &Case) -> f64 {
 
 fn step(case: &Case, turn: f64, share: f64) -> f64 {
     let last = case.grid.times.iter().fold(0.0f64, |last, t| last.larger(t.abs()));
-    let (by_turn, by_time) = (turn / case.drives.top_speed(), share * if last > 0.0 { last } else { 1.0 });
+    let (by_turn, by_time) =
+        (turn / case.drives.top_speed(case.mechanism.size()), share * if last > 0.0 { last } else { 1.0 });
     // For links at rest, the limit from the rotation is infinite. The duration then limits the step.
     // A motion under forces may become much faster than at its start. So the duration also limits the step of such a
     // motion.

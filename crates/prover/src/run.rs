@@ -137,7 +137,7 @@ impl Proof {
 ///
 /// # Errors
 /// If an analytic side cannot solve the case. The error states the crank angle.
-/// If a solver is not known.
+/// If this build does not have an engine, or an engine does not have a given setting.
 /// If the only engine cannot start.
 /// If the run would need more memory than is allowed.
 ///

@@ -41,7 +41,7 @@ linkage::sentences! {
     THE_TWO_TRAJECTORIES_STAND_ON_DIFFERENT = "the two trajectories have different grids";
     // bounds/verdict.rs
     is_beyond_the_bound(error_in, error_in_2) = "{error_in} is beyond the bound {error_in_2}";
-    neither_the_printed_number_nor(finding, place) = "neither the printed number nor the one that finding \"{finding}\" calls right is right: {place}";
+    neither_the_printed_number_nor(finding, place) = "the printed number and the correction in finding \"{finding}\" are both wrong: {place}";
     the_finding_says_that_the_printed(finding) = "the finding \"{finding}\" says that the printed number is wrong, but it agrees: correct one of the two";
     MOST_OF_IT_IS_THE_REFERENCE = "; most of it is the error of the reference";
     MOST_OF_IT_IS_LEFT_BY_THE_SWEEPS = "; most of it is iteration error: too few sweeps";
@@ -53,10 +53,10 @@ linkage::sentences! {
     is_beyond_the_bound_at_crank(error, bound, t, crank) = "{error} is beyond the bound {bound} at t = {t} s, crank angle {crank} deg";
     expected_see(place) = "expected, see {place}";
     // diagnosis/knobs.rs
-    WITH_THE_REDUCER_RATIO_TWICE = "with the reducer's ratio twice";
+    WITH_THE_REDUCER_RATIO_TWICE = "with the reducer's ratio applied twice";
     WITHOUT_THE_REDUCER_RATIO = "without the reducer's ratio";
     DIVIDED_BY_THE_EFFICIENCY_INSTEAD = "divided by the efficiency instead of multiplied";
-    WITH_THE_EFFICIENCY_TWICE = "with the efficiency twice";
+    WITH_THE_EFFICIENCY_TWICE = "with the efficiency applied twice";
     WITHOUT_THE_EFFICIENCY = "without the efficiency";
     AS_RAD_FOR_DEG = "as rad/s for deg/s";
     AS_RAD_FOR_RPM = "as rad/s for rpm";
@@ -213,7 +213,7 @@ linkage::sentences! {
     // run/settle.rs
     THE_OTHERS_ARE_NOT_CONCLUSIVE = "the other results are not conclusive";
     NO_FINER_RUN_BEARS_IT_OUT = "no finer run confirms the disagreement";
-    the_first_runs_of_the_engine(error, error_2) = "the first runs of the engine, with all their substeps, cost {error} steps of a four-bar; {error_2} are allowed";
+    the_first_runs_of_the_engine(error, error_2) = "the first runs of the engine, with all their substeps, cost as much as {error} engine steps of a four-bar; the work limit is {error_2}";
     // run/solved.rs
     CLAIM_A_CHANNEL_OF_THE_SCENARIO = "claim a channel of the scenario";
     NO_CLAIMED_CHANNEL_WAS_SOLVED = "no claimed channel was solved";

@@ -27,8 +27,9 @@ pub fn load(path: impl AsRef<Path>) -> Result<Raw> {
 }
 
 /// As [`load`], but calls `may` before memory is allocated.
-/// `may` receives the file's size before the file is read.
-/// It receives the numbers of rows and cells before the values are stored.
+/// `may` receives the bytes to be allocated and the number of rows.
+/// For a text it is called twice: with the file's size and 0 rows before the file is read, and with the text, the cells
+/// and the rows before the values are stored. For a Parquet file it is called once, before the values are stored.
 ///
 /// # Errors
 /// Those of [`load`], and those of `may`.

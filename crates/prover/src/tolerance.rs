@@ -46,7 +46,7 @@ pub enum BoundBasis {
     Wanted(&'static str),
     /// Error of the engine, estimated from runs at three resolutions and from runs with fewer sweeps.
     Truncation {
-        /// Order of convergence observed between the runs. NaN if the differences are only rounding.
+        /// Order of convergence observed between the runs. NaN if the finer differences are only rounding.
         observed: f64,
         /// Order of convergence that the method has in theory.
         formal: f64,
@@ -59,9 +59,10 @@ pub enum BoundBasis {
         /// Origin of the rounding part. The discretisation and iteration parts are estimated.
         noise: BoundOrigin,
     },
-    /// Bound of a number: the sum of three parts.
-    /// The parts are half a unit of the number's last digit, the number's known error, and the change of the number
-    /// within the rounding of its instant.
+    /// Bound of a printed number.
+    /// For a number of a series it is a sum: half a unit of the number's last digit, the known errors of the number and
+    /// of the side, and the change of the number within the rounding of its instant.
+    /// For a figure it is the larger of half a unit of the last digit and the known error of the side.
     Digits {
         /// How the number is known: published, recomputed or derived.
         origin: BoundOrigin,
@@ -133,7 +134,7 @@ impl Parts {
         self.discretisation + self.iteration + self.rounding + self.reference
     }
 
-    /// The largest part.
+    /// The reference if its part exceeds the sum of the other parts; otherwise the largest of the other parts.
     #[must_use]
     pub fn largest(&self) -> BoundPart {
         let own = self.discretisation + self.iteration + self.rounding;

@@ -149,6 +149,23 @@ impl Watched {
             }
             first += joint.kind.equations();
         }
+        for drive in case.drives.iter().filter(|drive| group.given.contains(&drive.joint)) {
+            let joint = &case.mechanism.joints()[drive.joint];
+            for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
+                let Some(column) = group.links.iter().position(|&link| link == side.link) else { continue };
+                let along = match joint.axis_on(joint.first.link) {
+                    None => [0.0, 0.0, 1.0],
+                    Some(axis) => {
+                        let axis: Vec2 = motions[joint.first.link].arm(axis);
+                        let arm = motions[joint.second.link].point(joint.second.local) - motions[side.link].origin;
+                        [axis.x, axis.y, axis.dot(&turned(arm)) / size]
+                    }
+                };
+                let entries = along.into_iter().enumerate();
+                entries.for_each(|(c, value)| constraints.add(first, 3 * column + c, sign * value));
+            }
+            first += 1;
+        }
         if constraints.factor() { constraints.determinant() } else { 0.0 }
     }
 }

@@ -77,7 +77,7 @@ impl<'a> Guard<'a> {
             sweeps: settings.sweeps * settings.substeps,
             tally,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
-            energy: energy * case.drives.top_speed().powi(2),
+            energy: energy * case.drives.top_speed(size).powi(2),
             first: true,
         };
         guard.stand();
@@ -175,7 +175,7 @@ impl<'a> Guard<'a> {
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
         // The error states the crank angle from the frames before the step.
         let place = |before: &[LinkFrame]| {
-            Moment::of(case.crank(), case.crank().from_world(before[case.crank().link].angle()), t)
+            Moment::of(case.crank(), case.crank().from_coordinate(before[case.crank().link].angle()), t)
         };
         guarded(|| world.step()).map_err(|cause| panicked(place(before), cause.as_ref()))?;
         let frames = world.frames();

@@ -3,6 +3,7 @@
 use super::tree::SpanningTree;
 use linkage::case::Case;
 use linkage::engine::bodies::stand_in;
+use linkage::input::Input;
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, Joint, Link, LinkId};
 
@@ -107,7 +108,13 @@ fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let total: f64 = masses.iter().map(|[mass, _]| mass).sum();
     let size = case.mechanism.size();
     for drive in &case.drives {
-        masses[drive.link][1] += FLYWHEEL * total * size * size;
+        let [mass, inertia] = &mut masses[drive.link];
+        match drive.input {
+            Input::Angle => *inertia += FLYWHEEL * total * size * size,
+            Input::Slide if case.mechanism.joints()[drive.joint].on(GROUND).is_some() => *mass += FLYWHEEL * total,
+            // Both links of the joint move, so a flywheel on one of them does not help the drive's row.
+            Input::Turn | Input::Slide => {}
+        }
     }
     masses
 }

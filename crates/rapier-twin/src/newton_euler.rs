@@ -15,7 +15,8 @@
 //! A revolute joint transmits no moment, and a prismatic joint no force along its axis.
 //! Each joint of the tree therefore gives one equation.
 //! The links beyond a joint form a composite body: Featherstone, "Rigid Body Dynamics Algorithms", 2008, ch. 8.
-//! Driven joints are in the tree, and the remainder of a driven joint's equation is the driving moment.
+//! Driven joints are in the tree, and the remainder of a driven joint's equation is the driving moment or force.
+//! The moment of a crank acts from the frame. Any other driving moment or force also acts on the inner link.
 //! The number of the remaining equations equals the number of components in cut joints.
 //! A four-bar has two such equations; the equations of all its links together are nine.
 
@@ -26,8 +27,9 @@ use crate::sentences;
 use std::ops::Range;
 
 use linkage::case::Case;
-use linkage::drive::Wrench;
+use linkage::drive::{Drive, Wrench};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::math::dense::solve_pair;
 use linkage::mechanism::{JointId, SpanningTree};
@@ -81,6 +83,7 @@ impl NewtonEuler {
     #[must_use]
     pub fn along(case: &Case, tree: &SpanningTree, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
+        let acts_on_both = |drive: &Drive| drive.input != Input::Angle;
         let mut numbers = vec![None; masses.len()];
         for (number, branch) in tree.branches.iter().enumerate() {
             numbers[branch.link] = Some(number);
@@ -88,6 +91,7 @@ impl NewtonEuler {
         let limbs = tree.branches.iter().map(|branch| Limb {
             seam: Seam::new(case, branch.joint, [branch.parent, branch.link], &numbers),
             drive: driven.iter().position(|&joint| joint == branch.joint),
+            is_rigid: case.drives.iter().any(|drive| drive.joint == branch.joint && acts_on_both(drive)),
             terms: Vec::new(),
         });
         let mut limbs: Vec<Limb> = limbs.collect();
@@ -194,7 +198,7 @@ impl NewtonEuler {
         let width = self.components.len() + 1;
         for (number, limb) in self.tree.iter().enumerate().rev() {
             let Some(parent) = limb.seam.numbers[0] else { continue };
-            let pass = self.stands[number].pass();
+            let pass = if limb.is_rigid { self.stands[number].rigid() } else { self.stands[number].pass() };
             let (inner, own) = self.needs.split_at_mut(number * width);
             let (inner, own) = (&mut inner[parent * width..][..width], &own[..width]);
             for &term in &limb.terms {
@@ -241,16 +245,18 @@ impl NewtonEuler {
             };
         }
         let needs = self.needs.chunks_exact(constant + 1);
-        for ((Limb { seam, drive, terms }, stand), own) in self.tree.iter().zip(stands).zip(needs) {
+        for ((Limb { seam, drive, is_rigid, terms }, stand), own) in self.tree.iter().zip(stands).zip(needs) {
             let mut need = own[constant];
             for &term in terms {
                 (0..3).for_each(|c| need[c] += own[term][c] * self.components[term]);
             }
+            let effort = drive.map(|drive| (drive, stand.pass().left_over(&need)));
+            if let Some((drive, effort)) = effort {
+                state.torques[drive] = if *is_rigid { effort * seam.signs[1] } else { effort };
+                need[2] -= stand.moment_of_thrust(effort);
+            }
             let (force, moment) = stand.reaction(need);
             (state.forces[seam.joint], state.moments[seam.joint]) = (force * seam.signs[1], moment * seam.signs[1]);
-            if let Some(drive) = *drive {
-                state.torques[drive] = stand.pass().left_over(&need);
-            }
         }
     }
 }

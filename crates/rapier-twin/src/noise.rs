@@ -46,7 +46,7 @@ const PROBE_ULPS: f64 = 16000.0;
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
-    let speed = case.drives.top_speed();
+    let speed = case.drives.top_speed(case.mechanism.size());
     let size = case.mechanism.size();
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);

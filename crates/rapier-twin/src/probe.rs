@@ -37,7 +37,7 @@ impl<'a> Probe<'a> {
     pub(super) fn new(case: &'a Case, worlds: Vec<Guard<'a>>, turn: f64) -> Self {
         let cuts: Vec<&[JointId]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let reporters = reporters(case, &cuts);
-        let speed = case.drives.top_speed();
+        let speed = case.drives.top_speed(case.mechanism.size());
         let (poses, tally) = ([Vec::new(), Vec::new()], WorkTally::default());
         Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses, tally }
     }

@@ -62,7 +62,7 @@ struct Found {
     links: Option<SceneUpdate>,
     frames: Vec<(u64, FrameTransforms)>,
     arrows: Vec<(u64, SceneUpdate)>,
-    /// Total number of frames and arrows.
+    /// Number of frames, scene entities and arrows read so far.
     parts: usize,
 }
 

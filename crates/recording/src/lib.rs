@@ -18,7 +18,7 @@
 //! `linkproof.Point_1_2`.
 //!
 //! Log times are nanoseconds from the first instant of the recording.
-//! Log times are the simulated times multiplied by [`Show::slow`]; the grid has the simulated times themselves.
+//! A simulated second takes [`Show::slow`] seconds of log time; the grid has the simulated times themselves.
 //! Nothing depends on a clock, so equal runs give equal files.
 //! The sequence number of a message is the number of its sample in ascending order of time.
 //! Messages of one sample have the same sequence number in all topics of a side.

@@ -57,7 +57,7 @@ pub fn load(path: &Path) -> Result<Vec<(String, Trajectory)>> {
 pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
     let read = || match fs::metadata(path)?.is_file() {
         true => fs::read(path),
-        // It might never end.
+        // A pipe or a device might never end.
         false => Err(io::Error::other(sentences::IT_IS_NO_REGULAR_FILE)),
     };
     read().map_err(|error| {

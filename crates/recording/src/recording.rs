@@ -50,7 +50,7 @@ impl Default for Show {
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedSide<'a> {
     /// First part of the names of the side's topics and frames: "reference", "engine". The name must be unique,
-    /// non-empty, and without `/`.
+    /// non-empty, without `/`, and neither "error" nor "mechanism".
     pub name: &'a str,
     /// Its values.
     pub trajectory: &'a Trajectory,

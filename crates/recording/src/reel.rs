@@ -32,7 +32,7 @@ pub struct ReelMessage<'a> {
     pub time: u64,
     /// Number of its topic.
     pub topic: u16,
-    /// What it says.
+    /// Its bytes.
     pub data: &'a [u8],
 }
 

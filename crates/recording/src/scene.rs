@@ -24,7 +24,7 @@ pub struct ViewerScene<'a> {
     pub sides: Vec<PlacedSide<'a>>,
     /// Length to which all dimensions of the drawing are proportional (m).
     pub size: f64,
-    /// What it looks like.
+    /// The marks and labels of the mechanism.
     sketch: Sketch,
 }
 

@@ -36,7 +36,7 @@ linkage::sentences! {
     // write.rs
     GIVE_A_SMALLER_TIME_SCALE = "give a smaller time scale";
     a_recording_cannot_last_viewers(lasts) = "a recording cannot last {lasts} s: this is beyond the range of viewers";
-    a_time_of_the_recording_grid(time) = "a time of the recording's grid is {time} s";
+    a_time_of_the_recording_grid(time) = "a time of the recording's grid is {time} s, but must be finite";
     GIVE_A_FINITE_NUMBER_GREATER = "give a finite number greater than 0";
     a_recording_cannot_have_a_time(wrong) = "a recording cannot have a time scale or a number of samples per second of {wrong}";
     GIVE_IT_A_NAME_OF_ITS_OWN = "give it a unique name without `/`; \"error\" and \"mechanism\" are taken";

@@ -21,7 +21,7 @@ pub struct MessageKind {
     pub encoding: String,
     /// The schema.
     pub data: Vec<u8>,
-    /// How messages are written.
+    /// Encoding of the messages.
     pub message: String,
 }
 

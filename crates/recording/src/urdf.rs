@@ -6,7 +6,7 @@ use crate::viewers::{Color, LinePrimitive, LineType, Pose, SceneEntity, SceneUpd
 use linkage::math::Vec2;
 use std::fmt::Write;
 
-/// Height of all parts divided by their thickness in the plane of motion. Seen from above, the parts are flat.
+/// Height of a box divided by the line's thickness in the plane of motion. Seen from above, this height is not visible.
 const FLAT: f64 = 0.1;
 
 /// The description of the links of a scene, with the ground as the root.

@@ -49,7 +49,7 @@ pub struct Plot {
 pub struct Line {
     /// Topic of its numbers.
     pub topic: String,
-    /// Their field.
+    /// Field of these numbers in the messages of the topic.
     pub field: String,
     /// What it is called.
     pub label: String,
@@ -111,7 +111,7 @@ pub(super) fn plots(sides: &[RecordedSide], errors: &[Channel]) -> Vec<Plot> {
     plots
 }
 
-/// The two most informative channels, which differ in subject or unit.
+/// The two most informative channels, which have different units.
 /// The order of preference is: moment of a drive, largest reaction, accelerations, velocities, positions.
 fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
     let place = |unit: Unit| match unit {

@@ -126,7 +126,7 @@ impl Start<'_> {
     /// World angles of the driving links at t = 0 with the crank at `crank` (rad).
     fn angles(&self, crank: f64) -> Vec<f64> {
         let angle = |(index, drive): (usize, &linkage::drive::Drive)| {
-            drive.world_angle(if index == 0 { crank } else { drive.start })
+            drive.coordinate(if index == 0 { crank } else { drive.start })
         };
         self.drives.iter().enumerate().map(angle).collect()
     }

@@ -12,7 +12,7 @@ use super::{keys, parameter_table, start};
 use linkage::drive::{Drive, Load, MotionLaw};
 use linkage::error::{Error, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, JointId, Mechanism, StartGroup, Structure};
+use linkage::mechanism::{DrivenJoint, GROUND, JointId, Mechanism, StartGroup, Structure};
 
 /// The mechanism of a scenario file, without the parts that have mistakes. The mechanism may be impossible to assemble.
 #[derive(Clone, Debug)]
@@ -80,7 +80,8 @@ fn read(root: &mut TomlTable, asked: &StartRequest) -> Result<Draft> {
         Some(drives) => drives.to_vec(),
         None => guessed(&mechanism, crank).into_iter().collect(),
     };
-    let driven: Vec<JointId> = drives.iter().map(|drive| drive.joint).collect();
+    let driven: Vec<DrivenJoint> =
+        drives.iter().map(|drive| DrivenJoint { joint: drive.joint, input: drive.input }).collect();
     let structure = Structure::of(&mechanism, &driven);
     let starts = structure.as_ref().map_or_else(
         |_| Vec::new(),

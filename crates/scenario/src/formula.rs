@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::claim::Claim;
 use super::keys::key::{Section, ValueKind, needed, optional};
 use super::parameters::{INPUTS, Parameter, fault_of_name};
-use super::reader::{Faults, TomlTable};
+use super::reader::{Faults, Sign, TomlTable};
+use super::unit::of_input;
 use super::words::suggestion;
 use formula::{FormulaFault, FormulaGraph, FormulaTree, NodeId, Rounded};
 use std::ops::Range;
@@ -309,16 +310,19 @@ fn formula(table: &mut TomlTable, formulas: &mut Formulas, case: &Case) -> Resul
     let text = table.string("expression")?;
     let claimed = table.optional_string("channel")?;
     let source = table.optional_string("source")?;
-    let valid = [table.optional_si("from")?, table.optional_si("to")?];
+    let family = of_input(case.crank().input);
+    let valid = ["from", "to"].map(|key| table.optional_quantity(key, family, Sign::Any));
+    let [from, to] = valid;
+    let valid = [from?, to?];
     let error = table.optional_number("error")?;
     if let Some((key, message, help)) = fault_of_claim(valid, error) {
         return table.refuse(key, message, help);
     }
     if claimed.is_none() {
-        let of_claim = ["from_deg", "to_deg", "from_rad", "to_rad", "error"];
-        if let Some(key) = of_claim.into_iter().find(|key| table.has(key)) {
+        let spellings = ["from", "to"].into_iter().flat_map(|key| family.keys(key)).chain(["error".to_string()]);
+        if let Some(key) = spellings.into_iter().find(|key: &String| table.has(key)) {
             let message = sentences::belongs_to_a_claim_and_this_formula(&key);
-            return table.refuse(key, message, sentences::ADD_CHANNEL_OR_TAKE_IT_OUT);
+            return table.refuse(&key, message, sentences::ADD_CHANNEL_OR_TAKE_IT_OUT);
         }
     }
     let formula = formulas.add(&name, &text).map_err(|fault| table.fault_in("expression", &fault))?;

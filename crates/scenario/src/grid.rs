@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 
 use super::keys::key::{Section, ValueKind, optional};
 use super::reader::{Sign, TomlTable};
-use super::unit::{TIME, UnitFamily};
+use super::unit::{TIME, UnitFamily, of_input};
 use linkage::case::Grid;
 use linkage::drive::Drive;
 use linkage::error::Result;
@@ -13,13 +13,15 @@ use linkage::error::Result;
 /// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[Section::at("grid").with(&[
     optional("from", ValueKind::INPUTS_OR_TIMES, "given with `to` and `step`")
-        .means("first crank angle, or first time from the start"),
+        .means("first input, or first time from the start"),
     optional("to", ValueKind::INPUTS_OR_TIMES, "given with `from`")
-        .means("last crank angle or time, in the same kind of unit"),
+        .means("last input or time, in the same kind of unit"),
     optional("step", ValueKind::INPUTS_OR_TIMES, "given with `from`")
         .means("distance between instants; may be negative"),
     optional("angles", ValueKind::LIST_OF_ANGLES, "a range")
         .means("crank angles, one by one, in any order; not for a free motion"),
+    optional("slides", ValueKind::LIST_OF_LENGTHS, "a range")
+        .means("slides, one by one, in any order; not for a free motion"),
     optional("times", ValueKind::LIST_OF_TIMES, "a range").means("times, one by one, in any order"),
 ])];
 
@@ -75,7 +77,7 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
 /// If `is_replaced`, the grid is read but not checked against the drive, and the returned grid is empty.
 pub fn read(table: &mut TomlTable, drive: &Drive, is_replaced: bool) -> Result<Grid> {
     let mut lists = Vec::new();
-    for key in ["angles", "times"] {
+    for key in ["angles", "slides", "times"] {
         lists.extend(table.optional_si_list(key)?.map(|(family, values)| (key, family, values)));
     }
     let ranged = table.optional_si_of("from")?;
@@ -100,6 +102,10 @@ pub fn read(table: &mut TomlTable, drive: &Drive, is_replaced: bool) -> Result<G
         return Ok(Grid::default());
     }
     let by_input = !std::ptr::eq(family, &TIME);
+    if by_input && !std::ptr::eq(family, of_input(drive.input)) {
+        let message = sentences::the_grid_has_units_of_but_the_input_is(&family.noun, &drive.input.noun());
+        return Err(table.fault(message).help(sentences::give_the_grid_in(&drive.input.shown_in().0)));
+    }
     let grid = if by_input { Grid::of_inputs(drive, points) } else { Grid::of_times(drive, points) };
     let help = match by_input && drive.is_free() {
         true => sentences::GIVE_THE_GRID_BY_TIME_FROM_TO_STEP,

@@ -30,7 +30,7 @@ pub fn check_speeds(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
     for drive in drives.iter() {
         let speed = drive.top_speed().abs().larger(drive.initial_speed().abs());
         let link = &mechanism.links()[drive.link];
-        if !(speed * link.size() <= LIGHT) {
+        if !(speed * drive.input.reach(link.size()) <= LIGHT) {
             let message = sentences::at_rad_link_of_has_points(
                 &format_args!("{speed:.3e}"),
                 &link.name,

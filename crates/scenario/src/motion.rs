@@ -6,46 +6,51 @@ use std::sync::Arc;
 use super::keys::key::{Section, ValueKind, needed, optional};
 use super::motor;
 use super::reader::{Faults, Sign, TomlTable};
-use super::words::{Words, choice, names, suggestion};
+use super::unit::{of_input, of_input_rate};
+use super::words::{Words, names, suggestion};
 use linkage::drive::{Drive, DriveMotion, Drives, MotionLaw};
 use linkage::error::Result;
-use linkage::input::InputValue;
+use linkage::input::{Input, InputValue};
 use linkage::math::{Piecewise, Vec2};
-use linkage::mechanism::{GROUND, JointKind, JointSide, Mechanism};
+use linkage::mechanism::{LinkId, Mechanism};
 
 /// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("drive").with(&[
-        needed("joint", ValueKind::Text).means("revolute joint between the ground and the driving link"),
+        needed("joint", ValueKind::Text).means(
+            "the driven joint. A prismatic joint has its slide as input, a revolute joint on the ground the crank angle, \
+             any other revolute joint the angle of its second link minus that of its first link",
+        ),
         optional("law", ValueKind::Choice(|| names(LAWS)), "`\"constant\"`")
-            .means("law of the crank angle over time, see below"),
-        optional("zero", ValueKind::INPUTS, "0").means("world direction from which the crank angle is measured"),
+            .means("law of the input over time, see below"),
+        optional("zero", ValueKind::INPUTS, "0").means("zero of the input; for a crank, the world direction from which its angle is measured"),
         optional("motion", ValueKind::Choice(|| vec!["prescribed", "free"]), "`\"prescribed\"`")
             .means("`\"free\"`: forces determine the motion, see below"),
-        optional("initial_speed", ValueKind::SPEEDS, "0").means("angular velocity of a free driving link at t = 0"),
+        optional("initial_speed", ValueKind::INPUT_RATES, "0").means("rate of the input of a free driving link at t = 0"),
         optional(
             "through",
             ValueKind::Choice(|| vec!["smooth"]),
             "a change point is an error; a free motion passes it",
         )
         .means("the mechanism passes change points on the branch with continuous velocities; see below"),
-        optional("start", ValueKind::ANGLES, "required for these drives, not allowed for the first")
-            .means("for every drive but the first: angle at t = 0"),
+        optional("start", ValueKind::INPUTS, "required, except for a crank as the first drive")
+            .means("input at t = 0. The angle of the first crank is `crank` in `[start]`"),
         optional(
             "speed",
-            ValueKind::SPEEDS.of(Sign::NotZero),
+            ValueKind::INPUT_RATES.of(Sign::NotZero),
             "required, except for the laws `\"cycloidal\"` and `\"table\"`",
         )
-        .means("angular velocity, counter-clockwise positive, not zero"),
+        .means("rate of the input, not zero; an angular velocity is counter-clockwise positive"),
         optional("time", ValueKind::TIMES.of(Sign::Positive), "required for these laws")
             .means("duration of a ramp, or of a cycloidal law"),
-        optional("to", ValueKind::INPUTS, "required for this law").means("last crank angle of a cycloidal law"),
+        optional("to", ValueKind::INPUTS, "required for this law").means("last input of a cycloidal law"),
         optional("points", ValueKind::Tables, "required for the law `\"table\"`")
-            .means("points of a table, two or more: times ascending from 0; the first angle is the start angle"),
+            .means("points of a table, two or more: times ascending from 0; the first point is the start"),
     ]),
     Section::at("drive.points").with(&[
         needed("time", ValueKind::TIMES.of(Sign::NotNegative)).means("time"),
-        needed("angle", ValueKind::INPUTS).means("crank angle at that time"),
+        optional("angle", ValueKind::ANGLES, "required for an angle").means("input at that time"),
+        optional("slide", ValueKind::LENGTHS, "required for a slide").means("input at that time"),
     ]),
     Section::at("gravity").with(&[
         needed("x", ValueKind::ACCELERATIONS).means("along x"),
@@ -54,22 +59,26 @@ pub const SECTIONS: &[Section] = &[
 ];
 
 /// The drives of the mechanism: the crank first, then the further drives.
-/// The crank has the angle `start` at t = 0 (rad) and gets the motor, if there is one.
-/// Every further drive states its start itself. After a mistake, the result is `None`.
+/// `crank` is the angle at t = 0 of a crank as the first drive (rad), if it is stated. `asked` replaces the start of the
+/// first drive. The first drive gets the motor, if there is one.
+/// Also returns the stated start of the first drive. After a mistake, the result is `None`.
 pub fn drives(
     tables: Vec<TomlTable>,
     motor: Option<TomlTable>,
     mechanism: &Mechanism,
-    start: f64,
+    [crank, asked]: [Option<f64>; 2],
     faults: &mut Faults,
-) -> Option<Drives> {
-    let mut drives: Vec<Drive> = Vec::new();
+) -> Option<(Drives, f64)> {
+    let (mut drives, mut first): (Vec<Drive>, f64) = (Vec::new(), 0.0);
     let (count, whole) = (tables.len(), faults.whole);
     for (index, mut table) in tables.into_iter().enumerate() {
         let own = |table: &mut TomlTable| {
-            let start = if index == 0 { start } else { table.si("start")? };
-            let drive = drive(table, mechanism, &drives, start, whole)?;
+            let mut drive = drive(table, mechanism, &drives, [crank, asked.filter(|_| index == 0)], whole)?;
             check_beside(table, &drive, &drives)?;
+            if index == 0 {
+                first = drive.start;
+                drive.start = asked.unwrap_or(first);
+            }
             Ok(drive)
         };
         drives.extend(faults.read(&mut table, own));
@@ -82,86 +91,66 @@ pub fn drives(
         return None;
     }
     let crank = drives.remove(0).with_motor(motor.flatten());
-    Some(Drives::new(crank, drives))
+    Some((Drives::new(crank, drives), first))
 }
 
 /// Checks that a drive can be combined with the drives before it.
 fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()> {
-    if before.is_empty() {
-        return Ok(());
-    }
-    let all = || before.iter().chain([drive]);
-    // Several drives are coupled by the crank angle. The crank angle determines the time only at constant speeds, so
-    // changing speeds are refused.
-    if all().any(|drive| drive.constant_speed().is_none()) {
-        let message = sentences::ONE_OF_SEVERAL_DRIVES_HAS_A_SPEED;
-        return table.unsupported("law", message, sentences::GIVE_ALL_DRIVES_CONSTANT_SPEEDS);
-    }
-    if all().any(|drive| drive.through) {
+    if !before.is_empty() && before.iter().chain([drive]).any(|drive| drive.through) {
         let message = sentences::CHANGE_POINTS_ARE_PASSED_WITH_ONE_DRIVE;
         return table.unsupported("through", message, sentences::TAKE_THE_KEY_OUT);
     }
     Ok(())
 }
 
-/// Reads a drive. `before` are the drives already read. `start` is the input of the drive at t = 0.
+/// Reads a drive. `before` are the drives already read. `starts` are the stated angle of a crank as the first drive, and
+/// the input that replaces the start of this drive.
 /// If the mechanism is `whole`, all its joints are known.
-fn drive(table: &mut TomlTable, mechanism: &Mechanism, before: &[Drive], start: f64, whole: bool) -> Result<Drive> {
+fn drive(
+    table: &mut TomlTable,
+    mechanism: &Mechanism,
+    before: &[Drive],
+    [crank, asked]: [Option<f64>; 2],
+    whole: bool,
+) -> Result<Drive> {
     let name = table.string("joint")?;
     let known = mechanism.joint_named(&name);
-    let kind = known.map(|index| mechanism.joints()[index].kind);
-    let input = kind.and_then(JointKind::input).unwrap_or_default();
     let unknown = |table: &TomlTable| -> Result<Drive> {
         let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
         table.refuse("joint", sentences::there_is_no_joint(&name), suggestion(&name, names, "\""))
     };
-    let law = law(table, input.at(start));
+    let is_free = table.optional_string("motion")?.as_deref() == Some("free");
+    let joint = known.map(|index| &mechanism.joints()[index]);
+    let (input, link) = joint.map_or((Input::Angle, LinkId(1)), |joint| Drive::of_joint(joint, before, is_free));
+    let own = if before.is_empty() && input == Input::Angle { crank } else { None };
+    let stated = match own {
+        Some(own) => own,
+        None if before.is_empty() && known.is_none() => 0.0,
+        None => table.quantity("start", of_input(input), Sign::Any)?,
+    };
+    let law = law(table, input.at(asked.unwrap_or(stated)));
     if law.is_err() && whole && known.is_none() {
         let missing = unknown(table);
         table.part(missing.map(|_| ()));
     }
     let law = law?;
-    let zero = table.optional_si("zero")?.unwrap_or(0.0);
-    let motion = motion(table, law)?;
+    let zero = table.optional_quantity("zero", of_input(input), Sign::Any)?.unwrap_or(0.0);
+    let motion = motion(table, law, input)?;
     let through = through(table)?;
     table.finish()?;
-    let Some(index) = known else {
+    let Some(joint) = known else {
         return unknown(table);
     };
-    if before.iter().any(|other| other.joint == index) {
+    if before.iter().any(|other| other.joint == joint) {
         return table.refuse("joint", sentences::THIS_JOINT_IS_DRIVEN_ALREADY, sentences::GIVE_EVERY_DRIVE_A_JOINT);
     }
-    let joint = &mechanism.joints()[index];
-    let hangs_on = |side: JointSide| side.link == GROUND || before.iter().any(|drive| drive.link == side.link);
-    let Some(link) = [[joint.first, joint.second], [joint.second, joint.first]]
-        .into_iter()
-        .find_map(|[base, side]| (hangs_on(base) && !hangs_on(side)).then_some(side.link))
-    else {
-        let names = [joint.first, joint.second].map(|side| &mechanism.links()[side.link].name);
-        let message = sentences::joint_joins_and_not_a_link(&name, &names[0], &names[1]);
-        let hinges = mechanism.joints().iter().filter(|joint| joint.on(GROUND).is_some() && joint.is_pin());
-        let hinges: Vec<&str> = hinges.map(|joint| joint.name.as_str()).collect();
-        let help = sentences::drive_a_link_that_is_hinged_to_the_ground(&(choice(hinges, "\"")));
-        return table.unsupported("joint", message, help);
-    };
-    let drive = Drive { input, joint: index, link, zero, start, motion, through };
-    if joint.on(GROUND).is_none() && !drive.is_free() {
-        let message = sentences::joint_hangs_on_a_moving_link(&name);
-        let help = sentences::ONLY_A_FREE_LINK_MAY_HANG;
-        return table.unsupported("joint", message, help);
-    }
-    if joint.kind.input().is_none() {
-        let message = sentences::joint_is_but_the_crank_turns(&name, &joint.kind.name());
-        let help = sentences::DRIVE_A_LINK_THAT_IS_HINGED;
-        return table.unsupported("joint", message, help);
-    }
-    Ok(drive)
+    Ok(Drive { input, joint, link, zero, start: stated, motion, through })
 }
 
 /// The motion of a drive. The link of the drive either follows `law`, or is free from t = 0 on with `law` as its
 /// nominal motion.
-fn motion(table: &mut TomlTable, law: MotionLaw) -> Result<DriveMotion> {
-    let initial = table.optional_si("initial_speed")?;
+fn motion(table: &mut TomlTable, law: MotionLaw, input: Input) -> Result<DriveMotion> {
+    let initial = table.optional_quantity("initial_speed", of_input_rate(input), Sign::Any)?;
     match table.optional_string("motion")?.as_deref() {
         Some("free") => {
             let Some(nominal_speed) = law.constant() else {
@@ -212,17 +201,22 @@ fn law(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
     constant(table, start)
 }
 
-fn constant(table: &mut TomlTable, _: InputValue) -> Result<MotionLaw> {
-    Ok(MotionLaw::ConstantSpeed(table.si("speed")?))
+fn constant(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
+    Ok(MotionLaw::ConstantSpeed(speed(table, start)?))
 }
 
-fn ramp(table: &mut TomlTable, _: InputValue) -> Result<MotionLaw> {
-    let speed = table.si("speed")?;
+/// Speed of a law: the rate of the input (rad/s or m/s).
+fn speed(table: &mut TomlTable, start: InputValue) -> Result<f64> {
+    table.quantity("speed", of_input_rate(start.input), Sign::NotZero)
+}
+
+fn ramp(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
+    let speed = speed(table, start)?;
     Ok(MotionLaw::Ramp { speed, time: table.si("time")? })
 }
 
 fn cycloidal(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
-    let rise = table.si("to")? - start.value;
+    let rise = table.quantity("to", of_input(start.input), Sign::Any)? - start.value;
     let time = table.si("time")?;
     if rise == 0.0 {
         let message = sentences::THE_CRANK_IS_TO_STAY_WHERE;
@@ -238,7 +232,8 @@ fn points(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
     for mut point in table.tables("points")? {
         let read = point.read(|point| {
             let time = point.si("time")?;
-            let gone = point.si("angle")? - start;
+            let key = if input == Input::Slide { "slide" } else { "angle" };
+            let gone = point.si(key)? - start;
             point.finish()?;
             Ok((time, gone))
         });

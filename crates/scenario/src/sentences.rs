@@ -1,10 +1,16 @@
 //! All messages that this crate can show, in one file, so that they can be read as a list.
 
 linkage::sentences! {
+    // grid.rs
+    the_grid_has_units_of_but_the_input_is(family, noun) = "the grid is given by {family}, but the input of the first drive is a {noun}";
+    give_the_grid_in(unit) = "give the grid in {unit} (`from_{unit}`, `to_{unit}`, `step_{unit}`) or by time (`from_s`, `to_s`, `step_s`)";
+    // stated.rs
+    the_first_drive_has_the_input(noun) = "the first drive moves no crank: its input is a {noun}";
+    GIVE_ITS_START_IN_DRIVE = "give its start in `[drive]`, for example `start_mm = 300` or `start_deg = 30`";
     // accepted.rs
     DELETE_ONE_OF_THE_TWO = "delete one of the two";
     the_channel_stands_twice(pair) = "the channel {pair} is given twice";
-    values_are_kept_for_instants(at, count) = "{at} values are kept for {count} instants";
+    values_are_kept_for_instants(at, count) = "`at` has {at} values, but there are {count} instants";
     GIVE_ONE_VALUE_FOR_EACH_OF_TIMES = "give one value for each of `times_s`, or accept the figures again";
     ACCEPT_THE_FIGURES_ANEW = "accept the figures again";
     the_bound_is_negative(bound) = "the bound {bound} is negative";
@@ -230,19 +236,11 @@ linkage::sentences! {
     A_LINK_WITH_A_SPEED_AT_MOVES = "a link with a speed at t = 0 moves freely: write `motion = \"free\"`, or remove `initial_speed`";
     THE_MOTION_IS_FREE_BUT_A_LAW = "the motion is free, but a law is given";
     FORCES_DECIDE_A_FREE_MOTION = "forces determine a free motion: give only its nominal speed (`speed_rpm`)";
-    DRIVE_A_LINK_THAT_IS_HINGED = "drive a link that is hinged to the ground by a revolute joint";
-    joint_is_but_the_crank_turns(name, joint) = "joint \"{name}\" is {joint}, but the crank needs a revolute joint";
-    ONLY_A_FREE_LINK_MAY_HANG = "only a free link may be attached to a moving link: write `motion = \"free\"`, or drive a link that is hinged to the ground";
-    joint_hangs_on_a_moving_link(name) = "joint \"{name}\" is attached to a moving link, but the motion of its link is prescribed";
-    drive_a_link_that_is_hinged_to_the_ground(choice) = "drive a link that is hinged to the ground: {choice}";
-    joint_joins_and_not_a_link(name, names, names_2) = "joint \"{name}\" joins \"{names}\" and \"{names_2}\", not a link and the ground";
     GIVE_EVERY_DRIVE_A_JOINT = "give every drive a separate joint";
     THIS_JOINT_IS_DRIVEN_ALREADY = "this joint is already driven";
     there_is_no_joint(name) = "there is no joint \"{name}\"";
     TAKE_THE_KEY_OUT = "remove the key";
     CHANGE_POINTS_ARE_PASSED_WITH_ONE_DRIVE = "change points can be passed with one drive only, but there are several";
-    GIVE_ALL_DRIVES_CONSTANT_SPEEDS = "give all drives constant speeds";
-    ONE_OF_SEVERAL_DRIVES_HAS_A_SPEED = "one of several drives has a variable speed";
     // motor.rs
     ADD_INTERMEDIATE_RATIO_ITS_SPEED = "add `intermediate_ratio`: the shaft's speed divided by that of the crank";
     THE_INTERMEDIATE_SHAFT_HAS_A_MOMENT = "the intermediate shaft has a moment of inertia, but its speed is not known";
@@ -286,7 +284,7 @@ linkage::sentences! {
     with_decimals_is_not_apart(value, digits, value_2, digits_2) = "{value} with {digits} decimals cannot be distinguished from the printed {value_2} with {digits_2}";
     A_NUMBER_KNOWN_TO_BE_WRONG = "a number known to be wrong needs a `finding` with the reason, and the correct number as `right`: `right = { value = 2.6, digits = 1 }`";
     // reader.rs
-    write_a_section_for_each(path) = "write a section [[{path}]] for each";
+    write_a_section_for_each(path) = "write a section [[{path}]] for each entry";
     WRITE_KEYS_WITH_THEIR_VALUES = "write keys with their values in braces, such as { x_mm = 0, y_mm = 0 }, or a section";
     WRITE_TRUE_OR_FALSE_WITHOUT = "write `true` or `false`, without quotes";
     WRITE_A_WHOLE_NUMBER_SUCH_AS = "write a whole number, such as 3";
@@ -335,7 +333,7 @@ linkage::sentences! {
     A_CRANK_ANGLE_AND_A_TIME = "a crank angle and a time are both given";
     A_NUMBER_HOLDS_AT_A_CRANK = "a number belongs to a crank angle (of the nominal motion, if forces determine the motion) or to a time";
     CHANNELS_ARE_NAMED_LIKE_POINT = "channels are named like \"point.A.x_mm\", \"link.crank.angle_deg\", \"link.crank.omega_rad_s\", \"joint.A.fx_N\" or \"drive.torque_N_m\"";
-    of_what_moves(suggestion) = "of the moving parts, {suggestion}";
+    of_what_moves(suggestion) = "for a moving part: {suggestion}";
     add_to_want_or_take_the_published(stage) = "add \"{stage}\" to `want`, or remove the published numbers";
     this_channel_is_one_of_the_which_channels(stage) = "this channel is one of the {stage}, which `channels.want` leaves out";
     the_mechanism_has_no_channel(name) = "the mechanism has no channel \"{name}\"";

@@ -8,7 +8,7 @@ use crate::sentences;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{
-    AssemblyMode, Group, GroupId, GroupKind, JointId, JointSide, Mechanism, StartGroup, Structure,
+    AssemblyMode, DrivenJoint, Group, GroupId, GroupKind, JointSide, Mechanism, StartGroup, Structure,
 };
 use linkage::mechanism::{LinkId, pose::SidePoint};
 
@@ -22,7 +22,8 @@ const MODES: Words<AssemblyMode> = &[
 /// Descriptions of the keys that this module reads.
 pub const SECTIONS: &[Section] = &[
     Section::at("start").with(&[
-        needed("crank", ValueKind::INPUTS).means("crank angle at t = 0, of the first drive"),
+        optional("crank", ValueKind::ANGLES, "required if the first drive moves a crank")
+            .means("crank angle at t = 0, of the first drive"),
         optional("groups", ValueKind::Tables, "none: a mechanism without groups")
             .means("one table for each Assur group"),
     ]),
@@ -131,7 +132,7 @@ pub fn also_missing(
     start: &TomlTable,
     stated: &[StatedGroup],
     mechanism: &Mechanism,
-    drives: &[JointId],
+    drives: &[DrivenJoint],
     asked: impl FnOnce(&Structure) -> Vec<(GroupId, StartGroup)>,
 ) -> Option<Error> {
     let structure = Structure::of(mechanism, drives).ok()?;
@@ -212,7 +213,7 @@ fn modes_of(kind: GroupKind) -> &'static [AssemblyMode] {
     match kind {
         GroupKind::Rrr => &[AssemblyMode::Left, AssemblyMode::Right],
         GroupKind::Rrp | GroupKind::Rpr => &[AssemblyMode::Ahead, AssemblyMode::Behind],
-        GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher => &[],
+        GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher | GroupKind::Driven => &[],
     }
 }
 
@@ -285,6 +286,6 @@ fn ready_to_paste(groups: &[&Group], mechanism: &Mechanism) -> String {
         };
         sentences::start_groups_links(&names.join(", "), &mode)
     };
-    let takes_mode = |group: &&&Group| !matches!(group.kind, GroupKind::Rpp | GroupKind::Prp);
+    let takes_mode = |group: &&&Group| !group.kind.has_one_configuration();
     groups.iter().filter(takes_mode).map(entry).collect::<Vec<_>>().join("\n")
 }

@@ -5,12 +5,15 @@ use super::clearance::ClearanceQuestion;
 use super::engine::{self, EngineSettings};
 use super::header::{check_format, name};
 use super::keys::key::{Section, ValueKind, needed, optional};
-use super::reader::{Faults, TomlTable};
+use super::reader::{Faults, Sign, TomlTable};
 use super::settings::{self, ENGINE_REL};
+use super::unit::ANGLE;
 use super::{clearance, grid, joints, links, loads, motion, start};
+use crate::sentences;
 use linkage::case::Grid;
 use linkage::drive::{Drive, Drives, Load, MotionLaw};
 use linkage::error::{Error, Result};
+use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism, Structure};
 
@@ -24,7 +27,7 @@ pub const SECTIONS: &[Section] = &[Section::at("").with(&[
     needed("ground", ValueKind::Table).means("the frame"),
     needed("links", ValueKind::Table).means("moving links by name"),
     needed("joints", ValueKind::Tables).means("joints"),
-    needed("drive", ValueKind::TableOrTables).means("drives of the driving links; the first one drives the crank"),
+    needed("drive", ValueKind::TableOrTables).means("drives; the input of the first one identifies an instant"),
     optional("motor", ValueKind::Table, "none").means("motor of the crank"),
     optional("gravity", ValueKind::Table, "none").means("acceleration of gravity"),
     optional("loads", ValueKind::Tables, "none").means("forces, moments, springs and dampers"),
@@ -49,7 +52,7 @@ pub struct FileSections<'a> {
     pub mechanism: Mechanism,
     /// Drives of the mechanism; `None` after a mistake.
     pub drives: Option<Drives>,
-    /// Crank angle at t = 0 (rad).
+    /// Input of the first drive at t = 0 (rad or m), as the file states it.
     pub crank: f64,
     pub loads: Vec<Load>,
     pub gravity: Vec2,
@@ -100,11 +103,11 @@ impl<'a> FileSections<'a> {
         let links = links::read(ground.ok(), links.ok(), &mut faults);
         let joints = joints::read(joints, &links, &mut faults);
         let mechanism = mechanism(links, joints, &mut faults);
-        let (mut start, mut groups, mut crank) = (start.ok(), Vec::new(), 0.0);
+        let (mut start, mut groups, mut crank) = (start.ok(), Vec::new(), None);
         if let Some(start) = &mut start {
             let own = |start: &mut TomlTable<'a>| {
                 groups = start.tables("groups")?;
-                let crank = start.si("crank")?;
+                let crank = start.optional_quantity("crank", &ANGLE, Sign::Any)?;
                 start.finish()?;
                 Ok(crank)
             };
@@ -113,9 +116,11 @@ impl<'a> FileSections<'a> {
         let group_count = groups.len();
         let groups = start::stated(groups, &mechanism, &mut faults);
         let loads = loads::read(loads, &mechanism, &mut faults);
-        let drives = drives
-            .ok()
-            .and_then(|drives| motion::drives(drives, motor, &mechanism, asked.crank.unwrap_or(crank), &mut faults));
+        let drives =
+            drives.ok().and_then(|drives| motion::drives(drives, motor, &mechanism, [crank, asked.crank], &mut faults));
+        let (drives, first) = drives.map_or((None, None), |(drives, first)| (Some(drives), Some(first)));
+        check_crank(&mut start, crank, drives.as_ref(), &mut faults);
+        let crank = first.or(crank).unwrap_or_default();
         // The sections after this line depend on numbers of the mechanism and of the drive.
         // After a mistake in these numbers, the file therefore does not count as whole.
         faults.whole &= faults.is_empty();
@@ -161,6 +166,16 @@ impl FileSections<'_> {
         let asked = |structure: &Structure| asked.groups(&self.mechanism, structure).unwrap_or_default();
         let found = || start::also_missing(start, &self.groups, &self.mechanism, &drives.joints(), asked);
         self.has_all_groups.then(found).flatten()
+    }
+}
+
+/// Checks that `crank` in `[start]` is given for a crank as the first drive, and for no other drive.
+fn check_crank(start: &mut Option<TomlTable>, crank: Option<f64>, drives: Option<&Drives>, faults: &mut Faults) {
+    let (Some(start), Some(drives)) = (start, drives) else { return };
+    let joint = |drive: &Drive| drive.input.noun();
+    if crank.is_some() && drives.crank().input != Input::Angle {
+        let message = sentences::the_first_drive_has_the_input(&joint(drives.crank()));
+        faults.read(start, |start| start.refuse::<()>("crank", message, sentences::GIVE_ITS_START_IN_DRIVE));
     }
 }
 

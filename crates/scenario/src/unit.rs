@@ -3,6 +3,8 @@
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
+use linkage::input::Input;
+
 /// One unit of a family.
 #[derive(Debug, PartialEq)]
 pub struct NamedUnit {
@@ -69,6 +71,8 @@ pub static ANGLE: UnitFamily = UnitFamily::of("an angle", &[si("rad"), unit("deg
 /// Angular velocities; rpm are turns per minute.
 pub static ANGULAR_SPEED: UnitFamily =
     UnitFamily::of(sentences::AN_ANGULAR_VELOCITY, &[si("rad_s"), unit("rpm", TAU, 60.0)], 1e9);
+/// Speeds along a line.
+pub static SPEED: UnitFamily = UnitFamily::of("a speed", &[si("m_s"), unit("mm_s", 1.0, 1e3)], 1e9);
 /// Times.
 pub static TIME: UnitFamily = UnitFamily::of("a time", &[si("s"), unit("ms", 1.0, 1e3)], 1e12);
 /// Masses.
@@ -96,9 +100,29 @@ pub static MASS_PER_LENGTH: UnitFamily = UnitFamily::of(sentences::A_MASS_PER_LE
 pub static POWER: UnitFamily = UnitFamily::of("a power", &[si("W"), unit("kW", 1e3, 1.0)], 1e20);
 
 /// The units in which inputs are written, for all kinds of input.
-pub static INPUTS: [&UnitFamily; 1] = [&ANGLE];
+pub static INPUTS: [&UnitFamily; 2] = [&ANGLE, &LENGTH];
+/// The units in which rates of inputs are written.
+pub static INPUT_RATES: [&UnitFamily; 2] = [&ANGULAR_SPEED, &SPEED];
 /// The same, or times.
-pub static INPUTS_OR_TIMES: [&UnitFamily; 2] = [&ANGLE, &TIME];
+pub static INPUTS_OR_TIMES: [&UnitFamily; 3] = [&ANGLE, &LENGTH, &TIME];
+
+/// The units in which values of an input are written.
+#[must_use]
+pub fn of_input(input: Input) -> &'static UnitFamily {
+    match input {
+        Input::Angle | Input::Turn => INPUTS[0],
+        Input::Slide => INPUTS[1],
+    }
+}
+
+/// The units in which rates of an input are written.
+#[must_use]
+pub fn of_input_rate(input: Input) -> &'static UnitFamily {
+    match input {
+        Input::Angle | Input::Turn => INPUT_RATES[0],
+        Input::Slide => INPUT_RATES[1],
+    }
+}
 
 /// Units that scenario files do not support: ending of the key, name, and size in a supported unit.
 static UNSUPPORTED: [(&str, &str, &str); 17] = [
@@ -129,10 +153,11 @@ pub fn unsupported(suffix: &str) -> Option<(&'static str, &'static str)> {
 }
 
 /// All families.
-pub static ALL: [&UnitFamily; 15] = [
+pub static ALL: [&UnitFamily; 16] = [
     &LENGTH,
     &ANGLE,
     &ANGULAR_SPEED,
+    &SPEED,
     &TIME,
     &MASS,
     &INERTIA,

@@ -74,7 +74,7 @@ impl Simbody {
         linkproof_simbody::IntegrationSettings {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
-            time_scale: 1.0 / case.drives.top_speed(),
+            time_scale: 1.0 / case.drives.top_speed(case.mechanism.size()),
             // The local error is of fourth order in the step, so the number of steps grows with accuracy^(-1/4).
             steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).larger(1.0).powf(0.25)) as usize,
         }

@@ -9,6 +9,7 @@ use linkage::case::Case;
 use linkage::drive::{Drive, Load, Wrench};
 use linkage::engine::bodies::stand_in;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::{Vec2, cross};
 use linkage::mechanism;
 use linkage::mechanism::{
@@ -123,7 +124,13 @@ impl Linkage {
             state.forces[branch.joint] = force;
             state.moments[branch.joint] = if joint.keeps_angle() { moment } else { 0.0 };
             if let Some(index) = case.drives.iter().position(|drive| drive.joint == branch.joint) {
-                state.torques[index] = body.drive;
+                let sign = sign_of(&case.drives[index], joint, branch);
+                state.torques[index] = body.drive * sign;
+                if case.drives[index].input == Input::Slide {
+                    // Simbody's reaction includes the driving force.
+                    let [_, thrust] = state.thrust(joint, state.torques[index]);
+                    state.forces[branch.joint] -= thrust.force;
+                }
             }
         }
         if let Some(motor) = case.crank().moving_motor() {
@@ -159,10 +166,18 @@ fn law(case: &Case, branch: &TreeBranch, drive: &Drive, moving: bool) -> Option<
     if moving && drive.is_free() {
         return None;
     }
-    // A drive prescribes the rotation in the world, but a coordinate is relative to the parent. The parent's rate is
-    // therefore subtracted.
+    if drive.input != Input::Angle {
+        return Some(drive.initial_speed() * sign_of(drive, &case.mechanism.joints()[drive.joint], branch));
+    }
+    // The drive of a crank prescribes the rotation in the world, but a coordinate is relative to the parent. The
+    // parent's rate is therefore subtracted.
     let parent = case.drives.iter().find(|other| other.link == branch.parent);
     Some(drive.initial_speed() - parent.map_or(0.0, Drive::initial_speed))
+}
+
+/// Sign of a drive's input in the coordinate of the branch, which is that of the child relative to the parent.
+fn sign_of(drive: &Drive, joint: &mechanism::Joint, branch: &TreeBranch) -> f64 {
+    if drive.input == Input::Angle || joint.second.link == branch.link { 1.0 } else { -1.0 }
 }
 
 fn joint(found: &mechanism::Joint, branch: &TreeBranch) -> SimbodyJoint {

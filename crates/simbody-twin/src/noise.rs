@@ -30,7 +30,7 @@ const ULPS: f64 = 20.0;
 /// velocities.
 pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &ChannelKind) -> f64 {
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
-    let speed = case.drives.top_speed();
+    let speed = case.drives.top_speed(case.mechanism.size());
     let size = case.mechanism.size();
     let moving = &case.mechanism.links()[1..];
     let shortest = moving.iter().map(|link| link.size()).filter(|&size| size > 0.0).fold(size, f64::smaller);

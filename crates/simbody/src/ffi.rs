@@ -257,7 +257,8 @@ impl LinkageRun {
     /// Sets the loads on every body. Reactions that are read afterwards include these loads.
     /// A load is the force at the mass centre (N, world axes) and the moment about the mass centre (N m). Initially all
     /// loads are zero.
-    /// Loads do not affect the motion, because every degree of freedom is prescribed.
+    /// Loads are used only when reactions are read, so they do not affect the motion.
+    /// The reactions are therefore correct only if every degree of freedom is prescribed.
     ///
     /// # Errors
     /// An error if the number of loads differs from the number of bodies, or if a number is not finite.

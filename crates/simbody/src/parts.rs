@@ -108,7 +108,7 @@ impl Default for IntegrationSettings {
     }
 }
 
-/// The failure that stopped Simbody.
+/// A fault of the model, or a failure of Simbody.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
     /// The fault of the model, or the message of Simbody.

@@ -21,7 +21,7 @@ sentences! {
     A_LOAD_IS_NOT_FINITE = "a load is not finite";
     loads_are_given_for_bodies(loads, state) = "{loads} loads are given for {state} bodies";
     is_asked_for_after(time, time_2) = "t = {time} s is requested after t = {time_2} s";
-    SIMBODY_GAVE_NO_SYSTEM = "Simbody gave no system";
+    SIMBODY_GAVE_NO_SYSTEM = "Simbody returned no model";
     SIMTK_EXCEPTION_THROWN_AT = "SimTK Exception thrown at ";
     // model.rs
     THERE_IS_NO_BODY = "no body is given";

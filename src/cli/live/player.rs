@@ -13,7 +13,7 @@ pub(super) struct Player {
     position: f64,
     /// Number of messages already sent.
     pub told: usize,
-    /// Whether it moves.
+    /// Whether playback runs.
     pub plays: bool,
     /// Playback speed: log time that passes per second of the clock.
     pub speed: f64,
@@ -22,7 +22,7 @@ pub(super) struct Player {
 /// Messages to send now.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Due {
-    /// Whether it begins anew.
+    /// Whether the reel starts again.
     pub again: bool,
     /// Numbers of the messages.
     pub messages: Range<usize>,

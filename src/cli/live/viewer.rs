@@ -109,7 +109,7 @@ impl<'a> Viewer<'a> {
         self.introduce()
     }
 
-    /// Tells what is due.
+    /// Sends the messages that are due.
     fn play(&mut self, seconds: f64) -> Spoken {
         let Some(reel) = self.shown.reel.clone() else { return Ok(()) };
         let due = self.player.pass(seconds, &reel);

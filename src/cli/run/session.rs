@@ -53,7 +53,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Whether standard output carries the report; otherwise it carries JSON.
+    /// Whether standard output carries the report; otherwise it carries a result for other programs, such as JSON.
     fn reports(&self) -> bool {
         !self.args.outputs.take_standard()
     }

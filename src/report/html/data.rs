@@ -12,7 +12,7 @@ use linkage::mechanism::JointSide;
 use linkage::trajectory::{Channel, Trajectory};
 use prover::run::{ChannelProof, EngineProof, Proof};
 
-/// Everything, as one object.
+/// Instants, channels, errors and bounds, as one object.
 pub(super) fn of(proof: &Proof, errors: &[Errors], thinned: &Thinned, tell: Tell) -> Map<String, Value> {
     let reference = &proof.reference_trajectory;
     let at = |values: &[f64]| doubles(thinned.rows.iter().map(|&row| values[row]));

@@ -48,6 +48,7 @@ pub(super) fn motor(case: &Case, trajectory: &Trajectory) -> Value {
 }
 
 /// The crank's speed (rad/s) at which the motor has no moment; 0 if the motor's law has no such speed.
+/// For a table, the last speed of the table.
 fn no_load(motor: &Motor) -> f64 {
     let own = match &motor.law {
         MotorLaw::Constant { .. } => 0.0,

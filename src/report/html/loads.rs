@@ -13,7 +13,7 @@ use linkage::drive::{Load, Senses};
 use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Number of single-precision values in a row.
+/// Approximate number of single-precision values in a row.
 pub(super) fn width(case: &Case) -> usize {
     2 * case.loads.len()
 }

@@ -11,7 +11,8 @@ use prover::run::Proof;
 /// Limit for all columns, in bytes of base64; the page then stays below 3 MB.
 const BYTES: usize = 1_900_000;
 
-/// Errors of an engine for each channel of the reference; NaN if the engine has no value.
+/// Errors of an engine at all instants, for each channel of the reference; NaN where the engine has no value.
+/// `None` if the engine does not have the channel.
 pub(super) type Errors = Vec<Option<Vec<f64>>>;
 
 /// The part of all instants that a page shows.

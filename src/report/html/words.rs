@@ -7,7 +7,7 @@ use super::markup::escaped;
 use crate::plain::brief;
 use crate::plain::judged::{self, Grade, JudgedNumber, Sort, grade};
 use crate::report::text;
-use linkage::mechanism::{JointId, LinkId, Mechanism};
+use linkage::mechanism::{DrivingLink, JointId, LinkId, Mechanism};
 use prover::numbers::{error_in, fixed, significant};
 use prover::run::Proof;
 
@@ -61,7 +61,7 @@ pub(super) fn structure(proof: &Proof) -> String {
     let mut out = format!("<p><code>{}</code></p>\n", escaped(&proof.formula));
     let mobility = structure.mobility;
     say!(out, "<p>Mobility {mobility} by counting. Groups in the order in which they are solved:</p>\n<ol>");
-    for &(link, joint) in &structure.drivers {
+    for &DrivingLink { link, joint, .. } in &structure.drivers {
         say!(out, "<li>driving link {} at {}</li>", link_name(mechanism, link), joint_name(mechanism, joint));
     }
     for (group, mode) in structure.groups.iter().zip(&case.modes) {

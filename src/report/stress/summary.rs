@@ -1,4 +1,5 @@
-//! Stability as text, the verdict first: the limit up to which every solver and engine works, and the failures.
+//! Results of the stress families as text. The overall verdict comes first.
+//! A table for each family then shows at which parameter values each solver and engine agrees.
 
 use crate::sentences;
 use std::collections::BTreeMap;
@@ -12,9 +13,9 @@ use lab::stress::{PointEnd, QuantityGroup, StressFamily, StressOutcome};
 /// Counts over all points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Tally {
-    /// Points with results.
+    /// All points that were run.
     pub(crate) points: usize,
-    /// Points that are not valid cases.
+    /// Points without results: points that are not valid cases, and points with a panic.
     pub(crate) refused: usize,
     /// Points at which a solver or engine panicked.
     pub(crate) panics: usize,
@@ -157,7 +158,7 @@ fn told(outcomes: &[&StressOutcome], name: &str) -> Vec<(&'static str, String, S
     found
 }
 
-/// Points that are not valid cases, by reason.
+/// Points without results, each with its parameter value and the reason.
 fn refused<'a>(outcomes: &[&'a StressOutcome]) -> Vec<(String, &'a str)> {
     let own = outcomes.iter().filter(|own| !own.refused.is_empty());
     own.map(|own| (dial(own.dial), own.refused.as_str())).collect()

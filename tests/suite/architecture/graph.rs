@@ -58,7 +58,7 @@ impl Graph {
         edges
     }
 
-    /// Names that every file uses: all words of its paths, and its macros.
+    /// For each file, the names that it uses: all words of its paths, and its macros.
     pub fn names(&self) -> BTreeMap<PathBuf, BTreeSet<String>> {
         let mut names: BTreeMap<PathBuf, BTreeSet<String>> = BTreeMap::new();
         for module in self.modules.values() {

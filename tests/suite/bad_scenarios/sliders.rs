@@ -49,7 +49,7 @@ fn sliders() {
             words: &["axes of its two prismatic joints are parallel", "check the axes"],
         },
         Bad {
-            // The rod slides on the ground in addition to its joints, which gives a loop of three prismatic joints.
+            // The rod slides on the ground and on the slider, which gives a loop of three prismatic joints.
             edits: &[
                 (PIN, OTHER),
                 POINT,

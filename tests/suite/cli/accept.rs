@@ -146,7 +146,7 @@ fn a_figure_within_its_bound_has_not_moved() {
     assert_eq!(check(&place).code, 0);
 }
 
-/// Only the root mean square has changed, because a motion may keep its extremes and its few stored instants.
+/// A motion may change and keep its extremes and its few stored instants; only its root mean square has then changed.
 #[test]
 fn a_changed_root_mean_square_is_reported() {
     let place = accepted();
@@ -300,7 +300,7 @@ fn an_unusable_accepted_file_is_refused_and_not_overwritten() {
         (whole.replacen("least = ", "last = ", 1), vec!["`least`", "did you mean"]),
         (whole.replacen("bound = ", "bound = -", 1), vec!["is negative"]),
         (whole.replacen("bound = 6.6e-12", "bound = inf", 1), vec!["a finite number is needed"]),
-        (whole.replacen("at = [0.0, ", "at = [", 1), vec!["4 values are kept for 5 instants"]),
+        (whole.replacen("at = [0.0, ", "at = [", 1), vec!["`at` has 4 values, but there are 5 instants"]),
         (whole.replace("link.crank.omega_rad_s", "link.crank.angle_rad"), vec!["link.crank.angle_rad is given twice"]),
     ];
     for (text, words) in cases {

@@ -222,7 +222,7 @@ fn a_range_is_reported_in_json() {
 }
 
 /// Revolute joints are reported with journals, prismatic joints with moments.
-/// Lever and stress have the units of the options.
+/// Lever and stress, given in mm and MPa, are reported in m and Pa.
 #[test]
 fn bearings_are_reported_in_json() {
     let place = Place::new();

@@ -10,7 +10,7 @@ use super::tools::Place;
 
 const QUICK: &str = "--quick --engine rapier --only positions";
 
-/// A peer as a script. `solve` runs with the path of its table as `$csv`.
+/// A peer as a script. Its shell commands `solve` find in `$csv` the path to which they write the table of the answer.
 fn peer(place: &Place, name: &str, solve: &str) {
     let ways = r#"echo '[{"name": "as it is", "resolution": "none"}]'"#;
     let csv = r#"csv=$(sed -n 's/.*"csv":"\([^"]*\)".*/\1/p' "$2")"#;
@@ -91,7 +91,7 @@ fn failing_peers_become_points_and_never_crash_the_bench() {
     peer(&place, "half", &format!("cut -d, -f1-4 {} > \"$csv\"; {TIME}", place.path("good.csv").display()));
     let names = ["good", "hangs", "garbage", "fails", "silent", "nan", "refuses", "half", "absent"];
     let peers: Vec<String> = names.iter().map(|name| format!("--peer {name}=./{name}")).collect();
-    // Without an option, results go to the directory `bench`.
+    // Without `--out`, results go to the directory `bench`.
     let line = format!("bench scenarios/five_bar.toml {QUICK} --peer-limit 1 {}", peers.join(" "));
     let told = place.ok(&line);
     assert!(told.contains("half: positions without "), "{told}");

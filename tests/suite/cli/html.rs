@@ -215,7 +215,7 @@ fn a_page_has_loads_and_the_vectors_of_the_plans() {
     place.ok("run scenarios/rotary_engine.toml --no-record --budget 1e5 --html page.html");
     let data = data(&fs::read_to_string(place.path("page.html")).unwrap());
     let loads = &data["loads"];
-    // The loads are a gas force of 300 N and weights.
+    // The loads are a gas force of 300 N, springs, dampers, a moment and weights.
     // The gas force turns with the cylinder and points towards the cylinder's pivot.
     // Springs and dampers have only a magnitude.
     let force = &loads["arrows"][0];

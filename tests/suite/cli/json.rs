@@ -17,7 +17,7 @@ use super::tools::Place;
 type Numbers<'a> = BTreeMap<&'a str, f64>;
 
 /// Compares all numbers of an object with `wanted`.
-/// Nested objects and lists are left to other tests.
+/// Nested objects and lists are compared by separate calls.
 fn is_said(what: &str, object: &Value, wanted: &Numbers) {
     let object = object.as_object().unwrap_or_else(|| panic!("{what} is no object"));
     let found: Numbers = object.iter().filter_map(|(key, value)| Some((key.as_str(), value.as_f64()?))).collect();
@@ -154,7 +154,7 @@ fn proven(what: &str, run: &Value, proof: &Proof) {
 }
 
 /// One case has a prescribed motion and a finding.
-/// The second case moves under forces, so its times are not its crank angles.
+/// The second case moves under forces, so its crank angles are not proportional to its times.
 #[test]
 fn every_number_of_the_json_is_that_of_the_proof() {
     let place = Place::new();

@@ -161,7 +161,7 @@ fn unreadable_files_are_named_with_a_remedy() {
     for directory in ["gone", "empty.toml"] {
         place.refused(&format!("list {directory}"), &[directory, "linkproof list DIR"]);
     }
-    // Every command reports its missing arguments.
+    // Missing arguments and unknown commands are answered with the usage.
     for command in ["", "run", "solve", "inspect", "prove"] {
         let outcome = place.run(command);
         assert_eq!(outcome.code, 2, "{command}");
@@ -202,7 +202,7 @@ fn a_scenario_is_never_used_as_an_output_file() {
     let (scenario, other) = ("scenarios/crank_rocker.toml", "scenarios/ov7_base.toml");
     let before = fs::read(place.path(other)).unwrap();
     for command in [
-        // A shell expands `--json scenarios/*.toml` to these arguments.
+        // A shell expands `--json scenarios/*.toml` to arguments like these.
         format!("run --no-record --json {other} {scenario}"),
         format!("solve {scenario} --with assur --csv {other}"),
         format!("inspect {scenario} --json {other}"),

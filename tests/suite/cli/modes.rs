@@ -123,8 +123,8 @@ fn inspect_reports_how_unambiguous_the_start_is() {
     assert!(!place.ok("inspect scenarios/ov7_base.toml").contains("approximate position"));
 }
 
-/// Text of a scenario without `near`: a crank and a group of six links.
-/// The group has two pinned base links on four leads; one lead is hinged to the crank.
+/// Text of a scenario with slots for its joints and for `near`: a crank and a group of six links.
+/// The group has two base links, which are pinned to each other, on four leads; one lead is hinged to the crank.
 const SIX: &str = r#"format = 1
 name = "six"
 title = "A group of six links"
@@ -215,7 +215,8 @@ fn a_group_of_six_links_starts_from_a_rough_drawing() {
             let name = format!("point.{point}.{axis}_m");
             let (own, other) = (assur.column(&name), newton.column(&name));
             own.iter().zip(&other).for_each(|(a, b)| assert_within!((a - b).abs(), 1e-12, "{name}"));
-            // The approximate positions may be off by half the shortest link, as the documentation promises.
+            // A point may be half a link away from its approximate position, as docs/scenario.md states.
+            // The shortest link of the group is 90 mm long.
             assert_within!((own[0] * 1e3 - drawn).abs(), 45.0, "{name}: {} for {drawn}", own[0]);
         }
     }

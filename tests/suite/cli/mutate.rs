@@ -34,7 +34,7 @@ fn regress_without_a_planted_fault_nothing_is_proven() {
     let place = Place::new();
     let scenario = fs::read_to_string(place.path("scenarios/pendulum.toml")).unwrap();
     assert!(!scenario.contains("[[loads]]") && !scenario.contains("[motor]"));
-    // The first two kinds change a part that the mechanism lacks; the third has no effect.
+    // Each kind changes a part that the mechanism lacks: loads, a motor, or a slider.
     for kind in ["load", "motor", "guide-moment-missing"] {
         let outcome = place.run(&format!("mutate scenarios/pendulum.toml --kind {kind} --no-sizes"));
         assert_eq!(outcome.code, 3, "{kind}: {}", outcome.stdout);
@@ -44,7 +44,8 @@ fn regress_without_a_planted_fault_nothing_is_proven() {
         let json = place.run(&format!("mutate scenarios/pendulum.toml --kind {kind} --no-sizes --json -")).json();
         assert_eq!(json["scenarios"][0]["kinds_instead"][1], "mass");
     }
-    // The fault is in code that all parties share, and no independent number could reveal it.
+    // Only independent numbers can reveal a fault in code that all parties share.
+    // `bare.toml` has no such numbers.
     let outcome = place.run("mutate scenarios/scotch_yoke.toml --kind gravity-missing --party trunk --no-sizes");
     let word = if outcome.code == 0 { "ALL FOUND" } else { "SHARED FAULTS NOT FOUND" };
     assert!(outcome.stdout.starts_with(word), "{}", outcome.stdout);
@@ -109,7 +110,7 @@ fn mistakes_in_formulas_are_found_and_counted_separately() {
             assert!(fault["first"]["time_s"].is_number(), "{fault}");
         }
     }
-    // The approximation in the file stays right within its claimed error, so no mistake is planted in it.
+    // The series claims an approximate value, and mistakes are planted only in formulas that claim an exact value.
     assert!(faults.iter().all(|fault| fault["formula"]["name"] != "x_series"), "{json}");
     // The planted formula is wrong for `check` as well.
     let fault = faults.iter().find(|own| own["formula"]["name"] == "x" && own["kind"] == "formula-sign").unwrap();

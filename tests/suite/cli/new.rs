@@ -88,7 +88,7 @@ fn lengths_that_do_not_fit_are_written_and_reported() {
     }
 }
 
-/// After `new --shipped`, the files that the remaining examples of the help name exist.
+/// `new --shipped` writes the files that other examples of the help texts need.
 #[test]
 fn help_examples_run_in_an_empty_directory() {
     let place = Place::empty();
@@ -122,8 +122,8 @@ fn steps(template: &str, foot: &str) -> (Vec<f64>, Vec<f64>) {
     (table.column(&format!("point.{foot}.x_m")), table.column(&format!("point.{foot}.y_m")))
 }
 
-/// Number of crank degrees at which the foot is on the ground, and the distance that the foot travels during these
-/// degrees.
+/// Number of crank degrees at which the foot is on the ground, and the part of its stride that the foot covers during
+/// these degrees.
 /// The foot is on the ground if its height is at most `share` of its stride.
 fn on_the_ground(x: &[f64], y: &[f64], share: f64) -> (usize, f64) {
     let lowest = |values: &[f64]| values.iter().copied().reduce(KeepNan::smaller).unwrap();

@@ -14,7 +14,7 @@ const RUN: &str = "run scenarios/pendulum.toml --route differences --record out"
 fn recordings(place: &Place) -> Vec<String> {
     let entries = fs::read_dir(place.path("out")).unwrap();
     let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    // Each recording has its layout.
+    // Each layout belongs to a recording, and is not counted as one.
     let layouts: Vec<String> = names.extract_if(.., |name| name.ends_with(".foxglove.json")).collect();
     names.sort();
     for layout in layouts {
@@ -77,7 +77,7 @@ fn other_settings_get_a_separate_file_name() {
         let line = format!("\n           pendulum.mcap belongs to another run and is kept: {why}");
         assert!(told.contains(&format!("recording  out/{name} (")) && told.contains(&line), "{arguments}: {told}");
     }
-    // The test uses first a different scenario of the same name, then a changed scenario.
+    // A changed scenario of the same name gets a new file too.
     place.edited("pendulum.toml", "pendulum.toml", &[("title = \"", "title = \"Another, ")]);
     let told = place.ok(RUN);
     assert!(told.contains("out/pendulum-6.mcap") && told.contains("its scenario text differs"), "{told}");

@@ -9,7 +9,7 @@ use linkproof::{Options, Proof, Scenario, Verdict, prove};
 
 use super::tools::Place;
 
-/// Three scenarios: the first agrees, the second has a wrong published number, the third cannot be read.
+/// Three scenarios: the first agrees, the second has a wrong formula, the third cannot be read.
 fn place() -> Place {
     let place = Place::new();
     place.edited("crank_rocker.toml", "wrong.toml", &[("name = \"crank_rocker\"", "name = \"wrong\"")]);
@@ -40,7 +40,7 @@ fn junit_has_a_suite_per_scenario_and_a_case_per_result() {
     assert_eq!(failures(0), Vec::<&str>::new());
     assert!(failures(1).iter().any(|name| name.contains("w as link.crank.omega_rad_s")), "{:?}", failures(1));
     assert_eq!(failures(2), ["proof"]);
-    // A disagreement is a failure, and an inconclusive result is an error: test runners distinguish them.
+    // A disagreement is a failure, and a scenario that cannot be read is an error: test runners distinguish them.
     let kinds = |index: usize| -> Vec<String> {
         let cases = suites[index].children().flat_map(|case| case.children().filter(roxmltree::Node::is_element));
         let names = cases.map(|node| node.tag_name().name().to_string());
@@ -89,8 +89,8 @@ fn verdicts(proof: &Proof) -> Vec<(String, String, &Verdict)> {
     all
 }
 
-/// Three proofs: the first disagrees in many numbers and has a finding, the second proves nothing, and in the third the
-/// engines failed.
+/// Three proofs: the first disagrees in many numbers and has a finding, the second is inconclusive, and in the third
+/// the engines failed.
 fn proofs() -> [Proof; 3] {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
     let scenario = Scenario::load(&path).unwrap();
@@ -159,8 +159,7 @@ fn reports_have_every_verdict_with_judge_and_reason() {
     }
 }
 
-/// If the engine of a scenario failed, or the scenario cannot be read, the report has an entry for the scenario.
-/// The report has this entry even if no channel is wrong.
+/// A scenario that cannot be read has an entry in both reports, although it has no verdict.
 #[test]
 fn an_error_is_reported_without_any_verdict() {
     let mut outcomes = Outcomes::told_by(Advice::to_string);

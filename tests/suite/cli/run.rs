@@ -340,8 +340,8 @@ fn scenarios_of_one_name_do_not_overwrite_each_other() {
 fn unrequested_channels_are_neither_compared_nor_checked() {
     let place = Place::new();
     let only = "[channels]\nwant = [\"positions\", \"velocities\"]\n\n[grid]";
-    // Published numbers of channels that are not requested are refused, so the test removes the numbers of forces at
-    // the end of the file.
+    // Published numbers of channels that are not requested are refused, so the test removes the numbers at the end of
+    // the file, some of which are forces.
     let text = fs::read_to_string(place.path("scenarios/crank_rocker.toml")).unwrap();
     place.edited("crank_rocker.toml", "few.toml", &[("[grid]", only), (from_outside(&text), "")]);
     let document = place.run("run scenarios/few.toml --no-record --json -").json();
@@ -360,7 +360,7 @@ fn unrequested_channels_are_neither_compared_nor_checked() {
 }
 
 /// One factor scales all bounds.
-/// With a factor below 1, numbers disagree.
+/// With a factor of 1e-9, numbers disagree.
 /// With a factor of zero, the report prints every channel and check with its bound, and the verdicts are those of the
 /// factor 1.
 #[test]

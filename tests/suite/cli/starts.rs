@@ -82,7 +82,8 @@ fn grids_in_files_may_list_values() {
     place.ok("solve scenarios/listed.toml --with assur --times 0,0.1,0.3");
 }
 
-/// `--start-crank-deg` replaces `crank_deg` of the file, and gives the same motion at constant speed.
+/// `--start-crank-deg` replaces `crank_deg` of the file.
+/// At constant speed, the pose at any crank angle stays the same.
 #[test]
 fn the_start_angle_option_overrides_the_file() {
     let place = Place::new();
@@ -160,8 +161,7 @@ fn regress_an_ambiguous_start_does_not_block_its_resolution() {
     assert!(chosen.contains("2, right, chosen by the scenario"), "{chosen}");
 }
 
-/// Two cases: a group with up to six configurations, and a group whose configuration depends only on the mode of an
-/// earlier group.
+/// The approximate position of the group is halfway between its two configurations, so it does not choose between them.
 #[test]
 fn all_configurations_of_an_open_group_are_listed() {
     let place = Place::new();
@@ -219,7 +219,7 @@ fn regress_a_wrong_mode_is_reported_for_its_own_group() {
         list.contains("not chosen by the scenario: this configuration") && list.contains("for configuration 2 of"),
         "{list}"
     );
-    // Approximate positions of a later group can contradict an earlier group too.
+    // A later group may have both a mode and an approximate position that fits the mode.
     let last = "links = [\"rod_35\", \"rocker_65\"]\nmode = \"right\"";
     let near = format!("{last}\nnear = {{ point = \"5\", x_mm = 101.4, y_mm = 46 }}");
     place.edited("ov7_base.toml", "near.toml", &[(last, &near)]);

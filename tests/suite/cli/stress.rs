@@ -13,7 +13,7 @@ fn files(place: &Place, directory: &str) -> BTreeMap<String, Vec<u8>> {
     entries.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
 }
 
-/// The part of the last line that states what was run.
+/// The last line, which states what was run.
 fn run_of(told: &str) -> &str {
     told.lines().last().unwrap()
 }
@@ -29,7 +29,7 @@ fn a_run_is_independent_of_threads_and_can_be_resumed() {
     assert_eq!(whole.keys().filter(|name| name.starts_with("length_ratio.")).count(), 3, "{:?}", whole.keys());
     assert!(whole == files(&place, "two"), "other bytes from two threads");
 
-    // The table has the numbers of the JSON, rounded to the digits of the table.
+    // The table has the numbers of the JSON.
     let json: Value = serde_json::from_slice(&whole["length_ratio.json"]).unwrap();
     let mut table = csv::Reader::from_reader(&whole["length_ratio.csv"][..]);
     let header = table.headers().unwrap().clone();

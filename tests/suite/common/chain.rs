@@ -44,7 +44,7 @@ pub fn text(pairs: usize, to: f64, step: f64) -> String {
     )
 }
 
-/// Its case.
+/// The case of this scenario.
 pub fn four_bars(pairs: usize, to: f64, step: f64) -> Case {
     let text = text(pairs, to, step);
     Scenario::parse(&text, Path::new("chain.toml")).unwrap_or_else(|error| panic!("{error}")).case

@@ -54,7 +54,7 @@ pub fn damaged(seed: u64, index: u64) -> Damaged {
     Damaged { path, text, what }
 }
 
-/// Values that are not numbers, and numbers that no mechanism has.
+/// Extreme numbers, unusual spellings of numbers, and values that are not numbers.
 pub const NUMBERS: [&str; 36] = [
     "0",
     "-0.0",
@@ -179,7 +179,8 @@ fn damage(random: &mut RandomSource, text: &mut String) -> String {
             format!("{old} -> {new}")
         }
         12 => {
-            // Moves a section heading, so that a section ends too early or runs into the following section.
+            // Removes a heading, so that its keys belong to the section before; or removes a whole section.
+            // Otherwise, repeats a section at the end of the file.
             let heads: Vec<usize> =
                 text.lines().enumerate().filter(|(_, line)| line.starts_with('[')).map(|l| l.0).collect();
             let Some(line) = (!heads.is_empty()).then(|| heads[random.index(heads.len())]) else {
@@ -286,7 +287,7 @@ fn texts(text: &str) -> Vec<Range<usize>> {
     found
 }
 
-/// Positions of the longest runs of characters that `is_own` accepts, outside comments.
+/// Positions of all runs of characters that `is_own` accepts, each as long as possible, outside comments.
 fn words(text: &str, is_own: impl Fn(char) -> bool) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut start = 0;

@@ -1,7 +1,7 @@
 //! Properties that every input must satisfy, however bad the input is.
-//! The property tests and the fuzz targets in `fuzz/` share the same bodies.
+//! The property tests and the fuzz targets in `fuzz/` call the same functions.
 //!
-//! Each body panics if a property is violated.
+//! Each function panics if a property is violated.
 //! Termination and memory are monitored from outside.
 
 use std::io::Cursor;
@@ -11,7 +11,7 @@ use arbitrary::{Result, Unstructured};
 use formula::{FormulaGraph, FormulaTree, Program, Rounded};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{
-    GROUND, Joint, JointId, JointKind, JointSide, Link, LinkId, Mechanism, Point, Structure, is_unseen,
+    DrivingLink, GROUND, Joint, JointId, JointKind, JointSide, Link, LinkId, Mechanism, Point, Structure, is_unseen,
 };
 use linkage::trajectory::CHANNELS;
 use linkage::{Error, ErrorKind};
@@ -84,16 +84,18 @@ pub fn structure(bytes: &[u8]) -> Result<()> {
             return Ok(());
         }
     };
-    // In this order, every part is joined to earlier parts, and every joint is used exactly once.
+    // The parts are the driving links, then the groups in their order.
+    // Every group is joined to earlier parts, and every joint is used exactly once.
     let (mut known, mut used) = (vec![GROUND], Vec::new());
-    for &(link, joint) in &structure.drivers {
+    for (_, &DrivingLink { link, joint, .. }) in structure.leading() {
         assert!(!known.contains(&link), "link {link} is solved twice");
         assert!(mechanism.joints()[joint].on(link).is_some());
         known.push(link);
         used.push(joint);
     }
     for group in &structure.groups {
-        assert_eq!(3 * group.links.len(), 2 * (group.inner.len() + group.outer.len()), "{group:?} is no Assur group");
+        let equations = 2 * (group.inner.len() + group.outer.len()) + group.given.len();
+        assert_eq!(3 * group.links.len(), equations, "{group:?} is no Assur group");
         for &link in &group.links {
             assert!(!known.contains(&link), "link {link} is solved twice");
         }

@@ -27,7 +27,7 @@ fn link(text: &mut String, random: &mut RandomSource, name: &str, points: &[(&st
     }
 }
 
-/// A mechanism with one group of four links: links, joints and ground points.
+/// A mechanism with one group of four links, of class III if `triad`, otherwise of class IV.
 /// The numbers of the mechanism come from a pose that it can take.
 pub fn scenario(random: &mut RandomSource, triad: bool) -> Scenario {
     let mut text = String::from("format = 1\nname = \"random\"\ntitle = \"random\"\n[ground.points]\n");

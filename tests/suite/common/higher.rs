@@ -56,7 +56,7 @@ pub const CLASS_4: Topology = Topology {
     ],
 };
 
-/// Class III, order 4: two pinned bases 0 and 1 with two leads each.
+/// Class III, order 4: two bases 0 and 1, joined to each other, with two leads each.
 pub const CLASS_3_ORDER_4: Topology = Topology {
     name: "class III of order 4",
     links: 6,
@@ -135,11 +135,11 @@ pub enum Among {
     Alone,
     /// The group is joined to the second link of a dyad instead of the crank.
     BehindADyad,
-    /// Two links of the group carry a dyad of any kind, possibly with its guide.
+    /// A dyad of any kind joins two links of the group, or one link of the group and the ground.
     CarryingADyad,
 }
 
-/// Distance between the approximate and the true positions (m).
+/// Largest distance between the approximate and the true positions (m).
 const ROUGH: f64 = 0.01;
 
 /// A mechanism with a group of this family.

@@ -275,7 +275,8 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
                     spoil(random, &mut bytes, &mut what);
                     what.push(name.clone());
                 }
-                // For these files the program knows only whether it wrote them, so a changed file may be replaced.
+                // For these files the program knows only whether it wrote them, not whether they have changed since.
+                // A changed file may therefore be replaced.
                 let is_any = ["mcap", "s/turns.json", "s/turns.csv"].iter().any(|own| name.ends_with(own));
                 // Changed line endings do not count as damage, because tools change them.
                 let plain = |bytes: &[u8]| bytes.iter().copied().filter(|&byte| byte != b'\r').collect::<Vec<u8>>();

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use super::sketch::RandomSource;
 
-/// Natural magnitudes of a mechanism; random loads have 0.2 to 2 times these magnitudes.
+/// Natural magnitudes of a mechanism; a random load is at most twice as large.
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes {
     /// N

@@ -18,7 +18,6 @@ fn starts_as_drawn(sample: &DyadSpecimen, drawn: &[LinkPose]) {
         let turn = linkage::math::angle::wrapped(found.angle - drawn.angle);
         let off = (found.origin - drawn.origin).norm().larger(turn.abs());
         // The bound allows for the rounding error accumulated along the dyads.
-        // The tests of the two solvers against each other use the same bound.
         assert_within!(off, 1e-13 * sample.condition.powi(2), "{off:e}\n{}", sample.spec.toml());
     }
 }

@@ -1,4 +1,5 @@
-//! Mechanisms with prismatic joints, built by hand, with their motion in closed form: one for every kind of dyad.
+//! Mechanisms with prismatic joints, built by hand, with their motion in closed form.
+//! Every kind of dyad with prismatic joints occurs, RPP twice: without and with rotation.
 //! No frame or axis is parallel to the world's axes, and no mass centre is at a joint.
 //! A wrong sign or a missing rotation therefore shows.
 
@@ -105,7 +106,7 @@ fn crank() -> Link {
     link("crank", &[("O", Vec2::zeros()), ("A", Vec2::new(CRANK, 0.0))], [0.8, 0.03, 0.01, 2e-3])
 }
 
-/// All of them.
+/// All samples.
 pub fn all() -> [Sample; 5] {
     [slider_crank(), swinging_guide(), scotch_yoke(), slotted_crank(), oldham()]
 }

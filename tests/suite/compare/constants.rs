@@ -1,5 +1,6 @@
 //! Constant columns.
-//! If the file prints zeros in short form, the zeros are exact; otherwise their number of digits is unknown.
+//! If the other columns of a file omit trailing zeros, zeros have the digits of these columns.
+//! Otherwise zeros may be rounded.
 
 use super::digits::Format;
 use super::{scenario, solved};
@@ -31,8 +32,8 @@ fn words(name: &str, columns: &[(&str, Format, Option<f64>)]) -> Vec<&'static st
 
 const NINE: Format = Format::General(9);
 
-/// Constant columns: a joint without a guide, links that only translate, a constant speed.
-/// The constant values are printed as `0`, as `0.0` by Python, and as `30`.
+/// Constant columns: a guide without a moment, a link that only translates, a constant speed.
+/// The constant values are printed as `0` and `30` in every format.
 #[test]
 fn structural_constants_agree_in_every_format() {
     for (format, constant) in [(NINE, NINE), (Format::Shortest, Format::Shortest), (Format::Fixed(6), Format::Fixed(0))]
@@ -55,8 +56,8 @@ fn structural_constants_agree_in_every_format() {
     }
 }
 
-/// If all columns have nine digits, a force printed as `0` is an exact zero, so the force was forgotten.
-/// If columns are rounded to whole numbers, the force may have any value below 0.5.
+/// If the other columns omit trailing zeros, a column of `0` is zero to the digits of these columns, so it disagrees.
+/// If the other columns have fixed decimals, `0` may stand for any value below 0.5.
 #[test]
 fn wrong_constants_disagree_only_where_they_are_exact() {
     let of = |format, constant| {

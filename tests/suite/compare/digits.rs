@@ -27,9 +27,9 @@ impl RandomSource {
 pub(crate) enum Format {
     /// Number of significant digits, without trailing zeros, as in `%.9g`.
     General(usize),
-    /// Number of digits after the first, with an exponent.
+    /// Number of significant digits, with an exponent.
     Exponent(usize),
-    /// So many decimals.
+    /// Number of decimals.
     Fixed(usize),
     /// The shortest text of a double, as in Python.
     Shortest,
@@ -70,7 +70,7 @@ impl Format {
     }
 }
 
-/// The columns, each with name, format and numbers.
+/// A printed table: format, factor and name of the times; columns with name, format and numbers; and the times (s).
 struct Printed {
     times: (Format, f64, &'static str),
     columns: Vec<(String, Format, Vec<f64>)>,

@@ -62,7 +62,7 @@ fn parquet_files_of_pandas_and_polars_are_read() {
     place.ok("compare pandas.parquet polars_f32.parquet --rel 1e-6");
 }
 
-/// Any bytes lead quickly to an error or a comparison, never to a panic.
+/// Any bytes lead to an error or a table, never to a panic.
 #[test]
 fn damaged_parquet_files_are_refused() {
     let path = Path::new(KEPT).join("pandas.parquet");
@@ -232,13 +232,13 @@ fn the_crank_angle_is_compared_if_both_files_have_it() {
         place.run("compare scenarios/crank_rocker.toml both.csv")
     };
     assert_eq!(write(&crank).code, 0);
-    // A table may restart its angles at every revolution.
+    // The angles of a table may differ by whole revolutions.
     assert_eq!(write(&|row| crank(row) - 360.0).code, 0);
     for wrong in [&(|row| -crank(row)) as &dyn Fn(usize) -> f64, &|row| crank(row + 1), &|row| crank(row - 1)] {
         let outcome = write(wrong);
         assert_eq!(outcome.code, 1, "{}", outcome.stdout);
         let told = outcome.unbroken();
-        assert!(told.starts_with("DISAGREE: the crank angle, but none of the 1 channels"), "{told}");
+        assert!(told.starts_with("DISAGREE: the crank angle disagrees; all 1 channels agree at "), "{told}");
         assert!(told.contains("crank angle: first at t = "), "{told}");
         fs::copy(place.path("both.csv"), place.path("wrong.csv")).unwrap();
         assert_eq!(write(&crank).code, 0);
@@ -304,7 +304,7 @@ fn tables_beyond_the_memory_limit_are_refused() {
                   columns = { a = { channel = \"link.crank.angle_deg\" } }\n";
     fs::write(place.path("scenarios/long.toml"), text + oracle).unwrap();
     place.refused("run scenarios/long.toml --no-record --memory 0.05", &["[[oracle]]", words[0], words[1]]);
-    // The comparison is refused before the file is read.
+    // With less memory, the table is refused before its numbers are read.
     place.refused(
         "run scenarios/long.toml --no-record --memory 0.01",
         &["scenarios/long.toml:", "reading 200000 rows", words[0], words[1], words[2]],

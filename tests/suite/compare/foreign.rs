@@ -98,7 +98,7 @@ fn time_that_jumps_back_is_reported() {
     assert!(compared("mujoco_crank_rocker", "mujoco_crank_rocker.csv", &[]).pairs[0].turns_back.is_none());
 }
 
-/// For each case: a wrong line of a map, and words that must occur in the named cause.
+/// For each case: the map, a wrong line for it, and words that must occur in the named cause (empty if none must).
 const LINES: [(&str, &str, &str); 17] = [
     ("mujoco_crank_rocker", "54.19349837312087 + q_rocker*180/pi=link.rocker.angle_deg", "opposite sense"),
     ("mujoco_crank_rocker", "54.19349837312087 - q_rocker=link.rocker.angle_deg", ""),

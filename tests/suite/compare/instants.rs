@@ -14,8 +14,8 @@ use crate::cli::tools::Place;
 /// A row: instant, angle of the rocker (deg), and its angular velocity.
 type Row = (String, f64, f64);
 
-/// Rows of a correct table of the crank-rocker, at times with nine digits.
-/// `of` converts a time to the printed instant.
+/// Rows of a correct table of the crank-rocker.
+/// `of` converts a time (s) to the printed instant.
 fn rows(of: impl Fn(f64) -> f64) -> Vec<Row> {
     let right = solved(&scenario("crank_rocker"));
     let [angle, omega] = ["link.rocker.angle_rad", "link.rocker.omega_rad_s"].map(|name| right.named(name).unwrap());

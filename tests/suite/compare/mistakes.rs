@@ -1,4 +1,4 @@
-//! Planted mistakes in tables: every mistake is found and correctly named.
+//! Planted mistakes in tables: every mistake is found, and most mistakes are correctly named.
 
 use std::f64::consts::PI;
 
@@ -150,7 +150,7 @@ fn every_planted_mistake_is_found_and_most_are_named() {
 }
 
 /// If a term of a quantity is missing, no change of the mechanism explains the difference.
-/// Least squares finds such a term from the remaining quantities of the table.
+/// Least squares finds such a term from the quantities of the correct solution.
 #[test]
 fn a_missing_term_is_named() {
     let scenario = scenario("crank_rocker");

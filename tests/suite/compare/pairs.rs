@@ -77,7 +77,7 @@ fn digits_of_numbers_and_of_instants_are_in_the_bound() {
     std::fs::write(&path, format!("t_s,link.rocker.angle_deg\n{lines}")).unwrap();
     let raw = load(&path).unwrap();
     assert_eq!(against(&scenario, &raw, &ComparisonRule::default()).verdict.word(), "agree");
-    // One number is wrong by two units of its last digit, which is more than the two roundings allow.
+    // One number is wrong by a hundred units of its last digit, which is more than the two roundings allow.
     let spoiled =
         lines.replacen(&format!("{:.4}", angle[40].to_degrees()), &format!("{:.4}", angle[40].to_degrees() + 0.01), 1);
     std::fs::write(&path, format!("t_s,link.rocker.angle_deg\n{spoiled}")).unwrap();
@@ -120,7 +120,7 @@ fn two_tables_need_an_allowance() {
 }
 
 /// Every third instant is enough to interpolate the remaining instants.
-/// The bound contains the interpolation error, and is not much larger than this error.
+/// The bound contains the interpolation error, and is below 1e-3 rad.
 #[test]
 fn the_interpolation_error_is_in_the_bound() {
     let right = solved(&scenario("crank_rocker"));
@@ -137,7 +137,7 @@ fn the_interpolation_error_is_in_the_bound() {
     assert_eq!((found.verdict.word(), found.pairs[0].unshared, channel.judged), ("agree", 0, 361));
     let worst = channel.largest.unwrap();
     assert!(worst.difference.abs() > 1e-9 && worst.bound < 1e-3, "{worst:?}");
-    // It hides no mistake.
+    // Interpolation hides no mistake of 1e-3 rad.
     let mut spoiled = every(1);
     spoiled.columns[1][100].value += 1e-3;
     assert_eq!(compared([held(&every(3)), held(&spoiled)], &how).unwrap().verdict.word(), "disagree");
@@ -231,7 +231,7 @@ fn two_tables_in_different_units_are_compared_in_one() {
     assert_eq!(verdict(of("point.B.x_mm", 1e3), of("point.B.x_m", 1.0)), "agree");
     assert_eq!(verdict(of("point.B.x_m", 1.0), of("point.B.x_mm", 1.0)), "disagree");
     assert_eq!(verdict(of("point.B.x_m", 1e3), of("point.B.x_mm", 1e3)), "disagree");
-    // Times too.
+    // A table with times in s and a table with times in ms agree too.
     let ms = right.times().iter().map(|time| 1e3 * time).collect::<Vec<f64>>();
     let late = |name| held(&table(&[(name, ms.clone()), ("point.B.x_m", x(1.0))]));
     assert_eq!(verdict(of("point.B.x_m", 1.0), late("time_ms")), "agree");

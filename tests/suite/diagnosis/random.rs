@@ -92,7 +92,7 @@ fn planted(case: &Case, random: &mut RandomSource) -> Option<(Case, String)> {
                     ..StartGroup::default()
                 })
                 .collect();
-            let angles: Vec<f64> = parts.drives.iter().map(|drive| drive.world_angle(drive.start)).collect();
+            let angles: Vec<f64> = parts.drives.iter().map(|drive| drive.coordinate(drive.start)).collect();
             (parts.start, parts.modes) = first_pose(&parts.mechanism, &parts.structure, &angles, &wanted).ok()?;
             names.join("|")
         }
@@ -139,5 +139,5 @@ fn random_faults_are_named() {
     assert!(wrong == 0 && nothing == 0 && mentioned * 20 <= named, "\n{}", lines.join("\n"));
 }
 
-/// Faults of each scenario.
+/// Number of faults that are planted in each scenario.
 const COUNT: usize = 6;

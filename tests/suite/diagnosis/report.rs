@@ -1,4 +1,4 @@
-//! Parts of a diagnosis that are shown, and their location.
+//! What the report and the JSON show of a diagnosis, and where the report shows it.
 
 use super::{edited, parsed, text};
 use linkage::error::Advice;

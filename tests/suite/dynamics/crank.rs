@@ -42,7 +42,7 @@ fn elliptic(k: f64) -> f64 {
     PI / (2.0 * a)
 }
 
-/// I domega/dt = M0 - c omega has omega = M0 / c (1 - exp(-c t / I)).
+/// The equation I domega/dt = M0 - c omega has the solution omega = M0 / c (1 - exp(-c t / I)).
 #[test]
 fn constant_coefficients_have_their_closed_form() {
     let case = bar(0.0, 0.0, false);
@@ -103,15 +103,15 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
 fn the_averaged_model_needs_one_falling_straight_line() {
     let linear = Motor::ideal(MotorLaw::Linear { at_rest: 4.0, slope: -0.02 }, 10.0);
     let lossy = Motor { efficiency: 0.9, ..linear.clone() };
-    // Without resistance, both motors reach the motor speed of 200 rad/s; the motor with losses is slower.
+    // Without resistance, both motors reach the motor speed of 200 rad/s; the motor with losses takes longer.
     let free = [&linear, &lossy].map(|motor| Averaged::of(motor, 0.5, 0.0).unwrap());
     free.iter().for_each(|free| assert_within!((free.steady_speed - 20.0).abs(), 1e-12, "{free:?}"));
     assert_within!((free[1].time_constant / free[0].time_constant - 1.0 / 0.9).abs(), 1e-14);
     // If the resistance drives the crank, losses act in the opposite direction above 20 rad/s.
     assert_within!((Averaged::of(&linear, 0.5, -2.0).unwrap().steady_speed - 21.0).abs(), 1e-12);
     assert_eq!(Averaged::of(&lossy, 0.5, -2.0), None);
-    // The motion has no steady state in these cases: a resistance above the starting moment, no mass, no slope, or a
-    // curved characteristic.
+    // There is no averaged model in these cases: a resistance above the starting moment, no inertia, or a
+    // characteristic without slope, with a rising slope, or with a curve.
     assert_eq!(Averaged::of(&linear, 0.5, 40.1), None);
     assert_eq!(Averaged::of(&linear, 0.0, 1.0), None);
     let bent = [
@@ -160,7 +160,7 @@ fn a_pendulum_swings_in_its_known_time() {
         let quarters: Vec<f64> = (0..10).map(|k| period * (f64::from(k) + 0.25)).collect();
         let (found, _) = motion(&model, 0.0, &quarters, 1e-13).unwrap();
         for at in &found {
-            // The bound is the requested accuracy of run-ups.
+            // The bound is that of run-ups in `figures.rs`.
             assert_within!((at.crank + PI / 2.0).abs(), 1e-10, "{degrees}: {at:?}");
         }
     }

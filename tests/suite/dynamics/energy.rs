@@ -22,7 +22,7 @@ fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> [f64; 2] {
 }
 
 /// Without motor and loads the energy is constant.
-/// The energy is checked over a hundred revolutions, at some thousand instants.
+/// The energy is checked over a hundred revolutions, at many instants.
 #[test]
 fn conservative_mechanisms_keep_their_energy() {
     for (name, speed) in [("crank_rocker", 30.0), ("compressor", 40.0), ("six_bar_slider", 100.0), ("ov7_base", -97.0)]

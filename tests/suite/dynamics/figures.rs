@@ -10,7 +10,7 @@ use linkage::drive::{Load, Motor, MotorLaw};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::LinkId;
 
-/// Times from half a millisecond to half a second: the run-up of the published problem.
+/// Times from zero to half a second, 1 ms apart: the run-up of the published problem.
 fn times() -> Vec<f64> {
     (0..=500).map(|k| f64::from(k) * 1e-3).collect()
 }

@@ -38,7 +38,7 @@ const RUN_UPS: [&str; 6] =
 /// Motions through change points.
 const CHAINS: [&str; 2] = ["n_four_bar_1", "n_four_bar_2"];
 
-/// The figures of the README, from positions to reactions.
+/// Both sides are compared from positions to reactions.
 /// Side 1 uses the reduced equation of motion, or transfer functions group by group.
 /// Side 2 uses the embedding with the Jacobian of the whole mechanism.
 #[test]
@@ -226,8 +226,8 @@ fn the_twin_keeps_the_velocities_that_moved_it() {
     assert_within!(worst, 3e-5, "{worst:e}");
 }
 
-/// Without rotor and flywheel, the crank is almost massless at one angle.
-/// The motion at this angle is so fast that it lasts about one step.
+/// Without rotor and flywheel, the inertia reduced to the crank almost vanishes at one crank angle.
+/// The crank passes this angle so fast that the passage lasts about one step.
 /// The proof must be inconclusive; a disagreement would be wrong.
 #[test]
 fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {

@@ -105,7 +105,7 @@ fn a_spring_is_wound_up_by_a_free_motion() {
     }
 }
 
-/// Two load tables that repeat together only after 1309 revolutions do not prevent a motion of a few revolutions.
+/// Three load tables that repeat together only after 1309 revolutions do not prevent a motion of a few revolutions.
 #[test]
 fn tables_of_many_turns_act_on_a_free_motion() {
     let case = shipped("crank_rocker_runup.toml").case;
@@ -189,7 +189,7 @@ fn resisting_forces_dissipate_force_times_path() {
     both("several", &loaded(&resisted, &more), 1e-10);
 }
 
-/// A sufficiently large resisting force stops its point, and both sides report the stop.
+/// A sufficiently large resisting force holds its point at rest from the start, and both sides report this.
 #[test]
 fn a_force_against_a_point_can_hold_it() {
     let case = shipped("double_pendulum.toml").case;
@@ -230,7 +230,7 @@ fn a_rocker_starts_from_its_dead_centre_against_a_moment() {
     }
 }
 
-/// If a slide grows without bound, the angles of all links reach their limits at infinity, with few poses.
+/// If a slide grows without bound, the links approach limit angles, and the search for these angles needs few poses.
 #[test]
 fn links_that_slide_to_infinity_reach_their_limit_angles() {
     let case = shipped("tangent.toml").case;

@@ -129,8 +129,8 @@ fn reactions_of_one_four_bar_match_the_hand_calculation() {
     }
 }
 
-/// With two parallelograms, the bars contradict each other in level poses: reactions have a pole there, but the motion
-/// does not.
+/// With two parallelograms, the equations of the reactions contradict each other in level poses.
+/// Reactions therefore have a pole there, but the motion does not.
 /// The middle bar carries two half rods, each end bar carries one half rod.
 #[test]
 fn reactions_may_have_a_pole_at_a_change_point() {
@@ -185,8 +185,8 @@ fn drift(case: &Case, found: &Trajectory) -> f64 {
     (most - least) / all[0].abs().larger(1.0)
 }
 
-/// Mechanisms that no fault report names: kites, antiparallelograms, and lengths whose longest two sum to as much as
-/// the shortest two.
+/// Mechanisms that no fault report names: kites, antiparallelograms, and lengths whose longest and shortest sum to as
+/// much as the other two.
 /// The energy is constant, and the sides agree.
 #[test]
 fn other_change_point_mechanisms_pass_by_momentum() {
@@ -284,7 +284,7 @@ fn a_drive_passes_change_points_only_on_request() {
             assert_within!(off, 1e-8, "{lengths:?} {left}: {off}");
             for side in SIDES {
                 assert!(side.solve(&driven(lengths, left, 60.0, false, &cranks)).is_err(), "{}", side.name());
-                // The grid is tested with the same angles in reverse, and with a motion back and forth.
+                // The motion is also tested from the start in the opposite direction.
                 let back: Vec<f64> = cranks.iter().map(|crank| 120.0 - crank).collect();
                 let there = solve(side, &driven(lengths, left, 60.0, true, &back));
                 assert_eq!(there.times().len(), back.len());
@@ -333,7 +333,7 @@ fn invalid_values_of_through_are_refused() {
     }
 }
 
-/// Without any engine setting, `run` ends with a verdict.
+/// Without any engine setting, the proof ends with the verdict agree.
 #[test]
 fn the_benchmark_agrees_with_rapier() {
     for name in ["n_four_bar_1.toml", "n_four_bar_2.toml"] {

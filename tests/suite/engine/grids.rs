@@ -77,7 +77,7 @@ fn regress_21_samples_between_steps_are_as_good_as_samples_on_steps() {
 
 /// Story 22.
 /// Symptom: instants before the start are refused, or values differ where the run reverses.
-/// A run back and forth over t = 0 must agree, within the engine's error, with the run that starts at t = 0.
+/// A run back and forth over t = 0 must agree, within rounding error, with the run that starts at t = 0.
 #[test]
 fn regress_22_instants_before_the_start_are_as_good_as_others() {
     let case = case();

@@ -22,7 +22,7 @@ use crate::common::specimens::specimen;
 /// Story 40.
 /// Symptom: numbers are wrong by 50 %, without a message.
 /// Cause: with a step of a tenth of a revolution, the gap of the loop stays below the limit that stops a run.
-/// Three runs at steps from 37 to 7.8 degrees must then be inconclusive.
+/// Proofs at steps of 39, 15.6 and 7.8 degrees must then be inconclusive, or end with a helpful error.
 #[test]
 fn regress_40_steps_that_are_too_large_prove_nothing() {
     let scenario = shipped("crank_rocker.toml");

@@ -1,4 +1,5 @@
-//! Prismatic joints: one mechanism of every kind of dyad, built by hand, compared with the whole-mechanism solver.
+//! Prismatic joints: mechanisms with every kind of dyad that has such joints, built by hand.
+//! The engines are compared with the whole-mechanism solver.
 
 use analytic::NewtonSolver;
 use linkage::case::{Case, Grid};
@@ -102,7 +103,7 @@ fn regress_52_links_in_sliders_turn_together() {
 /// Symptom: at the same step, proofs of sliders are weaker than proofs of pins.
 /// At a step of 1e-4 s, the measured largest errors over half the range in any channel are 1.4e-6, 8.3e-6, 7.8e-7,
 /// 2.0e-5 and 1.7e-6.
-/// (The fourth mechanism makes only a quarter revolution, so its ranges are small.)
+/// (The fourth mechanism makes only a fifth of a revolution, so its ranges are small.)
 /// The bounds are a tenth larger than these errors.
 #[test]
 fn regress_53_errors_of_sliders_are_as_measured() {

@@ -53,7 +53,7 @@ impl Motion {
     }
 }
 
-/// A name, its moment, and its joints with their coefficients.
+/// Name of a tendon, its moment of friction, and its joints with their coefficients.
 pub type Tendon = (String, f64, Vec<(String, f64)>);
 
 /// A file, read back.

@@ -101,7 +101,7 @@ fn half_a_reaction_on_the_crank_is_recognised() {
     let whole = with_mistake(&scenario, "T", "-r*(P*sin(phi) - rod_y*cos(phi))", "T");
     assert_eq!(judged(&whole).verdict.word(), "agree");
     let half = with_mistake(&scenario, "T", "-r*P*sin(phi)", "T");
-    // The guide's thrust has the same magnitude as the missing component, so the diagnosis may name the thrust.
+    // The guide's thrust has the same magnitude as the missing component, but the diagnosis must name the component.
     let found = said(&half, "T");
     assert!(found.contains("a missing term, in T: `+ r*rod_y*cos(phi)`"), "{found}");
     // In this second case, the component along the stroke is missing.

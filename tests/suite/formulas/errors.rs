@@ -1,4 +1,4 @@
-//! Wrong formulas of kinds that were not used to develop the search.
+//! Two lists of wrong formulas: one was used to develop the search, the other was run only after it was finished.
 //! Every mistake is found, most causes are named, and no cause is invented.
 
 use prover::check::{FormulaCause, MOST_WORK};

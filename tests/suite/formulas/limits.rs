@@ -122,7 +122,8 @@ fn regress_chained_claims_are_judged_once_each() {
     }
 }
 
-/// Symptom: a dictionary of possibly missing terms grew with the square of the previous steps, and was not counted.
+/// Symptom: a dictionary of possibly missing terms grew with the square of the number of previous steps, and its work
+/// was not counted.
 #[test]
 fn regress_a_search_after_many_steps_has_bounded_work() {
     let step = |index: usize| {
@@ -135,7 +136,7 @@ fn regress_a_search_after_many_steps_has_bounded_work() {
     assert_eq!(found.verdict.word(), "disagree");
 }
 
-/// A search that reached its limit is reported in the JSON and in the text.
+/// A search that reached its limit is reported in the JSON of `check` and of `run`.
 #[test]
 fn a_truncated_search_is_reported_in_the_json_of_check() {
     let place = Place::new();

@@ -66,7 +66,7 @@ step_deg = "90/ratio"
 "#;
 
 /// A short name has the unit of the key if the short name measures the same quantity as the key, otherwise the SI unit.
-/// Keys are plain numbers.
+/// A whole key, such as `b_mm`, is the number as given, without conversion.
 #[test]
 fn numbers_may_be_expressions_of_parameters() {
     let scenario = Scenario::parse(FOUR_BAR, Path::new("x.toml")).unwrap_or_else(|error| panic!("{error}"));

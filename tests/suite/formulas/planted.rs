@@ -82,7 +82,7 @@ fn change(right: &Scenario, wrong: &Scenario, name: &str) -> f64 {
 
 /// Plants mistakes in exact formulas of the library.
 /// Asserts that every mistake that changes a value is found.
-/// Returns the number of correctly named mistakes, and the number of all mistakes.
+/// Returns the number of all mistakes, and the number of correctly named mistakes.
 fn planted(seed: u64, count: usize) -> (usize, usize) {
     let scenarios: Vec<Scenario> = files().iter().map(|path| load(path)).filter(|own| !own.case.is_free()).collect();
     let mut random = RandomSource::of_sample(seed, 0);
@@ -105,7 +105,7 @@ fn planted(seed: u64, count: usize) -> (usize, usize) {
         part.shape = shape;
         let text = tree.to_string();
         let wrong = rewritten(scenario, &formula.name, &text);
-        // Whole revolutions of an angle do not count as a change.
+        // A slip that does not change the formula's values is not a mistake.
         if !(change(scenario, &wrong, &formula.name) > 1e-9) {
             continue;
         }
@@ -113,8 +113,8 @@ fn planted(seed: u64, count: usize) -> (usize, usize) {
         let (name, file) = (&formula.name, &scenario.name);
         assert!(is_wrong(&found, name), "{file}: {name} = {text} for {}", formula.text);
         all += 1;
-        // A named cause makes the formula right at all instants.
-        // The name is correct if the cause is of the planted kind.
+        // A cause is named only if its correction makes the formula right at all instants.
+        // The name is correct if the cause is of the planted kind, in the formula with the mistake.
         let cause = found.judgement.causes.iter().find(|(own, _)| own == name).and_then(|(_, cause)| cause.as_ref());
         match cause {
             Some(FormulaCause::Slip(slip)) if slip.formula == *name && of_kind(kind).contains(&slip.kind) => named += 1,

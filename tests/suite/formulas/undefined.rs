@@ -26,7 +26,8 @@ const OUTSIDE: [(&str, &str); 14] = [
 ];
 
 /// Symptom: `phi*180/pi + 0*ln(-1)` was right.
-/// Causes: the parser simplified 0*x, 0/x and x^0, which the derivatives need; and IEEE 754 gives 1/(1/0) a value.
+/// Causes: the parser simplified 0*x, 0/x and x^0, although only derivatives need this; and IEEE 754 gives 1/(1/0) a
+/// value.
 #[test]
 fn regress_undefined_constants_are_refused_in_every_input() {
     let place = Place::new();
@@ -102,7 +103,7 @@ fn operations_outside_their_domain_disagree_with_a_position() {
 
 /// A pole between two instants is not an operation outside its domain.
 /// A formula that is right at every instant is right, but the bound of the formula is wider near the pole.
-/// If rounding hides a pole at an instant, nothing is proven.
+/// If rounding hides a pole at an instant, the formula is not judged at this instant; the other instants decide.
 #[test]
 fn poles_between_instants_and_poles_that_rounding_hides() {
     let scenario = shipped("crank_rocker.toml");

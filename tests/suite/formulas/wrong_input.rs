@@ -29,7 +29,7 @@ fn a_formula_of_the_command_line_is_judged() {
         (json["verdict"].as_str(), json["formulas"][0]["cause"]["kind"].as_str()),
         (Some("disagree"), Some("a sign"))
     );
-    // Short names of parameters have SI values; keys are plain numbers.
+    // Short names of parameters have SI values; whole keys, such as `a_mm`, are the numbers as given.
     let place = Place::new();
     for expression in ["a/l*omega_crank*0+w", "w+a_mm-1000*a", "w_rpm*pi/30"] {
         let set = "--set a_mm=30 --set l_m=0.2 --set w_rpm=130 --set omega_crank=0";

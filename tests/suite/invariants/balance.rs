@@ -12,7 +12,7 @@ use crate::common::random::{REACH, for_each, within};
 use crate::common::{centre, centre_velocity};
 use linkage::mechanism::LinkId;
 
-/// Five states around an instant, and the scales of the balances.
+/// Seven states around an instant, and the scales of the balances.
 struct Instant<'a> {
     case: &'a Case,
     around: Around,

@@ -13,7 +13,8 @@ const R: f64 = 0.1;
 const L: f64 = 0.35;
 const OMEGA: f64 = 3.0;
 
-/// Crank OA, rod AB, slider along x, without masses and gravity; with a point P on the rod 0.2 m from A.
+/// Crank OA, rod AB, slider along x, without masses and gravity.
+/// The rod has a point P, 0.2 m from A along the rod and 0.05 m beside it.
 pub fn slider_crank(loads: &str) -> Scenario {
     let text = format!(
         "format = 1\nname = \"test\"\ntitle = \"test\"\n[ground.points]\nO = {{ x_m = 0, y_m = 0 }}\nS = {{ x_m = 0.6, y_m = 0 }}\n\
@@ -67,7 +68,9 @@ fn val_a_constant_force_on_the_slider() {
 
 #[test]
 fn val_a_force_that_follows_the_rod() {
-    // The force acts at pin A along the rod, so it loads only the crank: r F (cos b, sin b) . (-sin phi, cos phi).
+    // The force acts at pin A, so it loads only the crank. It points along the rod at the angle b.
+    // Its moment on the crank at the angle phi is r F (cos b, sin b) . (-sin phi, cos phi) = r F sin(b - phi).
+    // The balancing moment is the negative of this.
     let load = "[[loads]]\ntype = \"force\"\nlink = \"rod\"\npoint = \"A\"\nx_N = 20\ny_N = 0\nframe = \"link\"";
     balances(load, 10.0, |phi| -20.0 * R * (rod(phi)[0] - phi).sin());
 }

@@ -19,7 +19,7 @@ pub fn loads(random: &mut RandomSource, case: &Case) -> String {
     common::loads::loads(random, case, 6, Sizes { force: 50.0, length: 1.0, speed: 1.0 })
 }
 
-/// The scenario of a sample with its loads replaced.
+/// The scenario of a sample with six more loads.
 pub fn loaded(random: &mut RandomSource, scenario: &Scenario) -> Scenario {
     let text = format!("{}\n{}", scenario.text, loads(random, &scenario.case));
     Scenario::parse(&text, &scenario.path).unwrap_or_else(|error| panic!("{error}\n{text}"))
@@ -91,7 +91,7 @@ fn higher_groups_agree_under_loads() {
                     let power = driving + power::of_known_forces(case, &state);
                     assert_within!(
                         power.abs(),
-                        1e-11 * scale * case.drives.top_speed(),
+                        1e-11 * scale * case.drives.top_speed(case.mechanism.size()),
                         "{name} {}: {power:e}",
                         solver.name()
                     );

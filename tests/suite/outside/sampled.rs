@@ -106,7 +106,7 @@ impl Row<'_> {
                 Load::TorsionSpring { links, stiffness, free_angle } => {
                     let angle = |link: LinkId| self.link(link).turn[0];
                     let begun = self.case.start.0[links[1]].angle - self.case.start.0[links[0]].angle;
-                    // At t = 0 the angle is in (-pi, pi], so `turns` counts revolutions from this interval.
+                    // At t = 0 the twist is in (-pi, pi]; `turns` is the number of revolutions that this removes.
                     let turns = ((begun - std::f64::consts::PI) / std::f64::consts::TAU).ceil();
                     let twist = angle(links[1]) - angle(links[0]) - turns * std::f64::consts::TAU;
                     let moment = stiffness * (twist - free_angle);

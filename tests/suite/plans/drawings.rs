@@ -102,7 +102,7 @@ fn letters_do_not_overlap() {
     assert_eq!(crossed, 0, "of {letters} letters");
 }
 
-/// The arrow's length equals the vector's magnitude times the scale factor, to 0.01 mm, the last written digit.
+/// The arrow's length equals the vector's magnitude divided by the scale factor, to 0.01 mm, the last written digit.
 #[test]
 fn drawings_are_true_to_scale() {
     let plans = plans("crank_rocker", 70.0);

@@ -155,7 +155,7 @@ fn log_messages_have_their_time_and_level() {
     assert_eq!(load(&path).unwrap()[0].1.times(), run.reference.times());
 }
 
-/// Foreign programs identify the contents of a recording by the numbers of its sides, rows and fields.
+/// Foreign programs identify the samples of a recording by sequence numbers, and the values by field numbers.
 #[test]
 fn samples_are_numbered_from_zero_and_fields_from_one() {
     let (_directory, _, bytes) = written(&run());
@@ -246,7 +246,7 @@ fn a_film_has_motion_forces_and_curves_of_its_recording() {
     }
 }
 
-/// The drive's torque is plotted first, then the largest reaction.
+/// The drive's torque is plotted first, then the component of a reaction with the largest range.
 /// One revolution lasts half of the recording.
 #[test]
 fn a_view_starts_with_the_main_plots_and_shows_everything() {
@@ -376,7 +376,8 @@ fn both_sides_are_visible_and_the_robot_has_the_same_parts() {
     }
 }
 
-/// The recording has fifty frames per second of log time, if there are enough instants, and always the last instant.
+/// If there are enough instants, the recording has about 400 frames, or fifty per second of log time if that is more.
+/// It always has a frame of the last instant.
 #[test]
 fn slow_motion_has_more_frames_and_ends_with_the_last_instant() {
     let times = turn(1_600);

@@ -1,4 +1,5 @@
-//! Thousands of bad scenarios: no panic, no hang, and every error message names the key of the error.
+//! Thousands of bad scenarios: no panic, no hang, and every error states its location.
+//! It also states its key, unless the whole file is at fault.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -28,7 +29,7 @@ fn ending(index: u64, bad: &Damaged) -> String {
             return format!("refused: {:?}", error.kind());
         }
     };
-    // A scenario that loads is solved without changes, but only for the first instants and revolutions of its grid.
+    // A scenario that loads is solved without changes, but only at a few instants of its grid near the start.
     let Some(scenario) = shortened(scenario) else { return "loads, with no instant near its start".into() };
     match prove(&scenario, &Options::default().budget(BUDGET)) {
         Ok(proof) => {

@@ -182,7 +182,7 @@ const WRITTEN: [&str; 3] = ["--output", "--run-up", "--write-map"];
 /// Options that name a directory. The program chooses the file names in this directory, and therefore inspects existing
 /// files.
 const MADE: [&str; 4] = ["bench --output", "man --output", "run --output", "stress --output"];
-/// Arguments that read no untrusted input, only a directory for files that the program writes.
+/// Arguments that name no input, only a directory for files that the program writes.
 const NO_INPUT: [&str; 1] = ["new --shipped"];
 
 /// Collects the arguments of a command from its help: command, option or value, and name of the value.

@@ -34,8 +34,8 @@ fn peak(arguments: &[&str]) -> f64 {
     most
 }
 
-/// The test measures runs with all channels and with positions alone, in prescribed and in free motion, and with a
-/// table of the solution.
+/// The test measures a proof and a table of the solution with all channels, in prescribed and in free motion.
+/// The estimate for positions alone must be about half of the estimate for all channels, or less.
 /// If `LINKPROOF_DRAWS` is above 1, the test adds a larger mechanism.
 #[test]
 fn a_run_uses_the_estimated_memory() {

@@ -84,7 +84,7 @@ fn no_hostile_text_becomes_a_name() {
     }
 }
 
-/// Titles, sources and names of published numbers may contain any visible character.
+/// Titles and sources may contain any visible character, but no invisible one.
 #[test]
 fn no_text_may_hold_invisible_characters() {
     for text in hostile().iter().filter(|text| text.contains(is_unseen) || text.len() > 10_000) {

@@ -112,7 +112,7 @@ fn the_written_scenario_has_the_values_found() {
     let text = redraw::redrawn(&task, &drawing.text, &values, "one\n\ntwo").unwrap();
     assert!(
         text.starts_with(
-            "# one\n#\n# two\n# These keys of the drawing are left out, because they are valid for its own dimensions"
+            "# one\n#\n# two\n# These keys of the drawing are left out, because they are valid only for the original"
         ) && text.contains("\n\nformat = 1\nname = \"recovered\"\n"),
         "{text}"
     );
@@ -149,7 +149,7 @@ fn regress_numbers_of_the_drawing_are_not_written() {
     // The scenario loads in any directory, and states what was removed.
     let found = Scenario::parse(&written, "elsewhere/found.toml").unwrap();
     assert!(found.oracles.is_empty() && found.formulas.list.is_empty() && found.source.is_none());
-    let keys = "are valid for its own dimensions only: oracle, formula, source.\n";
+    let keys = "are valid only for the original dimensions: oracle, formula, source.\n";
     let told = format!("# found\n# These keys of the drawing are left out, because they {keys}");
     assert!(written.starts_with(&told), "{written}");
 }
@@ -162,7 +162,7 @@ fn the_measured_phases_end_at_the_extreme_positions() {
     // The revolution begins in the stretched position.
     let case = task.case.with(|parts| {
         parts.drives.crank_mut().zero = 33.610_819_789_881_56f64.to_radians();
-        let angles = parts.drives.world_angles(parts.drives.crank().start);
+        let angles = parts.drives.coordinates(parts.drives.crank().start);
         (parts.start, parts.modes) =
             linkage::mechanism::first_pose(&parts.mechanism, &parts.structure, &angles, &task.starts).unwrap();
     });
@@ -176,7 +176,7 @@ fn the_measured_phases_end_at_the_extreme_positions() {
     }
     assert!(found.unrest(&task) == 0.0);
     assert_within!(found.late(&task), 0.01 / 360.0 * TAU);
-    // If the sign or the zero of the output is changed, the error is large.
+    // With the opposite sign of the output, or with the original zero of the crank, the error is large.
     assert!(Achieved::of(&task, -1.0).unwrap().wrong() > 0.2);
     assert!(Achieved::of(&task, 1.0).unwrap().late(&task) > 0.1);
 }
@@ -191,10 +191,10 @@ fn mistakes_in_the_file_are_reported() {
         ("to_deg = 360, sense", "to_deg = 350, sense", "phases[2]", "ends at 350"),
         ("point = \"A\"\nfrom = \"O\"", "point = \"A\"\nfrom = \"X\"", "vary[1].from", "has no point \"X\""),
         ("length = { from_mm = 10, to_mm = 60 }", "", "vary[1]", "no property of this point varies"),
-        ("{ from_mm = 10, to_mm = 60 }", "{ from_mm = 60, to_mm = 10 }", "vary[1].length", "below the least"),
+        ("{ from_mm = 10, to_mm = 60 }", "{ from_mm = 60, to_mm = 10 }", "vary[1].length", "`to` is below `from`"),
         ("{ from_mm = 10, to_mm = 60 }", "{ from = 10, to_mm = 60 }", "vary[1].length.from", "has no unit"),
-        ("candidates = 20000", "candidates = 0", "search", "no candidates"),
-        ("candidates = 20000", "candidates = -5", "search.candidates", "not negative"),
+        ("candidates = 20000", "candidates = 0", "search", "outside its limits"),
+        ("candidates = 20000", "candidates = -5", "search.candidates", "must not be negative"),
         ("scenario = \"crank_rocker.toml\"", "scenario = \"none.toml\"", "scenario", "cannot be read"),
         ("[limits]", "[limits]\ntransmission_deg = 95", "limits.transmission_deg", "cannot be kept"),
         ("[zero]", "[zreo]", "zreo", "did you mean `zero`"),

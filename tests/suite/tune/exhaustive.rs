@@ -23,7 +23,7 @@ pub const REFERENCES: [&str; 8] = [
 ];
 
 /// Largest step in the search, in degrees of the crank.
-/// With this step a revolution has twelve steps, and six-point interpolation spans half a revolution.
+/// With this step a revolution has twelve steps, and six-point interpolation spans 150 deg.
 const COARSEST_DEG: f64 = 30.0;
 /// If the error of a step exceeds the required error by this factor, larger steps are not run.
 /// Errors grow with the step, except where parts of opposite sign cancel at one instant.
@@ -85,8 +85,9 @@ fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
 }
 
 /// Searches every row of the space from the finest affordable step to larger steps.
-/// Returns the cheapest settings of each row that cost less than `below` and have at most the error `within`.
-/// The cheapest settings of all rows come last.
+/// The limit of the cost is `below`, and after a row with sufficient settings the cost of these settings.
+/// Returns the cheapest settings of each row that stay below the limit and have at most the error `within`.
+/// Each result is therefore cheaper than the one before, and the cheapest settings of all rows come last.
 /// Also returns the number of runs.
 pub fn cheaper(
     scenario: &Scenario,

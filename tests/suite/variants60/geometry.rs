@@ -133,7 +133,7 @@ impl Linkage {
         [cosine, of_sides(l3, l4, a + rod * self.variant.ac)]
     }
 
-    /// The larger of the two cosines.
+    /// The larger absolute value of the two cosines.
     fn worst(&self, crank: f64) -> f64 {
         self.cosines(crank).iter().fold(0.0, |max, cosine| cosine.abs().larger(max))
     }

@@ -34,7 +34,7 @@ pub struct Plan {
     pub kept: f64,
     /// Crank angle of the start (deg): alpha, unless the given pose is outside the grid.
     pub start: f64,
-    /// Crank angles (deg).
+    /// First and last crank angle of the grid (deg).
     pub grid: [f64; 2],
     pub grid_step: f64,
     /// Smallest transmission angle of each dyad on the grid (deg).

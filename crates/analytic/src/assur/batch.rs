@@ -173,11 +173,11 @@ struct Tiles<'a, 'c> {
 #[inline(always)]
 fn drive(case: &Case, groups: &Groups, asked: Asked, own: [f64; TILE], tile: &mut [Eight]) {
     for (index, (drive, driver)) in case.drives.iter().zip(&groups.drivers).enumerate() {
-        let (mut angles, mut ratios) = (own.map(|crank| case.crank().world_angle(crank)), [1.0; TILE]);
+        let (mut angles, mut ratios) = (own.map(|crank| case.crank().coordinate(crank)), [1.0; TILE]);
         if index > 0 {
             for (row, crank) in own.into_iter().enumerate() {
                 let t = case.crank().time_of(crank);
-                angles[row] = drive.world_angle(drive.at(t).value);
+                angles[row] = drive.coordinate(drive.at(t).value);
                 ratios[row] = case.drives.ratios(t).nth(index).expect("every drive has a ratio");
             }
         }

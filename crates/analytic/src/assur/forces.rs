@@ -14,8 +14,9 @@ use crate::assur::groups::{SolutionPlan, Step};
 use body::{Action, Body, Reactions};
 use higher::Higher;
 use linkage::case::Case;
-use linkage::drive::{Drive, Load, Wrench};
-use linkage::math::Vec2;
+use linkage::drive::{Load, Wrench};
+use linkage::input::Input;
+use linkage::math::{Motion, Vec2};
 use linkage::mechanism::LinkId;
 use linkage::solver::State;
 use linkage::work::{Count, WorkTally};
@@ -59,11 +60,10 @@ impl Kinetostatics {
             });
             group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
         }
-        let drives: Vec<&Drive> = case.drives.iter().collect();
-        let mut drivers = Vec::with_capacity(drives.len());
-        for (index, drive) in drives.into_iter().enumerate().rev() {
-            drivers.push((Body::of(case, drive.link, &settled), Action::of(case, drive.joint, drive.link), index));
-            settled[drive.joint] = true;
+        let mut drivers = Vec::with_capacity(case.drives.len());
+        for (index, driver) in case.structure.leading().rev() {
+            drivers.push((Body::of(case, driver.link, &settled), Action::of(case, driver.joint, driver.link), index));
+            settled[driver.joint] = true;
         }
         let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
         let resistances = case.loads.iter().map(Load::resistance).collect::<Option<Vec<_>>>().map(merged);
@@ -97,7 +97,7 @@ impl Kinetostatics {
     fn balance(&mut self, case: &Case, plan: &SolutionPlan, state: &mut State) {
         self.tally.one(Count::Forces);
         let State { motions, forces, moments, torques, .. } = state;
-        let reactions = &mut Reactions { forces, moments, loads: &self.loads };
+        let reactions = &mut Reactions { forces, moments, efforts: torques, loads: &self.loads };
         for part in &mut self.parts {
             match part {
                 Part::Pinned(part) => {
@@ -111,8 +111,39 @@ impl Kinetostatics {
         for (driver, pivot, index) in &self.drivers {
             let pole = pivot.place(motions);
             let (force, moment) = driver.resultant(case, motions, reactions, pole);
-            pivot.put(-force, reactions);
-            torques[*index] = -moment;
+            match case.drives[*index].input {
+                Input::Angle => {
+                    pivot.put(-force, reactions);
+                    reactions.efforts[*index] = -moment;
+                }
+                Input::Turn => {
+                    pivot.put(-force, reactions);
+                    pivot.put_moment(-moment, reactions);
+                    reactions.efforts[*index] = -moment * pivot.sign();
+                }
+                Input::Slide => {
+                    let joint = &case.mechanism.joints()[pivot.joint];
+                    let axis = motions[joint.first.link].arm(joint.axis_on(joint.first.link).expect("it slides"));
+                    pivot.put_guided(-force, moment, pole, motions, reactions);
+                    reactions.efforts[*index] = -axis.dot(&force) * pivot.sign();
+                }
+            }
+        }
+        self.part_efforts(case, motions, reactions);
+    }
+
+    /// Takes the driving forces and moments out of the reactions of the driven joints.
+    fn part_efforts(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
+        for (drive, effort) in case.drives.iter().zip(reactions.efforts.iter()) {
+            let joint = &case.mechanism.joints()[drive.joint];
+            match drive.input {
+                Input::Angle => {}
+                Input::Turn => reactions.moments[drive.joint] = 0.0,
+                Input::Slide => {
+                    let axis = motions[joint.first.link].arm(joint.axis_on(joint.first.link).expect("it slides"));
+                    reactions.forces[drive.joint] -= axis * *effort;
+                }
+            }
         }
     }
 }

@@ -229,7 +229,7 @@ impl Gauges {
         }
         let mut motions = ends[1].motions.clone();
         let groups = direct().map(|(_, watched)| watched.group);
-        plan.some_positions(groups, &case.drives.world_angles(middle), &mut motions)
+        plan.some_positions(groups, &case.drives.coordinates(middle), &mut motions)
             .map_err(|reach| passed(reach.group))?;
         let mut gauges = vec![f64::NAN; self.watched.len()];
         for (index, watched) in direct() {

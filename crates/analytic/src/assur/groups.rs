@@ -3,6 +3,7 @@
 
 mod bounds;
 mod chain;
+mod driver;
 mod guide;
 mod half;
 mod misfit;
@@ -17,6 +18,7 @@ pub(in crate::assur) use bounds::{Bound, Bounds, Limit};
 #[cfg(feature = "batch")]
 pub(in crate::assur) use chain::{Arrow, Hangs};
 pub use chain::{Chain, ClosingJoint, Node};
+use driver::Driver;
 pub use misfit::{Misfit, SINGULAR, SingularityDistance};
 pub use prp::Prp;
 pub use rpp::Rpp;
@@ -24,25 +26,13 @@ pub use rpr::Rpr;
 pub use rrp::Rrp;
 pub use rrr::Rrr;
 
-use linkage::math::{KeepNan, Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::{AssemblyMode, GROUND, GroupId, GroupKind, LinkId, Mechanism, PerGroup, Structure};
+use linkage::math::{KeepNan, Motion};
+use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupId, GroupKind, LinkId, Mechanism, PerGroup, Structure};
 use linkage::work::{Count, WorkTally};
 
 /// Two configurations of a dyad are compared with an expected pose.
 /// The nearer one is accepted only if its squared distance, divided by that of the farther one, is below this value.
 const NEARER: f64 = 0.04;
-
-/// Driving link that turns about a joint with the ground or with an earlier driving link.
-#[derive(Clone, Copy, Debug)]
-struct Driver {
-    link: LinkId,
-    base: LinkId,
-    /// Position of the joint in the link's frame and in the frame of the link's base.
-    pivot: Vec2,
-    place: Vec2,
-    /// Whether the joint is the origin of the link's frame. The vector from the origin to the joint is then zero.
-    at_origin: bool,
-}
 
 /// An Assur group, prepared for solving.
 #[derive(Clone, Debug)]
@@ -79,26 +69,26 @@ impl Step {
     }
 
     #[inline]
-    fn velocities(&mut self, motions: &mut [Motion]) {
+    fn velocities(&mut self, rates: &[f64], motions: &mut [Motion]) {
         match self {
             Step::Rrr(dyad) => dyad.velocities(motions),
             Step::Rrp(dyad) => dyad.velocities(motions),
             Step::Rpr(dyad) => dyad.velocities(motions),
             Step::Rpp(dyad) => dyad.velocities(motions),
             Step::Prp(dyad) => dyad.velocities(motions),
-            Step::Chain(chain) => chain.velocities(motions),
+            Step::Chain(chain) => chain.velocities(rates, motions),
         }
     }
 
     #[inline]
-    fn accelerations(&mut self, motions: &mut [Motion]) {
+    fn accelerations(&mut self, second: &[f64], motions: &mut [Motion]) {
         match self {
             Step::Rrr(dyad) => dyad.accelerations(motions),
             Step::Rrp(dyad) => dyad.accelerations(motions),
             Step::Rpr(dyad) => dyad.accelerations(motions),
             Step::Rpp(dyad) => dyad.accelerations(motions),
             Step::Prp(dyad) => dyad.accelerations(motions),
-            Step::Chain(chain) => chain.accelerations(motions),
+            Step::Chain(chain) => chain.accelerations(second, motions),
         }
     }
 
@@ -218,19 +208,16 @@ impl SolutionPlan {
     /// Prepares a mechanism of this structure in these assembly modes (one mode per group).
     #[must_use]
     pub fn of(mechanism: &Mechanism, structure: &Structure, modes: &[AssemblyMode]) -> Self {
-        let drivers = structure.drivers.iter().map(|&(link, joint)| {
-            let joint = &mechanism.joints()[joint];
-            let pivot = joint.on(link).expect("the driven joint is on its link");
-            let base = joint.other(link);
-            Driver { link, base: base.link, pivot, place: base.local, at_origin: pivot == Vec2::zeros() }
-        });
+        let drivers = structure.leading().map(|(index, driver)| Driver::of(mechanism, index, driver));
+        let chain = |group: &Group| Step::Chain(Chain::of(mechanism, group, &structure.drivers));
         let steps = structure.groups.iter().zip(modes).map(|(group, &mode)| match group.kind {
+            _ if !group.is_rigid() => chain(group),
             GroupKind::Rrr => Step::Rrr(Rrr::of(mechanism, group, mode)),
             GroupKind::Rrp => Step::Rrp(Rrp::of(mechanism, group, mode)),
             GroupKind::Rpr => Step::Rpr(Rpr::of(mechanism, group, mode)),
             GroupKind::Rpp => Step::Rpp(Rpp::of(mechanism, group)),
             GroupKind::Prp => Step::Prp(Prp::of(mechanism, group)),
-            GroupKind::Higher => Step::Chain(Chain::of(mechanism, group, structure.drivers.len())),
+            GroupKind::Higher | GroupKind::Driven => chain(group),
         });
         SolutionPlan { drivers: drivers.collect(), steps: steps.collect(), tally: WorkTally::default() }
     }
@@ -280,25 +267,9 @@ impl SolutionPlan {
         self.count_pose();
         self.tally.one(Count::Velocities);
         self.tally.one(Count::Accelerations);
-        for (((driver, &angle), &omega), &alpha) in self.drivers.iter().zip(angles).zip(omegas).zip(alphas) {
-            let direction = unit(angle);
-            if driver.base == GROUND && driver.at_origin {
-                motions[driver.link] = Motion { origin: driver.place, direction, omega, alpha, ..Motion::REST };
-                continue;
-            }
-            let mut place = [driver.place, Vec2::zeros(), Vec2::zeros()];
-            if driver.base != GROUND {
-                let (base, arm) = (&motions[driver.base], motions[driver.base].arm(driver.place));
-                place = [base.origin + arm, base.velocity_beyond(arm), base.acceleration_beyond(arm)];
-            }
-            if !driver.at_origin {
-                let arm = rotated(direction, driver.pivot);
-                place[0] -= arm;
-                place[1] -= turned(arm) * omega;
-                place[2] = place[2] + arm * (omega * omega) - turned(arm) * alpha;
-            }
-            let [origin, velocity, acceleration] = place;
-            motions[driver.link] = Motion { origin, direction, velocity, omega, acceleration, alpha };
+        for driver in &self.drivers {
+            let index = driver.index;
+            driver.place_at([angles[index], omegas[index], alphas[index]], motions);
         }
         for (group, step) in self.steps.entries_mut() {
             // Most groups are RRR dyads, so this kind is tested first.
@@ -306,8 +277,8 @@ impl SolutionPlan {
                 dyad.motions(motions).map_err(|why| OutOfReach { group, why })?;
             } else {
                 step.positions(angles, motions).map_err(|why| OutOfReach { group, why })?;
-                step.velocities(motions);
-                step.accelerations(motions);
+                step.velocities(omegas, motions);
+                step.accelerations(alphas, motions);
             }
         }
         Ok(())
@@ -382,9 +353,11 @@ impl SolutionPlan {
     pub(in crate::assur) fn bound_drivers(&self, ratios: &[f64], links: &mut Bounds) {
         links.fill(None);
         links[GROUND] = Some(Bound::REST);
-        for (driver, ratio) in self.drivers.iter().zip(ratios) {
+        for driver in self.drivers.iter().filter(|driver| driver.is_crank()) {
+            // Without a constant speed ratio there are no bounds.
+            let Some(turn) = ratios.get(driver.index).map(|ratio| ratio.abs()) else { continue };
             links[driver.link] =
-                links[driver.base].map(|base| Bound::driven(driver.pivot, base.at(driver.place), ratio.abs()));
+                links[driver.base].map(|base| Bound::driven(driver.pivot, base.at(driver.place), turn));
         }
     }
 
@@ -404,12 +377,8 @@ impl SolutionPlan {
 
     #[inline]
     pub(crate) fn turn_drivers(&self, angles: &[f64], motions: &mut [Motion]) {
-        for (driver, &angle) in self.drivers.iter().zip(angles) {
-            let direction = unit(angle);
-            let place = if driver.base == GROUND { driver.place } else { motions[driver.base].point(driver.place) };
-            let motion = &mut motions[driver.link];
-            motion.direction = direction;
-            motion.origin = place - rotated(direction, driver.pivot);
+        for driver in &self.drivers {
+            driver.put_position(angles[driver.index], motions);
         }
     }
 
@@ -425,44 +394,31 @@ impl SolutionPlan {
     pub fn velocities(&mut self, omegas: &[f64], motions: &mut [Motion]) {
         self.tally.one(Count::Velocities);
         self.drive_velocities(omegas, motions);
-        self.steps.iter_mut().for_each(|step| step.velocities(motions));
+        self.steps.iter_mut().for_each(|step| step.velocities(omegas, motions));
     }
 
     /// Computes the velocities of the driving links alone.
     #[inline]
     pub(crate) fn drive_velocities(&self, omegas: &[f64], motions: &mut [Motion]) {
-        for (driver, &omega) in self.drivers.iter().zip(omegas) {
-            let motion = &mut motions[driver.link];
-            motion.omega = omega;
-            motion.velocity = turned(motion.arm(driver.pivot)) * -omega;
-            if driver.base != GROUND {
-                let carried = motions[driver.base].point_velocity(driver.place);
-                motions[driver.link].velocity += carried;
-            }
+        for driver in &self.drivers {
+            driver.put_velocity(omegas[driver.index], motions);
         }
     }
 
-    /// Computes the accelerations of all links (m/s^2, rad/s^2) for the angular accelerations `alphas` of the driving
-    /// links (rad/s^2). Velocities must be known.
+    /// Computes the accelerations of all links (m/s^2, rad/s^2) for the rates and accelerations of the driven
+    /// coordinates (rad/s and rad/s^2, or m/s and m/s^2). Velocities must be known.
     #[inline]
-    pub fn accelerations(&mut self, alphas: &[f64], motions: &mut [Motion]) {
+    pub fn accelerations(&mut self, rates: [&[f64]; 2], motions: &mut [Motion]) {
         self.tally.one(Count::Accelerations);
-        self.drive_accelerations(alphas, motions);
-        self.steps.iter_mut().for_each(|step| step.accelerations(motions));
+        self.drive_accelerations(rates, motions);
+        self.steps.iter_mut().for_each(|step| step.accelerations(rates[1], motions));
     }
 
     /// Computes the accelerations of the driving links alone; their velocities must be known.
     #[inline]
-    pub(crate) fn drive_accelerations(&self, alphas: &[f64], motions: &mut [Motion]) {
-        for (driver, &alpha) in self.drivers.iter().zip(alphas) {
-            let motion = &mut motions[driver.link];
-            let arm = motion.arm(driver.pivot);
-            motion.alpha = alpha;
-            motion.acceleration = arm * (motion.omega * motion.omega) - turned(arm) * alpha;
-            if driver.base != GROUND {
-                let carried = motions[driver.base].point_acceleration(driver.place);
-                motions[driver.link].acceleration += carried;
-            }
+    pub(crate) fn drive_accelerations(&self, [omegas, alphas]: [&[f64]; 2], motions: &mut [Motion]) {
+        for driver in &self.drivers {
+            driver.put_acceleration([omegas[driver.index], alphas[driver.index]], motions);
         }
     }
 }

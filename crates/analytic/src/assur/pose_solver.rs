@@ -12,6 +12,7 @@ use crate::assur::groups::{Misfit, OutOfReach, SolutionPlan};
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::input::{Input, InputValue};
 use linkage::math::Motion;
 use linkage::mechanism::{LinkId, PerLink};
 use linkage::solver::State;
@@ -26,6 +27,8 @@ pub(super) const HALVINGS: u32 = 20;
 const MEET: &str = sentences::THERE_THE_LINKS_OF_THE_GROUP;
 
 /// Goes from crank angle to crank angle on one branch and solves the pose at each angle, without allocation.
+/// If several drives have laws of their own, the crank angle does not determine the pose.
+/// The solver then goes from time to time: wherever its functions take a crank angle (rad), they take a time (s).
 #[derive(Debug)]
 pub struct PoseSolver<'a> {
     pub(super) case: &'a Case,
@@ -49,6 +52,8 @@ pub struct PoseSolver<'a> {
     /// World direction of the crank at crank angle zero (rad).
     zero: f64,
     step: f64,
+    /// Whether the solver goes from time to time.
+    by_time: bool,
     pub(super) gauges: Gauges,
     pub(super) watch: Watch,
     /// Change points; `None` unless the drive is set to pass them.
@@ -62,7 +67,9 @@ impl<'a> PoseSolver<'a> {
     /// [`ErrorKind::Geometry`] if the start pose is singular.
     pub fn new(case: &'a Case) -> Result<Self> {
         let plan = SolutionPlan::of(&case.mechanism, &case.structure, &case.modes);
-        let step = case.step(if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP });
+        let by_time = case.drives.len() > 1 && case.drives.iter().any(|drive| drive.constant_speed().is_none());
+        let largest = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
+        let step = if by_time { largest / case.drives.top_speed(case.mechanism.size()) } else { case.step(largest) };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let inputs = vec![0.0; case.drives.len()];
         let gauges = Gauges::of(case, &plan, &state.motions);
@@ -79,14 +86,15 @@ impl<'a> PoseSolver<'a> {
             omega: 0.0,
             alpha: 0.0,
             has_motions: false,
-            crank: case.crank().start,
-            zero: case.crank().world_angle(0.0),
+            crank: if by_time { 0.0 } else { case.crank().start },
+            zero: case.crank().coordinate(0.0),
             step,
+            by_time,
             gauges,
             watch,
             passing: (case.crank().through && case.drives.further().is_empty()).then(|| Passing::new(1.0)),
         };
-        solver.step_to(case.crank().start, 0)?;
+        solver.step_to(solver.crank, 0)?;
         if case.loads.iter().any(Load::needs_angles) {
             solver.turns = Some(Turns::from(&case.start, &solver.state.motions));
         }
@@ -137,8 +145,9 @@ impl<'a> PoseSolver<'a> {
             self.plan.velocities(&self.inputs, &mut self.state.motions);
         }
         if deepest >= Stage::Accelerations && !has_motions {
-            self.drive(alpha);
-            self.plan.accelerations(&self.inputs, &mut self.state.motions);
+            self.find_rates(self.crank);
+            let [omegas, alphas] = &self.rates;
+            self.plan.accelerations([omegas, alphas], &mut self.state.motions);
         }
         if deepest >= Stage::Reactions {
             if self.turns.is_some() && !self.case.loads.is_empty() {
@@ -170,7 +179,7 @@ impl<'a> PoseSolver<'a> {
         if deepest >= Stage::Reactions && self.turns.is_some() && !self.case.loads.is_empty() {
             self.with_angles();
         }
-        let (case, place) = (self.case, self.case.crank().world_angle(self.crank));
+        let (case, place) = (self.case, self.case.crank().coordinate(self.crank));
         let Some(window) = self.passing.as_ref().and_then(Passing::inside) else { return Ok(()) };
         window.rates(place, rates, &self.plan, &mut self.state.motions);
         self.state.passing = Some(window.condition);
@@ -247,7 +256,10 @@ impl<'a> PoseSolver<'a> {
     #[inline(always)]
     pub(super) fn turn(&mut self, crank: f64) {
         self.inputs[0] = self.zero + crank;
-        if self.inputs.len() > 1 {
+        if self.by_time {
+            let all = self.inputs.iter_mut().zip(&self.case.drives);
+            all.for_each(|(input, drive)| *input = drive.coordinate(drive.at(crank).value));
+        } else if self.inputs.len() > 1 {
             turn_further(self.case, crank, &mut self.inputs[1..]);
         }
     }
@@ -256,7 +268,45 @@ impl<'a> PoseSolver<'a> {
     /// for further driving links.
     #[inline]
     pub(super) fn drive(&mut self, rate: f64) {
-        drive(self.case, self.crank, rate, &mut self.inputs);
+        if self.by_time {
+            let all = self.inputs.iter_mut().zip(&self.case.drives);
+            all.for_each(|(input, drive)| *input = drive.at(self.crank).rate * rate);
+        } else {
+            drive(self.case, self.crank, rate, &mut self.inputs);
+        }
+    }
+
+    /// Computes the rates and accelerations of all driven coordinates at a crank angle.
+    fn find_rates(&mut self, crank: f64) {
+        let [omegas, alphas] = &mut self.rates;
+        if self.by_time {
+            for ((omega, alpha), drive) in omegas.iter_mut().zip(alphas).zip(&self.case.drives) {
+                let state = drive.at(crank);
+                *omega = state.rate * self.omega;
+                *alpha = state.acceleration * self.omega * self.omega + state.rate * self.alpha;
+            }
+        } else {
+            drive(self.case, crank, self.omega, omegas);
+            drive(self.case, crank, self.alpha, alphas);
+        }
+    }
+
+    /// The state at an instant of the case's grid. The arguments and errors are those of [`PoseSolver::solve`].
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::solve`].
+    pub fn solve_row(&mut self, row: usize, deepest: Stage) -> Result<&State> {
+        let grid = &self.case.grid;
+        if self.by_time {
+            return self.solve(grid.times[row], 1.0, 0.0, deepest);
+        }
+        let drive = self.case.crank().at(grid.times[row]);
+        self.solve(grid.inputs[row], drive.rate, drive.acceleration, deepest)
+    }
+
+    /// The input at a crank angle, for messages.
+    fn told(&self, crank: f64) -> InputValue {
+        self.case.told(if self.by_time { self.case.crank().at(crank).value } else { crank })
     }
 
     /// One step, not divided.
@@ -264,11 +314,11 @@ impl<'a> PoseSolver<'a> {
     fn place(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
         self.turn(target);
         if let Some(passing) = &mut self.passing {
-            let from = self.case.crank().world_angle(self.crank);
+            let from = self.case.crank().coordinate(self.crank);
             let placed = passing.place([from, self.inputs[0]], &mut self.plan, &mut self.state.motions);
             placed.map_err(|reach| match reach.why {
                 Misfit::Passed { crank } => {
-                    OutOfReach { why: Misfit::Passed { crank: self.case.crank().from_world(crank) }, ..reach }
+                    OutOfReach { why: Misfit::Passed { crank: self.case.crank().from_coordinate(crank) }, ..reach }
                 }
                 Misfit::Span { .. }
                 | Misfit::Guide { .. }
@@ -282,10 +332,8 @@ impl<'a> PoseSolver<'a> {
             if self.in_one_pass {
                 let mut rates = [slice::from_ref(&self.omega), slice::from_ref(&self.alpha)];
                 if self.inputs.len() > 1 {
-                    let [omegas, alphas] = &mut self.rates;
-                    drive(self.case, target, self.omega, omegas);
-                    drive(self.case, target, self.alpha, alphas);
-                    rates = [omegas, alphas];
+                    self.find_rates(target);
+                    rates = self.rates.each_ref().map(Vec::as_slice);
                 }
                 self.plan.motions(&self.inputs, rates, &mut self.state.motions)?;
             } else {
@@ -324,9 +372,10 @@ impl<'a> PoseSolver<'a> {
     /// case.
     pub fn with_angles(&mut self) -> &State {
         if let Some(turns) = &self.turns {
-            // Skip the frame, which does not turn, and the crank, whose angle is given as an input.
-            let crank = self.case.crank().link;
-            let links = self.state.angles.entries_mut().skip(1).filter(|(link, _)| *link != crank);
+            // Skip the frame, which does not turn, and a crank, whose angle is given as an input.
+            let crank = self.case.crank();
+            let is_given = |link: LinkId| crank.input == Input::Angle && link == crank.link;
+            let links = self.state.angles.entries_mut().skip(1).filter(|(link, _)| !is_given(*link));
             links.for_each(|(link, angle)| *angle = turns.angle(link));
         }
         self.turn(self.crank);
@@ -344,7 +393,7 @@ impl<'a> PoseSolver<'a> {
 
     fn unreachable(&self, crank: f64, reach: OutOfReach) -> Error {
         let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
-        let at = self.case.told(crank);
+        let at = self.told(crank);
         let assembled = sentences::the_group_cannot_be_assembled(&group, &at);
         let message = match reach.why {
             Misfit::Span { distance, reach: [shortest, longest] } => {
@@ -357,7 +406,7 @@ impl<'a> PoseSolver<'a> {
             Misfit::Parallel => sentences::its_two_axes_are_parallel(&assembled),
             Misfit::Singular => sentences::the_group_is_singular_at(&group, &at, &MEET),
             Misfit::Passed { crank } => {
-                let at = self.case.told(crank);
+                let at = self.told(crank);
                 return Error::new(ErrorKind::Geometry, sentences::the_group_passes_a_change(&group, &at, &MEET))
                     .at_input(at)
                     .of_group(group)
@@ -397,6 +446,6 @@ fn drive_further(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
 fn turn_further(case: &Case, crank: f64, angles: &mut [f64]) {
     let t = case.crank().time_of(crank);
     for (angle, drive) in angles.iter_mut().zip(case.drives.further()) {
-        *angle = drive.world_angle(drive.at(t).value);
+        *angle = drive.coordinate(drive.at(t).value);
     }
 }

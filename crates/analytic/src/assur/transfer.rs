@@ -64,7 +64,7 @@ impl<'a> TransferSide<'a> {
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let free: Vec<usize> = case.drives.free().map(|(index, _)| index).collect();
-        let at: Vec<f64> = case.drives.iter().map(|drive| drive.world_angle(drive.start)).collect();
+        let at: Vec<f64> = case.drives.iter().map(|drive| drive.coordinate(drive.start)).collect();
         let turns = Turns::from(&case.start, &state.motions);
         let mut side = TransferSide {
             case,
@@ -119,7 +119,7 @@ impl<'a> TransferSide<'a> {
             now.zip(*before).is_some_and(|(now, before)| now.sine - now.rate < 0.0 && before > 0.0)
         });
         if let Some(group) = passed {
-            let crank = self.case.crank().from_world(self.target[0]);
+            let crank = self.case.crank().from_coordinate(self.target[0]);
             return Err(OutOfReach { group: GroupId(group), why: Misfit::Passed { crank } });
         }
         self.sines.clear();
@@ -139,7 +139,7 @@ impl<'a> TransferSide<'a> {
     fn accelerations(&mut self, omegas: &[f64], alphas: &[f64]) {
         match self.passing.as_ref().and_then(Passing::inside) {
             Some(window) => window.rates(self.at[0], [omegas[0], alphas[0]], &self.plan, &mut self.state.motions),
-            None => self.plan.accelerations(alphas, &mut self.state.motions),
+            None => self.plan.accelerations([omegas, alphas], &mut self.state.motions),
         }
     }
 
@@ -175,7 +175,7 @@ impl<'a> TransferSide<'a> {
 
     fn out_of_reach(&self, reach: OutOfReach) -> Error {
         let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
-        let at = self.case.told(self.case.crank().from_world(self.target[0]));
+        let at = self.case.told(self.case.crank().from_coordinate(self.target[0]));
         let message = match reach.why {
             Misfit::Lost => sentences::the_group_cannot_be_followed(&group, &at),
             Misfit::Singular | Misfit::Passed { .. } => sentences::the_group_is_singular_at_two(&group, &at),
@@ -297,7 +297,7 @@ impl Side for TransferSide<'_> {
                 &mut loads,
                 &mut self.state,
             );
-            found.map_err(|_| passing::unbounded(case.told(case.crank().from_world(self.at[0]))))?;
+            found.map_err(|_| passing::unbounded(case.told(case.crank().from_coordinate(self.at[0]))))?;
         } else if self.case.wanted.deepest() >= Stage::Reactions {
             self.statics.solve_under(&self.loads, self.case, &self.plan, &mut self.state);
         }

@@ -55,7 +55,7 @@ const HALVINGS: usize = 60;
 pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
     let mut y = [0.0; N];
     for (k, (_, drive)) in case.drives.free().enumerate() {
-        (y[k], y[N / 2 + k]) = (drive.world_angle(drive.start), drive.initial_speed());
+        (y[k], y[N / 2 + k]) = (drive.coordinate(drive.start), drive.initial_speed());
     }
     y
 }
@@ -175,7 +175,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
                 free += 1;
             } else {
                 let state = drive.at(t);
-                inputs.angles[index] = drive.world_angle(state.value);
+                inputs.angles[index] = drive.coordinate(state.value);
                 (inputs.speeds[index], inputs.accelerations[index]) = (state.rate, state.acceleration);
             }
         }
@@ -434,7 +434,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// The crank angle (rad, as the scenario states it).
     fn crank(&self, t: f64, y: &[f64; N]) -> f64 {
         let crank = self.case.crank();
-        if crank.is_free() { crank.from_world(y[0]) } else { crank.at(t).value }
+        if crank.is_free() { crank.from_coordinate(y[0]) } else { crank.at(t).value }
     }
 
     /// The crank's speed in the motor's sense. If the motor has a branch, the crank is the first free driving link.

@@ -98,7 +98,7 @@ fn run<const N: usize>(
         let mut at_step = |pieces: &Pieces<N>, &[_, (t, y)]: &Step<N>| reach(pieces, t, &y);
         let stop = march(&pieces, &mut place, &targets, accuracy, &mut at_step);
         let drive = case.drives.free().next().expect("a drive is free").1;
-        let at = drive.told(drive.from_world(place.y[0]));
+        let at = drive.told(drive.from_coordinate(place.y[0]));
         let stop = stop.map_err(|error| located(error, place.x, at))?;
         let Stop::Bound(bound) = stop else { break };
         pace.piece(place.x, last)?;

@@ -18,8 +18,11 @@ use linkage::math::{Vec2, turned};
 use linkage::mechanism::{GROUND, Joint, JointId, JointSide};
 
 impl System<'_> {
-    /// Residual and Jacobian of a drive's equation in `row`. The equation sets the coordinate of the drive's joint to
-    /// the input `at`, counted as in [`Drive::world_angle`].
+    /// Residual and Jacobian of a drive's equation q - f(t) = 0 in `row`.
+    /// For a slide, q = e . (p2 - p1) with the axis e of the first link.
+    /// Its derivative by the first link's angle is n . (p2 - p1) - e . (z x r1) = -e . (z x (p2 - c1)) with the mass
+    /// centre c1. The equation sets the coordinate of the drive's joint to
+    /// the input `at`, counted as in [`Drive::coordinate`].
     #[inline]
     pub(super) fn assemble_drive(&mut self, row: usize, drive: &Drive, at: f64) {
         match drive.input {
@@ -27,6 +30,48 @@ impl System<'_> {
                 let theta = 3 * (drive.link.index() - 1) + 2;
                 self.residual[row] = self.q[theta] - at;
                 self.jacobian.add(row, theta, 1.0);
+            }
+            Input::Turn => self.assemble_angle(row, &self.case.mechanism.joints()[drive.joint], at),
+            Input::Slide => {
+                let joint = &self.case.mechanism.joints()[drive.joint];
+                let (axis, place) = self.slide_axis(joint);
+                for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
+                    if side.link != GROUND {
+                        let column = 3 * (side.link.index() - 1);
+                        let arm = place - self.centre(side.link);
+                        self.jacobian.add(row, column, axis.x * sign);
+                        self.jacobian.add(row, column + 1, axis.y * sign);
+                        self.jacobian.add(row, column + 2, axis.dot(&turned(arm)) * sign);
+                    }
+                }
+                let first = self.centre(joint.first.link) + self.arm(joint.first.link, joint.first.local);
+                self.residual[row] = axis.dot(&(place - first)) - at;
+            }
+        }
+    }
+
+    /// World axis of a prismatic joint and world position of its point on the second link.
+    fn slide_axis(&self, joint: &Joint) -> (Vec2, Vec2) {
+        let axis = self.along(joint.first.link, joint.axis_on(joint.first.link).expect("the joint slides"));
+        (axis, self.centre(joint.second.link) + self.arm(joint.second.link, joint.second.local))
+    }
+
+    /// Right-hand side of a drive's equation for the accelerations, if the input has the acceleration `of_input`.
+    /// For a slide: s'' = e . d'' + 2 omega1 n . d' - alpha1-terms of the Jacobian - omega1^2 s, with d = p2 - p1.
+    pub(super) fn drive_gamma(&self, drive: &Drive, of_input: f64) -> f64 {
+        match drive.input {
+            Input::Angle | Input::Turn => of_input,
+            Input::Slide => {
+                let joint = &self.case.mechanism.joints()[drive.joint];
+                let (axis, place) = self.slide_axis(joint);
+                let [first, second] = [joint.first, joint.second];
+                let omega = self.omega(first.link);
+                let from = self.centre(first.link) + self.arm(first.link, first.local);
+                let speed = self.velocity(second) - self.velocity(first);
+                let centripetal = |side: JointSide| self.arm(side.link, side.local) * self.omega(side.link).powi(2);
+                of_input + axis.dot(&(centripetal(second) - centripetal(first)))
+                    - 2.0 * omega * turned(axis).dot(&speed)
+                    + omega * omega * axis.dot(&(place - from))
             }
         }
     }

@@ -56,10 +56,14 @@ impl System<'_> {
 
     /// Follows the branch to time `t`; solves positions, velocities and accelerations.
     pub(super) fn follow_to(&mut self, t: f64) -> Result<()> {
-        let turned = |drive: &Drive| match drive.constant_speed() {
-            Some(_) => (drive.at(t).value - drive.at(self.time).value).abs(),
-            // Between the two times the drive may move forwards and back. Its top speed bounds the total angle.
-            None => drive.top_speed().abs() * (t - self.time).abs(),
+        let size = self.case.mechanism.size();
+        let turned = |drive: &Drive| {
+            let way = match drive.constant_speed() {
+                Some(_) => (drive.at(t).value - drive.at(self.time).value).abs(),
+                // Between the two times the drive may move forwards and back. Its top speed bounds the total angle.
+                None => drive.top_speed().abs() * (t - self.time).abs(),
+            };
+            way * drive.input.reach(size) / size
         };
         let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
         // Refuse too many turns. If a law reaches its top speed only for a moment, this check is the only limit of
@@ -68,7 +72,7 @@ impl System<'_> {
             let turns = turn / TAU;
             return Err(self.lost(&sentences::up_to_turns_on_the_way_to_are_too(&format_args!("{turns:.1e}"), &t)));
         }
-        let parts = (turn / self.case.step(TRACKING_STEP)).ceil().larger(1.0);
+        let parts = (turn / TRACKING_STEP).ceil().larger(1.0);
         let from = self.time;
         for part in 1..parts as usize {
             self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
@@ -161,9 +165,12 @@ impl System<'_> {
         let case = self.case;
         let first = case.mechanism.equations();
         for (index, input) in self.inputs.iter().enumerate() {
-            (self.rate[first + index], self.second[first + index]) = (input.rate, input.acceleration);
+            self.rate[first + index] = input.rate;
         }
         self.jacobian.solve(&mut self.rate);
+        for (row, drive) in self.drives() {
+            self.second[row] = self.drive_gamma(drive, self.inputs[row - first].acceleration);
+        }
         for (index, joint) in case.mechanism.joints().entries() {
             self.put_gamma(index, joint);
         }
@@ -257,7 +264,7 @@ impl System<'_> {
     }
 
     pub(super) fn lost(&self, why: &str) -> Error {
-        let (at, t) = (self.case.told(self.case.crank().from_world(self.inputs[0].value)), self.time);
+        let (at, t) = (self.case.told(self.case.crank().from_coordinate(self.inputs[0].value)), self.time);
         // In a free motion the error contains no time, because only the integrator knows the time of the pose.
         if self.case.is_free() {
             return Error::new(ErrorKind::Numeric, format!("{at}: {why}"))

@@ -154,7 +154,7 @@ impl<'a> System<'a> {
 /// State of a driving link according to its law, with the link's world angle.
 fn by_law(drive: &Drive, t: f64) -> InputState {
     let state = drive.at(t);
-    InputState { value: drive.world_angle(state.value), ..state }
+    InputState { value: drive.coordinate(state.value), ..state }
 }
 
 /// Angle of a joint's second link minus that of its first link (rad), if the axes of a prismatic joint are parallel.

@@ -1,22 +1,30 @@
 //! Constraint equations of a mechanism without its drive. There is one equation fewer than coordinates, so that the
 //! solutions are curves.
+//! The coordinate of a driven joint between moving links, and every driven slide, is an additional coordinate.
 //!
 //! The coordinates of every moving link are x and y of the middle of its joints, and its angle.
 //! x and y are divided by the size of the mechanism, so that they are comparable with angles.
 //! One function per kind of joint writes the rows of the joint.
 
+use linkage::input::Input;
 use linkage::math::{ColumnVector, Matrix, Vec2, cross, rotated, unit};
-use linkage::mechanism::{GROUND, Group, Joint, JointSide, LinkId, LinkPose, Mechanism, Pose};
+use linkage::mechanism::{GROUND, Group, Joint, JointId, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
-/// A driving link that is geared to the crank: its angle is a function of the crank angle.
+/// A driven coordinate that is geared to that of the first drive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gearing {
-    pub(super) crank: LinkId,
-    pub(super) link: LinkId,
-    /// Turns of the link per turn of the crank, and the link's angle at crank angle zero (rad).
+    /// Indices of the two coordinates.
+    pub(super) crank: usize,
+    pub(super) own: usize,
+    /// Change of the coordinate per change of the first drive's coordinate, and the coordinate where that of the first
+    /// drive is zero.
     pub(super) ratio: f64,
     pub(super) offset: f64,
 }
+
+/// A joint whose coordinate is an additional coordinate of the equations. It is not the joint of a crank.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Given(pub(super) JointId);
 
 /// The equations of a mechanism.
 #[derive(Debug)]
@@ -28,6 +36,7 @@ pub(super) struct Constraints<'a> {
     /// Length by which all lengths are divided (m).
     size: f64,
     gearings: Vec<Gearing>,
+    given: Vec<Given>,
     /// For every link: middle of its joints, in the link's frame (m).
     middles: Vec<Vec2>,
 }
@@ -41,7 +50,7 @@ pub(super) struct Equations {
 
 impl<'a> Constraints<'a> {
     /// The equations of `mechanism`, with coordinates relative to the position `origin` (m).
-    pub(super) fn of(mechanism: &'a Mechanism, origin: Vec2, gearings: Vec<Gearing>) -> Self {
+    pub(super) fn of(mechanism: &'a Mechanism, origin: Vec2, given: Vec<Given>) -> Self {
         let middle = |link: LinkId| {
             let locals: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
             locals.iter().sum::<Vec2>() / locals.len().max(1) as f64
@@ -50,19 +59,35 @@ impl<'a> Constraints<'a> {
             mechanism,
             origin,
             size: mechanism.size(),
-            gearings,
+            gearings: Vec::new(),
+            given,
             middles: mechanism.links().ids().map(middle).collect(),
         }
     }
 
-    /// Number of coordinates: three per moving link.
-    pub(super) fn coordinates(&self) -> usize {
+    /// The same with these gearings between coordinates.
+    pub(super) fn geared(self, gearings: Vec<Gearing>) -> Self {
+        Constraints { gearings, ..self }
+    }
+
+    /// Number of coordinates of the links: three per moving link.
+    pub(super) fn of_links(&self) -> usize {
         3 * (self.mechanism.links().len() - 1)
+    }
+
+    /// Number of coordinates: those of the links, and one for every given joint.
+    pub(super) fn coordinates(&self) -> usize {
+        self.of_links() + self.given.len()
+    }
+
+    /// Index of the coordinate of the given joint with this number.
+    pub(super) fn of_given(&self, number: usize) -> usize {
+        self.of_links() + number
     }
 
     /// Number of equations.
     pub(super) fn rows(&self) -> usize {
-        self.mechanism.equations() + self.gearings.len()
+        self.mechanism.equations() + self.gearings.len() + self.given.len()
     }
 
     /// Index of the coordinate that is the angle of `link`.
@@ -77,6 +102,12 @@ impl<'a> Constraints<'a> {
             let middle = (place.point(self.middles[link]) - self.origin) / self.size;
             let angle = Self::angle(link);
             (q[angle - 2], q[angle - 1], q[angle]) = (middle.x, middle.y, place.angle);
+        }
+        for (number, given) in self.given.iter().enumerate() {
+            let joint = &self.mechanism.joints()[given.0];
+            let input = if joint.slides() { Input::Slide } else { Input::Turn };
+            q[self.of_given(number)] =
+                joint.coordinate(joint.second.link, input, pose) / (self.size / input.reach(self.size));
         }
         q
     }
@@ -112,13 +143,50 @@ impl<'a> Constraints<'a> {
             }
         }
         for (index, gearing) in self.gearings.iter().enumerate() {
-            let (row, [own, crank]) =
-                (self.mechanism.equations() + index, [gearing.link, gearing.crank].map(Self::angle));
+            let (row, own, crank) = (self.mechanism.equations() + index, gearing.own, gearing.crank);
             equations.residual[row] = q[own] - gearing.ratio * q[crank] - gearing.offset;
             equations.jacobian[(row, own)] += 1.0;
             equations.jacobian[(row, crank)] -= gearing.ratio;
         }
+        for number in 0..self.given.len() {
+            self.coordinate(number, q, &mut equations);
+        }
         equations
+    }
+
+    /// Row of the equation of a given joint.
+    fn row_of_given(&self, number: usize) -> usize {
+        self.mechanism.equations() + self.gearings.len() + number
+    }
+
+    /// The coordinate of a given joint: theta2 - theta1 - q = 0, or e . (p2 - p1) - q = 0 with the axis e.
+    fn coordinate(&self, number: usize, q: &ColumnVector, equations: &mut Equations) {
+        let (row, joint) = (self.row_of_given(number), &self.mechanism.joints()[self.given[number].0]);
+        let [first, second] = [joint.first, joint.second];
+        let moving = || [(first, -1.0), (second, 1.0)].into_iter().filter(|(side, _)| side.link != GROUND);
+        equations.residual[row] = -q[self.of_given(number)];
+        equations.jacobian[(row, self.of_given(number))] = -1.0;
+        let Some(axis) = joint.axis_on(first.link) else {
+            for (side, sign) in moving() {
+                equations.residual[row] += sign * q[Self::angle(side.link)];
+                equations.jacobian[(row, Self::angle(side.link))] += sign;
+            }
+            return;
+        };
+        let axis = if first.link == GROUND { axis } else { rotated(unit(q[Self::angle(first.link)]), axis) };
+        let gap = self.point(second, q).0 - self.point(first, q).0;
+        equations.residual[row] += axis.dot(&gap);
+        for (side, sign) in moving() {
+            let column = 3 * (side.link.index() - 1);
+            let arm = self.point(side, q).1;
+            equations.jacobian[(row, column)] += sign * axis.x;
+            equations.jacobian[(row, column + 1)] += sign * axis.y;
+            equations.jacobian[(row, column + 2)] += sign * cross(arm, axis);
+        }
+        if first.link != GROUND {
+            // The axis turns with the first link.
+            equations.jacobian[(row, Self::angle(first.link))] += cross(axis, gap);
+        }
     }
 
     /// p_second - p_first = 0.
@@ -173,7 +241,9 @@ impl<'a> Constraints<'a> {
     /// first, then all angles.
     pub(super) fn block(&self, jacobian: &Matrix, group: &Group) -> Matrix {
         let joints = group.inner.iter().chain(&group.outer);
-        let rows: Vec<usize> = joints.flat_map(|&joint| self.mechanism.rows(joint)).collect();
+        let given = (0..self.given.len()).filter(|&number| group.given.contains(&self.given[number].0));
+        let rows = joints.flat_map(|&joint| self.mechanism.rows(joint));
+        let rows: Vec<usize> = rows.chain(given.map(|number| self.row_of_given(number))).collect();
         let places = group.links.iter().flat_map(|&link| [Self::angle(link) - 2, Self::angle(link) - 1]);
         let columns: Vec<usize> = places.chain(group.links.iter().map(|&link| Self::angle(link))).collect();
         Matrix::from_fn(rows.len(), columns.len(), |r, c| jacobian[(rows[r], columns[c])])

@@ -8,6 +8,7 @@
 
 use crate::sentences;
 use linkage::case::Case;
+use linkage::input::Input;
 use linkage::mechanism::{GROUND, GroupKind, LinkId};
 
 /// Two sums of lengths count as equal if their relative difference is at most this value. The value is the rounding
@@ -86,7 +87,9 @@ impl FourBar {
         let (mechanism, drive) = (&case.mechanism, case.crank());
         let joints = mechanism.joints();
         let [group] = &*case.structure.groups else { return None };
-        if group.kind != GroupKind::Rrr || joints.len() != 4 || !joints.iter().all(|joint| joint.is_pin()) {
+        let is_crank = drive.input == Input::Angle && group.is_rigid();
+        if !is_crank || group.kind != GroupKind::Rrr || joints.len() != 4 || !joints.iter().all(|joint| joint.is_pin())
+        {
             return None;
         }
         let output = *group

@@ -12,13 +12,13 @@ use crate::sentences;
 use std::cell::{OnceCell, RefCell};
 use std::f64::consts::TAU;
 
-use super::constraints::{Constraints, Gearing};
+use super::constraints::{Constraints, Gearing, Given};
 use super::measure::{self, GroupCondition};
 use super::singularity::{Singularity, SingularityKind};
 use linkage::case::Case;
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::input::InputValue;
+use linkage::input::{Input, InputValue};
 use linkage::math::dense::Lu;
 use linkage::math::root::{self, Close};
 use linkage::math::{ColumnVector, KeepNan, Matrix, unit};
@@ -101,8 +101,9 @@ const MOST_KNOWN: usize = 9;
 pub(super) struct Tracker<'a> {
     case: &'a Case,
     constraints: Constraints<'a>,
-    /// Index of the crank's coordinate.
+    /// Index of the coordinate of the first drive, and its unit (1 for an angle; the mechanism's size in m for a slide).
     crank: usize,
+    unit: f64,
     /// Signs that make every group's determinant positive at the start.
     signs: Vec<f64>,
     /// Direction of the smallest singular value at the last pose. The search at the next pose starts from it.
@@ -118,13 +119,18 @@ impl<'a> Tracker<'a> {
     /// [`ErrorKind::Geometry`] if the start pose is singular.
     pub(super) fn new(case: &'a Case) -> Result<(Self, Point)> {
         let drive = case.crank();
-        let joint = &case.mechanism.joints()[drive.joint];
-        let constraints = Constraints::of(&case.mechanism, joint.other(drive.link).local, gearings(case));
+        let other = case.mechanism.joints()[drive.joint].other(drive.link);
+        let given = case.drives.iter().filter(|drive| drive.input != Input::Angle).map(|drive| Given(drive.joint));
+        let constraints =
+            Constraints::of(&case.mechanism, case.start.0[other.link].point(other.local), given.collect());
+        let (crank, gearings) = gearings(case, &constraints)?;
+        let constraints = constraints.geared(gearings);
         let q = constraints.coordinates_of(&case.start);
         let mut tracker = Tracker {
             case,
             constraints,
-            crank: Constraints::angle(drive.link),
+            crank,
+            unit: case.mechanism.size() / drive.input.reach(case.mechanism.size()),
             signs: vec![1.0; case.structure.groups.len()],
             weakest: RefCell::new(any_direction(q.len())),
             over: OnceCell::new(),
@@ -133,8 +139,9 @@ impl<'a> Tracker<'a> {
         along[tracker.crank] = 1.0;
         let rough = tracker.point(q, &along);
         tracker.check_regular(&rough)?;
-        let start =
-            tracker.at_crank(&rough, drive.world_angle(drive.start)).ok_or_else(|| lost(drive.told(drive.start)));
+        let start = tracker
+            .at_crank(&rough, drive.coordinate(drive.start) / tracker.unit)
+            .ok_or_else(|| lost(drive.told(drive.start)));
         let start = tracker.allowed(start)?;
         for (index, group) in case.structure.groups.entries() {
             let sine = linkage::mechanism::assembly::transmission_sine(&case.mechanism, group, &case.start);
@@ -165,7 +172,7 @@ impl<'a> Tracker<'a> {
 
     /// Crank angle of a pose as the scenario states it (rad).
     pub(super) fn crank_of(&self, q: &ColumnVector) -> f64 {
-        self.case.crank().from_world(q[self.crank])
+        self.case.crank().from_coordinate(q[self.crank] * self.unit)
     }
 
     /// The error for a pose at which the mechanism cannot be followed.
@@ -250,7 +257,7 @@ impl<'a> Tracker<'a> {
         (point.tangent.dot(&from.tangent) >= STRAIGHT).then_some(point)
     }
 
-    /// The pose near `near` with the crank at the world angle `angle` (rad).
+    /// The pose near `near` with the coordinate of the first drive at `angle`, in its unit.
     fn at_crank(&self, near: &Point, angle: f64) -> Option<Point> {
         let mut across = ColumnVector::zeros(near.q.len());
         across[self.crank] = 1.0;
@@ -306,7 +313,8 @@ impl<'a> Tracker<'a> {
                 return Ok(Track { points, end: End::Limit(singularity) });
             }
             let whole = points[0].q[self.crank] + sense * TAU * f64::from(turns);
-            if (next.q[self.crank] - whole) * sense >= 0.0 {
+            let returns = self.case.crank().input.period().is_some();
+            if returns && (next.q[self.crank] - whole) * sense >= 0.0 {
                 if let Some(last) = self.at_crank(&next, whole)
                     && self.is_same(&last, &points[0])
                 {
@@ -336,7 +344,11 @@ impl<'a> Tracker<'a> {
 
     /// Distance of the farthest link from the crank's pivot, divided by [`NEAR`] sizes of the mechanism; at least 1.
     fn extent(&self, q: &ColumnVector) -> f64 {
-        q.iter().enumerate().filter(|(k, _)| k % 3 < 2).fold(1.0, |most, (_, x)| most.larger(x.abs() / NEAR))
+        q.iter()
+            .take(self.constraints.of_links())
+            .enumerate()
+            .filter(|(k, _)| k % 3 < 2)
+            .fold(1.0, |most, (_, x)| most.larger(x.abs() / NEAR))
     }
 
     /// Lower bound on the distance to another branch.
@@ -567,13 +579,36 @@ fn neville_at_zero(known: &[(f64, ColumnVector)]) -> ColumnVector {
     }
     row.swap_remove(0)
 }
-/// Further drives as gearings. If the speeds are constant, their ratios to the crank's speed are constant.
-fn gearings(case: &Case) -> Vec<Gearing> {
+/// Index of the coordinate of the first drive, and the further drives as gearings. If the speeds are constant, their
+/// ratios to the speed of the first drive are constant.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] if one of several speeds changes.
+fn gearings(case: &Case, constraints: &Constraints) -> Result<(usize, Vec<Gearing>)> {
+    let size = case.mechanism.size();
+    let unit = |drive: &Drive| size / drive.input.reach(size);
+    let mut given = 0;
+    let indices: Vec<usize> = case
+        .drives
+        .iter()
+        .map(|drive| {
+            if drive.input == Input::Angle {
+                return Constraints::angle(drive.link);
+            }
+            given += 1;
+            constraints.of_given(given - 1)
+        })
+        .collect();
+    if case.drives.len() > 1 && case.drives.iter().any(|drive| drive.constant_speed().is_none()) {
+        let help = sentences::GIVE_THE_DRIVES_CONSTANT_SPEEDS;
+        return Err(Error::new(ErrorKind::Unsupported, sentences::ONE_OF_SEVERAL_DRIVES_CHANGES).help(help));
+    }
     let crank = case.crank();
-    let further = case.drives.further().iter().zip(case.drives.ratios(0.0).skip(1));
-    let gearing = |(drive, ratio): (&Drive, f64)| {
-        let offset = drive.world_angle(drive.start) - ratio * crank.world_angle(crank.start);
-        Gearing { crank: crank.link, link: drive.link, ratio, offset }
+    let further = case.drives.further().iter().zip(case.drives.ratios(0.0).skip(1)).zip(&indices[1..]);
+    let gearing = |((drive, ratio), &own): ((&Drive, f64), &usize)| {
+        let ratio = ratio * unit(crank) / unit(drive);
+        let [start, of_crank] = [drive, crank].map(|drive| drive.coordinate(drive.start) / unit(drive));
+        Gearing { crank: indices[0], own, ratio, offset: start - ratio * of_crank }
     };
-    further.map(gearing).collect()
+    Ok((indices[0], further.map(gearing).collect()))
 }

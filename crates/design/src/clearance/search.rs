@@ -1,9 +1,10 @@
 //! Smallest distances and first meetings of pairs over the range.
 //!
 //! The search halves a part of the range until it proves that no distance in the part is below the smallest distance
-//! found.
+//! found by more than the tolerance.
 //! The search ends when every part is proven, so no instant is skipped.
-//! Parts of the smallest size that remain unproven are reported.
+//! Parts of the smallest size that remain unproven are reported, and so are parts that remain when the budget is used
+//! up.
 
 use linkage::error::Result;
 use linkage::math::extremum::golden;
@@ -39,7 +40,8 @@ pub struct Smallest {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
     /// Two crank angles (rad), in the direction of motion, that enclose the meeting.
-    /// Up to the first angle, the distance is proven to be larger than the given distance.
+    /// Up to the first angle, the distance is proven to be larger than the given distance, except in the parts of the
+    /// range that are reported as unproven.
     /// At the second angle, the distance is at most the given distance plus the contact distance.
     pub cranks: [f64; 2],
     /// Point of the meeting at the second crank angle (m, world).

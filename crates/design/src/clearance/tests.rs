@@ -42,7 +42,7 @@ fn four_bar() -> Case {
     case.build().unwrap()
 }
 
-/// Clearance question in which every link consists of capsules, and with these walls.
+/// Clearance question in which every link consists of capsules. `walls` are the parts of the housing.
 fn question(case: &Case, radius: f64, walls: &[(&str, Outline)]) -> ClearanceQuestion {
     let links = case.mechanism.links().entries().skip(1);
     let mut bodies: Vec<ClearanceBody> = links

@@ -7,7 +7,7 @@
 //! The deviation of the true motion is bounded group by group, for all crank angles of the interval at once (Krawczyk
 //! 1969; Moore 1977).
 //! Let x be the poses of a group's links, F(x) = 0 the group's joint equations and x0 the uniform motion.
-//! Let A be an inverse of the derivative of F at the middle.
+//! Let F' be the derivative of F, and A an approximate inverse of F' at the middle.
 //! Then T(x) = x - A F(x) maps the box |x - x0| <= r into itself and contracts if
 //!
 //!   |A| |F(x0)| + (|1 - A F'(middle)| + |A| |F' - F'(middle)|) r <= r.

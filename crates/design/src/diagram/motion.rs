@@ -34,7 +34,8 @@ const ENDINGS: [[&str; 3]; 3] =
 pub struct MotionCurve(pub [Channel; 3]);
 
 impl MotionCurve {
-    /// Course of the channel `name`, a position or angle of a moving link or point of `case`.
+    /// The channel `name` with its two derivatives. The channel is a position or an angle of a moving link or point of
+    /// `case`.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for any other name, with the possible names.
@@ -133,7 +134,7 @@ pub struct MethodResult {
     pub orders: [Option<f64>; 2],
 }
 
-/// Motion diagrams of one course.
+/// Motion diagrams of one position or angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionDiagram {
     /// Channels of the displacement and its two derivatives.
@@ -158,6 +159,7 @@ impl MotionDiagram {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`].
+    /// [`ErrorKind::Unsupported`] if a drive has no constant speed, or if the solver does not provide a channel.
     /// Those of the solver, if the crank cannot turn fully.
     pub fn of(case: &Case, solver: &dyn Solver, course: &MotionCurve, divisions: usize) -> Result<Self> {
         if !DIVISIONS.contains(&divisions) {

@@ -95,7 +95,8 @@ pub fn frame(figure: &mut DrawnFigure, size: Vec2, colour: &'static str) {
     figure.area(rectangle([Vec2::zeros(), size]), None, solid(colour, 0.25));
 }
 
-/// Formats a multiple of `step` with as many digits as the multiple needs.
+/// Formats a multiple of `step` with the decimals of `step`.
+/// If `step` is very small or very large, the number has an exponent.
 fn number(value: f64, step: f64) -> String {
     if (1e-4..1e6).contains(&step) {
         let decimals = format!("{step}").split_once('.').map_or(0, |(_, decimals)| decimals.len());

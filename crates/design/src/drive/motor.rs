@@ -18,7 +18,7 @@ use linkage::math::KeepNan;
 /// An induction motor from a catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CatalogueMotor {
-    /// Its type.
+    /// Type designation in the catalogue.
     pub name: String,
     /// Rated power on the shaft (W).
     pub power: f64,

@@ -17,13 +17,13 @@
 //!   The rotor does not enter the interaction forces that sensors read.
 //!   The torque sensor of the hinge therefore reads the driving moment.
 //! - A free link has no rotor except that of its motor.
-//!   The motor is an actuator whose moment falls with the speed.
+//!   The motor is an actuator whose moment is a linear function of the speed.
 //!   A motor with losses becomes two actuators: one drives, the other brakes.
 //! - Moments, forces and torsional springs and dampers are actuators.
 //!   They act on a hinge, on a site, or on a fixed tendon whose length is an angle or a difference of angles.
 //!   Springs and dampers between points are spatial tendons.
 //! - A moment that resists the rotation of a link is dry friction.
-//!   The friction acts in the link's hinge if that hinge is on the ground.
+//!   The friction acts in the link's hinge if this is the only hinge between the ground and the link.
 //!   Otherwise the friction acts in a fixed tendon whose length is the link's angle.
 //!   Dry friction holds a link at rest, whereas [`Load::Resistance`](linkage::drive::Load::Resistance) is zero at rest.
 //! - Constraints are as stiff as the time step permits.
@@ -52,7 +52,8 @@ use linkage::solver::Solver;
 ///
 /// # Errors
 /// [`ErrorKind::Input`](linkage::ErrorKind::Input) for a step that is not positive and finite.
-/// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for names that MuJoCo does not accept.
+/// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for names that MuJoCo does not accept, and for loads and
+/// drives that MJCF cannot express.
 /// Those of the solver.
 pub fn mjcf(case: &Case, solver: &dyn Solver, name: &str, step: f64) -> Result<String> {
     let start = first_state(case, solver)?;

@@ -61,8 +61,8 @@ linkage::words! {
         MassCentre = "centre",
         /// End of a normal part. Its letter is n with a running number.
         Normal = "between",
-        /// Point of a moving guide's link that coincides with a sliding point. Its name is the letter of the sliding
-        /// point and the number of the link: a3.
+        /// Point of a moving guide's link that coincides with a sliding point. Its letter is that of the sliding point
+        /// with the number of the link: a3.
         Coincident = "coincident",
         /// End of a Coriolis part. Its letter is k with a running number.
         Coriolis = "between",

@@ -85,7 +85,8 @@ impl Achieved {
     }
 
     /// Achieved motion as in [`Achieved::of`].
-    /// If the task leaves the sense of the output open, the sense whose motion is closer to the timing is chosen.
+    /// If the task leaves the forward sense open, the sense with the shorter distances travelled in the wrong sense is
+    /// chosen.
     ///
     /// # Errors
     /// Those of [`Achieved::of`].

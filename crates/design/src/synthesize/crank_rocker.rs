@@ -67,8 +67,7 @@ impl CrankRocker {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for lengths and angles that make no sense.
-    /// [`ErrorKind::Geometry`] if the two positions permit no crank that turns fully.
-    /// This error states the distances and a help text.
+    /// [`ErrorKind::Geometry`] if the two positions permit no crank that turns fully. The error states the reason.
     pub fn of(wish: CrankRockerSpec) -> Result<Self> {
         check(&wish)?;
         let frame = wish.rocker_pivot - wish.crank_pivot;

@@ -5,6 +5,7 @@
 //! The terms of the sum are motion in dwells, distances in the wrong sense, missed levels, and moving phases that
 //! hardly move.
 //! A further term is the deviation of extreme positions from the limits of their phases.
+//! If the output must follow a curve, the deviation from the curve is another term.
 //! A cost of 1e-4 corresponds to a deviation of about one hundredth of the stroke.
 
 use std::f64::consts::TAU;

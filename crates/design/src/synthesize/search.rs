@@ -63,7 +63,8 @@ pub struct SearchResult {
 /// `progress` is called with values from 0 to 1.
 ///
 /// # Errors
-/// Those of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate can be assembled over the whole turn.
+/// Those of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate assembles over the whole turn and nearly keeps the
+/// limits.
 pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Result<SearchResult> {
     task.check()?;
     let threads = if threads == 0 { cores() } else { threads.min(MOST_THREADS) };

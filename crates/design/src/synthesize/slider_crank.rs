@@ -60,7 +60,8 @@ impl SliderCrank {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for numbers that make no sense.
-    /// [`ErrorKind::Geometry`] if no crank turns fully. The error states the limit.
+    /// [`ErrorKind::Geometry`] if no crank turns fully, with the limit, or if the time ratio does not determine the
+    /// mechanism.
     pub fn of(stroke: f64, offset: f64, given: Given) -> Result<Self> {
         if !(stroke > 0.0 && stroke.is_finite()) {
             return Err(wrong("stroke", sentences::the_stroke_is(&stroke), sentences::GIVE_A_LENGTH_GREATER_THAN_ZERO));

@@ -69,7 +69,7 @@ impl Problem<'_> {
         unknowns
     }
 
-    /// Gaps of all joints on missing links, divided by the mechanism's size.
+    /// Weighted gaps of all joints on missing links, divided by the mechanism's size.
     fn gaps(&self, unknowns: &ColumnVector) -> ColumnVector {
         let mut gaps = Vec::new();
         for joint in self.mechanism.joints() {

@@ -88,7 +88,7 @@ pub const fn solid(colour: &'static str, width: f64) -> Style {
     Style { colour, width, dash: "" }
 }
 
-/// What covers an area.
+/// Fill of an area.
 #[derive(Clone, Copy, Debug)]
 pub struct Tint {
     /// Colour, `#rrggbb` or `white`.
@@ -98,7 +98,7 @@ pub struct Tint {
 }
 
 impl Tint {
-    /// What lets nothing through.
+    /// A fill that hides everything beneath it.
     #[must_use]
     pub const fn opaque(colour: &'static str) -> Tint {
         Tint { colour, opacity: 1.0 }

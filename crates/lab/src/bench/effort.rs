@@ -5,10 +5,10 @@
 pub struct RunEffort(pub Vec<(String, u64)>);
 
 /// Names of counts that give the number of solutions of the whole mechanism, each at one state.
-/// The first count that is present is used.
+/// The first entry whose counts have a sum above zero is used.
 /// A step of a multistage method has one evaluation for each stage.
 const SOLUTIONS: [&[&str]; 3] = [&["evaluations"], &["steps", "probes"], &["poses"]];
-/// Names of counts that give the inner work of the solutions. The first count that is present is used.
+/// Names of counts that give the inner work of the solutions. The first count above zero is used.
 const INNER: [&[&str]; 4] = [&["sweeps"], &["factorisations"], &["iterations"], &["groups"]];
 
 impl RunEffort {

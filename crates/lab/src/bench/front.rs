@@ -1,4 +1,4 @@
-//! Pareto fronts: points for which no other point is better in both cost and error.
+//! Pareto fronts: points for which no other point is at least as good in cost and error and better in one of the two.
 
 use super::point::BenchPoint;
 use linkage::trajectory::Stage;
@@ -11,7 +11,7 @@ linkage::words! {
         Time = "time",
         /// Solutions of the whole mechanism.
         Solutions = "solutions",
-        /// Inner work: sweeps, factorisations, iterations.
+        /// Inner work: sweeps, factorisations, iterations or placed groups.
         Inner = "inner",
     }
 }

@@ -27,7 +27,7 @@ const SWEEPS: [usize; 3] = [1, 4, 16];
 /// Extrapolations.
 const TIMES: [usize; 4] = [0, 1, 2, 3];
 
-/// Who runs it.
+/// The party that runs a method.
 pub(super) enum Runner {
     /// A side.
     Side(Box<dyn Solver>),

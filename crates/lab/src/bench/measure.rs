@@ -24,7 +24,7 @@ const LONG: f64 = 0.2;
 const FEW: usize = 2;
 /// Largest length of a reason, in characters.
 const REASON: usize = 300;
-/// Instants count as equal if their difference divided by the whole time span is at most this.
+/// Instants count as equal if their difference divided by the largest instant is at most this.
 const SAME: f64 = 1e-9;
 
 /// Everything needed to measure runs.

@@ -22,7 +22,7 @@ pub struct Answer {
     pub columns: Vec<(String, Vec<f64>)>,
     /// Times measured by the peer (s), at least one.
     pub seconds: Vec<f64>,
-    /// What it has counted.
+    /// Operations that the peer has counted.
     pub effort: RunEffort,
 }
 

@@ -6,7 +6,7 @@ use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 
 linkage::words! {
-    /// Whose way it is.
+    /// The kind of party that a method belongs to.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum MethodOwner: name {
         /// An analytic side.
@@ -33,7 +33,7 @@ pub struct Errors {
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnsweredRun {
     /// Errors by stage, in the order of [`Stage::ALL`].
-    /// `None` where the stage was not requested, or where a peer has no such channel.
+    /// `None` where the stage was not requested or has failed, or where a peer has no such channel.
     pub errors: [Option<Errors>; Stage::ALL.len()],
     /// Stages in which a peer's numbers are wrong, and the fault in each. These stages count as failures.
     pub failed: Vec<(Stage, String)>,
@@ -42,14 +42,14 @@ pub struct AnsweredRun {
     pub without: Vec<(Stage, String)>,
     /// Times of all rounds (s).
     pub seconds: Vec<f64>,
-    /// What was done.
+    /// Counted operations of the run.
     pub effort: RunEffort,
 }
 
-/// What came of it.
+/// Outcome of a method.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BenchOutcome {
-    /// It answered.
+    /// The method answered.
     Answered(AnsweredRun),
     /// The run failed, for this reason.
     Failed(String),
@@ -60,7 +60,7 @@ pub enum BenchOutcome {
 pub struct BenchPoint {
     /// Name of solver, engine or peer.
     pub program: String,
-    /// Whose it is.
+    /// The kind of party that the method belongs to.
     pub party: MethodOwner,
     /// Settings except the resolution, in words.
     pub way: String,
@@ -70,7 +70,7 @@ pub struct BenchPoint {
     pub settings: Option<Settings>,
     /// Whether the settings are the program's defaults. The field is set only for sides.
     pub is_usual: bool,
-    /// What came of it.
+    /// Outcome of the method.
     pub outcome: BenchOutcome,
 }
 

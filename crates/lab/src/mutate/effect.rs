@@ -68,7 +68,7 @@ impl Stage<'_> {
         let (mut largest, mut beyond) = (0.0f64, false);
         let known = magnitudes(&self.right).into_iter().zip(&self.integration);
         for ((channel, ours), ((size, error), (_, theirs))) in self.right.iter().zip(known.zip(wrong.iter())) {
-            // Whole turns count here.
+            // A difference of whole turns counts as a change here.
             let change = ours.iter().zip(theirs).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
             let relative = share(change, size);
             largest = largest.larger(relative);

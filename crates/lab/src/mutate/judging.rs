@@ -167,7 +167,7 @@ fn a_fixed_error_in_an_engine_decides_its_verdict() {
     }
 }
 
-/// If only the moment is requested, the balance of powers is the only check that uses the speeds.
+/// If only the moment is requested, no speed is compared; only the balances of powers and of momentum use the speeds.
 #[test]
 fn the_balance_of_powers_finds_a_wrong_unrequested_speed() {
     let wrong = fault("an angular velocity, by a share");

@@ -4,11 +4,12 @@ use linkage::math::KeepNan;
 
 /// Smallest size that is tried, divided by the first size. Effects of smaller faults are below rounding error.
 const LEAST: f64 = 1e-16;
-/// Factor between successive sizes in the downward search.
+/// Factor from the whole size to the first guess, if there is no margin, and between successive sizes of the upward
+/// search.
 const STEP: f64 = 10.0;
 /// The search ends if the smallest size that is found is at most this multiple of a size that is not found.
 const FACTOR: f64 = 2.0;
-/// Largest number of proofs for one search.
+/// One search makes fewer proofs than this number.
 const MOST: usize = 24;
 
 /// The smallest size for which `is_found` returns true, to a factor of two.

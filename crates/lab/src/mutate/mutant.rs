@@ -35,7 +35,7 @@ pub struct Spoiled {
     pub formula: String,
     /// The correct formula or claim, as in the file.
     pub right: String,
-    /// With the mistake.
+    /// The formula or claim with the mistake.
     pub wrong: String,
 }
 
@@ -48,7 +48,7 @@ pub struct Mutant {
     pub party: FaultyParty,
     /// The formula and its text, if the fault is a mistake in a formula.
     pub formula: Option<Spoiled>,
-    /// What came of it.
+    /// Outcome of the proof with the fault.
     pub outcome: FaultyProof,
     /// Largest change of exact answers, relative to the largest number of a quantity; `None` without an exact answer.
     pub effect: Option<f64>,
@@ -63,7 +63,7 @@ pub struct Mutated {
     pub scenario: String,
     /// Verdict of the scenario's proof without a fault.
     pub verdict: &'static str,
-    /// The engine.
+    /// Name of the engine.
     pub engine: &'static str,
     /// The faults, kind by kind.
     pub mutants: Vec<Mutant>,

@@ -111,7 +111,7 @@ impl Eyes {
         self
     }
 
-    /// What an engine sees.
+    /// Adds the detections by the comparison of an engine with the reference.
     pub(super) fn engine(mut self, proof: &EngineProof, reference: &Trajectory) -> Self {
         let name = proof.info.name;
         if let Some(trajectory) = &proof.trajectory {

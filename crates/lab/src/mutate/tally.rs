@@ -48,7 +48,7 @@ impl Share {
 pub struct FaultCounts {
     /// Faults in one party.
     pub planted: Share,
-    /// Faults in the trunk.
+    /// Faults in the code that all parties share.
     pub trunk: Share,
     /// Mistakes in formulas.
     pub formulas: Share,

@@ -16,7 +16,7 @@ const LIMIT: f64 = 120.0;
 /// Converts a film (JSON) to a recording of Rerun with its blueprint, using a Python that has Rerun's library.
 ///
 /// # Errors
-/// The reason of the failure, with the last lines of Python's output.
+/// The reason of the failure, with the last line of Python's error output.
 pub fn converted(film: &str, python: &str, clock: Clock) -> Result<Vec<u8>, String> {
     let own = tempfile::tempdir().map_err(|error| error.to_string())?;
     let at = |name: &str| own.path().join(name);

@@ -107,7 +107,7 @@ pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
     let (mechanism, structure) = (&case.mechanism, &case.structure);
     let wanted: Vec<StartGroup> =
         case.modes.iter().map(|&mode| StartGroup { mode: Some(mode), ..StartGroup::default() }).collect();
-    let place = |cranks: &f64| first_pose(mechanism, structure, &[case.crank().world_angle(*cranks)], &wanted).ok();
+    let place = |cranks: &f64| first_pose(mechanism, structure, &[case.crank().coordinate(*cranks)], &wanted).ok();
     let poses: Vec<Pose> =
         case.grid.inputs.iter().map(place).map(|found| found.map(|(pose, _)| pose)).collect::<Option<_>>()?;
     let joint = |pose: &Pose, joint: JointId| {

@@ -32,7 +32,7 @@ impl RandomSource {
         10f64.powf(self.number(from.log10(), to.log10()))
     }
 
-    /// The next number.
+    /// A number from `from` to `to`, uniformly distributed.
     pub fn number(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }

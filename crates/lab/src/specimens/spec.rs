@@ -34,7 +34,7 @@ pub struct Guide {
     pub name: String,
     /// Its links.
     pub links: [String; 2],
-    /// A point of each.
+    /// Names of the joint's points on the two links.
     pub points: [String; 2],
     /// Angles of the joint's axis in the frames of the two links (rad).
     pub axes: [f64; 2],
@@ -54,7 +54,7 @@ impl Guide {
 pub enum Ask {
     /// The configuration that lies ahead, in the direction of the axis.
     Ahead,
-    /// The one behind.
+    /// The configuration that lies behind, against the direction of the axis.
     Behind,
     /// The configuration near these approximate positions of points.
     Near(Vec<(String, Vec2)>),

@@ -25,7 +25,7 @@ pub enum EngineUse {
 pub struct Setup {
     /// The case.
     pub case: Case,
-    /// What engines do.
+    /// Use of the engines.
     pub engines: EngineUse,
     /// Whether the sides are compared with a double-double reference.
     pub precise: bool,

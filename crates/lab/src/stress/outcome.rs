@@ -39,7 +39,7 @@ linkage::words! {
 pub struct WorstOfGroup {
     /// The group.
     pub group: QuantityGroup,
-    /// Largest error divided by the channel's scale, which is half the channel's range in the run.
+    /// Largest error divided by the channel's scale, which is usually half the channel's range in the run.
     #[serde(deserialize_with = "number")]
     pub error: f64,
     /// Bound of the channel with the largest error, divided by this channel's scale.
@@ -61,7 +61,7 @@ fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 pub struct PartyAtPoint {
     /// Name.
     pub name: String,
-    /// How it ends.
+    /// Outcome.
     pub verdict: PointEnd,
     /// Reason of a verdict other than agreement.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -104,7 +104,7 @@ impl PartyAtPoint {
     }
 }
 
-/// A point, done.
+/// A point with its outcomes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StressOutcome {
     /// Value of the dial.

@@ -130,8 +130,8 @@ fn of_engine(
     let done = own.map(|what| (what.name().to_string(), work.of(what))).into_iter().filter(|(_, times)| *times > 0);
     let party = match proof {
         Err(error) => PartyAtPoint::failed(name.name(), &told(&error)),
-        // The engine may agree with a reference whose sides disagree. The verdict of the whole proof is therefore
-        // counted.
+        // The engine may agree with the reference although the two sides disagree. The verdict of the whole proof is
+        // therefore counted.
         Ok(proof) => of_proof(&setup.case, proof.engine(), &proof.verdict, truth),
     };
     PartyAtPoint { done: done.collect(), ..party }

@@ -1,4 +1,4 @@
-//! Solves all points of some families in parallel, on all cores.
+//! Solves all points of some families in parallel.
 
 use std::ops::ControlFlow;
 
@@ -35,8 +35,8 @@ pub fn jobs(family: &'static StressFamily, quick: bool, seed: u64, kept: &[Stres
 }
 
 /// Solves the open points on `threads` threads.
-/// After each point, `done` receives all jobs and the number of finished jobs. If `done` returns an error, the work
-/// ends.
+/// After each point, `done` receives all jobs, the index of the job just finished, and the number of finished jobs.
+/// If `done` returns an error, the work ends.
 ///
 /// # Errors
 /// The errors of `done`.

@@ -201,7 +201,7 @@ impl Bench<'_> {
     fn floor(&mut self, engine: &dyn Engine, way: &Settings, sweeps: &[usize], limit: f64) -> Floor {
         let rough = match engine.controls_error() {
             true => vec![COARSEST],
-            false => ROUGH.map(|turn| turn / self.case.drives.top_speed()).to_vec(),
+            false => ROUGH.map(|turn| turn / self.case.drives.top_speed(self.case.mechanism.size())).to_vec(),
         };
         let mut floor = Floor(Vec::new());
         let many = sweeps.iter().copied().find(|&many| many >= ENOUGH && many > sweeps[0]);

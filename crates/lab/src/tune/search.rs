@@ -10,7 +10,7 @@ const MOST_RUNS: usize = 9;
 const NEAR_ENOUGH: f64 = 0.8;
 /// The search aims at this fraction of the requested error.
 const AIM: f64 = 0.92;
-/// If a step is known to be too large by at most this factor, no further run is made.
+/// If a step that is too large exceeds the largest sufficient step by less than this factor, no further run is made.
 const CLOSE: f64 = 1.06;
 /// If the observed order is below this, the error does not depend on the step: the error has a cause other than the
 /// step.

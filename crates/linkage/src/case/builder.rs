@@ -51,7 +51,7 @@ pub struct CaseBuilder {
     links: Vec<Link>,
     masses: Vec<(String, f64, Vec2, f64)>,
     joints: Vec<Wish>,
-    cranks: Vec<(String, DriveMotion)>,
+    cranks: Vec<(String, f64, DriveMotion)>,
     motor: Option<Motor>,
     start: f64,
     modes: Vec<(Vec<String>, AssemblyMode)>,
@@ -140,8 +140,16 @@ impl CaseBuilder {
 
     /// Adds a driving link that follows a motion law.
     #[must_use]
-    pub fn driven(mut self, joint: &str, law: MotionLaw) -> Self {
-        self.cranks.push((joint.into(), DriveMotion::Prescribed { law, motor: None }));
+    pub fn driven(self, joint: &str, law: MotionLaw) -> Self {
+        let start = self.start;
+        self.driven_from(joint, start, law)
+    }
+
+    /// Adds a drive that follows a motion law from the input `start` (rad or m) at t = 0.
+    /// The first drive starts at [`CaseBuilder::start`].
+    #[must_use]
+    pub fn driven_from(mut self, joint: &str, start: f64, law: MotionLaw) -> Self {
+        self.cranks.push((joint.into(), start, DriveMotion::Prescribed { law, motor: None }));
         self
     }
 
@@ -150,7 +158,8 @@ impl CaseBuilder {
     /// The link is hinged to the ground or to a driving link added before.
     #[must_use]
     pub fn free(mut self, joint: &str, initial_speed: f64, nominal_speed: f64) -> Self {
-        self.cranks.push((joint.into(), DriveMotion::Free { initial_speed, nominal_speed, motor: None }));
+        let motion = DriveMotion::Free { initial_speed, nominal_speed, motor: None };
+        self.cranks.push((joint.into(), self.start, motion));
         self
     }
 
@@ -161,7 +170,8 @@ impl CaseBuilder {
         self
     }
 
-    /// Sets the world angle of the crank's x axis at t = 0 (rad). Default: 0.
+    /// Sets the input of the first drive at t = 0: the world angle of the crank's x axis (rad), or a slide (m). Default:
+    /// 0.
     #[must_use]
     pub fn start(mut self, crank: f64) -> Self {
         self.start = crank;
@@ -237,7 +247,7 @@ impl CaseBuilder {
         let drives = self.drives(&mechanism)?;
         let structure = Structure::of(&mechanism, &drives.joints())?;
         let starts = self.starts(&mechanism, &structure)?;
-        let (start, modes) = first_pose(&mechanism, &structure, &drives.world_angles(self.start), &starts)?;
+        let (start, modes) = first_pose(&mechanism, &structure, &drives.coordinates(self.start), &starts)?;
         let grid = self.grid(drives.crank());
         let (gravity, loads, wanted) = (self.gravity, self.loads, self.wanted);
         Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted, only: None })
@@ -291,23 +301,12 @@ impl CaseBuilder {
 
     fn drives(&self, mechanism: &Mechanism) -> Result<Drives> {
         let mut all: Vec<Drive> = Vec::with_capacity(self.cranks.len());
-        for (name, motion) in &self.cranks {
+        for (name, start, motion) in &self.cranks {
             let known = mechanism.joints().iter().map(|joint| joint.name.as_str());
             let joint = mechanism.joint_named(name).ok_or_else(|| unknown("joint", name, "drive", known))?;
-            let Joint { kind, first, second, .. } = mechanism.joints()[joint];
-            let carries = |link: LinkId| link == GROUND || all.iter().any(|before| before.link == link);
-            let link = if carries(first.link) { second.link } else { first.link };
-            all.push(Drive {
-                // A joint that no drive can move has no kind of input. Such a joint gets the default kind, because the
-                // structural analysis rejects the drive later.
-                input: kind.input().unwrap_or_default(),
-                joint,
-                link,
-                zero: 0.0,
-                start: self.start,
-                motion: motion.clone(),
-                through: false,
-            });
+            let (input, link) = Drive::of_joint(&mechanism.joints()[joint], &all, motion.is_free());
+            let (zero, start) = (0.0, if all.is_empty() { self.start } else { *start });
+            all.push(Drive { input, joint, link, zero, start, motion: motion.clone(), through: false });
         }
         if all.is_empty() {
             let help = sentences::NAME_THE_DRIVEN_JOINT_WITH_CRANK;

@@ -7,8 +7,9 @@ use super::grid::Grid;
 use super::parts::CaseParts;
 use crate::drive::{Drive, DriveMotion, MotionLaw, Motor, MotorLaw};
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::Input;
 use crate::math::{KeepNan, unit};
-use crate::mechanism::{AssemblyMode, GROUND, GroupKind, LinkPose, Mechanism, Structure};
+use crate::mechanism::{AssemblyMode, DrivingLink, GROUND, GroupKind, LinkPose, Mechanism, Structure};
 
 /// If the opening of a joint in a start pose exceeds this fraction of the joint's largest coordinate, the case is
 /// rejected.
@@ -47,7 +48,6 @@ fn wrong(key: &str, message: impl Into<String>) -> Error {
 }
 
 fn drives(parts: &CaseParts) -> Result<()> {
-    let several = parts.drives.len() > 1;
     for (index, drive) in parts.drives.iter().enumerate() {
         let fault = |kind, message: String| Err(Error::new(kind, message).key("drive"));
         let links = parts.mechanism.links();
@@ -60,11 +60,11 @@ fn drives(parts: &CaseParts) -> Result<()> {
         if drive.link == GROUND || joint.on(drive.link).is_none() {
             return fault(ErrorKind::Input, sentences::the_joint_does_not_carry(&names));
         }
-        if joint.kind.input() != Some(drive.input) {
+        if !joint.kind.has_input(drive.input) {
             let message = sentences::the_joint_is_but_a_drive(&names, &joint.kind.name());
             return fault(ErrorKind::Unsupported, message);
         }
-        if moves_nothing(&parts.mechanism, drive) {
+        if drive.input == Input::Angle && moves_nothing(&parts.mechanism, drive) {
             let message = sentences::moves_nothing_all_joints_of_the_link(&names);
             return Err(Error::new(ErrorKind::Geometry, message)
                 .key(format!("links.{}", link.name))
@@ -72,7 +72,8 @@ fn drives(parts: &CaseParts) -> Result<()> {
                 .help(sentences::GIVE_THE_CRANK_A_LENGTH));
         }
         let before = &parts.drives[..index];
-        if before.iter().any(|other| other.joint == drive.joint || other.link == drive.link) {
+        let same_link = |other: &Drive| drive.input == Input::Angle && other.link == drive.link;
+        if before.iter().any(|other| other.joint == drive.joint || same_link(other)) {
             return fault(ErrorKind::Input, sentences::joint_or_link_is_driven_already(&names));
         }
         if !(drive.zero.is_finite() && drive.start.is_finite() && motion_is_sound(&drive.motion)) {
@@ -82,7 +83,7 @@ fn drives(parts: &CaseParts) -> Result<()> {
             );
         }
         let turns = drive.start.abs() / TAU;
-        if turns > Grid::MOST_TURNS {
+        if drive.input.period().is_some() && turns > Grid::MOST_TURNS {
             let message = sentences::starts_turns_away_the_limit(
                 &names,
                 &format_args!("{turns:.1e}"),
@@ -92,11 +93,7 @@ fn drives(parts: &CaseParts) -> Result<()> {
                 .key("start.crank")
                 .help(sentences::GIVE_THE_CRANK_ANGLE_OF_THE_START));
         }
-        if several && drive.constant_speed().is_none() {
-            let message = sentences::has_a_speed_that_changes(&names);
-            return fault(ErrorKind::Unsupported, message);
-        }
-        if joint.on(GROUND).is_none() && !drive.is_free() {
+        if drive.input == Input::Angle && joint.on(GROUND).is_none() && !drive.is_free() {
             let message = sentences::hangs_on_a_moving_link_but_the_motion(&names);
             return fault(ErrorKind::Unsupported, message);
         }
@@ -176,9 +173,9 @@ fn structure(parts: &CaseParts) -> Result<()> {
         let message = sentences::the_structure_of_parts_is_not_that_of_mechanism(&given, &own);
         return Err(wrong("structure", message).help(sentences::TAKE_STRUCTURE_OF_THE_MECHANISM));
     }
-    match parts.drives.iter().zip(&own.drivers).find(|(drive, (link, _))| drive.link != *link) {
+    match parts.drives.iter().zip(&own.drivers).find(|(drive, driver)| drive.link != driver.link) {
         None => Ok(()),
-        Some((drive, &(link, joint))) => {
+        Some((drive, &DrivingLink { link, joint, .. })) => {
             let [said, turned] = [drive.link, link].map(|link| &parts.mechanism.links()[link].name);
             let name = &parts.mechanism.joints()[joint].name;
             Err(wrong("drive", sentences::joint_drives_link_not(&name, &turned, &said)))
@@ -234,7 +231,14 @@ fn start(parts: &CaseParts) -> Result<()> {
         }
     }
     for drive in &parts.drives {
-        let off = (unit(poses[drive.link].angle) - unit(drive.world_angle(drive.start))).norm();
+        let [stated, found] = [
+            drive.coordinate(drive.start),
+            mechanism.joints()[drive.joint].coordinate(drive.link, drive.input, &parts.start),
+        ];
+        let off = match drive.input {
+            Input::Angle | Input::Turn => (unit(found) - unit(stated)).norm(),
+            Input::Slide => (found - stated).abs() / reach,
+        };
         if !(off <= LARGEST_OPENING) {
             let name = &links[drive.link].name;
             let message = sentences::link_stands_rad_off_the_angle(&name, &format_args!("{off:.3e}"));
@@ -267,7 +271,7 @@ fn has_mode(kind: GroupKind, mode: AssemblyMode) -> bool {
     match kind {
         GroupKind::Rrr => matches!(mode, Left | Right),
         GroupKind::Rrp | GroupKind::Rpr => matches!(mode, Ahead | Behind),
-        GroupKind::Rpp | GroupKind::Prp => mode == Only,
+        GroupKind::Rpp | GroupKind::Prp | GroupKind::Driven => mode == Only,
         GroupKind::Higher => mode == Followed,
     }
 }

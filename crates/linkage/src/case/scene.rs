@@ -5,8 +5,8 @@ use super::{Case, CaseParts, Seat};
 use crate::drive::{Drive, Drives, Load};
 use crate::error::Result;
 use crate::mechanism::{
-    AssemblyMode, GROUND, Group, GroupId, Joint, JointId, JointSide, Link, LinkId, Mechanism, Ordinal, PerLink, Pose,
-    Structure,
+    AssemblyMode, DrivingLink, GROUND, Group, GroupId, Joint, JointId, JointSide, Link, LinkId, Mechanism, Ordinal,
+    PerLink, Pose, Structure,
 };
 use crate::trajectory::{Channel, Stage};
 
@@ -117,8 +117,8 @@ impl<'a> Needs<'a> {
     /// The joint belongs to this link's group or, for a driven joint, to this driving link.
     fn owner(&self, joint: JointId) -> LinkId {
         let joint = &self.case.mechanism.joints()[joint];
-        let place = |link: LinkId| match self.case.structure.drivers.iter().position(|&(own, _)| own == link) {
-            Some(driver) => (1, driver),
+        let place = |link: LinkId| match self.case.structure.leading().find(|(_, driver)| driver.link == link) {
+            Some((driver, _)) => (1, driver),
             None => self.upstream[link].last().map_or((0, 0), |&group| (2, group.index())),
         };
         let (first, second) = (joint.first.link, joint.second.link);
@@ -134,7 +134,7 @@ impl<'a> Needs<'a> {
         };
         // Forces on a link come from every link that depends on it, directly or through further links.
         let carries = &mut self.carries;
-        for &(link, joint) in &structure.drivers {
+        for (_, &DrivingLink { link, joint, .. }) in structure.leading() {
             carries[link] |= ends(joint).into_iter().any(|base| base != GROUND && carries[base]);
         }
         for group in &structure.groups {
@@ -164,7 +164,7 @@ impl<'a> Needs<'a> {
                 group.outer.iter().flat_map(|&joint| ends(joint)).for_each(|link| self.moves[link] = true);
             }
         }
-        for &(link, joint) in structure.drivers.iter().rev() {
+        for (_, &DrivingLink { link, joint, .. }) in structure.leading().rev() {
             if self.moves[link] {
                 ends(joint).into_iter().for_each(|base| self.moves[base] = true);
             }

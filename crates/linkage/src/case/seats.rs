@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Case;
+use crate::input::Input;
 use crate::mechanism::{JointId, JointSide, LinkId};
 use crate::trajectory::{Channel, ChannelSubject, Stage};
 
@@ -46,9 +47,15 @@ impl Case {
         let sliders = joints.entries().filter(|(_, joint)| joint.slides());
         let sliders = sliders.map(|(id, joint)| (ChannelSubject::Slider, joint.name.as_str(), Seat::Joint(id)));
         let frame = std::iter::once((ChannelSubject::Frame, "", Seat::Frame));
-        let moved = self.drives.with_moment().map(|(index, drive)| match index {
-            0 => (ChannelSubject::Drive, "", Seat::Drive(0)),
-            _ => (ChannelSubject::Motor, joints[drive.joint].name.as_str(), Seat::Drive(index)),
+        let moved = self.drives.with_moment().map(|(index, drive)| {
+            let name = if index == 0 { "" } else { joints[drive.joint].name.as_str() };
+            let subject = match (index, drive.input) {
+                (0, Input::Angle | Input::Turn) => ChannelSubject::Drive,
+                (_, Input::Angle | Input::Turn) => ChannelSubject::Motor,
+                (0, Input::Slide) => ChannelSubject::Thrust,
+                (_, Input::Slide) => ChannelSubject::FurtherThrust,
+            };
+            (subject, name, Seat::Drive(index))
         });
         let joints = joints.entries().map(|(id, joint)| (ChannelSubject::Joint, joint.name.as_str(), Seat::Joint(id)));
         links.chain(points).chain(joints).chain(sliders).chain(frame).chain(moved)

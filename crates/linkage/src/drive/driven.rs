@@ -2,7 +2,7 @@
 
 use super::{InputState, MotionLaw, Motor};
 use crate::input::{Input, InputValue};
-use crate::mechanism::{JointId, LinkId};
+use crate::mechanism::{GROUND, Joint, JointId, LinkId};
 
 /// Kind of motion of a driving link.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +28,17 @@ pub enum DriveMotion {
     },
 }
 
+impl DriveMotion {
+    /// Whether forces determine the motion.
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        match self {
+            DriveMotion::Prescribed { .. } => false,
+            DriveMotion::Free { .. } => true,
+        }
+    }
+}
+
 /// A driving link and the motion of its input. The input is the coordinate of the driven joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
@@ -37,7 +48,7 @@ pub struct Drive {
     pub joint: JointId,
     /// Link moved by the drive.
     pub link: LinkId,
-    /// Zero of the input. For an angle: the world angle of the link's x axis at zero input (rad).
+    /// Zero of the input: the coordinate at zero input, as in [`Drive::coordinate`] (rad or m).
     pub zero: f64,
     /// Input at t = 0 (SI unit).
     pub start: f64,
@@ -54,6 +65,24 @@ impl Drive {
     pub fn prescribed(joint: JointId, link: LinkId, zero: f64, start: f64, law: MotionLaw) -> Self {
         let motion = DriveMotion::Prescribed { law, motor: None };
         Drive { input: Input::Angle, joint, link, zero, start, motion, through: false }
+    }
+
+    /// Input and driving link of a drive at `joint`.
+    /// A prismatic joint has its slide as input.
+    /// A revolute joint on the ground has the world angle of its moving link as input. So has the joint of a free link
+    /// on the link of one of the drives `before`.
+    /// Any other revolute joint has the angle between its two links as input.
+    #[must_use]
+    pub fn of_joint(joint: &Joint, before: &[Drive], is_free: bool) -> (Input, LinkId) {
+        let carries = |link: LinkId| link == GROUND || before.iter().any(|drive| drive.link == link);
+        let [first, second] = [joint.first.link, joint.second.link];
+        let link = if carries(second) && !carries(first) { first } else { second };
+        let is_crank = first == GROUND || second == GROUND || is_free && (carries(first) || carries(second));
+        match joint.is_pin() {
+            true if is_crank => (Input::Angle, link),
+            true => (Input::Turn, link),
+            false => (Input::Slide, link),
+        }
     }
 
     /// Applies `read` to the law of the motion. For a free link, `read` receives the law of the link's nominal motion.
@@ -145,10 +174,7 @@ impl Drive {
     #[inline]
     #[must_use]
     pub fn is_free(&self) -> bool {
-        match self.motion {
-            DriveMotion::Prescribed { .. } => false,
-            DriveMotion::Free { .. } => true,
-        }
+        self.motion.is_free()
     }
 
     /// Whether the mechanism continues through change points, on the branch with continuous velocities.
@@ -232,27 +258,31 @@ impl Drive {
         Drive { motion, ..*self }
     }
 
-    /// World angle of the driving link's x axis (rad) at the crank angle `angle` (rad, in the scenario's convention).
+    /// Coordinate of the driven joint at the input `angle` (SI unit, in the scenario's convention).
+    /// For [`Input::Angle`]: the world angle of the driving link's x axis (rad).
+    /// For [`Input::Turn`]: the angle of the joint's second link minus that of its first link (rad).
+    /// For [`Input::Slide`]: the slide (m), as in [`State::slide`](crate::solver::State::slide).
     #[inline]
     #[must_use]
-    pub fn world_angle(&self, angle: f64) -> f64 {
+    pub fn coordinate(&self, angle: f64) -> f64 {
         self.zero + angle
     }
 
-    /// Converts the coordinate measured as in [`Drive::world_angle`] (rad) to the input in the scenario's convention.
+    /// Converts the coordinate measured as in [`Drive::coordinate`] to the input in the scenario's convention.
     #[inline]
     #[must_use]
-    pub fn from_world(&self, coordinate: f64) -> f64 {
+    pub fn from_coordinate(&self, coordinate: f64) -> f64 {
         coordinate - self.zero
     }
 
-    /// Angle of the driving link's frame (rad, unwrapped) for a coordinate measured as in [`Drive::world_angle`].
+    /// Angle of the driving link's frame (rad, unwrapped) for a coordinate measured as in [`Drive::coordinate`].
     /// `None` if the drive does not turn the link.
     #[inline]
     #[must_use]
     pub fn link_angle(&self, coordinate: f64) -> Option<f64> {
         match self.input {
             Input::Angle => Some(coordinate),
+            Input::Turn | Input::Slide => None,
         }
     }
 
@@ -291,7 +321,7 @@ mod tests {
             for t in [0.01, 0.02, 0.03] {
                 let state = drive.at(t);
                 assert!((drive.time_of(state.value) - t).abs() < 1e-15, "{t} {:?}", drive.motion);
-                assert_eq!(drive.world_angle(state.value), 3.0 + state.value);
+                assert_eq!(drive.coordinate(state.value), 3.0 + state.value);
             }
         }
         assert!(drive(table()).time_of(0.6).is_nan());

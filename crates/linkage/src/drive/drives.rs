@@ -1,7 +1,7 @@
 //! All driving links of a mechanism in one list.
 
 use crate::math::KeepNan;
-use crate::mechanism::JointId;
+use crate::mechanism::DrivenJoint;
 use std::ops::Deref;
 
 use super::Drive;
@@ -52,8 +52,8 @@ impl Drives {
 
     /// Driven joints, in the order of the drives.
     #[must_use]
-    pub fn joints(&self) -> Vec<JointId> {
-        self.0.iter().map(|drive| drive.joint).collect()
+    pub fn joints(&self) -> Vec<DrivenJoint> {
+        self.0.iter().map(|drive| DrivenJoint { joint: drive.joint, input: drive.input }).collect()
     }
 
     /// Returns the list with each drive changed by `change`.
@@ -62,12 +62,12 @@ impl Drives {
         Drives(self.0.iter().map(change).collect())
     }
 
-    /// World angles of the driving links' x axes (rad) at the crank angle `crank` (rad, in the scenario's convention).
+    /// Coordinates of the driven joints (rad or m) at the input `crank` of the first drive, in the scenario's convention.
     #[must_use]
-    pub fn world_angles(&self, crank: f64) -> Vec<f64> {
+    pub fn coordinates(&self, crank: f64) -> Vec<f64> {
         let t = self.crank().time_of(crank);
-        let further = self.further().iter().map(|drive| drive.world_angle(drive.at(t).value));
-        std::iter::once(self.crank().world_angle(crank)).chain(further).collect()
+        let further = self.further().iter().map(|drive| drive.coordinate(drive.at(t).value));
+        std::iter::once(self.crank().coordinate(crank)).chain(further).collect()
     }
 
     /// Ratios of the driving links' angular velocities to that of the crank at time `t` (s). The crank's ratio is 1.
@@ -76,10 +76,12 @@ impl Drives {
         self.0.iter().enumerate().map(move |(index, drive)| if index == 0 { 1.0 } else { drive.at(t).rate / omega })
     }
 
-    /// Largest absolute speed of a driving link (rad/s).
+    /// Largest absolute speed of a driving link (rad/s) in a mechanism of the size `size` (m).
+    /// The speed of a slide (m/s) is divided by the size.
     #[must_use]
-    pub fn top_speed(&self) -> f64 {
-        self.0.iter().fold(0.0, |most: f64, drive| most.larger(drive.top_speed().abs()))
+    pub fn top_speed(&self, size: f64) -> f64 {
+        let speed = |drive: &Drive| drive.top_speed().abs() * drive.input.reach(size) / size;
+        self.0.iter().fold(0.0, |most: f64, drive| most.larger(speed(drive)))
     }
 }
 

@@ -11,6 +11,7 @@ mod choice;
 mod configurations;
 mod dyads;
 mod four_link;
+mod fused;
 mod mode;
 #[cfg(test)]
 mod random;
@@ -21,11 +22,11 @@ pub use blame::{Blame, blame, blamed, group_of};
 pub use configurations::{configurations, transmission_sine};
 pub use mode::{AssemblyMode, Configuration, ConfigurationChoice, StartGroup};
 
-use super::{LinkPose, Mechanism, Pose, Structure};
+use super::{GroupKind, Mechanism, Pose, Structure};
 use crate::error::{Error, Result};
 
 /// The start pose, and the assembly mode of each group.
-/// The driving links have the world angles `drive_angles` (rad, in the order of [`Structure::drivers`]).
+/// The driven joints have the coordinates `drive_angles` (rad or m, in the order of [`Structure::drivers`]).
 /// Each group has the configuration required in `wanted` (in the order of [`Structure::groups`]).
 ///
 /// # Errors
@@ -56,13 +57,12 @@ pub fn first_choices(
     drive_angles: &[f64],
     wanted: &[StartGroup],
 ) -> Result<(Pose, Vec<ConfigurationChoice>)> {
-    let mut pose = Pose(vec![LinkPose::GROUND; mechanism.links().len()].into());
-    for (&(link, joint), &angle) in structure.drivers.iter().zip(drive_angles) {
-        let joint = &mechanism.joints()[joint];
-        pose.0[link] = joint.driven(link, &pose.0[joint.other(link).link], angle);
-    }
+    let mut pose = structure.driving_pose(mechanism, drive_angles);
     let mut choices = Vec::with_capacity(structure.groups.len());
     for (group, wanted) in structure.groups.iter().zip(wanted) {
+        if group.kind == GroupKind::Driven {
+            structure.place_driven(mechanism, group, drive_angles, &mut pose);
+        }
         let of_group = |error: Error| error.key(group.key(mechanism)).of_group(group.names(mechanism));
         choices.push(choice::place(mechanism, group, wanted, &mut pose).map_err(of_group)?);
     }

@@ -2,7 +2,7 @@
 
 use super::ids::LinkId;
 use crate::input::Input;
-use crate::math::{KeepNan, Vec2, cross, rotated};
+use crate::math::{KeepNan, Motion, Vec2, cross, rotated};
 
 /// The ground (frame), as a number of [`Mechanism::links`](super::Mechanism::links).
 pub const GROUND: LinkId = LinkId(0);
@@ -140,13 +140,12 @@ impl JointKind {
         }
     }
 
-    /// Quantity that a drive prescribes at this kind of joint: the joint's coordinate.
-    /// `None` if no drive can move this kind of joint.
+    /// Whether a drive at this kind of joint can have this input.
     #[must_use]
-    pub fn input(self) -> Option<Input> {
+    pub fn has_input(self, input: Input) -> bool {
         match self {
-            JointKind::Revolute => Some(Input::Angle),
-            JointKind::Prismatic { .. } => None,
+            JointKind::Revolute => matches!(input, Input::Angle | Input::Turn),
+            JointKind::Prismatic { .. } => input == Input::Slide,
         }
     }
 
@@ -260,6 +259,21 @@ impl Joint {
         let axes = self.kind.axes()?;
         let sides = [self.first, self.second];
         sides.iter().position(|side| side.link == link).map(|index| axes[index])
+    }
+
+    /// Slide of a prismatic joint (m) with its first and second derivative; `None` for a revolute joint.
+    /// The slide is s = e . (p2 - p1) along the axis e of the first link.
+    /// With p2 - p1 = s e: e . (v2 - v1) = s' and e . (a2 - a1) = s'' - s omega^2.
+    #[inline]
+    #[must_use]
+    pub fn slide(&self, motions: &[Motion]) -> Option<[f64; 3]> {
+        let [first, second] = [self.first, self.second].map(|side| (&motions[side.link], side.local));
+        let axis = first.0.arm(self.axis_on(self.first.link)?);
+        let slide = axis.dot(&(second.0.point(second.1) - first.0.point(first.1)));
+        let speed = axis.dot(&(second.0.point_velocity(second.1) - first.0.point_velocity(first.1)));
+        let second_derivative =
+            axis.dot(&(second.0.point_acceleration(second.1) - first.0.point_acceleration(first.1)));
+        Some([slide, speed, second_derivative + slide * first.0.omega * first.0.omega])
     }
 
     /// The opening of the joint: a distance (m) and the sine of an angle.

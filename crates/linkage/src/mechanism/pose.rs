@@ -1,6 +1,7 @@
 //! Pose of every link at one instant.
 
 use super::{Joint, JointSide, Mechanism};
+use crate::input::Input;
 use crate::math::{KeepNan, Vec2, cross, rotated, unit};
 use crate::mechanism::{LinkId, PerLink};
 
@@ -41,11 +42,38 @@ impl LinkPose {
 impl Joint {
     /// Pose of `link` that follows from the drive at this joint.
     /// `link` is one of the joint's two links. `base` is the pose of the joint's link other than `link`.
-    /// `coordinate` is the joint's coordinate, measured as in [`Drive::world_angle`](crate::drive::Drive::world_angle).
+    /// `coordinate` is the coordinate of `input`, as in [`Drive::coordinate`](crate::drive::Drive::coordinate).
     #[must_use]
-    pub fn driven(&self, link: LinkId, base: &LinkPose, coordinate: f64) -> LinkPose {
+    pub fn driven(&self, link: LinkId, base: &LinkPose, input: Input, coordinate: f64) -> LinkPose {
         let local = self.on(link).expect("the driven joint is on the driving link");
-        LinkPose::through(local, base.point(self.other(link).local), coordinate)
+        let other = self.other(link);
+        let place = base.point(other.local);
+        let signed = if self.second.link == link { coordinate } else { -coordinate };
+        match input {
+            Input::Angle => LinkPose::through(local, place, coordinate),
+            Input::Turn => LinkPose::through(local, place, base.angle + signed),
+            Input::Slide => {
+                let [own, guide] = [link, other.link].map(|on| self.axis_on(on).expect("the joint slides"));
+                let turn = cross(own, guide).atan2(own.dot(&guide));
+                LinkPose::through(local, place + rotated(unit(base.angle), guide) * signed, base.angle + turn)
+            }
+        }
+    }
+
+    /// Coordinate of `input` in a pose, as in [`Drive::coordinate`](crate::drive::Drive::coordinate).
+    /// `link` is the driven link. Angles count the whole turns of the pose's angles.
+    #[must_use]
+    pub fn coordinate(&self, link: LinkId, input: Input, pose: &Pose) -> f64 {
+        let [first, second] = [self.first, self.second].map(|side| pose.0[side.link]);
+        match input {
+            Input::Angle => pose.0[link].angle,
+            Input::Turn => second.angle - first.angle,
+            Input::Slide => {
+                let axis = self.axis_on(self.first.link).expect("the joint slides");
+                let gap = second.point(self.second.local) - first.point(self.first.local);
+                rotated(unit(first.angle), axis).dot(&gap)
+            }
+        }
     }
 }
 

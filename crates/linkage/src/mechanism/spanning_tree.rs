@@ -113,7 +113,8 @@ impl SpanningTree {
     }
 
     /// Returns the tree for runs, changed so that it contains the given joints.
-    /// Each given joint must be on the ground or on a link that the earlier given joints reach.
+    /// If a given joint is neither on the ground nor on a link that the earlier given joints reach, the tree first takes
+    /// all given joints, then all prismatic joints, then the rest (Kruskal's algorithm).
     /// The given joints stay in the tree even if the tree could reach their links through joints that are not given.
     /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
     /// Without this rule the driven joint would be cut, although it must be a coordinate of the tree.
@@ -124,6 +125,15 @@ impl SpanningTree {
         tree.reach(mechanism, GROUND, &mut reached);
         for &joint in joints {
             let [first, second] = [mechanism.joints()[joint].first.link, mechanism.joints()[joint].second.link];
+            if tree.branches.iter().any(|branch| branch.joint == joint) {
+                continue;
+            }
+            if reached.contains(&first) == reached.contains(&second) {
+                let others = mechanism.joints().ids().filter(|joint| !joints.contains(joint));
+                let (sliding, turning): (Vec<JointId>, Vec<JointId>) =
+                    others.partition(|&joint| mechanism.joints()[joint].slides());
+                return SpanningTree::along(mechanism, joints.iter().copied().chain(sliding).chain(turning));
+            }
             let (parent, link) = if reached.contains(&first) { (first, second) } else { (second, first) };
             tree.branches.push(TreeBranch { link, parent, joint });
             tree.reach(mechanism, link, &mut reached);

@@ -1,12 +1,15 @@
 //! Structural analysis: mobility, and the decomposition into driving links and Assur groups.
 //!
-//! Every link has three degrees of freedom. Every revolute or prismatic pair removes two, every drive one.
+//! Every link has three degrees of freedom. Every revolute or prismatic pair removes two, every given coordinate one.
 //! Each equation concerns two links, and one of the two links becomes its owner. A link owns three equations (a
 //! matching).
 //! For every equation that a link owns, the link depends on the other of the equation's two links.
 //! These dependences form a graph. Its strongly connected components are the driving links and the Assur groups.
 //! The components are listed in the order in which they can be solved.
 //! The components do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
+//!
+//! A driving link stands on the ground or on an earlier driving link. Any other given joint belongs to a group.
+//! Two links on a given joint are one rigid body at every instant, so the group is classified by its bodies.
 
 mod contour;
 mod group;
@@ -17,19 +20,49 @@ mod tests;
 use crate::sentences;
 pub use group::{Group, GroupKind};
 
-use super::{GROUND, Mechanism};
+use super::{GROUND, LinkPose, Mechanism, Pose};
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::Input;
 use crate::mechanism::{GroupId, JointId, LinkId, PerGroup, PerLink};
 use contour::highest_contour;
 use owners::{Owners, check_sparse};
+
+/// A joint whose coordinate is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrivenJoint {
+    /// The joint.
+    pub joint: JointId,
+    /// What its coordinate measures.
+    pub input: Input,
+}
+
+impl From<JointId> for DrivenJoint {
+    /// The joint of a crank.
+    fn from(joint: JointId) -> Self {
+        DrivenJoint { joint, input: Input::Angle }
+    }
+}
+
+/// A link that a drive moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrivingLink {
+    /// The link. For a joint between two links of a group, it is the joint's second link.
+    pub link: LinkId,
+    /// The driven joint.
+    pub joint: JointId,
+    /// What the joint's coordinate measures.
+    pub input: Input,
+    /// Whether the link belongs to a group. Otherwise it stands on the ground or on an earlier driving link.
+    pub in_group: bool,
+}
 
 /// Result of the structural analysis of a mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Structure {
     /// Mobility by Chebyshev-Gruebler, W = 3 n - 2 p (n moving links, p lower pairs).
     pub mobility: i64,
-    /// Driving links as (link, driven joint), in the order in which the drives were given.
-    pub drivers: Vec<(LinkId, JointId)>,
+    /// Driving links, in the order in which the drives were given.
+    pub drivers: Vec<DrivingLink>,
     /// Assur groups in the order in which they can be solved.
     pub groups: PerGroup<Group>,
 }
@@ -41,10 +74,14 @@ impl Structure {
     /// [`ErrorKind::Input`] if links have no connection to the ground, or if the mobility differs from the number of
     /// drives.
     /// [`ErrorKind::Input`] also if one part is over-constrained while a second part is free to move.
-    /// [`ErrorKind::Unsupported`] if a drive does not act on a link hinged to the ground.
-    pub fn of(mechanism: &Mechanism, drives: &[JointId]) -> Result<Self> {
+    pub fn of<T: Copy + Into<DrivenJoint>>(mechanism: &Mechanism, drives: &[T]) -> Result<Self> {
+        let drives: Vec<DrivenJoint> = drives.iter().map(|&drive| drive.into()).collect();
+        Structure::of_driven(mechanism, &drives)
+    }
+
+    fn of_driven(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Result<Self> {
         check_connected(mechanism)?;
-        check_sliders(mechanism)?;
+        check_angles(mechanism, drives)?;
         let mobility = mobility(mechanism);
         if mobility != drives.len() as i64 {
             return Err(wrong_mobility(mechanism, mobility, drives.len()));
@@ -55,23 +92,31 @@ impl Structure {
         let mut known = vec![false; mechanism.links().len()];
         known[GROUND] = true;
         for part in owners.parts(mechanism) {
+            let is_owned =
+                |drive: &&DrivenJoint| owners.owner_of_drive(drive.joint).is_some_and(|link| part.contains(&link));
+            let given: Vec<DrivenJoint> = drives.iter().filter(is_owned).copied().collect();
+            let in_group =
+                !matches!(given[..], [drive] if part.len() == 1 && carries(mechanism, &drivers, drive.joint, part[0]));
+            for DrivenJoint { joint, input } in &given {
+                let second = mechanism.joints()[*joint].second.link;
+                let link = if part.contains(&second) { second } else { mechanism.joints()[*joint].first.link };
+                let input = match mechanism.joints()[*joint].slides() {
+                    true => Input::Slide,
+                    false if in_group => Input::Turn,
+                    false => *input,
+                };
+                drivers.push(DrivingLink { link, joint: *joint, input, in_group });
+            }
             let solved = part.clone();
-            let drive = drives
-                .iter()
-                .copied()
-                .find(|&joint| owners.owner_of_drive(joint).is_some_and(|link| part.contains(&link)));
-            match drive {
-                None => groups.push(group(mechanism, part, &known)),
-                Some(joint) if part.len() == 1 && carries(mechanism, &drivers, joint, part[0]) => {
-                    drivers.push((part[0], joint));
-                }
-                Some(joint) => return Err(unsupported_drive(mechanism, joint)),
+            if in_group {
+                let given = given.iter().map(|drive| drive.joint).collect();
+                groups.push(group(mechanism, part, given, &known));
             }
             for link in solved {
                 known[link] = true;
             }
         }
-        drivers.sort_by_key(|&(_, joint)| drives.iter().position(|&drive| drive == joint));
+        drivers.sort_by_key(|driver| drives.iter().position(|drive| drive.joint == driver.joint));
         let structure = Structure { mobility, drivers, groups: groups.into() };
         structure.check_order(mechanism)?;
         Ok(structure)
@@ -79,10 +124,10 @@ impl Structure {
 
     /// Checks that each driving link comes after the link that carries it.
     fn check_order(&self, mechanism: &Mechanism) -> Result<()> {
-        for (index, &(link, joint)) in self.drivers.iter().enumerate() {
-            let joint = &mechanism.joints()[joint];
-            let base = joint.other(link).link;
-            if base != GROUND && !self.drivers[..index].iter().any(|&(before, _)| before == base) {
+        for (index, driver) in self.drivers.iter().enumerate().filter(|(_, driver)| !driver.in_group) {
+            let joint = &mechanism.joints()[driver.joint];
+            let base = joint.other(driver.link).link;
+            if base != GROUND && !self.drivers[..index].iter().any(|before| before.link == base) {
                 let name = &mechanism.links()[base].name;
                 let message = sentences::joint_hangs_on_link_which_is_driven(&joint.name, &name);
                 return Err(Error::new(ErrorKind::Input, message)
@@ -91,6 +136,58 @@ impl Structure {
             }
         }
         Ok(())
+    }
+
+    /// The driving links that stand on the ground or on an earlier driving link, with the numbers of their drives.
+    pub fn leading(&self) -> impl DoubleEndedIterator<Item = (usize, &DrivingLink)> {
+        self.drivers.iter().enumerate().filter(|(_, driver)| !driver.in_group)
+    }
+
+    /// A pose in which the driving links are placed at these coordinates, one for each drive, as in
+    /// [`Drive::coordinate`](crate::drive::Drive::coordinate).
+    /// The links of a body with given joints have their pose relative to the lead of the body, whose frame is that of
+    /// the ground. All other links have the pose of the ground.
+    #[must_use]
+    pub fn driving_pose(&self, mechanism: &Mechanism, coordinates: &[f64]) -> Pose {
+        let mut pose = Pose(vec![LinkPose::GROUND; mechanism.links().len()].into());
+        let mut place = |link: LinkId, driver: &DrivingLink, coordinate: f64| {
+            let joint = &mechanism.joints()[driver.joint];
+            pose.0[link] = joint.driven(link, &pose.0[joint.other(link).link], driver.input, coordinate);
+        };
+        for (index, driver) in self.leading() {
+            place(driver.link, driver, coordinates[index]);
+        }
+        for group in &self.groups {
+            let leads = group.leads(mechanism);
+            let mut placed: Vec<LinkId> = leads.clone();
+            let is_inner =
+                |driver: &DrivingLink| group.given.contains(&driver.joint) && group.inner.contains(&driver.joint);
+            let mut left: Vec<usize> =
+                (0..self.drivers.len()).filter(|&index| is_inner(&self.drivers[index])).collect();
+            while !left.is_empty() {
+                left.retain(|&index| {
+                    let joint = &mechanism.joints()[self.drivers[index].joint];
+                    let [first, second] = [joint.first.link, joint.second.link];
+                    let link = if placed.contains(&first) { second } else { first };
+                    let reaches = placed.contains(&first) || placed.contains(&second);
+                    if reaches {
+                        place(link, &self.drivers[index], coordinates[index]);
+                        placed.push(link);
+                    }
+                    !reaches
+                });
+            }
+        }
+        pose
+    }
+
+    /// Places the link of a [driven](GroupKind::Driven) group. The arguments are those of
+    /// [`Structure::driving_pose`]; in `pose`, the link that carries the joint is placed.
+    pub fn place_driven(&self, mechanism: &Mechanism, group: &Group, coordinates: &[f64], pose: &mut Pose) {
+        let index = self.drivers.iter().position(|driver| driver.joint == group.given[0]).expect("the joint is driven");
+        let (driver, joint) = (&self.drivers[index], &mechanism.joints()[group.given[0]]);
+        let base = pose.0[joint.other(driver.link).link];
+        pose.0[driver.link] = joint.driven(driver.link, &base, driver.input, coordinates[index]);
     }
 
     /// For every link: the groups on which its motion depends if all drives are prescribed.
@@ -118,25 +215,28 @@ impl Structure {
     #[must_use]
     pub fn formula(&self, mechanism: &Mechanism) -> String {
         const ROMAN: [&str; 9] = ["", "I", "II", "III", "IV", "V", "VI", "VII", "VIII"];
-        let name = |&(link, joint): &(LinkId, JointId)| {
+        let driving = |link: LinkId, joint: JointId| {
             let base = mechanism.joints()[joint].other(link).link;
             format!("I({}, {})", mechanism.links()[base].name, mechanism.links()[link].name)
         };
-        let mut parts: Vec<String> = self.drivers.iter().map(name).collect();
+        let mut parts: Vec<String> = self.leading().map(|(_, driver)| driving(driver.link, driver.joint)).collect();
         for group in &self.groups {
+            if group.kind == GroupKind::Driven {
+                parts.push(driving(group.links[0], group.given[0]));
+                continue;
+            }
             let class = ROMAN.get(group.class).map_or_else(|| group.class.to_string(), ToString::to_string);
             let pairs = group.kind.letters().map_or_else(String::new, |letters| format!(" {letters}"));
-            parts.push(format!("{class}.{}{pairs}({})", group.order(), group.names(mechanism)));
+            parts.push(format!("{class}.{}{pairs}({})", group.order(), group.bodies(mechanism)));
         }
         parts.join(" -> ")
     }
 }
 
-/// Whether a drivable joint connects a driving link to the ground or to one of the `drivers` found so far.
-fn carries(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], joint: JointId, link: LinkId) -> bool {
-    let joint = &mechanism.joints()[joint];
-    let base = joint.other(link).link;
-    joint.kind.input().is_some() && (base == GROUND || drivers.iter().any(|&(driving, _)| driving == base))
+/// Whether the driven joint connects a driving link to the ground or to one of the `drivers` found so far.
+fn carries(mechanism: &Mechanism, drivers: &[DrivingLink], joint: JointId, link: LinkId) -> bool {
+    let base = mechanism.joints()[joint].other(link).link;
+    base == GROUND || drivers.iter().any(|driver| driver.link == base && !driver.in_group)
 }
 
 /// W = 3 n - 2 p: every lower pair removes two degrees of freedom.
@@ -162,16 +262,24 @@ fn check_connected(mechanism: &Mechanism) -> Result<()> {
     }
 }
 
-/// Rejects closed loops of prismatic pairs alone.
+/// Rejects closed loops of prismatic pairs and driven revolute pairs alone.
 /// Such a loop constrains the angle between its links twice and leaves the links free to slide.
-fn check_sliders(mechanism: &Mechanism) -> Result<()> {
+fn check_angles(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Result<()> {
     let mut part: Vec<LinkId> = mechanism.links().ids().collect();
-    for joint in mechanism.joints().iter().filter(|joint| joint.keeps_angle()) {
+    let is_driven = |index: JointId| drives.iter().any(|drive| drive.joint == index);
+    let (sliding, turning): (Vec<JointId>, Vec<JointId>) =
+        mechanism.joints().ids().partition(|&index| mechanism.joints()[index].keeps_angle());
+    for index in sliding.into_iter().chain(turning.into_iter().filter(|&index| is_driven(index))) {
+        let joint = &mechanism.joints()[index];
         let (a, b) = (part[joint.first.link], part[joint.second.link]);
         if a == b {
-            return Err(Error::new(ErrorKind::Input, sentences::THE_JOINT_CLOSES_A_LOOP_OF_PRISMATIC)
-                .key(format!("joints.{}", joint.name))
-                .help(sentences::LINKS_THAT_ARE_JOINED_BY_PRISMATIC));
+            let (message, help) = match joint.keeps_angle() {
+                true => {
+                    (sentences::THE_JOINT_CLOSES_A_LOOP_OF_PRISMATIC, sentences::LINKS_THAT_ARE_JOINED_BY_PRISMATIC)
+                }
+                false => (sentences::THE_DRIVEN_JOINT_TURNS_LINKS_WITH_KEPT_ANGLES, sentences::DRIVE_ANOTHER_JOINT),
+            };
+            return Err(Error::new(ErrorKind::Input, message).key(format!("joints.{}", joint.name)).help(help));
         }
         part.iter_mut().filter(|own| **own == b).for_each(|own| *own = a);
     }
@@ -190,14 +298,8 @@ fn wrong_mobility(mechanism: &Mechanism, mobility: i64, drives: usize) -> Error 
         .help(help)
 }
 
-fn unsupported_drive(mechanism: &Mechanism, joint: JointId) -> Error {
-    Error::new(ErrorKind::Unsupported, sentences::the_driven_joint_does_not_turn(&mechanism.joints()[joint].name))
-        .key("drive.joint")
-        .help(sentences::DRIVE_A_LINK_THAT_IS_HINGED)
-}
-
-/// The group of `links`. All links marked in `known` are already solved.
-fn group(mechanism: &Mechanism, links: Vec<LinkId>, known: &[bool]) -> Group {
+/// The group of `links` with the `given` joints. All links marked in `known` are already solved.
+fn group(mechanism: &Mechanism, links: Vec<LinkId>, given: Vec<JointId>, known: &[bool]) -> Group {
     let inside = |link: LinkId| links.contains(&link);
     let (mut inner, mut outer) = (Vec::new(), Vec::new());
     let mut own: Vec<JointId> = links.iter().flat_map(|&link| mechanism.joints_on(link)).copied().collect();
@@ -212,20 +314,32 @@ fn group(mechanism: &Mechanism, links: Vec<LinkId>, known: &[bool]) -> Group {
             outer.push(index);
         }
     }
-    // A dyad's outer joints are in the order of its links.
-    outer.sort_by_key(|&j| links.iter().position(|&link| mechanism.joints()[j].on(link).is_some()));
-    let kind = kind(mechanism, &links, &inner, &outer);
-    let mut group = Group { links, inner, outer, class: 2, kind };
-    group.class = highest_contour(mechanism, &group);
+    let mut group = Group { links, inner, outer, given, class: 1, kind: GroupKind::Driven };
+    // A dyad's outer joints are in the order of its bodies.
+    let leads = group.leads(mechanism);
+    let lead_of = |joint: &JointId| {
+        group.links.iter().position(|&link| mechanism.joints()[*joint].on(link).is_some()).map(|at| leads[at])
+    };
+    group.outer.sort_by_key(lead_of);
+    group.kind = kind(mechanism, &group);
+    if group.kind != GroupKind::Driven {
+        group.class = highest_contour(mechanism, &group);
+    }
     group
 }
 
-fn kind(mechanism: &Mechanism, links: &[LinkId], inner: &[JointId], outer: &[JointId]) -> GroupKind {
-    if links.len() != 2 {
-        return GroupKind::Higher;
+fn kind(mechanism: &Mechanism, group: &Group) -> GroupKind {
+    let leads = group.leads(mechanism);
+    match group.links.iter().zip(&leads).filter(|(link, lead)| link == lead).count() {
+        1 => return GroupKind::Driven,
+        2 => {}
+        _ => return GroupKind::Higher,
     }
-    let slides = |joints: &[JointId]| joints.iter().filter(|&&joint| mechanism.joints()[joint].slides()).count();
-    match (slides(inner), slides(outer)) {
+    let slides = |joints: &[JointId]| {
+        let free = joints.iter().filter(|joint| !group.given.contains(joint));
+        free.filter(|&&joint| mechanism.joints()[joint].slides()).count()
+    };
+    match (slides(&group.inner), slides(&group.outer)) {
         (0, 0) => GroupKind::Rrr,
         (0, 1) => GroupKind::Rrp,
         (0, _) => GroupKind::Prp,

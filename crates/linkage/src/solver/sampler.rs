@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use super::state::State;
 use crate::case::{Case, Seat};
 use crate::error::Result;
+use crate::input::Input;
 use crate::math::{Motion, Vec2};
 use crate::mechanism::{JointId, JointSide, LinkId};
 use crate::trajectory::channel::rows;
@@ -155,11 +156,13 @@ impl Sampler {
         }
         for &(index, mask) in &self.drives {
             let read = |of| match of {
-                OfDrive::Torque => state.torques[index],
+                OfDrive::Effort => state.torques[index],
             };
-            match index {
-                0 => out.put(&rows::DRIVE, mask, read),
-                _ => out.put(&rows::MOTOR, mask, read),
+            match (index, case.drives[index].input) {
+                (0, Input::Angle | Input::Turn) => out.put(&rows::DRIVE, mask, read),
+                (_, Input::Angle | Input::Turn) => out.put(&rows::MOTOR, mask, read),
+                (0, Input::Slide) => out.put(&rows::THRUST, mask, read),
+                (_, Input::Slide) => out.put(&rows::FURTHER_THRUST, mask, read),
             }
         }
         debug_assert!(out.values.is_empty(), "as many values as channels");

@@ -1,6 +1,8 @@
 //! The state of a mechanism, in the form that all solvers use.
 
 use crate::case::Case;
+use crate::drive::Action;
+use crate::input::Input;
 use crate::math::{KeepNan, Motion, Vec2, cross, unit};
 use crate::mechanism::{GROUND, Joint, PerJoint, PerLink};
 
@@ -16,8 +18,9 @@ pub struct State {
     /// Moment of the first link on the second in every joint (N m), about the joint's point on the second link.
     /// The moment is 0 in revolute joints.
     pub moments: PerJoint<f64>,
-    /// Balancing moment on every driving link (N m), in the order of
+    /// Balancing moment (N m) or driving force (N) of every drive, in the order of
     /// [`CaseParts::drives`](crate::case::CaseParts::drives).
+    /// At a joint between moving links, moment and force act from the first link on the second.
     pub torques: Vec<f64>,
     /// Condition number for the bound on rounding errors while the mechanism passes a change point; `None` elsewhere.
     /// The condition number of the pose itself grows without bound near a change point.
@@ -39,19 +42,11 @@ impl State {
         }
     }
 
-    /// Slide of a prismatic joint (m) with its first and second derivative; `None` for a revolute joint.
-    /// The slide is s = e . (p2 - p1) along the axis e of the first link.
-    /// With p2 - p1 = s e: e . (v2 - v1) = s' and e . (a2 - a1) = s'' - s omega^2.
+    /// [`Joint::slide`] in this state.
     #[inline]
     #[must_use]
     pub fn slide(&self, joint: &Joint) -> Option<[f64; 3]> {
-        let [first, second] = [joint.first, joint.second].map(|side| (&self.motions[side.link], side.local));
-        let axis = first.0.arm(joint.axis_on(joint.first.link)?);
-        let slide = axis.dot(&(second.0.point(second.1) - first.0.point(first.1)));
-        let speed = axis.dot(&(second.0.point_velocity(second.1) - first.0.point_velocity(first.1)));
-        let second_derivative =
-            axis.dot(&(second.0.point_acceleration(second.1) - first.0.point_acceleration(first.1)));
-        Some([slide, speed, second_derivative + slide * first.0.omega * first.0.omega])
+        joint.slide(&self.motions)
     }
 
     /// Shaking force (N) and shaking moment about the origin (N m).
@@ -59,8 +54,22 @@ impl State {
     /// These actions come from joints with the ground, drives, and springs and dampers fastened to the ground.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
-        // Drives are mounted on the frame. The moment of a drive on the frame is opposite to its balancing moment.
-        let (mut force, mut moment) = (Vec2::zeros(), -self.torques.iter().sum::<f64>());
+        let (mut force, mut moment) = (Vec2::zeros(), 0.0);
+        for (drive, torque) in case.drives.iter().zip(&self.torques) {
+            match drive.input {
+                // The drive of a crank is mounted on the frame. Its moment on the frame is opposite to its balancing
+                // moment.
+                Input::Angle => moment -= torque,
+                Input::Turn => {}
+                Input::Slide => {
+                    let [first, second] = self.thrust(&case.mechanism.joints()[drive.joint], *torque);
+                    for action in [first, second].into_iter().filter(|action| action.link == GROUND) {
+                        force -= action.force;
+                        moment -= action.about(Vec2::zeros());
+                    }
+                }
+            }
+        }
         for (index, joint) in case.mechanism.joints().entries() {
             let sign = match (joint.first.link, joint.second.link) {
                 (GROUND, _) => -1.0,
@@ -80,6 +89,19 @@ impl State {
         (force, moment)
     }
 
+    /// Actions of a driving force (N) on the first and on the second link of a prismatic joint.
+    #[must_use]
+    pub fn thrust(&self, joint: &Joint, force: f64) -> [Action; 2] {
+        let axis = self.motions[joint.first.link].arm(joint.axis_on(joint.first.link).expect("the joint slides"));
+        let place = self.motions[joint.second.link].point(joint.second.local);
+        [(joint.first.link, -force), (joint.second.link, force)].map(|(link, force)| Action {
+            link,
+            force: axis * force,
+            place,
+            moment: 0.0,
+        })
+    }
+
     /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
     /// In a prismatic joint the opening is measured perpendicular to the guide.
     /// The angle between the joint's two axes (rad), multiplied by `size` (m), also counts as an opening.
@@ -96,10 +118,13 @@ impl State {
         largest
     }
 
-    /// Largest moment (N m): of a drive, or of a joint's force at `arm` (m).
+    /// Largest moment (N m): of a drive, or of a force of a joint or drive at `arm` (m).
     #[must_use]
-    pub fn largest_moment(&self, arm: f64) -> f64 {
-        let torques = self.torques.iter().map(|torque| torque.abs());
+    pub fn largest_moment(&self, case: &Case, arm: f64) -> f64 {
+        let torques = case.drives.iter().zip(&self.torques).map(|(drive, effort)| match drive.input {
+            Input::Angle | Input::Turn => effort.abs(),
+            Input::Slide => effort.abs() * arm,
+        });
         self.forces.iter().map(|force| force.norm() * arm).chain(torques).fold(0.0, f64::larger)
     }
 

@@ -79,12 +79,15 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
 /// The moment of a prismatic joint acts from the first link on the second, about the joint's point on the second link.
 /// The force on the frame is the sum of the forces of the frame's joints and of the drive. The moment on the frame is
 /// about the origin.
-/// The torque of the drive acts on the driving link.
-pub static CHANNELS: [ChannelKind; 26] = TABLE;
+/// The torque of a drive acts on the driving link. At a joint between moving links it acts from the joint's first link
+/// on its second link.
+/// The force of a drive acts along the axis of its prismatic joint from the first link on the second link.
+/// It is positive if it increases the slide. The reaction of the joint does not include it.
+pub static CHANNELS: [ChannelKind; 28] = TABLE;
 
-const TABLE: [ChannelKind; 26] = {
+const TABLE: [ChannelKind; 28] = {
     use OfPoint::{AccelerationX, AccelerationY, VelocityX, VelocityY, X, Y};
-    use Reading::{Drive, Frame, Joint, Link, Motor, Point, Slider};
+    use Reading::{Drive, Frame, FurtherThrust, Joint, Link, Motor, Point, Slider, Thrust};
     use Stage::{Accelerations, BalancingMoment, Positions, Reactions, Velocities};
     use Unit::{Metre, MetrePerSecond, MetrePerSecondSquared, Newton, NewtonMetre};
     use Unit::{Radian, RadianPerSecond, RadianPerSecondSquared};
@@ -134,8 +137,10 @@ const TABLE: [ChannelKind; 26] = {
         row(Frame(OfFrame::ForceX), "fx_N", "shaking force", Newton, BalancingMoment),
         row(Frame(OfFrame::ForceY), "fy_N", "shaking force", Newton, BalancingMoment),
         row(Frame(OfFrame::Moment), "moment_N_m", "shaking moment", NewtonMetre, BalancingMoment),
-        row(Drive(OfDrive::Torque), "torque_N_m", "balancing moment", NewtonMetre, BalancingMoment),
-        row(Motor(OfDrive::Torque), "torque_N_m", "balancing moment", NewtonMetre, BalancingMoment),
+        row(Drive(OfDrive::Effort), "torque_N_m", "balancing moment", NewtonMetre, BalancingMoment),
+        row(Motor(OfDrive::Effort), "torque_N_m", "balancing moment", NewtonMetre, BalancingMoment),
+        row(Thrust(OfDrive::Effort), "force_N", "driving force", Newton, BalancingMoment),
+        row(FurtherThrust(OfDrive::Effort), "force_N", "driving force", Newton, BalancingMoment),
     ]
 };
 
@@ -181,9 +186,13 @@ pub(crate) mod rows {
     pub(crate) const FRAME: [(OfFrame, Stage); count(ChannelSubject::Frame)] =
         rows_of!(Frame, OfFrame, OfFrame::ForceX);
     pub(crate) const DRIVE: [(OfDrive, Stage); count(ChannelSubject::Drive)] =
-        rows_of!(Drive, OfDrive, OfDrive::Torque);
+        rows_of!(Drive, OfDrive, OfDrive::Effort);
     pub(crate) const MOTOR: [(OfDrive, Stage); count(ChannelSubject::Motor)] =
-        rows_of!(Motor, OfDrive, OfDrive::Torque);
+        rows_of!(Motor, OfDrive, OfDrive::Effort);
+    pub(crate) const THRUST: [(OfDrive, Stage); count(ChannelSubject::Thrust)] =
+        rows_of!(Thrust, OfDrive, OfDrive::Effort);
+    pub(crate) const FURTHER_THRUST: [(OfDrive, Stage); count(ChannelSubject::FurtherThrust)] =
+        rows_of!(FurtherThrust, OfDrive, OfDrive::Effort);
 }
 
 /// One channel of a trajectory: a row of [`CHANNELS`] for one link, point, joint or drive.

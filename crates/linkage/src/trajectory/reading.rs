@@ -17,6 +17,10 @@ pub enum ChannelSubject {
     Drive,
     /// A drive other than the first drive, named after its joint.
     Motor,
+    /// The first drive, if it moves a prismatic joint.
+    Thrust,
+    /// A drive other than the first drive, named after its prismatic joint.
+    FurtherThrust,
 }
 
 impl ChannelSubject {
@@ -24,20 +28,23 @@ impl ChannelSubject {
     #[must_use]
     pub fn is_whole(self) -> bool {
         match self {
-            ChannelSubject::Frame | ChannelSubject::Drive => true,
+            ChannelSubject::Frame | ChannelSubject::Drive | ChannelSubject::Thrust => true,
             ChannelSubject::Link
             | ChannelSubject::Point
             | ChannelSubject::Joint
             | ChannelSubject::Slider
-            | ChannelSubject::Motor => false,
+            | ChannelSubject::Motor
+            | ChannelSubject::FurtherThrust => false,
         }
     }
 
-    /// Whether the subject is the moment of a drive.
+    /// Whether the subject is the moment or force of a drive.
     #[must_use]
     pub fn is_drive(self) -> bool {
         match self {
-            ChannelSubject::Drive | ChannelSubject::Motor => true,
+            ChannelSubject::Drive | ChannelSubject::Motor | ChannelSubject::Thrust | ChannelSubject::FurtherThrust => {
+                true
+            }
             ChannelSubject::Link
             | ChannelSubject::Point
             | ChannelSubject::Joint
@@ -54,7 +61,9 @@ impl ChannelSubject {
             ChannelSubject::Point => "point",
             ChannelSubject::Joint | ChannelSubject::Slider => "joint",
             ChannelSubject::Frame => "frame",
-            ChannelSubject::Drive | ChannelSubject::Motor => "drive",
+            ChannelSubject::Drive | ChannelSubject::Motor | ChannelSubject::Thrust | ChannelSubject::FurtherThrust => {
+                "drive"
+            }
         }
     }
 }
@@ -78,6 +87,10 @@ pub enum Reading {
     Drive(OfDrive),
     /// A quantity of a drive other than the first drive.
     Motor(OfDrive),
+    /// A quantity of the first drive, if it moves a prismatic joint.
+    Thrust(OfDrive),
+    /// A quantity of a drive of a prismatic joint other than the first drive.
+    FurtherThrust(OfDrive),
 }
 
 impl Reading {
@@ -92,6 +105,8 @@ impl Reading {
             Reading::Frame(_) => ChannelSubject::Frame,
             Reading::Drive(_) => ChannelSubject::Drive,
             Reading::Motor(_) => ChannelSubject::Motor,
+            Reading::Thrust(_) => ChannelSubject::Thrust,
+            Reading::FurtherThrust(_) => ChannelSubject::FurtherThrust,
         }
     }
 }
@@ -127,7 +142,9 @@ impl Reading {
             | Reading::Joint(_)
             | Reading::Frame(_)
             | Reading::Drive(_)
-            | Reading::Motor(_) => None,
+            | Reading::Motor(_)
+            | Reading::Thrust(_)
+            | Reading::FurtherThrust(_) => None,
         }
     }
 }
@@ -198,6 +215,6 @@ pub enum OfFrame {
 /// Quantity of a drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OfDrive {
-    /// Balancing moment on the driving link.
-    Torque,
+    /// Balancing moment on the driving link, or driving force along the axis of a prismatic joint.
+    Effort,
 }

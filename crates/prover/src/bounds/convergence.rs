@@ -38,7 +38,7 @@ pub struct Ladder<'a> {
 /// Estimate of the error of the middle run in one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Convergence {
-    /// Observed order of convergence. NaN if the differences are only rounding.
+    /// Observed order of convergence. NaN if the finer differences are only rounding.
     pub observed: f64,
     /// Order of convergence that the method has in theory.
     pub formal: f64,
@@ -61,8 +61,8 @@ impl Convergence {
         let largest = largest_size(&fine);
         let (before, after) = (rms(&coarse), rms(&fine));
         let quotient = (before / after).log2();
-        // `observed` is NaN if all differences are rounding. A quotient that is NaN for any other reason counts as no
-        // convergence.
+        // `observed` is NaN if the finer differences are only rounding. A quotient that is NaN for any other reason
+        // counts as no convergence.
         let observed = match quotient.is_nan() {
             _ if after <= noise => f64::NAN,
             true => f64::NEG_INFINITY,

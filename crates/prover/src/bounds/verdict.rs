@@ -161,7 +161,7 @@ impl Verdict {
 
 /// If a bound is below this fraction of the widest conclusive bound, no order of convergence is required.
 /// Runs at three steps then differ so little that rounding or the last iterations determine the order.
-/// The bound is then ten times the larger difference.
+/// The discretisation part of the bound is then six to ten times the larger difference.
 const NEGLIGIBLE: f64 = 0.1;
 /// If a bound is too wide to prove agreement, a number disagrees only if it exceeds this multiple of the bound.
 /// The factor is the larger safety factor of the estimate, applied once more.
@@ -429,7 +429,7 @@ mod tests {
         };
         assert!(reason(5.2).contains("but it agrees"));
         for third in [f64::NAN, f64::INFINITY, 9.0, 6.0, -7.0] {
-            assert!(reason(third).contains("neither the printed number"), "{third}");
+            assert!(reason(third).contains("are both wrong"), "{third}");
         }
     }
 

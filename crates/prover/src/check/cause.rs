@@ -138,7 +138,7 @@ impl FormulaCause {
 pub struct CauseSearch {
     /// The cause, or `None` if no simple cause was found.
     pub cause: Option<FormulaCause>,
-    /// Whether the search reached its work limit before all causes were tried.
+    /// Whether the search reached its work limit without finding a cause of the whole error.
     pub is_cut: bool,
     /// Number of operations used. One operation evaluates one part of a formula at one instant, or has the same cost.
     pub work: u64,

@@ -102,7 +102,7 @@ fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<
 /// Shared parts of formulas are evaluated once at every instant, and so are claims made by several formulas.
 ///
 /// # Errors
-/// An error occurs only if the trajectory changes between two calls.
+/// In practice none, because claims whose channels or figures are missing are left out.
 pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<JudgedFormula>>> {
     let mut derived = formulas.clone();
     let (mut nodes, mut all) = (Vec::new(), Vec::new());

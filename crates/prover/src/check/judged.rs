@@ -67,7 +67,7 @@ pub struct JudgedFormula {
     pub unit: &'static str,
     /// Number of derivatives with respect to time (s): 0, 1 or 2.
     pub order: usize,
-    /// Whether the bound is the error that the formula itself states.
+    /// Whether the bound includes an error that the formula itself states.
     pub claimed: bool,
     /// Number of instants judged.
     pub judged: usize,

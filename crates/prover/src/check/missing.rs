@@ -258,8 +258,8 @@ fn signed(operator: Operator, what: &FormulaTree) -> String {
 }
 
 /// Written forms of a number times an entry, each with its complexity.
-/// The number is written as a product of known quantities. A constant factor may also be such a product plus or minus
-/// one.
+/// The number is written as a product of known quantities. A constant factor may also be one plus or minus such a
+/// product.
 fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(FormulaTree, usize)> {
     let one = || FormulaTree::number(1.0);
     let mut factors = match (coefficient.abs() - 1.0).abs() <= ACCURACY {

@@ -36,8 +36,8 @@ const LARGER: f64 = 3.0;
 const KNOWN: f64 = 1e-10;
 
 /// One or two terms that explain the whole difference.
-/// Their coefficients are products of parameters with the missing unit. Only the coefficient of a sine or cosine may be
-/// a number.
+/// Their coefficients are products of parameters with the missing unit. Only a constant, and the coefficient of a sine,
+/// of a cosine or of the crank angle, may be a mere number.
 pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimensions) -> Option<Vec<Term>> {
     let rows = course.rows(trial.formula);
     if rows.len() != trial.pairs.len() {
@@ -122,7 +122,7 @@ impl Term {
     }
 }
 
-/// Explains differences without a formula by one term, or by two terms if these leave no difference.
+/// Explains the differences of numbers that have no formula: by one term, or by two terms if these leave no difference.
 /// Returns the terms and the fraction of the largest difference that remains.
 #[must_use]
 pub fn missing_in_numbers(course: &KnownTrajectory, wrong: &Wrong) -> Option<(Vec<Term>, f64)> {

@@ -22,7 +22,7 @@ const SAME: f64 = 1e-6;
 pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<SidePair> {
     let names = [one, other].map(|side| side.name.clone());
     let (one, other) = (&one.held, &other.held);
-    // By what both have.
+    // Rows are matched by times if both parties have times.
     let has_times = [one, other].iter().all(|own| own.at.times.is_some());
     let by = how.by.unwrap_or(if has_times { By::Time } else { By::Crank });
     let (from, to) = (one.at(Some(by))?, other.at(Some(by))?);

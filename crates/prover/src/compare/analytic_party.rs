@@ -27,7 +27,7 @@ pub(super) fn held(scenario: &Scenario) -> Result<Held> {
     Ok(Held::of_columns(Held::of_trajectory(solved.trajectory()).at, columns).analytic())
 }
 
-/// Values of claims by the analytic sides; `of(row)` is the instant of a row.
+/// Values of claims by the analytic sides; `of(row)` is the grid index of a row.
 fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows: usize) -> Result<Vec<PartyColumn>> {
     let column = |claim: &Claim| {
         let values = solved.on_course(|course| course.values(claim))?;
@@ -129,7 +129,7 @@ fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
 }
 
 /// Adds errors to the recorded values of an analytic side.
-/// The errors are those of the same values as the analytic side computes them in this run.
+/// They are the known errors of the same channels, which are solved again in this run.
 fn as_well_known(mut held: Held, own: &Held) -> Held {
     for column in &mut held.columns {
         let Some(found) = own.values_of(&column.claim) else { continue };

@@ -31,7 +31,7 @@ pub struct Explained {
     pub diagnosis: Diagnosis,
     /// Missing terms, if they are the cause.
     pub terms: Vec<Term>,
-    /// Remaining fraction of the largest difference; zero if the cause explains the channels within their bounds.
+    /// Fraction of the largest difference that may remain; zero if the cause explains the channels within their bounds.
     pub left: f64,
     /// Time (s) of a single wrong row that the cause does not explain; `None` if there is no such row.
     pub but: Option<f64>,
@@ -118,8 +118,8 @@ impl Compared {
 }
 
 /// Whether a cause may be named although a difference remains.
-/// A fitted number may not be named, because its meaning is then unclear. The start angle of a drive is an exception:
-/// at constant speed, a rotated drive resembles late rows.
+/// A fitted number of the case may not be named, because its meaning is then unclear. The start angle of a drive is an
+/// exception: at constant speed, a rotated drive resembles late rows.
 /// Numerical derivatives may not be named, because they resemble values that are late by half a row.
 /// A single wrong row may not be named.
 fn may_leave(cause: &DisagreementCause) -> bool {

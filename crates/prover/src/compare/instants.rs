@@ -1,4 +1,4 @@
-//! Uncertainty due to rounded instants, if the other party is a scenario that can be solved.
+//! Uncertainty due to rounded instants, if one party is a scenario, which can be solved at shifted instants.
 
 use crate::check::KnownTrajectory;
 use crate::run::shifted::{Along, grow, is_exact, shifted};
@@ -17,7 +17,7 @@ use scenario::Claim;
 pub(super) struct Drift {
     /// Uncertainty by claim, in the claim's unit.
     pub claims: Vec<Vec<f64>>,
-    /// The crank angle (rad).
+    /// Uncertainty of the crank angle (rad).
     pub crank: Vec<f64>,
 }
 

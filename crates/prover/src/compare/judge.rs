@@ -21,10 +21,11 @@ pub use columns::RowPair;
 /// A channel, or an expression of channels, that both parties have.
 #[derive(Clone, Debug)]
 pub struct Compared {
-    /// The channel in its unit.
+    /// The channel or expression, in its unit.
     pub claim: Claim,
-    /// Scale, in the claim's unit: half the range over the whole run of the scenario.
-    /// The scale is at least a thousandth of the natural size of the quantity.
+    /// Scale, in the claim's unit: half the range over the whole run of a scenario or recording, and at least a
+    /// thousandth of the natural size of the quantity.
+    /// For tables and expressions of channels the scale comes from the compared numbers.
     /// The scale does not depend on the selection of compared channels.
     pub scale: f64,
     /// Result of comparing the numbers of both parties, in the claim's unit.
@@ -79,7 +80,7 @@ pub(super) struct Both<'a> {
     pub at: &'a RowKey,
     /// Times and crank angles of the rows, as far as they are known.
     pub instants: [Vec<f64>; 2],
-    /// Uncertainty due to the digits of the instants, by claim and row; an empty column if the instants are exact.
+    /// Uncertainty due to the digits of the instants, by claim and row; empty if the instants are exact.
     pub drift: Vec<Vec<f64>>,
     pub how: &'a ComparisonRule,
 }

@@ -36,9 +36,8 @@ pub struct SidePair {
     pub unshared: usize,
     /// Channels that only one of the two sides has.
     pub alone: [Vec<String>; 2],
-    /// The first row at which time or crank angle goes backwards: the number of the row, its instant and the previous
-    /// instant.
-    /// See [`At::turns_back`](crate::tables::RowKey::turns_back).
+    /// The first row at which time or crank angle goes backwards: the number of the row, the previous instant, and the
+    /// instant of the row. See [`RowKey::turns_back`](crate::tables::RowKey::turns_back).
     pub turns_back: Option<(usize, [f64; 2])>,
     /// Two rows of one instant that contradict each other, in the party that sets the instants.
     /// If such rows exist, no cause is sought.
@@ -83,7 +82,7 @@ impl SidePair {
         own.filter_map(|own| own.since).min_by(|one, other| one.time.total_cmp(&other.time))
     }
 
-    /// The verdict on all channels, and on the analytic sides that solved them.
+    /// The verdict on all channels and checks.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         let channels = self.channels.iter().map(|channel| &channel.verdict);

@@ -41,7 +41,8 @@ pub enum PartyStanding {
     /// The parties form two camps. They agree within each camp, and each party contradicts every party of the other
     /// camp.
     Camps([Vec<String>; 2]),
-    /// Some parties contradict each other but do not form two camps. The variant contains the contradicting pairs.
+    /// Some parties contradict each other but do not form two camps, or there are only two parties.
+    /// The variant contains the contradicting pairs.
     /// Only one party of a pair can be right, and nothing shows which.
     Open(Vec<[String; 2]>),
 }

@@ -12,14 +12,14 @@ use linkage::math::{KeepNan, largest_size};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage};
 
-/// A channel that counts.
+/// A judged channel with a bound above zero, and its values at the instants of a bench.
 pub(super) struct Column {
     pub(super) channel: Channel,
     pub(super) bound: f64,
     pub(super) disagrees: bool,
     /// The suspect's values.
     values: Vec<f64>,
-    /// The reference's.
+    /// The reference's values.
     right: Vec<f64>,
 }
 

@@ -57,7 +57,7 @@ plain! {
 /// The wrong rule by which right values were changed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DataSlip {
-    /// What needs no number.
+    /// A slip without a number.
     Plain(Plain),
     /// Another unit.
     Unit {
@@ -103,7 +103,7 @@ pub enum DataSlip {
     Exchanged([Channel; 2]),
     /// The difference of two other channels, first minus second, and the same amount added at every instant.
     Between {
-        /// The two.
+        /// The two channels.
         of: [Channel; 2],
         /// The amount, in the channel's unit.
         offset: f64,

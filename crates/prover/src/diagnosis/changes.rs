@@ -12,9 +12,9 @@ use super::question::{DiagnosisInput, Found, Rank};
 use super::tries::{Candidate, Tries};
 use super::whole::whole_changes;
 
-/// Two limits on thinned grids: `MOST` limits the changed cases solved to find numbers and other instants.
-/// The same limit holds separately for changes without a number.
-/// For a prescribed motion, which costs little, the limit is `CHEAP` times as high.
+/// Largest number of changed cases that are solved on thinned grids to find changes without a number.
+/// As many again may be solved to find numbers and other instants.
+/// For a prescribed motion of at most `LINKS` links, which costs little, both limits are `CHEAP` times as high.
 const MOST: usize = 120;
 const CHEAP: usize = 3;
 /// Up to this number of links, solving a case costs as little as for the smallest mechanisms.

@@ -36,7 +36,7 @@ fn wanted(parts: &CaseParts) -> Vec<StartGroup> {
 }
 
 fn assembled(parts: &mut CaseParts, wanted: &[StartGroup]) -> Option<()> {
-    let angles: Vec<f64> = parts.drives.iter().map(|drive| drive.world_angle(drive.start)).collect();
+    let angles: Vec<f64> = parts.drives.iter().map(|drive| drive.coordinate(drive.start)).collect();
     (parts.start, parts.modes) = first_pose(&parts.mechanism, &parts.structure, &angles, wanted).ok()?;
     Some(())
 }

@@ -14,7 +14,7 @@ use linkage::trajectory::{Channel, Trajectory};
 pub struct Diagnosis {
     /// The party that was examined.
     pub suspect: String,
-    /// Which party stands alone.
+    /// Which parties contradict each other, and whether one stands alone.
     pub alone: PartyStanding,
     /// The channels beyond their bounds, the earliest first.
     pub since: Vec<Since>,
@@ -52,8 +52,9 @@ impl Diagnosis {
 /// Examines a disagreement. `None` if no channel exceeds its bound.
 ///
 /// Causes are tried from the simplest to the most complicated.
-/// A cause is named if it explains every disagreeing channel within its bound and no agreeing channel then disagrees.
-/// Further causes that satisfy this condition are mentioned.
+/// The cause that explains the most disagreeing channels within their bounds is named. No agreeing channel may then
+/// disagree.
+/// Further causes that explain the same channels are mentioned.
 #[must_use]
 pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option<Diagnosis> {
     let since = since(question.reference, question.suspicious, question.judged);

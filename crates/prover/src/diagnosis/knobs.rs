@@ -19,7 +19,7 @@ type Turn = Box<dyn Fn(&mut CaseParts, f64) -> Option<()>>;
 pub(super) enum Shows {
     /// Only reactions and moments.
     Forces,
-    /// In the motion.
+    /// The motion, and the forces that depend on it.
     Motion,
     /// Forces, and positions of mass centres.
     Centres,

@@ -1,4 +1,4 @@
-//! Values of other instants: late values, early values, or values from a fast clock.
+//! Values of other instants: late values, early values, or values from a clock that is fast or slow.
 
 use crate::sentences;
 use std::ops::RangeInclusive;
@@ -26,7 +26,7 @@ const CLOCKS: [(f64, &str); 4] = [
     (60.0, sentences::MINUTES_TAKEN_FOR_SECONDS),
 ];
 
-/// Finds values of another instant (in all channels or in those of one stage), or values from a fast clock.
+/// Finds values of another instant (in all channels or in those of one stage), or values from a fast or slow clock.
 pub(super) fn late(question: &DiagnosisInput, bench: &Bench, start: &Misfit) -> Vec<Candidate> {
     let mut stages: Vec<Option<Stage>> = vec![None];
     let stage = |column: &Column| Some(column.channel.kind.stage);
@@ -64,7 +64,7 @@ impl Search<'_, '_> {
             Some((size, _)) => (size, &PARTS[..]),
             None => (1e-5 * span, &[][..]),
         };
-        // Prefers simple multiples of a step if they explain as much as the delay found.
+        // Prefers a simple multiple of a step that is near the delay found, if the multiple explains a channel.
         let plain = |by: f64| {
             let (size, told) = step?;
             let part =
@@ -96,7 +96,7 @@ impl Search<'_, '_> {
         self.late_candidate(&misfit, by, steps, None)
     }
 
-    /// A number with few digits near the found number, if it explains as much as the found number.
+    /// A number with few digits near the found number, if its misfit satisfies `is_enough`.
     /// Without this step the number would have many digits, because the search itself stops only at rounding.
     fn short(
         &self,
@@ -115,7 +115,7 @@ impl Search<'_, '_> {
         })
     }
 
-    /// A clock that is fast, or that counts in another unit.
+    /// A clock that is fast or slow, or that counts in another unit.
     fn clock(&self) -> Option<Candidate> {
         let bench = self.bench;
         let of = |factor: f64| bench.tried(&on_clock(&bench.case, factor)?);

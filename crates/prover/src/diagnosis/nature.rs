@@ -63,7 +63,7 @@ pub(super) fn nature(question: &DiagnosisInput, wrong: &[Wrong]) -> Option<Error
     }
 }
 
-/// Power of time with which an error grows; `None` if it does not grow.
+/// Power of time with which an error grows; `None` if it does not grow, `Some(None)` if it grows with no clear power.
 fn growth(times: &[f64], gaps: &[f64]) -> Option<Option<u32>> {
     let size = gaps.len() / PARTS;
     let parts: Vec<f64> = (0..PARTS).map(|part| rms(&gaps[part * size..(part + 1) * size])).collect();

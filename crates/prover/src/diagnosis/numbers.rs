@@ -111,7 +111,7 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
 
 /// Tries the values with a meaning near `value`. Also returns whether each value explains everything.
 /// `found` means that the value is more accurate than a first approximation.
-/// If the approximation may be inaccurate, missing and reversed parts are always tried.
+/// Before that, all these values are tried for a knob that `is_far`, and in a free motion missing and reversed parts.
 fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candidate, bool)> {
     let near = |plain: f64| match found {
         true => (plain - value).abs() <= 1e-2 * plain.abs().larger(1e-2 * natural(knob)),
@@ -127,7 +127,7 @@ fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candid
     tried.collect()
 }
 
-/// Whether a change is so common that it is always tried, whatever it costs.
+/// Whether a change is so common that it is tried in every free motion, whatever it costs.
 fn is_plain(how: &PartChange) -> bool {
     match how {
         PartChange::Missing | PartChange::Reversed => true,
@@ -212,7 +212,7 @@ fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
 /// Whether a found number may have been meant. Any smooth error resembles a tiny change of some number.
 /// So the found number must satisfy one of three criteria.
 /// It differs noticeably from the given number, has few digits, or is known to a small fraction of its change.
-/// The third criterion counts only if `excess`, the ratio of the differences to their bounds, is large.
+/// The third criterion is satisfied if `excess`, the ratio of the differences to their bounds, is large.
 pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
     let PartChange::Instead { found, given, unit } = change.how else { return true };
     let told = if unit == "rad" { found.to_degrees() } else { found };

@@ -41,7 +41,7 @@ pub struct AnalyticSide {
     /// Largest difference between the balancing moment from equilibrium and the balancing moment from powers, divided
     /// by the moments in the balance.
     pub balance: Option<f64>,
-    /// What it has done.
+    /// Work done to solve the case.
     pub work: Work,
     /// Reason why the side has no numbers.
     pub failure: Option<Error>,

@@ -22,7 +22,7 @@ use super::runs::Runs;
 const STEPS: f64 = 8.0;
 /// As `STEPS`, for impulses of a free motion. Impulses are computed from six steps, one step late.
 const IMPULSES: f64 = 5.0;
-/// As `STEPS`, for a prescribed motion with combined impulses.
+/// As `STEPS`, for a prescribed motion with extrapolated impulses.
 /// Within this fraction of a step, a load jumps at different instants in the different runs.
 /// The velocities of these runs differ by about a twelfth of the square of the step.
 const APART: f64 = 0.25;
@@ -47,7 +47,8 @@ struct Doubtful {
 }
 
 impl Doubt {
-    /// Finds the doubtful instants from the reversals of loads and from the singular poses of the reference.
+    /// Finds the doubtful instants from the reversals of drives and loads, and from the singular poses of the
+    /// reference.
     /// `settings` are those of the judged run.
     pub(super) fn of(case: &Case, reference: &Observed, runs: &Runs, settings: Settings) -> Self {
         let Observed { senses, singular, .. } = reference;
@@ -103,12 +104,12 @@ impl Doubt {
     }
 }
 
-/// Whether two velocities have different directions. If both are zero, they have the same direction.
+/// Whether the angle between two velocities is at least 90 deg, or exactly one of the two is zero.
 fn against(a: Vec2, b: Vec2) -> bool {
     a.dot(&b) <= 0.0 && (a != Vec2::zeros() || b != Vec2::zeros())
 }
 
-/// Whether a drive with a law reverses, or its acceleration jumps, within `reach` (s) of `t` (s).
+/// Whether a drive with a law stands still, reverses, or its acceleration jumps, within `reach` (s) of `t` (s).
 fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
     case.drives.iter().any(|drive| match &drive.motion {
         DriveMotion::Free { .. } => false,

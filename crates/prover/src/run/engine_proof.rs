@@ -62,7 +62,8 @@ pub struct ChannelProof {
     /// gravity and motor torque.
     pub sensitivity: Option<f64>,
     /// Number of instants that are not judged.
-    /// At these instants a drive or a loaded link reverses and the channel jumps, or a free motion begins.
+    /// At these instants a drive or a loaded link reverses and the channel jumps, the mechanism passes a change point,
+    /// or a free motion begins.
     pub left_out: usize,
     /// Basis of the bound.
     pub basis: BoundBasis,

@@ -75,7 +75,8 @@ fn disagrees(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Disagree { .. })
 }
 
-/// The channels of an engine with reliable bounds. Channels that exceed their bounds for a known reason are left out.
+/// The channels of an engine with reliable bounds.
+/// A channel that exceeds its bound with an inconclusive verdict is left out.
 fn judged(engine: &EngineProof) -> Vec<SuspectChannel> {
     let channels = engine.channels.iter().filter(|own| own.convergence.is_trusted());
     let judged = channels.map(|own| (own.residual.max, own.bound, &own.residual.channel, disagrees(&own.verdict)));

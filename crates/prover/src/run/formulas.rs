@@ -9,7 +9,7 @@ use crate::check::{CUT, FormulaAtInstant, FormulaCause, FormulaOutcome, JudgedFo
 use crate::numbers::{fixed, significant};
 use crate::tolerance::{BoundBasis, Tolerance};
 
-/// What formulas come to.
+/// Judgement of all formulas of a scenario.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// Judgements of the sides on every claim: by value, then by derivative.
@@ -86,7 +86,7 @@ fn name(judged: &JudgedFormula) -> String {
     format!("{of}{} as {}", judged.name, judged.claim)
 }
 
-/// Since when, in words.
+/// The first instant beyond the bound, with both values, in words.
 fn place(since: &FormulaAtInstant) -> String {
     let FormulaAtInstant { time, crank, formula, mechanism, .. } = since;
     let found = if formula.is_nan() {

@@ -61,7 +61,7 @@ impl Asks {
 pub(super) struct Judge<'a> {
     pub(super) problem: Problem<'a>,
     pub(super) reference: &'a Observed,
-    /// Scales of its channels.
+    /// Scales of the reference's channels.
     scales: Vec<f64>,
     /// Known errors of the reference.
     known: &'a Known,
@@ -245,7 +245,8 @@ impl<'a> Judge<'a> {
     }
 
     /// The case without the first instants of a free motion, for which second differences are taken from later steps.
-    /// `None` if accelerations and forces are conclusive despite the rounding error of these differences.
+    /// `None` if nothing is left out: in a prescribed motion, in a motion that is not longer than its beginning, or if
+    /// accelerations and forces are conclusive despite the rounding error of these differences.
     fn after_the_beginning(&self, engine: &dyn Engine) -> Result<Option<Case>> {
         let case = self.problem.case;
         let last = case.grid.times.iter().copied().fold(0.0, f64::larger);

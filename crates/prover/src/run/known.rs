@@ -1,6 +1,6 @@
 //! Uncertainty of the analytic sides, which is a part of every bound.
 //! Rounding errors follow from the condition number of the pose.
-//! Integration errors follow from a third run with a tighter tolerance.
+//! Integration errors follow from a further run of each side with a tighter tolerance.
 //! See docs/numerics/bounds.md.
 
 use super::dependence::Dependence;
@@ -52,7 +52,8 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
 }
 
 /// Factor on rounding errors due to distant mass centres, at least 1.
-/// It is the distance from a link's mass centre to its joints, divided by the distance between these joints.
+/// It is the largest distance between points of a link, mass centre included, divided by the largest distance without
+/// the mass centre.
 /// Side 2 calculates with the positions of mass centres.
 /// So a joint is as uncertain as the last digit of its distance from the mass centre.
 /// For angles, this uncertainty is divided by the distance between the joints.
@@ -75,10 +76,10 @@ fn lever(case: &Case, groups: &[GroupId]) -> f64 {
 /// The constant is more than three times this value.
 const PLACES: f64 = 4.0;
 
-/// Rounding error of the positions of groups (m, in units of [`ULPS`]), and the shortest distance between the pins of a
-/// link (m).
+/// Rounding error of the positions of groups (m, in units of [`ULPS`]), and the length of the shortest link (m).
+/// The length of a link is the largest distance between its pins.
 /// A group far from the origin is known only to the last digit of its distance from the origin.
-/// For its angles, this error is divided by the distance between a link's pins.
+/// For its angles, this error is divided by that length.
 /// The errors of successive groups are independent. Their sum grows with the square root of the number of groups.
 fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
     let (mut far, mut arm) = (0.0f64, f64::INFINITY);

@@ -52,7 +52,8 @@ pub fn of_comparison(rows: usize, claims: usize, channels: usize) -> f64 {
 pub fn of_oracles(oracles: &[Oracle]) -> f64 {
     let series: Vec<usize> = oracles.iter().flat_map(|own| &own.series).map(|own| own.instants().count()).collect();
     let (rows, numbers) = (series.iter().copied().max().unwrap_or(0), series.iter().sum::<usize>());
-    // For rounded instants, both ends of the rounding interval are solved in turn, and the solutions are kept.
+    // Rounded instants need three more trajectories: the solution at the instants, the solution at one end of the
+    // rounding interval, and the changes between them.
     let is_rounded = oracles.iter().flat_map(|own| &own.series).any(|own| own.all().any(|point| point.at_error > 0.0));
     let trajectories = if is_rounded { 5 } else { 2 };
     let solved = (trajectories * (2 * series.len() + BESIDE) * size_of::<f64>()) as f64;

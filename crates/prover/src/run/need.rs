@@ -62,7 +62,7 @@ const SHARED: f64 = 0.8;
 /// Cause of the largest bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Blame {
-    /// Its largest part.
+    /// The largest part. If no order of convergence is observed, the iteration part, unless it is negligible.
     pub(super) part: BoundPart,
     /// Whether the step contributes much although the sweeps cause the largest part. Half the step then reduces both
     /// parts.

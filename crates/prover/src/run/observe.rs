@@ -3,7 +3,7 @@
 use analytic::range::is_singular;
 use analytic::witness::{momentum, power};
 use linkage::case::Case;
-use linkage::drive::Load;
+use linkage::drive::{Drive, Load};
 use linkage::error::Error;
 use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Motion, Vec2, largest_size};
@@ -18,7 +18,7 @@ pub(super) enum Watch {
     Side,
     /// Quantities for an engine's checks: closure and balance of powers.
     Engine,
-    /// What loads sense.
+    /// Only the velocities that determine the directions of loads.
     Senses,
 }
 
@@ -51,7 +51,8 @@ pub(super) struct Observed {
     pub(super) moment: f64,
     /// Largest condition number of a passage of a side through a change point; 1 if there is no such passage.
     pub(super) passing: f64,
-    /// For every row, whether a side passes a change point in a singular pose; empty if there is no such row.
+    /// For every row, whether a side passes a change point in a singular pose; empty if the crank may not pass change
+    /// points.
     pub(super) singular: Vec<bool>,
 }
 
@@ -105,7 +106,7 @@ impl Observed {
 pub(super) struct Stopped {
     pub(super) error: Error,
     pub(super) kept: Option<Box<Trajectory>>,
-    /// Work that was allowed, if it was spent before all settings were tried.
+    /// If too little work was allowed: the work that the first runs need, or the allowed work if it was spent later.
     pub(super) spent: Option<f64>,
 }
 
@@ -156,8 +157,9 @@ pub(super) fn observe(
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
                 false => (-power::of_known_forces(case, state), power_of_drives(case, state)),
             };
-            fastest = case.drives.iter().map(|drive| state.motions[drive.link].omega.abs()).fold(fastest, f64::larger);
-            moment = moment.larger(state.largest_moment(arm));
+            fastest =
+                case.drives.iter().map(|drive| case.drive_rate(drive, &state.motions).abs()).fold(fastest, f64::larger);
+            moment = moment.larger(state.largest_moment(case, arm));
             if watch == Watch::Side {
                 unbalance.add(case, state, crank);
             }
@@ -215,14 +217,14 @@ pub(super) fn pose_of(state: &State) -> Pose {
 
 /// Power of all drives on their links (W).
 fn power_of_drives(case: &Case, state: &State) -> f64 {
-    case.drives.iter().zip(&state.torques).map(|(drive, torque)| torque * state.motions[drive.link].omega).sum()
+    case.drives.iter().zip(&state.torques).map(|(drive, effort)| effort * case.drive_rate(drive, &state.motions)).sum()
 }
 
 /// Balancing moments of all drives (N m), reduced to the crank by their powers.
 fn reduced_torque(case: &Case, state: &State) -> f64 {
-    let omega = |link: LinkId| state.motions[link].omega;
+    let rate = |drive: &Drive| case.drive_rate(drive, &state.motions);
     let further = case.drives.further().iter().zip(&state.torques[1..]);
-    let further = further.map(|(drive, torque)| torque * (omega(drive.link) / omega(case.crank().link)));
+    let further = further.map(|(drive, effort)| effort * (rate(drive) / rate(case.crank())));
     state.torques[0] + further.sum::<f64>()
 }
 

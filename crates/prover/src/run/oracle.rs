@@ -18,7 +18,7 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, When};
 
-/// One check for every series and figure of an oracle, for each analytic side.
+/// The checks of every series and figure of an oracle, for each analytic side.
 /// Series refer to channels of the problem's case; figures refer to the `whole` mechanism.
 /// `integration` is the integration error of a side in a channel, in the channel's unit. It applies to numbers of a
 /// motion under forces.
@@ -256,8 +256,8 @@ fn shortly(at: When) -> String {
 }
 
 /// The worst check of a series whose printed numbers are all known to be wrong.
-/// It is the first check with an unexpected result.
-/// If there is no such check, it is the check with the largest ratio of deviation to bound.
+/// Checks with an unexpected result are worse than all others.
+/// Among equals, the check with the largest ratio of deviation to bound is the worst.
 fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     let rank = |check: &Check| (!matches!(check.verdict, Verdict::Expected { .. }), check.used());
     checks.reduce(|worst, check| {

@@ -23,7 +23,8 @@ use crate::tolerance::Parts;
 const LOW: f64 = 0.75;
 /// Orders are steady if they differ from the same whole number by at most this amount.
 const STEADY: f64 = 0.1;
-/// If an error exceeds this multiple of the rounding and iteration errors, the order of the error is that of the step.
+/// If the step error of the finest run exceeds this multiple of the rounding, iteration and reference errors, the
+/// observed order counts as the order of the step error.
 const CLEAR: f64 = 5.0;
 /// If a bound is below this fraction of the widest conclusive bound, a low order does not matter.
 const NEGLIGIBLE: f64 = 0.01;

@@ -27,13 +27,13 @@ const ENOUGH: usize = 32;
 const SHARE: f64 = 0.05;
 
 /// Whether own forces are judged.
-/// They are not judged if no force is requested, if the route is given, or if the engine's default route already gives
-/// its own forces.
+/// They are not judged if no force is requested or if the route is given.
+/// If the engine's default route already gives its own forces, [`judged`] finds no route for them.
 pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
     chosen.given.route.is_free() && judge.asking(judge.asked).of_own_forces().has_channels()
 }
 
-/// Judges the forces that the engine exerts, in addition to its `motion`, if they are [requested](are_asked).
+/// Judges the forces that the engine exerts, in addition to its `motion`. They must be [requested](are_asked).
 /// `None` if the engine has no route for these forces. The first conclusive route counts.
 pub(super) fn judged(
     judge: &Judge,
@@ -43,7 +43,7 @@ pub(super) fn judged(
     progress: &mut dyn FnMut(f64),
 ) -> Option<EngineProof> {
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
-    // If the motion has needed more work than is allowed for own forces, they are not judged.
+    // If the motion has needed more work than is allowed for own forces, the own forces are not judged.
     // Impulses are of a lower order than the motion. They need as many sweeps as the motion, with the true masses.
     if effort > SHARE * chosen.budget {
         let told = sentences::the_motion_has_taken_the_work(&error(effort), &error(SHARE * chosen.budget));

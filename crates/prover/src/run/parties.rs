@@ -24,7 +24,8 @@ struct Party<'a> {
 }
 
 /// Every channel in which two sides differ by more than the sum of their bounds.
-/// The reference has only rounding errors. Engines without a trusted bound are left out.
+/// The bound of the reference is 0 here, because the bounds of the engines include its error.
+/// Engines with an inconclusive verdict are left out.
 #[must_use]
 pub fn disputes(name: &'static str, reference: &Trajectory, engines: &[EngineProof]) -> Vec<Dispute> {
     reference.iter().filter_map(|(channel, values)| dispute(name, channel, values, engines)).collect()
@@ -44,7 +45,7 @@ fn dispute(name: &'static str, channel: &Channel, values: &[f64], engines: &[Eng
     Some(Dispute { channel: channel.to_string(), pairs, odd })
 }
 
-/// Pairs that differ by more than the sum of their bounds, and the single side that differs from all others.
+/// Pairs that differ by more than the sum of their bounds, and the only side that is in all these pairs.
 /// `None` if no pair differs.
 fn apart(parties: &[Party], periodic: bool) -> Option<(Vec<[&'static str; 2]>, Option<&'static str>)> {
     let differ = |a: &Party, b: &Party| {

@@ -254,7 +254,7 @@ fn every_class_three_method_is_in_the_proof_and_finds_faults() {
     }
 }
 
-/// Settings that an engine may select itself.
+/// Settings that the proof searches.
 #[derive(Clone, Copy, Debug)]
 enum Search {
     None,

@@ -31,7 +31,7 @@ impl<'a> Problem<'a> {
     /// The force is zero without masses.
     pub(super) fn built(&self) -> Built {
         let case = self.case;
-        let (length, speed) = (case.mechanism.size(), case.drives.top_speed());
+        let (length, speed) = (case.mechanism.size(), case.drives.top_speed(case.mechanism.size()));
         let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
         Built { length, speed, force: mass * case.gravity.norm().larger(speed * speed * length) }
     }

@@ -64,7 +64,7 @@ pub(super) struct Bank<'a> {
     kept: CachedEngine,
     seen: Vec<(Settings, Arc<Observed>)>,
     watch: Watch,
-    /// Number of plain runs made so far.
+    /// Number of plain runs (runs without extrapolation) made so far.
     pub(super) count: usize,
     /// Work of the plain runs made so far, in steps without sweeps.
     pub(super) effort: f64,

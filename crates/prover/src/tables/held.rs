@@ -50,7 +50,7 @@ impl RowKey {
     }
 
     /// The first row (counted from 0) at which the instants go backwards, compared with the first step of the table.
-    /// Returns the row with its instant and the previous one.
+    /// Returns the row, and two instants: that of the previous row and that of this row.
     /// If a time jumps back, a new run has begun.
     #[must_use]
     pub fn turns_back(&self) -> Option<(usize, [f64; 2])> {
@@ -64,7 +64,7 @@ impl RowKey {
 /// Values of a party for a channel, or for an expression of channels.
 #[derive(Clone, Debug)]
 pub struct PartyColumn {
-    /// The channel in its unit.
+    /// The channel or expression, in its unit.
     pub claim: Claim,
     /// Values by row, in the unit of the claim. [`MISSING`] means that nothing was measured.
     /// Any NaN other than `MISSING` means that the calculation gave no number.
@@ -78,13 +78,13 @@ pub struct PartyColumn {
 /// All data of a party.
 #[derive(Clone, Debug, Default)]
 pub struct Held {
-    /// Where its rows hold.
+    /// Instants of the party's rows.
     pub at: Instants,
-    /// What it holds there.
+    /// The party's values at these instants, one column for each channel or expression.
     pub columns: Vec<PartyColumn>,
     /// Whether the data comes from an analytic side, so that its errors are known.
     pub is_analytic: bool,
-    /// Columns of a table that belong to no channel.
+    /// Columns of a table that are used neither for instants nor for channels.
     pub unused: Vec<String>,
     places: Places,
 }
@@ -143,7 +143,8 @@ impl Held {
             let printed = reader.column(mapped)?;
             let chosen = if mapped.name == "crank_deg" { columns::degrees_chosen } else { columns::chosen };
             let is_chosen = chosen(&printed);
-            // Instants that were chosen as printed get only the rounding error of the conversion to SI units.
+            // Instants that were chosen as printed, not rounded, get only the rounding error of the conversion to SI
+            // units.
             let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
             if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {
@@ -300,7 +301,7 @@ fn in_words(name: &str) -> Option<&'static str> {
     }
 }
 
-/// A claim of any existing channels.
+/// The claim that a text states. It may use the channels of any mechanism.
 ///
 /// # Errors
 /// If the text cannot be parsed, or a name is not a channel.
@@ -395,7 +396,7 @@ impl<'a> Reader<'a> {
         (0..self.raw.len()).map(&mut row).collect()
     }
 
-    /// The error for an unknown name. It lists the existing columns.
+    /// The error for an unknown name. Its help names the most similar column or, if there is none, the first columns.
     fn unknown(&self, name: &str, at: Range<usize>) -> FormulaFault {
         let message = sentences::the_table_has_no_column(&name);
         let help = match nearest(name, self.raw.names.iter().map(String::as_str)) {

@@ -20,13 +20,12 @@ pub(super) fn unread(path: &Path, error: &io::Error) -> Error {
         .help(sentences::GIVE_A_SCENARIO_TOML_A_RECORDING)
 }
 
-/// Reads the rest of a text of `size` bytes. `None` means that the source is not a regular file but, for example, a
-/// pipe.
+/// Reads a text of `size` bytes. `None` means that the source is not a regular file but, for example, a pipe.
 pub(super) fn text(path: &Path, from: impl Read, size: Option<u64>, may: May) -> Result<TextTable> {
     // At most `LARGEST` bytes are read, however large the file is.
     may(size.unwrap_or(LARGEST).min(LARGEST) as f64, 0)?;
     let text = files::text_from(from).map_err(|error| unread(path, &error))?;
-    // Lower limit of the number of rows, because one line may be a header.
+    // Approximate number of rows: one line may be a header, and lines may be comments.
     let rows = text.bytes().filter(|&byte| byte == b'\n').count().saturating_sub(1);
     may(text.len() as f64 + columns::bytes(&text), rows)?;
     columns::read(&text).map_err(|TableFault { at, message, help }| {

@@ -113,6 +113,20 @@ impl Stand {
         }
     }
 
+    /// Weights of a driven joint between moving links, or of a driven prismatic joint. The drive transmits what the
+    /// joint alone does not transmit.
+    #[inline]
+    pub(super) fn rigid(&self) -> Pass {
+        let arm = self.arms[0] - self.arms[1];
+        Pass { force: [1.0, 0.0, 1.0], moment: [-arm.y, arm.x, 1.0], ..self.pass() }
+    }
+
+    /// Moment of a driving force (N) along the axis of a prismatic joint about the outer link's mass centre (N m).
+    #[inline]
+    pub(super) fn moment_of_thrust(&self, thrust: f64) -> f64 {
+        self.normal.map_or(0.0, |normal| -cross(self.arms[1], turned(normal)) * thrust)
+    }
+
     /// Force (N) and moment about the joint's point (N m) that the outer link needs from a joint of the tree.
     #[inline]
     pub(super) fn reaction(&self, [x, y, moment]: Term) -> (Vec2, f64) {

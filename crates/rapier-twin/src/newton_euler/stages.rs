@@ -9,8 +9,10 @@ use linkage::math::dense::Lu;
 #[derive(Clone, Debug)]
 pub(super) struct Limb {
     pub(super) seam: Seam,
-    /// Index of the drive that turns the link about its revolute joint.
+    /// Index of the drive of the joint.
     pub(super) drive: Option<usize>,
+    /// Whether the drive acts on both links of the joint, so that the joint transmits any force and moment.
+    pub(super) is_rigid: bool,
     /// Components of cut joints on this link and on the links beyond it. No component of any other cut joint acts on
     /// these links.
     pub(super) terms: Vec<usize>,

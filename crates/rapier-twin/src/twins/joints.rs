@@ -10,7 +10,7 @@ use linkage::drive::Drive;
 use linkage::engine::Settings;
 use linkage::input::Input;
 use linkage::math::Vec2;
-use linkage::mechanism::{Joint, JointKind, Link, LinkId};
+use linkage::mechanism::{GROUND, Joint, JointKind, Link, LinkId};
 
 /// Joint frequency (Hz). It is so high that joints are rigid up to rounding.
 /// The default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
@@ -64,13 +64,23 @@ pub(super) fn free_coordinate(joint: &Joint) -> usize {
     if joint.slides() { 0 } else { 2 }
 }
 
-/// A motor on a drive's input, and the coordinate that it moves. The motor keeps a speed up to rounding.
-pub(super) fn motor(drive: &Drive) -> (GenericJoint, JointAxis) {
-    let axis = match drive.input {
-        Input::Angle => JointAxis::AngX,
+/// A motor on a drive's input: its links, the coordinate that it moves, and the sign of the input in this coordinate.
+/// The motor keeps a speed up to rounding.
+pub(super) fn motor(drive: &Drive, joint: &Joint) -> (GenericJoint, [LinkId; 2], JointAxis, f64) {
+    let ends = [joint.first.link, joint.second.link];
+    let (builder, links, axis, sense) = match drive.input {
+        // The motor of a crank stands on the ground.
+        Input::Angle if joint.second.link == GROUND => (free(), [drive.link, GROUND], JointAxis::AngX, -1.0),
+        Input::Angle => (free(), [GROUND, drive.link], JointAxis::AngX, 1.0),
+        Input::Turn => (free(), ends, JointAxis::AngX, 1.0),
+        Input::Slide => {
+            let axes = ends.map(|link| vector(joint.axis_on(link).expect("the driven joint slides")));
+            let builder = holding(JointAxesMask::empty(), joint, ends).local_axis1(axes[0]).local_axis2(axes[1]);
+            (builder, ends, JointAxis::LinX, 1.0)
+        }
     };
-    let rigid = free().motor_model(axis, MotorModel::ForceBased).motor_velocity(axis, 0.0, real(RIGID_MOTOR));
-    (rigid.build(), axis)
+    let rigid = builder.motor_model(axis, MotorModel::ForceBased).motor_velocity(axis, 0.0, real(RIGID_MOTOR));
+    (rigid.build(), links, axis, sense)
 }
 
 /// A revolute joint between `links` whose rows lie along and across the direction `axis` of the first link.

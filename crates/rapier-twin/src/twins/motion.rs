@@ -1,6 +1,6 @@
 //! Sets and reads poses and velocities, and does the steps.
 
-use super::rapier::prelude::{JointAxesMask, Multibody, PhysicsWorld, Pose, Rotation};
+use super::rapier::prelude::{JointAxesMask, JointAxis, Multibody, PhysicsWorld, Pose, Rotation};
 use super::{Place, Twin, joints, real, wide};
 use crate::tree::{SpanningTree, coordinate};
 use crate::world::{LinkAngle, LinkFrame, World};
@@ -119,7 +119,12 @@ impl World for Twin {
         let turn = omega * self.substep();
         // A separate body turns by atan(omega dt) per substep, so its target speed is raised accordingly.
         // Above one radian per substep, the body could not keep the speed anyway, so the speed is not raised.
-        let omega = if self.multibodies.is_empty() && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
+        let is_angle = motor.axis == JointAxis::AngX;
+        let omega = if is_angle && self.multibodies.is_empty() && turn.abs() < 1.0 {
+            turn.tan() / self.substep()
+        } else {
+            omega
+        };
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
         joint.data.set_motor_velocity(motor.axis, real(omega * motor.sense), real(joints::RIGID_MOTOR));
     }

@@ -169,12 +169,9 @@ impl Twin {
         });
         let cuts = cuts.collect();
         let motors = case.drives.iter().map(|drive| {
-            let joint = &mechanism.joints()[drive.joint];
-            let (data, axis) = joints::motor(drive);
-            let is_second = joint.second.link != GROUND;
-            let links = if is_second { [GROUND, drive.link] } else { [drive.link, GROUND] };
+            let (data, links, axis, sense) = joints::motor(drive, &mechanism.joints()[drive.joint]);
             let handle = world.impulse_joints.insert(bodies[links[0]], bodies[links[1]], data, true);
-            Motor { handle, axis, sense: if is_second { 1.0 } else { -1.0 } }
+            Motor { handle, axis, sense }
         });
         let motors = motors.collect();
         let twists = tree.branches.iter().map(|branch| {

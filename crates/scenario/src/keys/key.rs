@@ -1,8 +1,8 @@
 //! The description of a section and of a key.
 
 use crate::unit::{
-    ACCELERATION, ANGLE, ANGULAR_SPEED, DAMPING, FORCE, INERTIA, INPUTS, INPUTS_OR_TIMES, LENGTH, MASS, MOMENT,
-    MOMENT_PER_SPEED, STIFFNESS, TIME, TORSIONAL_STIFFNESS, UnitFamily,
+    ACCELERATION, ANGLE, ANGULAR_SPEED, DAMPING, FORCE, INERTIA, INPUT_RATES, INPUTS, INPUTS_OR_TIMES, LENGTH, MASS,
+    MOMENT, MOMENT_PER_SPEED, STIFFNESS, TIME, TORSIONAL_STIFFNESS, UnitFamily,
 };
 
 /// A table of a scenario file.
@@ -99,6 +99,8 @@ impl ValueKind {
     pub(crate) const ANGLES: ValueKind = ValueKind::Quantity(&[&ANGLE], Sign::Any);
     /// Values of an input, for every kind of input.
     pub(crate) const INPUTS: ValueKind = ValueKind::Quantity(&INPUTS, Sign::Any);
+    /// Rates of an input, for every kind of input.
+    pub(crate) const INPUT_RATES: ValueKind = ValueKind::Quantity(&INPUT_RATES, Sign::Any);
     pub(crate) const INPUTS_OR_TIMES: ValueKind = ValueKind::Quantity(&INPUTS_OR_TIMES, Sign::Any);
     pub(crate) const DAMPINGS_OR_SLOPES: ValueKind = ValueKind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED], Sign::Any);
     pub(crate) const FORCES: ValueKind = ValueKind::Quantity(&[&FORCE], Sign::Any);
@@ -113,6 +115,7 @@ impl ValueKind {
         ValueKind::Quantity(&[&STIFFNESS, &TORSIONAL_STIFFNESS], Sign::Any);
     pub(crate) const TIMES: ValueKind = ValueKind::Quantity(&[&TIME], Sign::Any);
     pub(crate) const LIST_OF_ANGLES: ValueKind = ValueKind::Quantities(&[&ANGLE]);
+    pub(crate) const LIST_OF_LENGTHS: ValueKind = ValueKind::Quantities(&[&LENGTH]);
     pub(crate) const LIST_OF_TIMES: ValueKind = ValueKind::Quantities(&[&TIME]);
 
     /// The same kind, restricted to quantities with values of the given sign.

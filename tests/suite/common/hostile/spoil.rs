@@ -23,9 +23,9 @@ pub fn lengths(random: &mut RandomSource, bytes: &mut [u8], what: &mut Vec<Strin
     }
 }
 
-/// Changes bytes in ways that the author of a file would not.
+/// Makes a typing error, or changes bytes in ways that the author of a file would not.
 pub fn spoil(random: &mut RandomSource, bytes: &mut Vec<u8>, what: &mut Vec<String>) {
-    /// Largest input (bytes); the program refuses larger inputs of every kind.
+    /// Largest damaged input (bytes).
     const MOST: usize = 8 << 20;
     if random.yes() {
         slip(random, bytes, what);
@@ -160,7 +160,7 @@ pub fn wide(table: &[u8], columns: usize) -> Vec<u8> {
     lines.flat_map(|line| [vec![line; times].join(&b','), vec![b'\n']].concat()).collect()
 }
 
-/// A Parquet file in which some announced numbers are replaced by large numbers.
+/// A Parquet file in which some announced numbers are replaced by false numbers, most of them large.
 pub fn announced(random: &mut RandomSource, what: &mut Vec<String>) -> Vec<u8> {
     let rows = [0, 1, 100, 100_000, 1 << 20, 60_000_000][random.index(6)];
     let mut own = if rows > 1 << 20 || random.yes() { Announced::run(rows) } else { Announced::zeros(rows) };

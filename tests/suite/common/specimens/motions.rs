@@ -38,8 +38,9 @@ pub fn constant(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'sta
     "constant speed"
 }
 
-/// A motion law that starts at rest and moves in the direction with the larger range.
-/// The largest speed of the law is the magnitude of the given speed.
+/// A motion law that starts at rest.
+/// It moves in the direction with the larger range; if all angles are safe, in the direction of the given speed.
+/// The largest speed of the law is about the magnitude of the given speed.
 pub fn law(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static str {
     let (top, start) = (spec.speed.abs(), spec.start);
     let room = if safe.full {
@@ -162,7 +163,7 @@ fn followed(case: &Case, safe: Safe) -> Result<(f64, Option<usize>, f64), String
         }
         Ok((top, left, moved))
     };
-    // A motion that only one side can solve is allowed, so the second side is tried if the first side fails.
+    // A motion that only one side can solve is allowed, so side 2 is tried if side 1 does not support the motion.
     let mut found = follow(&AssurSolver);
     if found.as_ref().is_err_and(|error| error.kind() == ErrorKind::Unsupported) {
         found = follow(&NewtonSolver);

@@ -6,8 +6,9 @@ use super::poses::Layout;
 use crate::assur::groups::{SolutionPlan, Step};
 use linkage::case::Case;
 use linkage::drive::Load;
+use linkage::input::Input;
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, JointId, LinkId};
+use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, Group, GroupKind, JointId, LinkId};
 
 /// Number of columns of a dyad in the working memory: two for its span r1, two for r2, and one for 1 / (r1 x r2).
 const OF_DYAD: usize = 5;
@@ -74,11 +75,11 @@ impl Groups {
     pub(super) fn of(case: &Case, plan: &SolutionPlan, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
         let simple = |load: &Load| load.resistance().is_some();
-        let hinged = |&(link, joint): &(LinkId, JointId)| {
-            let joint = &case.mechanism.joints()[joint];
-            joint.is_pin() && joint.other(link).link == GROUND
+        let hinged = |driver: &DrivingLink| {
+            driver.input == Input::Angle && case.mechanism.joints()[driver.joint].other(driver.link).link == GROUND
         };
-        if !(case.loads.iter().all(simple) && case.structure.drivers.iter().all(hinged)) {
+        let steady = case.drives.len() == 1 || case.drives.iter().all(|drive| drive.constant_speed().is_some());
+        if !(steady && case.loads.iter().all(simple) && case.structure.drivers.iter().all(hinged)) {
             return None;
         }
         let mut settled = vec![false; case.mechanism.joints().len()];
@@ -88,7 +89,15 @@ impl Groups {
             parts.push(match (&plan.steps()[index], group.kind) {
                 (Step::Chain(chain), _) => Part::Chain(Chain::of(&reader, chain)?),
                 (_, GroupKind::Rrr) => Part::Dyad(reader.dyad(group, mode)),
-                (_, GroupKind::Rrp | GroupKind::Rpr | GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher) => {
+                (
+                    _,
+                    GroupKind::Rrp
+                    | GroupKind::Rpr
+                    | GroupKind::Rpp
+                    | GroupKind::Prp
+                    | GroupKind::Higher
+                    | GroupKind::Driven,
+                ) => {
                     return None;
                 }
             });
@@ -105,7 +114,7 @@ impl Groups {
         };
         let parts = parts.into_iter().rev().map(place).collect();
         let reader = Reader { case, layout, settled: &settled };
-        let drivers = case.structure.drivers.iter().map(|&(link, joint)| reader.driver(link, joint)).collect();
+        let drivers = case.structure.drivers.iter().map(|own| reader.driver(own.link, own.joint)).collect();
         Some(Groups { layout, gravity: case.gravity, drivers, parts, columns })
     }
 

@@ -1,7 +1,8 @@
 //! A link, the loads on it, and the action of a joint on it.
 
 use linkage::case::Case;
-use linkage::drive::{Load, Wrench};
+use linkage::drive::{Drive, Load, Wrench};
+use linkage::input::Input;
 use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::{JointId, JointSide, LinkId};
 
@@ -11,8 +12,10 @@ use linkage::mechanism::{JointId, JointSide, LinkId};
 pub(super) struct Reactions<'a> {
     /// Forces (N).
     pub(super) forces: &'a mut [Vec2],
-    /// Moments about the joint's position on the second link (N m); 0 in revolute joints.
+    /// Moments about the joint's position on the second link (N m); in revolute joints only driving moments.
     pub(super) moments: &'a mut [f64],
+    /// Moment (N m) or force (N) of every drive.
+    pub(super) efforts: &'a mut [f64],
     /// Loads on every link; empty if the case has no loads.
     pub(super) loads: &'a [Wrench],
 }
@@ -23,8 +26,8 @@ pub(super) struct Action {
     pub(super) joint: JointId,
     side: JointSide,
     sign: f64,
-    /// Whether the joint is prismatic. A prismatic joint also transmits a moment.
-    slides: bool,
+    /// Whether the joint also transmits a moment: a prismatic joint, or a driven joint between moving links.
+    has_moment: bool,
     /// Whether the joint is the origin of the link's frame.
     at_origin: bool,
 }
@@ -34,7 +37,9 @@ impl Action {
         let found = &case.mechanism.joints()[joint];
         let side = found.acts_at(link);
         let sign = if found.second.link == link { 1.0 } else { -1.0 };
-        Action { joint, side, sign, slides: found.slides(), at_origin: side.local == Vec2::zeros() }
+        let is_turned = |drive: &Drive| drive.joint == joint && drive.input == Input::Turn;
+        let has_moment = found.slides() || case.drives.iter().any(is_turned);
+        Action { joint, side, sign, has_moment, at_origin: side.local == Vec2::zeros() }
     }
 
     /// World position at which the joint acts.
@@ -48,6 +53,18 @@ impl Action {
     #[inline]
     pub(super) fn put(&self, force: Vec2, reactions: &mut Reactions) {
         reactions.forces[self.joint] = force * self.sign;
+    }
+
+    /// Stores the driving moment on the link (N m) of a driven revolute joint between moving links.
+    #[inline]
+    pub(super) fn put_moment(&self, moment: f64, reactions: &mut Reactions) {
+        reactions.moments[self.joint] = moment * self.sign;
+    }
+
+    /// The sign of the joint's reaction in the action on the link.
+    #[inline]
+    pub(super) fn sign(&self) -> f64 {
+        self.sign
     }
 
     /// Stores a prismatic joint's reaction, given the force on the link and a moment about `pole`.
@@ -113,7 +130,7 @@ impl Body {
             let hung = reactions.forces[action.joint] * action.sign;
             force += hung;
             let mut about = cross(action.place(motions) - pole, hung);
-            if action.slides {
+            if action.has_moment {
                 about += reactions.moments[action.joint] * action.sign;
             }
             moment += about;

@@ -90,6 +90,10 @@ impl Higher {
         for cut in &mut self.cut {
             *cut = (Vec2::zeros(), 0.0);
         }
+        for (given, multiplier) in chain.given().iter().zip(&self.multipliers[2 * chain.closings().len()..]) {
+            reactions.efforts[given.drive] = given.factor * multiplier;
+            self.hung[given.node].put_moment(*multiplier, reactions);
+        }
         for (closing, force) in chain.closings().iter().zip(self.multipliers.chunks_exact(2)) {
             let force = Vec2::new(force[0], force[1]);
             reactions.forces[closing.joint] = force;

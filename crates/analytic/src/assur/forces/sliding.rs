@@ -39,7 +39,7 @@ impl Sliding {
         let swapped = match group.kind {
             GroupKind::Rrp | GroupKind::Rpp => joints[group.outer[0]].slides(),
             GroupKind::Rpr => inner.first.link == group.links[1],
-            GroupKind::Rrr | GroupKind::Prp | GroupKind::Higher => false,
+            GroupKind::Rrr | GroupKind::Prp | GroupKind::Higher | GroupKind::Driven => false,
         };
         if swapped {
             order = [1, 0];
@@ -54,7 +54,9 @@ impl Sliding {
         let (axis, other) = match group.kind {
             GroupKind::Rrp | GroupKind::Rpp => (axis(outer[1]), axis(group.inner[0])),
             GroupKind::Prp => (axis(outer[0]), axis(outer[1])),
-            GroupKind::Rrr | GroupKind::Rpr | GroupKind::Higher => (axis(group.inner[0]), axis(group.inner[0])),
+            GroupKind::Rrr | GroupKind::Rpr | GroupKind::Higher | GroupKind::Driven => {
+                (axis(group.inner[0]), axis(group.inner[0]))
+            }
         };
         Sliding {
             kind: group.kind,
@@ -73,7 +75,7 @@ impl Sliding {
             GroupKind::Rpr => self.rpr(case, motions, reactions),
             GroupKind::Rpp => self.rpp(case, motions, reactions),
             GroupKind::Prp => self.prp(case, motions, reactions),
-            GroupKind::Rrr | GroupKind::Higher => unreachable!("the dyad slides"),
+            GroupKind::Rrr | GroupKind::Higher | GroupKind::Driven => unreachable!("the dyad slides"),
         }
     }
 

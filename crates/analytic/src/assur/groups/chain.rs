@@ -2,9 +2,10 @@
 //!
 //! A tree of joints connects the group's links to the known links. The tree contains all prismatic joints, because
 //! prismatic joints cannot form a loop.
-//! Every remaining revolute joint closes a contour.
+//! The tree also contains all joints with a given coordinate. Every remaining revolute joint closes a contour.
 //! A link with a revolute joint to its parent has its angle as an unknown; a link with a prismatic joint has a slide.
-//! There are as many unknowns as contour equations.
+//! Each contour gives two equations, and each given coordinate one: theta - theta(parent) = q, or slide = q.
+//! There are as many unknowns as equations.
 //! The gap of a closing joint is the sum of the link and slide vectors along both paths to this joint.
 //! Its derivative by an angle is the sum of the vectors that turn with that angle, rotated by 90 degrees. Its
 //! derivative by a slide is the axis.
@@ -21,9 +22,10 @@ pub use contour::{ClosingJoint, Node};
 pub(in crate::assur) use contour::{Contours, Hangs};
 
 use self::predict::{Memory, copy};
+use linkage::input::Input;
 use linkage::math::dense::Lu;
-use linkage::math::{KeepNan, Motion, Vec2, rotated, turned};
-use linkage::mechanism::{GROUND, Group, JointSide, Mechanism};
+use linkage::math::{KeepNan, Motion, Vec2, cross, rotated, turned, unit};
+use linkage::mechanism::{DrivingLink, GROUND, Group, JointSide, Mechanism};
 use linkage::work::{Count, WorkTally};
 
 /// Largest number of iterations. Newton's method from the last pose needs only a few. More iterations mean that the
@@ -116,17 +118,53 @@ pub struct Chain {
     /// Length by which slides are divided, so that all unknowns are of one order of magnitude (m).
     size: f64,
     is_sliding: bool,
+    /// The joints with a given coordinate, one row of the Jacobian each, after those of the contours.
+    given: Vec<Given>,
+    /// For every drive, the factor from a change of its input to the step (1 or 1/m).
+    scales: Vec<f64>,
     /// Largest magnitude of the determinant so far.
     largest: f64,
     memory: Memory,
     tally: Box<WorkTally>,
 }
 
+/// A joint between a node and its parent whose coordinate is given.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::assur) struct Given {
+    pub(in crate::assur) node: usize,
+    /// Number of the drive.
+    pub(in crate::assur) drive: usize,
+    /// The sign of the coordinate from the parent to the node, and the same divided by the unit of the node's unknown.
+    pub(in crate::assur) sign: f64,
+    pub(in crate::assur) factor: f64,
+    is_slide: bool,
+    /// The node that has the parent's angle as its unknown.
+    parent_spin: Option<usize>,
+}
+
+impl Given {
+    /// The given coordinates of a group's joints; `size` is the unit of slides (m).
+    fn all(mechanism: &Mechanism, nodes: &[Node], drivers: &[DrivingLink], size: f64) -> Vec<Self> {
+        let of = |(drive, driver): (usize, &DrivingLink)| {
+            let node = nodes.iter().position(|node| node.joint == driver.joint)?;
+            let sign = if mechanism.joints()[driver.joint].second.link == nodes[node].link { 1.0 } else { -1.0 };
+            let is_slide = driver.input == Input::Slide;
+            let factor = if is_slide { sign / size } else { sign };
+            let parent_spin = nodes[node].parent_node.and_then(|parent| nodes[parent].spin);
+            Some(Given { node, drive, sign, factor, is_slide, parent_spin })
+        };
+        drivers.iter().enumerate().filter(|(_, driver)| driver.in_group).filter_map(of).collect()
+    }
+}
+
 impl Chain {
-    /// Prepares a group of a mechanism with this number of driving links.
+    /// Prepares a group of a mechanism with these driving links.
     #[must_use]
-    pub fn of(mechanism: &Mechanism, group: &Group, drives: usize) -> Self {
+    pub fn of(mechanism: &Mechanism, group: &Group, drivers: &[DrivingLink]) -> Self {
+        let drives = drivers.len();
         let contours = Contours::of(mechanism, group);
+        let size = mechanism.size();
+        let given = Given::all(mechanism, &contours.nodes, drivers, size);
         let n = contours.nodes.len();
         let none = Vec2::zeros();
         let at = At { arm: none, place: none, velocity: none, acceleration: none };
@@ -154,7 +192,9 @@ impl Chain {
             slides: vec![f64::NAN; n],
             kept_slides: vec![0.0; n],
             speeds: vec![0.0; n],
-            size: mechanism.size(),
+            size,
+            scales: drivers.iter().map(|driver| driver.input.reach(size) / size).collect(),
+            given,
             largest: 0.0,
             memory: Memory::of(n, drives),
             tally: Box::default(),
@@ -222,11 +262,11 @@ impl Chain {
         if self.slides[0].is_nan() {
             self.read_slides(motions);
         }
-        if let ([step], [angle], [at]) = (&mut self.step[..], angles, &self.at[..]) {
-            *step = angle - at;
+        if let ([step], [angle], [at], [scale]) = (&mut self.step[..], angles, &self.at[..], &self.scales[..]) {
+            *step = (angle - at) * scale;
         } else {
-            for ((step, angle), at) in self.step.iter_mut().zip(angles).zip(&self.at) {
-                *step = angle - at;
+            for (((step, angle), at), scale) in self.step.iter_mut().zip(angles).zip(&self.at).zip(&self.scales) {
+                *step = (angle - at) * scale;
             }
         }
         if self.is_bold() {
@@ -251,7 +291,7 @@ impl Chain {
             MAX_TURN
         };
         let followed =
-            self.follow::<SLIDING>(allowed, motions) && self.memory.is_within(MAX_TURN) && !self.is_singular();
+            self.follow::<SLIDING>(allowed, angles, motions) && self.memory.is_within(MAX_TURN) && !self.is_singular();
         if followed {
             self.memory.remember(&self.step);
             copy(angles, &mut self.at);
@@ -280,7 +320,7 @@ impl Chain {
         self.branch = 0.0;
         self.find_roots(motions);
         // This function is rarely called, so it uses the version with guides for every group.
-        if !self.follow::<true>(MAX_CORRECTION, motions) {
+        if !self.follow::<true>(MAX_CORRECTION, angles, motions) {
             return false;
         }
         self.at.copy_from_slice(angles);
@@ -339,7 +379,7 @@ impl Chain {
     }
 
     /// Writes the gaps to `unknown` and their derivatives to the Jacobian.
-    fn assemble<const SLIDING: bool>(&mut self, motions: &mut [Motion]) {
+    fn assemble<const SLIDING: bool>(&mut self, angles: &[f64], motions: &mut [Motion]) {
         self.draw::<SLIDING>(motions);
         self.jacobian.clear();
         let Contours { nodes, closings, .. } = &self.contours;
@@ -366,12 +406,28 @@ impl Chain {
             self.unknown[row] = gap.x;
             self.unknown[row + 1] = gap.y;
         }
+        let first = 2 * closings.len();
+        for (row, given) in self.given.iter().enumerate() {
+            let node = &nodes[given.node];
+            let coordinate = given.sign * angles[given.drive];
+            self.jacobian.add(first + row, given.node, 1.0);
+            self.unknown[first + row] = if given.is_slide {
+                (self.slides[given.node] - coordinate) / self.size
+            } else {
+                if let Some(parent) = given.parent_spin {
+                    self.jacobian.add(first + row, parent, -1.0);
+                }
+                let target = rotated(motions[node.parent.link].direction, unit(coordinate));
+                let direction = motions[node.link].direction;
+                cross(target, direction).atan2(target.dot(&direction))
+            };
+        }
     }
 
     /// Iterates Newton's method to rounding accuracy. Afterwards the factored Jacobian is that of the final pose.
-    fn follow<const SLIDING: bool>(&mut self, allowed: f64, motions: &mut [Motion]) -> bool {
+    fn follow<const SLIDING: bool>(&mut self, allowed: f64, angles: &[f64], motions: &mut [Motion]) -> bool {
         for _ in 0..MAX_ITERATIONS {
-            self.assemble::<SLIDING>(motions);
+            self.assemble::<SLIDING>(angles, motions);
             self.tally.one(Count::Iterations);
             self.tally.one(Count::Factorisations);
             if !self.jacobian.factor() {
@@ -398,7 +454,7 @@ impl Chain {
             }
             if is_last {
                 if !within(&self.unknown, SAME_POSE) {
-                    self.assemble::<SLIDING>(motions);
+                    self.assemble::<SLIDING>(angles, motions);
                     self.tally.one(Count::Factorisations);
                     if !self.jacobian.factor() {
                         return false;
@@ -488,8 +544,16 @@ impl Chain {
         goes && self.square + self.foreseen() < LEAST_LEFT * self.square
     }
 
-    /// Computes the multipliers of the closing joints in place: J^T lambda = -Q.
-    /// The multipliers are the forces on the second links (N), x and y alternating.
+    /// The joints whose coordinates are given.
+    #[inline]
+    pub(in crate::assur) fn given(&self) -> &[Given] {
+        &self.given
+    }
+
+    /// Computes the multipliers of the closing joints and of the given coordinates in place: J^T lambda = -Q.
+    /// The first multipliers are the forces on the second links of the closing joints (N), x and y alternating.
+    /// The others are the driving moments on the nodes with given joints (N m; for a slide, the force along the axis
+    /// times [`Chain::size`]).
     /// The input is the generalised forces on the unknowns (N m; for a slide, the force along the axis times
     /// [`Chain::size`]).
     /// The pose must be the last one solved.

@@ -128,7 +128,7 @@ impl Window {
             let mut own = motions.to_vec();
             let sine = clearance(plan, &mut own, group).map_or(f64::NAN, |clearance| clearance.sine);
             let sine = plan.determinant(group).unwrap_or(sine);
-            plan.accelerations(&[0.0], &mut own);
+            plan.accelerations([&[1.0], &[0.0]], &mut own);
             (Node { offset, plan: plan.clone(), motions: own }, sine)
         };
         let mut from = start.angle;
@@ -285,7 +285,7 @@ impl Window {
             *motion = own;
         }
         plan.drive_velocities(&[omega], motions);
-        plan.drive_accelerations(&[alpha], motions);
+        plan.drive_accelerations([&[omega], &[alpha]], motions);
     }
 }
 

@@ -74,7 +74,7 @@ impl Window {
         (system.q, system.rate, system.second) = (q, rate, second);
         let found = self.beside(x, &all);
         let Some(found) = found else {
-            let at = system.case.told(system.case.crank().from_world(angle));
+            let at = system.case.told(system.case.crank().from_coordinate(angle));
             let message = sentences::this_is_a_change_point_and_towards_it_reactions(&at);
             return Err(Error::new(ErrorKind::Numeric, message).at_input(at).help(WITHOUT_POLE));
         };

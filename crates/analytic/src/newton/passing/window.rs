@@ -122,7 +122,7 @@ impl Window {
                 Ok(window)
             }
             _ => {
-                let at = system.case.told(system.case.crank().from_world(at));
+                let at = system.case.told(system.case.crank().from_coordinate(at));
                 let why = failed.map_or(String::new(), |error| format!(" ({})", error.message()));
                 let message = sentences::beside_this_change_point_the_branch(&at, &why);
                 Err(Error::new(ErrorKind::Numeric, message).at_input(at).help(sentences::LET_THE_GRID_END_BEFORE))

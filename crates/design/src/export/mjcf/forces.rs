@@ -111,7 +111,8 @@ pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
     Ok(found)
 }
 
-/// Actuators of a motor on the crank's hinge. A motor with losses gets two actuators: one drives, the other brakes.
+/// Actuators of a motor on the hinge that it drives. A motor with losses gets two actuators: one drives, the other
+/// brakes.
 fn motors(motor: &Motor, sense: f64, joint: &str, branch: usize) -> Result<Vec<Actuator>> {
     let [at_rest, slope] = line(&motor.law)?;
     let (constant, damping) = (sense * motor.ratio * at_rest, motor.ratio * motor.ratio * slope);

@@ -10,7 +10,7 @@ use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::{GROUND, JointId, JointKind, LinkId, PerLink, SpanningTree, TreeBranch};
 use linkage::solver::State;
 
-/// Inertia of a drive's rotor, divided by an upper limit of the mechanism's moment of inertia about any of its points.
+/// Inertia of a drive's rotor, divided by an estimate of the mechanism's moment of inertia about one of its points.
 /// The inertia forces cause moments of about this moment of inertia times the square of the speed.
 /// These moments therefore change the speed by 1e-9 of its value per radian.
 const ROTOR: f64 = 1e9;

@@ -116,7 +116,7 @@ fn crank_arm(case: &Case, state: &State, place: Vec2) -> Option<Vec2> {
 }
 
 /// Vector component of the crank pin's force in the direction of the next link.
-/// The sign is that of the force on the crank.
+/// The sign is that of [`State::forces`]: the force on the joint's second link.
 fn dropped(case: &Case, state: &State) -> Option<Vec2> {
     let (pin, own) = (crank_pin(case), case.crank().joint);
     (pin != own && has_moment(case)).then_some(())?;

@@ -1,4 +1,4 @@
-//! Lengths, guides and configurations.
+//! Faults in lengths, guides and configurations.
 
 use super::kind::kinds;
 use super::touch::{coupler, crank, ends, move_places, moving_guide, output, placed, slider};
@@ -41,7 +41,7 @@ kinds! { Geometry, Case:
         |case, _| others(case).into_iter().next_back().map(|(_, other)| other);
 }
 
-/// Moves all points of a link away from its first point by a factor.
+/// Multiplies the distances of a link's points and joints from its first joint by a factor.
 fn stretched(case: &Case, link: LinkId, factor: f64) -> Option<Case> {
     let [first, _] = ends(case, link)?;
     placed(case, |links, joints| move_places(links, joints, link, |place| first + (place - first) * factor))

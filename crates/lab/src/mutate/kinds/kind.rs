@@ -43,7 +43,7 @@ pub struct FaultInstant<'a> {
 }
 
 /// Method of planting a fault.
-/// A size is relative to the affected part: a fraction of a length or of a mass, or an angle in rad.
+/// A size is a fraction of the affected quantity, such as a length or a mass, or an angle in rad.
 #[derive(Clone, Copy)]
 pub enum Plant {
     /// The fault is in the case given to a party. `None` if the case has no part that the fault affects.
@@ -74,7 +74,7 @@ pub struct FaultKind {
     pub name: &'static str,
     /// What is wrong, in words.
     pub says: &'static str,
-    /// What it is in.
+    /// The part that the fault affects.
     pub family: FaultFamily,
     /// Initial size of the fault; `None` if the fault cannot be made smaller.
     pub size: Option<f64>,

@@ -1,4 +1,4 @@
-//! Loads, springs and dampers.
+//! Faults in loads, springs and dampers.
 
 use std::f64::consts::TAU;
 

@@ -12,7 +12,7 @@ const BAR: f64 = 0.5;
 const PITCH: f64 = 1.0;
 /// The crank swings through the upright position, from the first angle to the last (rad).
 const ANGLES: [f64; 2] = [1.1, 2.0];
-/// Instants, less one.
+/// Number of intervals between the instants.
 const INSTANTS: usize = 24;
 /// Engines run only on chains of at most this many four-bars.
 const MOST_ENGINES: usize = 10;

@@ -10,7 +10,7 @@ use crate::stress::{Setup, StressFamily};
 const INSTANTS: usize = 36;
 /// Mass per length of a rod (kg/m).
 const DENSITY: f64 = 10.0;
-/// Lengths of a crank-rocker (m): base, crank, coupler, rocker. Its transmission angle stays above 44 deg.
+/// Lengths of a crank-rocker (m): base, crank, coupler, rocker. Its transmission angle stays above 57 deg.
 pub(super) const LENGTHS: [f64; 4] = [0.4, 0.1, 0.35, 0.25];
 /// Speed (rad/s).
 pub(super) const SPEED_OF_ALL: f64 = 10.0;
@@ -48,7 +48,7 @@ fn usual(lengths: [f64; 4], masses: [f64; 3], speed: f64) -> Result<Setup> {
     Ok(Setup::usual(builder(lengths, masses, speed).build()?))
 }
 
-/// Masses of neighbours.
+/// Family that varies the mass ratio of neighbouring links.
 pub(super) const MASS_RATIO: StressFamily = StressFamily {
     name: "mass_ratio",
     dial: "ratio of rocker mass to coupler mass",
@@ -59,7 +59,7 @@ pub(super) const MASS_RATIO: StressFamily = StressFamily {
     setup: |ratio, _, _| usual(LENGTHS, [1.0, 1.0, ratio], SPEED_OF_ALL),
 };
 
-/// Lengths of neighbours.
+/// Family that varies the length ratio of neighbouring links.
 pub(super) const LENGTH_RATIO: StressFamily = StressFamily {
     name: "length_ratio",
     dial: "ratio of coupler length to crank length",

@@ -24,7 +24,7 @@ pub(super) const CHANGE_POINT: StressFamily = StressFamily {
     },
 };
 
-/// More links than needed.
+/// Family with more bars than the parallelogram needs.
 pub(super) const REDUNDANT: StressFamily = StressFamily {
     name: "redundant",
     dial: "number of redundant bars of the parallelogram, plus one",

@@ -1,11 +1,12 @@
 //! Chooses the configuration of a group at the start. The input specifies it by mode, number or approximate positions.
 
 use super::configurations::configurations;
+use super::fused::Fused;
 use super::mode::{AssemblyMode, Configuration, ConfigurationChoice, StartGroup};
 use super::{four_link, rough};
 use crate::error::{Advice, Error, ErrorKind, Result};
 use crate::math::KeepNan;
-use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
+use crate::mechanism::{Group, GroupKind, LinkPose, Mechanism, Pose};
 use crate::sentences;
 
 /// Places the links of a group in the required configuration.
@@ -15,6 +16,15 @@ pub(super) fn place(
     wanted: &StartGroup,
     pose: &mut Pose,
 ) -> Result<ConfigurationChoice> {
+    if !group.is_rigid() && group.kind != GroupKind::Driven {
+        let fused = Fused::of(mechanism, group, pose);
+        let choice = place(&fused.mechanism, &fused.group, &fused.wanted(wanted), pose)?;
+        let leads: Vec<LinkPose> = fused.group.links.iter().map(|&link| pose.0[link]).collect();
+        for (&link, place) in group.links.iter().zip(fused.expanded(&leads)) {
+            pose.0[link] = place;
+        }
+        return Ok(choice);
+    }
     let all_known = group.kind != GroupKind::Higher || four_link::is_handled(mechanism, group, pose);
     if !all_known && wanted.rank.is_none() && !wanted.near.is_empty() {
         return rough::place(mechanism, group, &wanted.near, pose);
@@ -64,7 +74,7 @@ fn nothing_asked(group: &Group) -> Error {
     let modes = match group.kind {
         GroupKind::Rrr => Some([AssemblyMode::Left, AssemblyMode::Right]),
         GroupKind::Rrp | GroupKind::Rpr => Some([AssemblyMode::Ahead, AssemblyMode::Behind]),
-        GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher => None,
+        GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher | GroupKind::Driven => None,
     };
     match modes {
         Some([one, other]) => Error::new(ErrorKind::Input, sentences::NEITHER_AN_ASSEMBLY_MODE_NOR)

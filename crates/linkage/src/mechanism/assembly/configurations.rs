@@ -1,11 +1,14 @@
 //! All real configurations of a group, whatever its kind.
 
-use super::mode::Configuration;
+use super::fused::Fused;
+use super::mode::{AssemblyMode, Configuration};
 use super::{dyads, four_link};
 use crate::error::Result;
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 
 /// All real configurations of a group. `pose` contains the poses of the links of earlier groups.
+/// If the group has given joints, the links of every body have the right pose relative to each other in `pose`, as in
+/// [`Structure::driving_pose`](crate::mechanism::Structure::driving_pose); a driven link has its pose.
 /// A dyad has up to two configurations, a group of four links up to six.
 ///
 /// # Errors
@@ -13,7 +16,16 @@ use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for groups of more than four links, whose configurations
 /// are not all known.
 pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
+    if group.kind == GroupKind::Driven {
+        return Ok(vec![Configuration { mode: AssemblyMode::Only, links: vec![pose.0[group.links[0]]] }]);
+    }
+    if !group.is_rigid() {
+        let fused = Fused::of(mechanism, group, pose);
+        let all = configurations(&fused.mechanism, &fused.group, pose)?;
+        return Ok(all.into_iter().map(|one| fused.configuration(one)).collect());
+    }
     match group.kind {
+        GroupKind::Driven => unreachable!("its pose is known"),
         GroupKind::Higher => four_link::configurations(mechanism, group, pose),
         GroupKind::Rrr | GroupKind::Rrp | GroupKind::Rpr | GroupKind::Rpp | GroupKind::Prp => {
             dyads::configurations(mechanism, group, pose)
@@ -21,7 +33,8 @@ pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Resu
     }
 }
 
-/// Sine of a dyad's transmission angle in the given pose; `None` for higher groups. The sine is zero at a dead point.
+/// Sine of a dyad's transmission angle in the given pose; `None` for higher groups and driven links. The sine is zero at a
+/// dead point.
 ///
 /// - RRR: signed area of the dyad's triangle (first outer, second outer, inner joint) divided by half the product of
 ///   the two link lengths. The sine is positive in the mode [`AssemblyMode::Left`](super::AssemblyMode::Left).
@@ -34,5 +47,15 @@ pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Resu
 /// - PRP: e1 x e2 with the directions of both outer axes, in the order of the group's links.
 #[must_use]
 pub fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<f64> {
-    (group.kind != GroupKind::Higher).then(|| dyads::transmission_sine(mechanism, group, pose).clamp(-1.0, 1.0))
+    if matches!(group.kind, GroupKind::Higher | GroupKind::Driven) {
+        return None;
+    }
+    let sine = |mechanism: &Mechanism, group: &Group| dyads::transmission_sine(mechanism, group, pose).clamp(-1.0, 1.0);
+    Some(match group.is_rigid() {
+        true => sine(mechanism, group),
+        false => {
+            let fused = Fused::of(mechanism, group, pose);
+            sine(&fused.mechanism, &fused.group)
+        }
+    })
 }

@@ -94,7 +94,7 @@ pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) 
         GroupKind::Rpr => rpr(&members),
         GroupKind::Rpp => rpp(&members),
         GroupKind::Prp => prp(&members),
-        GroupKind::Higher => unreachable!("a dyad has two links"),
+        GroupKind::Higher | GroupKind::Driven => unreachable!("a dyad has two links"),
     }
 }
 
@@ -124,7 +124,7 @@ pub(super) fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pos
             cross(axis, slider.guide())
         }
         GroupKind::Prp => cross(members[0].guide(), members[1].guide()),
-        GroupKind::Higher => unreachable!("a dyad has two links"),
+        GroupKind::Higher | GroupKind::Driven => unreachable!("a dyad has two links"),
     }
 }
 

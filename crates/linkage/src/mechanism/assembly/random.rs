@@ -87,7 +87,14 @@ pub fn group(mechanism: &Mechanism, links: &[LinkId], kind: GroupKind) -> Group 
     let all = mechanism.joints().ids();
     let mut outer: Vec<JointId> = all.clone().filter(|&joint| inside(joint) == 1).collect();
     outer.sort_by_key(|&joint| links.iter().position(|&link| mechanism.joints()[joint].on(link).is_some()));
-    Group { links: links.into(), inner: all.filter(|&joint| inside(joint) == 2).collect(), outer, class: 2, kind }
+    Group {
+        links: links.into(),
+        inner: all.filter(|&joint| inside(joint) == 2).collect(),
+        outer,
+        given: Vec::new(),
+        class: 2,
+        kind,
+    }
 }
 
 /// Reference length for errors (m): the mechanism's size or the largest distance of a link's origin from the world's

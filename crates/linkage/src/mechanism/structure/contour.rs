@@ -1,33 +1,41 @@
 //! Class of an Assur group, from its closed contours.
 
 use super::group::Group;
-use crate::mechanism::{JointId, LinkId, Mechanism};
+use crate::mechanism::{LinkId, Mechanism};
 
 /// Number of sides of the closed contour with the most sides.
 /// A link with three or more inner pairs is a contour. The number of its sides is the number of its inner pairs.
 /// Every shortest loop of inner joints is a contour too.
 pub(super) fn highest_contour(mechanism: &Mechanism, group: &Group) -> usize {
-    let joint = |&index: &JointId| &mechanism.joints()[index];
-    let pairs_on = |link: LinkId| group.inner.iter().map(joint).filter(|j| j.on(link).is_some()).count();
-    let rigid = group.links.iter().map(|&link| pairs_on(link)).max().unwrap_or(0);
-    let loops = group.inner.iter().filter_map(|&index| shortest_loop(mechanism, group, index)).max().unwrap_or(0);
+    let leads = group.leads(mechanism);
+    let body = |link: LinkId| leads[group.links.iter().position(|&own| own == link).expect("the joint is inner")];
+    let pairs: Vec<[LinkId; 2]> = free_pairs(mechanism, group).map(|pair| pair.map(body)).collect();
+    let pairs_on = |link: &LinkId| pairs.iter().filter(|pair| pair.contains(link)).count();
+    let rigid = leads.iter().map(pairs_on).max().unwrap_or(0);
+    let loops = (0..pairs.len()).filter_map(|index| shortest_loop(&pairs, index)).max().unwrap_or(0);
     rigid.max(loops).max(2)
 }
 
-/// Number of links in the shortest loop of inner joints through `through`; `None` if there is no loop.
-fn shortest_loop(mechanism: &Mechanism, group: &Group, through: JointId) -> Option<usize> {
-    let (start, goal) = (mechanism.joints()[through].first.link, mechanism.joints()[through].second.link);
+/// The two links of every inner joint without a given coordinate.
+fn free_pairs(mechanism: &Mechanism, group: &Group) -> impl Iterator<Item = [LinkId; 2]> {
+    let free = group.inner.iter().filter(|joint| !group.given.contains(joint));
+    free.map(|&joint| &mechanism.joints()[joint]).map(|joint| [joint.first.link, joint.second.link])
+}
+
+/// Number of bodies in the shortest loop of inner joints through the pair `through`; `None` if there is no loop.
+fn shortest_loop(pairs: &[[LinkId; 2]], through: usize) -> Option<usize> {
+    let [start, goal] = pairs[through];
     let mut layers = vec![(start, 1)];
     let mut next = 0;
-    while let Some(&(link, length)) = layers.get(next) {
-        if link == goal {
+    while let Some(&(body, length)) = layers.get(next) {
+        if body == goal {
             return Some(length);
         }
         next += 1;
-        for &index in group.inner.iter().filter(|&&index| index != through) {
-            let joint = &mechanism.joints()[index];
-            if joint.on(link).is_some() && !layers.iter().any(|&(seen, _)| seen == joint.other(link).link) {
-                layers.push((joint.other(link).link, length + 1));
+        for (_, pair) in pairs.iter().enumerate().filter(|(index, pair)| *index != through && pair.contains(&body)) {
+            let other = if pair[0] == body { pair[1] } else { pair[0] };
+            if !layers.iter().any(|&(seen, _)| seen == other) {
+                layers.push((other, length + 1));
             }
         }
     }

@@ -18,8 +18,10 @@ pub enum GroupKind {
     Rpp,
     /// Dyad with two outer prismatic pairs and an inner revolute pair.
     Prp,
-    /// Any group with more than two links.
+    /// Any group with more than two rigid bodies.
     Higher,
+    /// A link whose pose follows from a given joint on a link of an earlier group. It is a driving link (class I).
+    Driven,
 }
 
 impl GroupKind {
@@ -27,7 +29,7 @@ impl GroupKind {
     #[must_use]
     pub fn has_one_configuration(self) -> bool {
         match self {
-            GroupKind::Rpp | GroupKind::Prp => true,
+            GroupKind::Rpp | GroupKind::Prp | GroupKind::Driven => true,
             GroupKind::Rrr | GroupKind::Rrp | GroupKind::Rpr | GroupKind::Higher => false,
         }
     }
@@ -41,7 +43,7 @@ impl GroupKind {
             GroupKind::Rpr => Some("RPR"),
             GroupKind::Rpp => Some("RPP"),
             GroupKind::Prp => Some("PRP"),
-            GroupKind::Higher => None,
+            GroupKind::Higher | GroupKind::Driven => None,
         }
     }
 }
@@ -55,7 +57,11 @@ pub struct Group {
     pub inner: Vec<JointId>,
     /// Joints with links that are known before the group is solved.
     pub outer: Vec<JointId>,
-    /// Class: 2 for dyads, otherwise the number of sides of the group's closed contour with the most sides
+    /// The joints of `inner` and `outer` whose coordinate is given.
+    /// Two links on a given joint are one rigid body at every instant, a body of changing shape.
+    /// Class and kind of the group are those of its bodies.
+    pub given: Vec<JointId>,
+    /// Class: 1 for a driven link, 2 for dyads, otherwise the number of sides of the group's closed contour with the most sides
     /// (Artobolevsky).
     pub class: usize,
     /// Kind of the group.
@@ -67,6 +73,42 @@ impl Group {
     #[must_use]
     pub fn order(&self) -> usize {
         self.outer.len()
+    }
+
+    /// Whether no joint of the group has a given coordinate, so that every body is one link.
+    #[must_use]
+    pub fn is_rigid(&self) -> bool {
+        self.given.is_empty()
+    }
+
+    /// For every link of the group, the first link of its body: the lead of the body.
+    #[must_use]
+    pub fn leads(&self, mechanism: &Mechanism) -> Vec<LinkId> {
+        let mut leads = self.links.clone();
+        for joint in self.given.iter().map(|&joint| &mechanism.joints()[joint]) {
+            let lead = |link: LinkId| self.links.iter().position(|&own| own == link).map(|at| leads[at]);
+            if let (Some(a), Some(b)) = (lead(joint.first.link), lead(joint.second.link)) {
+                leads.iter_mut().filter(|lead| **lead == a.max(b)).for_each(|lead| *lead = a.min(b));
+            }
+        }
+        leads
+    }
+
+    /// The group's bodies by name, for messages: `boom, cylinder+rod`.
+    #[must_use]
+    pub fn bodies(&self, mechanism: &Mechanism) -> String {
+        let leads = self.leads(mechanism);
+        let named = |lead: &LinkId| {
+            let members = self.links.iter().zip(&leads).filter(|(_, own)| *own == lead);
+            members.map(|(&link, _)| mechanism.links()[link].name.as_str()).collect::<Vec<_>>().join("+")
+        };
+        self.links
+            .iter()
+            .zip(&leads)
+            .filter(|(link, lead)| link == lead)
+            .map(|(_, lead)| named(lead))
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 
     /// The group's outer joint on `link`, for a link that has exactly one outer joint.

@@ -6,7 +6,7 @@ use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::mechanism::{GROUND, JointId, LinkId, Mechanism};
+use crate::mechanism::{DrivenJoint, GROUND, JointId, LinkId, Mechanism};
 
 /// Checks Laman's condition for plane bodies: the joints among k links, the ground included, have at most 3 k - 3
 /// equations.
@@ -15,7 +15,7 @@ use crate::mechanism::{GROUND, JointId, LinkId, Mechanism};
 /// All equations, the copies included, must still find owners. No link, the ground included, may own more than three
 /// equations.
 /// Source: Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008.
-pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[JointId]) -> Result<()> {
+pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Result<()> {
     let mut owners = Owners::unassigned(mechanism, drives, OWNED);
     owners.assign_all(mechanism)?;
     let count = owners.equations.len();
@@ -54,19 +54,19 @@ pub(super) struct Owners {
 
 impl Owners {
     /// Finds owners. The ground owns nothing, because its pose is given.
-    pub(super) fn find(mechanism: &Mechanism, drives: &[JointId]) -> Result<Self> {
+    pub(super) fn find(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Result<Self> {
         let mut owners = Owners::unassigned(mechanism, drives, 0);
         owners.assign_all(mechanism)?;
         Ok(owners)
     }
 
-    fn unassigned(mechanism: &Mechanism, drives: &[JointId], of_ground: usize) -> Self {
+    fn unassigned(mechanism: &Mechanism, drives: &[DrivenJoint], of_ground: usize) -> Self {
         let owned = vec![Vec::new(); mechanism.links().len()];
         let mut owners = Owners { equations: Vec::new(), owner: Vec::new(), owned, of_ground };
         for (index, joint) in mechanism.joints().entries() {
             let ends = [joint.first.link, joint.second.link];
             owners.add((0..joint.kind.equations()).map(|_| Equation { joint: index, of_drive: false, ends }));
-            let driven = drives.iter().filter(|&&drive| drive == index);
+            let driven = drives.iter().filter(|drive| drive.joint == index);
             owners.add(driven.map(|_| Equation { joint: index, of_drive: true, ends }));
         }
         owners

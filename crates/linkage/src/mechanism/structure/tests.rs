@@ -133,6 +133,6 @@ fn loose_links_and_missing_drives_are_refused() {
     let links = vec![link("ground", &[("O", 0.0, 0.0)]), link("a", &[("O", 0.0, 0.0)]), link("b", &[])];
     let alone = mechanism(links.clone(), &[("O", "O", "ground", "a")]).unwrap();
     assert!(Structure::of(&alone, &[JointId(0)]).unwrap_err().to_string().contains("not connected to the ground"));
-    let message = Structure::of(&four_bar(), &[]).unwrap_err().to_string();
+    let message = Structure::of::<JointId>(&four_bar(), &[]).unwrap_err().to_string();
     assert!(message.contains("W = 3*3 - 2*4 = 1, but the number of drives is 0"), "{message}");
 }

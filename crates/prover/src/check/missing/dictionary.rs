@@ -101,7 +101,8 @@ impl Dictionary {
 }
 
 /// Angles of the derivation, each with the complexity of its sine or cosine.
-/// They are the crank angle, the arguments of sines and cosines, and differences of two such angles.
+/// They are the crank angle, the steps in arguments of sines, cosines and tangents, the steps that are values of
+/// inverse functions, and differences of two such angles. Twice and three times the crank angle are added.
 fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
     let mut names: Vec<FormulaTree> = vec![FormulaTree::name("phi")];
     let known = &trial.formulas.list[..trial.index];

@@ -1,4 +1,4 @@
-//! Slips that are repeated at every occurrence of a quantity or a function.
+//! Slips that are repeated at every occurrence of a quantity, or of a sine, cosine or tangent.
 
 use super::edits;
 use super::places::at_every_place;
@@ -8,10 +8,10 @@ use crate::check::trial::Trial;
 use formula::{DerivationSheet, FormulaTree, Function, NodeShape, Operator};
 use scenario::Formulas;
 
-/// Tries to correct every quantity and every function at all its occurrences.
+/// Tries to correct every quantity, and sines, cosines and tangents, at all their occurrences.
 /// The search first corrects the occurrences in the first of the formulas `used`, then the occurrences in all formulas
 /// `used`.
-/// A part that occurs only once is not a slip of this kind.
+/// A quantity that occurs only once is not tried.
 pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimensions: &Dimensions, tried: &mut Tried) {
     use Function::{Cos, Sin, Tan};
     let formulas = trial.formulas.clone();

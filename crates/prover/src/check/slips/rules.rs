@@ -13,7 +13,8 @@ use scenario::formula::OMEGA;
 /// `a`, `b` and `c` are any parts. `n` is a number. `q` is neither a number nor pi. `u` is a `q` that is not a call.
 /// `t` has the form of an angle or a time; its multiples may change by whole revolutions from instant to instant.
 /// `r` is neither a number, nor pi, nor a `t`.
-/// `g` is a gravitational acceleration written as a number. `w` is the crank's angular velocity.
+/// `g` is an `r` if no parameter is in m/s^2, so that gravity, if it occurs at all, is written as a number.
+/// `w` is the crank's angular velocity.
 const RULES: [(SlipKind, &str); 52] = [
     (SlipKind::Sign, "a + b => a - b"),
     (SlipKind::Sign, "a - b => a + b; b - a"),

@@ -38,7 +38,7 @@ linkage::words! {
         /// A derivative with respect to time in place of one with respect to the crank angle, or a power in place of a
         /// moment.
         PerSecond = "per second in place of per radian of the crank",
-        /// Another of the names.
+        /// A wrong name in place of the right one.
         Name = "another quantity",
         /// Two names exchanged.
         Exchanged = "two quantities exchanged",
@@ -60,15 +60,16 @@ linkage::words! {
 /// Order of slips, smallest for the simplest.
 /// The order has four parts: whether the units contradict the slip, whether the slip occurs at many positions, whether
 /// it is in a step, and its kind.
+/// For a wrong value, the second part is whether its digits are not confused.
 type Rank = (bool, bool, bool, SlipKind);
 
-/// A slip mended.
+/// A slip and the effect of its correction.
 pub(in crate::check) struct Mended {
     pub(in crate::check) slip: FormulaSlip,
     pub(in crate::check) rank: Rank,
     /// Fraction of the largest difference that remains after the correction; zero if the formula is then right.
     pub(in crate::check) left: f64,
-    /// Number of equally simple slips: all slips tried up to this one.
+    /// Number of slips that are at least as simple as this one: all slips tried up to this one.
     pub(in crate::check) among: usize,
 }
 

@@ -59,7 +59,7 @@ const PROMISING: f64 = 1e-6;
 
 /// Calls `whole` with every explanation by one or two quantities that leaves no difference.
 /// Ends at the first explanation by a single quantity.
-/// Returns the explanation with the smallest remainder, if any explanation was found.
+/// Returns the fit with the smallest remainder. The remainder of a fit by two quantities counts twice.
 pub fn explanations<'a>(
     wrong: &Wrong,
     bases: &'a [TermBasis],

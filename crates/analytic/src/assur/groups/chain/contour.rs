@@ -169,9 +169,9 @@ impl Contours {
                 }
             };
             let next = || group.outer.iter().chain(&group.inner).filter_map(hung);
-            // Prismatic joints first, so that all of them are in the tree (Prim's algorithm for the minimum spanning
-            // tree).
-            let slider = next().find(|&(joint, _)| joints[joint].slides());
+            // Prismatic joints and joints with a given coordinate first, so that all of them are in the tree (Prim's
+            // algorithm for the minimum spanning tree).
+            let slider = next().find(|&(joint, _)| joints[joint].slides() || group.given.contains(&joint));
             let (joint, link) = slider.or_else(|| next().next()).expect("a group hangs together");
             used[joint] = true;
             let node = Node::of(joints, joint, link, &mut all);

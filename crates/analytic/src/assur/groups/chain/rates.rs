@@ -6,21 +6,32 @@ use linkage::mechanism::GROUND;
 
 impl Chain {
     /// Computes the velocities of the group's links. The velocities of the links that carry the group must be known.
-    pub(in crate::assur::groups) fn velocities(&mut self, motions: &mut [Motion]) {
+    pub(in crate::assur::groups) fn velocities(&mut self, rates: &[f64], motions: &mut [Motion]) {
         match self.is_sliding {
-            true => self.velocities_as::<true>(motions),
-            false => self.velocities_as::<false>(motions),
+            true => self.velocities_as::<true>(rates, motions),
+            false => self.velocities_as::<false>(rates, motions),
         }
     }
 
-    fn velocities_as<const SLIDING: bool>(&mut self, motions: &mut [Motion]) {
+    /// Writes the right-hand sides of the given coordinates: `of` is their rates or accelerations, `led` those of the
+    /// parents' angles that are known.
+    fn put_given(&mut self, of: &[f64], led: impl Fn(&Motion) -> f64, motions: &[Motion]) {
+        let first = 2 * self.contours.closings.len();
+        for (row, given) in self.given.iter().enumerate() {
+            let parent = &motions[self.contours.nodes[given.node].parent.link];
+            let known = if given.is_slide || given.parent_spin.is_some() { 0.0 } else { led(parent) };
+            self.unknown[first + row] = given.factor * of[given.drive] + known;
+        }
+    }
+
+    fn velocities_as<const SLIDING: bool>(&mut self, of_drives: &[f64], motions: &mut [Motion]) {
         if SLIDING {
             for node in self.led() {
                 motions[node.link].omega = motions[node.parent.link].omega;
             }
         }
-        let Contours { nodes, closings, arrows, roots } = &self.contours;
-        let World { arrows: vectors, roots: ends, joints, .. } = &mut self.world;
+        let Contours { closings, roots, .. } = &self.contours;
+        let World { arrows: vectors, roots: ends, .. } = &mut self.world;
         for (end, side) in ends.iter_mut().zip(roots).filter(|(_, side)| side.link != GROUND) {
             end.velocity = motions[side.link].velocity_beyond(end.arm);
         }
@@ -36,6 +47,9 @@ impl Chain {
             }
             (rates[0], rates[1]) = (rate.x, rate.y);
         }
+        self.put_given(of_drives, |parent| parent.omega, motions);
+        let Contours { nodes, arrows, .. } = &self.contours;
+        let World { arrows: vectors, roots: ends, joints, .. } = &mut self.world;
         self.jacobian.solve(&mut self.unknown);
         for (index, node) in nodes.iter().enumerate() {
             let mut velocity = match node.hangs {
@@ -64,31 +78,27 @@ impl Chain {
 
     /// Computes the accelerations of the group's links.
     /// The velocities of the group's links and the accelerations of the links that carry the group must be known.
-    pub(in crate::assur::groups) fn accelerations(&mut self, motions: &mut [Motion]) {
+    pub(in crate::assur::groups) fn accelerations(&mut self, second: &[f64], motions: &mut [Motion]) {
         match self.is_sliding {
-            true => self.accelerations_as::<true>(motions),
-            false => self.accelerations_as::<false>(motions),
+            true => self.accelerations_as::<true>(second, motions),
+            false => self.accelerations_as::<false>(second, motions),
         }
     }
 
-    fn accelerations_as<const SLIDING: bool>(&mut self, motions: &mut [Motion]) {
+    fn accelerations_as<const SLIDING: bool>(&mut self, of_drives: &[f64], motions: &mut [Motion]) {
         if SLIDING {
             for node in self.led() {
                 motions[node.link].alpha = motions[node.parent.link].alpha;
             }
         }
         let Contours { nodes, closings, arrows, roots } = &self.contours;
-        let World { arrows: vectors, centripetal, roots: ends, joints } = &mut self.world;
+        let World { arrows: vectors, centripetal, roots: ends, .. } = &mut self.world;
         for (centripetal, (vector, arrow)) in centripetal.iter_mut().zip(vectors.iter().zip(arrows)) {
             let omega = motions[arrow.carrier].omega;
             *centripetal = *vector * (omega * omega);
         }
         let speeds = &self.speeds;
-        // Coriolis acceleration of a sliding node along the normal of its axis.
-        let coriolis = |node: usize, motions: &[Motion]| {
-            let own: &Node = &nodes[node];
-            turned(own.slide_axis(motions)) * (2.0 * speeds[node] * motions[own.parent.link].omega)
-        };
+        let of_slide = |node: usize, motions: &[Motion]| coriolis(&nodes[node], speeds[node], motions);
         for (end, side) in ends.iter_mut().zip(roots).filter(|(_, side)| side.link != GROUND) {
             end.acceleration = motions[side.link].acceleration_beyond(end.arm);
         }
@@ -103,12 +113,17 @@ impl Chain {
                     second -= turned(vectors[stretch.arrow] * stretch.sign) * motions[stretch.carrier].alpha;
                 }
                 if SLIDING && let Some(node) = stretch.slide {
-                    second -= coriolis(node, motions) * stretch.sign;
+                    second -= of_slide(node, motions) * stretch.sign;
                 }
             }
             (rates[0], rates[1]) = (second.x, second.y);
         }
+        self.put_given(of_drives, |parent| parent.alpha, motions);
         self.jacobian.solve(&mut self.unknown);
+        let Contours { nodes, arrows, .. } = &self.contours;
+        let World { arrows: vectors, centripetal, roots: ends, joints } = &mut self.world;
+        let speeds = &self.speeds;
+        let coriolis = |node: usize, motions: &[Motion]| coriolis(&nodes[node], speeds[node], motions);
         for (index, node) in nodes.iter().enumerate() {
             let mut acceleration = match node.hangs {
                 Hangs::Root(root) => ends[root].acceleration,
@@ -145,4 +160,10 @@ impl Chain {
         let nodes: &[Node] = if self.is_sliding { &self.contours.nodes } else { &[] };
         nodes.iter().filter(|node| node.spin.is_none())
     }
+}
+
+/// Coriolis acceleration of a sliding node along the normal of its axis; `speed` is that of the slide (m/s).
+#[inline]
+fn coriolis(node: &Node, speed: f64, motions: &[Motion]) -> Vec2 {
+    turned(node.slide_axis(motions)) * (2.0 * speed * motions[node.parent.link].omega)
 }

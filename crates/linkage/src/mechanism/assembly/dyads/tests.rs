@@ -116,7 +116,7 @@ impl Case {
                 let (a, b) = (f0 - mean, (f1 - f2) / 3f64.sqrt());
                 a.hypot(b) - mean.abs()
             }
-            GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher => f64::INFINITY,
+            GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher | GroupKind::Driven => f64::INFINITY,
         }
     }
 
@@ -136,7 +136,7 @@ impl Case {
                 let base = if self.joint(JointId(1)).first.link == LinkId(3) { c - a } else { a - c };
                 ahead(self.axis(pose, JointId(1)).dot(&base) > 0.0)
             }
-            GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher => AssemblyMode::Only,
+            GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher | GroupKind::Driven => AssemblyMode::Only,
         }
     }
 }
