@@ -29,10 +29,10 @@ pub(super) struct Args {
     /// Step of the derivation: a named formula that later steps and EXPR may use; may be given several times
     #[arg(long = "let", value_name = "NAME=EXPR", requires = "expression", value_parser = step)]
     steps: Vec<(String, String)>,
-    /// First crank angle in degrees at which the formula is claimed to be valid
+    /// First crank angle (deg), or slide (mm), at which the formula is claimed to be valid
     #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true, value_parser = number::finite)]
     from_deg: Option<f64>,
-    /// Last crank angle in degrees at which the formula is claimed to be valid
+    /// Last crank angle (deg), or slide (mm), at which the formula is claimed to be valid
     #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true, value_parser = number::finite)]
     to_deg: Option<f64>,
     /// Claimed error of the formula in the channel's unit, for series and approximations
@@ -87,13 +87,15 @@ fn asked(args: &Args) -> Result<Scenario> {
     let (Some(formula), Some(channel)) = (&args.expression, &args.channel) else {
         return args.start.load(&args.file, &args.grid);
     };
+    let besides = StartRequest { adds_parameters: true, ..StartRequest::default() };
+    let scenario = args.start.load_as(&args.file, &args.grid, besides)?;
+    let input = scenario.case.crank().input;
     let question = FormulaQuestion {
         formula: formula.clone(),
         channel: channel.clone(),
         steps: args.steps.clone(),
-        valid: [args.from_deg, args.to_deg].map(|degrees| degrees.map(f64::to_radians)),
+        valid: [args.from_deg, args.to_deg].map(|end| end.map(|value| input.read(value))),
         error: args.error,
     };
-    let besides = StartRequest { adds_parameters: true, ..StartRequest::default() };
-    question.of_scenario(args.start.load_as(&args.file, &args.grid, besides)?, &WORDS)
+    question.of_scenario(scenario, &WORDS)
 }

@@ -85,7 +85,8 @@ fn answer(args: &Args, file: &Path) -> Result<(Scenario, ClearanceResult)> {
     }
     for to in args.outputs.of(ClearanceResults::Csv) {
         let course = course(&scenario.case, asked)?;
-        output::write(&report::distances(asked, &scenario.case.grid.times, &course)?, to)?;
+        let (input, times) = (scenario.case.crank().input, &scenario.case.grid.times);
+        output::write(&report::distances(asked, input, times, &course)?, to)?;
     }
     if !args.outputs.take_standard() {
         output::print(&report::text(&scenario, asked, &found, output::width()))?;

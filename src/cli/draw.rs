@@ -8,6 +8,7 @@ use super::output::{self, refused};
 use super::{load, number};
 use crate::draw::{Drawn, Medium, Note, PictureOptions, picture};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use prover::run::Reference;
 use scenario::StartRequest;
 
@@ -21,7 +22,7 @@ pub(super) struct Args {
     /// [default: FILE.svg, for several files mechanisms.svg, in this directory]
     #[arg(long, short, value_name = "PICTURE", value_parser = target)]
     output: Option<PathBuf>,
-    /// Crank angle in degrees, as the scenario states it [default: that of the start]
+    /// Crank angle (deg), or slide (mm), as the scenario states it [default: that of the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     crank_deg: Option<f64>,
     /// Start a group in a different assembly mode from that of the file, as in `linkproof run`
@@ -91,7 +92,7 @@ pub(super) fn draw(args: &Args) -> Result<()> {
     let medium = medium.map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
     fits(args, medium)?;
     let wish = PictureOptions {
-        crank: args.crank_deg.map(f64::to_radians),
+        crank: None,
         each_mode: args.each_mode,
         loads: args.loads,
         dimensions: args.dimensions,
@@ -104,10 +105,21 @@ pub(super) fn draw(args: &Args) -> Result<()> {
         traces_key: Some("--trace"),
     };
     let asked = StartRequest { modes: args.mode.clone(), set: args.set.clone(), ..StartRequest::default() };
+    let with_crank = |input: Input| {
+        let crank = args.crank_deg.map(|value| input.read(value));
+        PictureOptions { crank, ..wish.clone() }
+    };
     let drawn = |file: &PathBuf| match load::as_asked(file, &asked) {
-        Ok(scenario) => Drawn::of(scenario, &wish, medium).map_err(|error| error.key("--crank-deg")),
+        Ok(scenario) => {
+            let wish = with_crank(scenario.case.crank().input);
+            Drawn::of(scenario, &wish, medium).map_err(|error| error.key("--crank-deg"))
+        }
         // If the text itself has errors, reading the draft reports them.
-        Err(error) => Drawn::of_draft(load::draft(file, &asked)?, &wish, error),
+        Err(error) => {
+            let draft = load::draft(file, &asked)?;
+            let wish = with_crank(draft.input());
+            Drawn::of_draft(draft, &wish, error)
+        }
     };
     let all = args.files.iter().map(drawn).collect::<Result<Vec<_>>>()?;
     let bytes = picture(&all, &wish, medium)?;

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use scenario::Scenario;
 use scenario::grid::{listed, range};
 
@@ -12,8 +13,8 @@ use scenario::grid::{listed, range};
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub(super) struct GridArgs {
-    /// Crank angles in degrees, measured as in the scenario, instead of its grid: ranges and single values, separated
-    /// by commas
+    /// Crank angles (deg), or slides (mm), measured as in the scenario, instead of its grid: ranges and single values,
+    /// separated by commas
     #[arg(long, value_name = "FROM:TO:STEP", allow_hyphen_values = true, conflicts_with = "times")]
     crank_deg: Option<Values>,
     /// Times in seconds, instead of the scenario's grid: ranges and single values, separated by commas
@@ -32,7 +33,7 @@ impl GridArgs {
         let crank = case.crank();
         let (grid, help) = match (&self.crank_deg, &self.times) {
             (Some(Values { values, .. }), _) => {
-                let cranks = values.iter().map(|angle| angle.to_radians()).collect();
+                let cranks = values.iter().map(|value| crank.input.read(*value)).collect();
                 let help = match crank.is_free() {
                     true => sentences::GIVE_TIMES_BY_TIMES_FROM_TO_STEP,
                     false => sentences::CHECK_THE_UNIT_AND_SIZE_OF_CRANK,
@@ -48,10 +49,15 @@ impl GridArgs {
         case.on(grid)
     }
 
-    /// The option and the text of the given grid; `None` if no grid is given.
-    pub(super) fn told(&self) -> Option<(&'static str, &str)> {
+    /// Whether a grid is given.
+    pub(super) fn is_given(&self) -> bool {
+        self.crank_deg.is_some() || self.times.is_some()
+    }
+
+    /// The given grid of a scenario with this input: the name of its values, and its text; `None` if no grid is given.
+    pub(super) fn told(&self, input: Input) -> Option<(&'static str, &str)> {
         match &self.crank_deg {
-            Some(values) => Some(("crank_deg", &values.text)),
+            Some(values) => Some((input.shown_in().1, &values.text)),
             None => self.times.as_ref().map(|values| ("times_s", values.text.as_str())),
         }
     }

@@ -25,7 +25,7 @@ pub(super) struct Args {
     /// transmission angles
     #[arg(long, conflicts_with = "modes")]
     range: bool,
-    /// Crank angle for --modes in degrees, as the scenario states it [default: that of the start]
+    /// Crank angle (deg), or slide (mm), for --modes, as the scenario states it [default: that of the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, requires = "modes", value_parser = number::finite)]
     at_crank_deg: Option<f64>,
     /// Work allowed for --range, in steps of an engine without sweeps [default: 2e7]
@@ -54,7 +54,7 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
     let case = &scenario.case;
     let modes = match args.modes {
         true => {
-            let crank = args.at_crank_deg.map_or(case.crank().start, f64::to_radians);
+            let crank = args.at_crank_deg.map_or(case.crank().start, |value| case.crank().input.read(value));
             Grid::of_inputs(case.crank(), vec![crank])
                 .check(case.crank())
                 .map_err(|message| Error::new(ErrorKind::Input, message).help("check --at-crank-deg"))?;

@@ -19,8 +19,8 @@ pub(super) struct StartArgs {
     /// omitted. May be given for several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     pub(super) mode: Vec<String>,
-    /// Crank angle at t = 0 in degrees, measured as in the scenario. Replaces the `crank` of the scenario's `[start]`;
-    /// published numbers stay if the start lies on the branch of the file
+    /// Crank angle (deg), or slide (mm), at t = 0, measured as in the scenario. Replaces the `crank` of the scenario's
+    /// `[start]`, or the start of its first drive; published numbers stay if the start lies on the branch of the file
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     pub(super) start_crank_deg: Option<f64>,
     /// Value of a parameter, by its key in `[parameters]`; may be given several times
@@ -36,11 +36,11 @@ impl StartArgs {
 
     /// Like `load`, with the additional requests in `besides`.
     pub(super) fn load_as(&self, file: &Path, grid: &GridArgs, besides: StartRequest) -> Result<Scenario> {
-        let crank = self.start_crank_deg.map(f64::to_radians);
         let asked = StartRequest {
             modes: self.mode.clone(),
-            crank,
-            without_grid: grid.told().is_some(),
+            crank: self.start_crank_deg,
+            is_shown: true,
+            without_grid: grid.is_given(),
             set: self.set.clone(),
             ..besides
         };

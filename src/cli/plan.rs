@@ -21,7 +21,7 @@ pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Crank angle in degrees, as the scenario states it [default: that of the start]
+    /// Crank angle (deg), or slide (mm), as the scenario states it [default: that of the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     crank_deg: Option<f64>,
     /// Show only the vectors of this point, or of this link with its points; may be given several times
@@ -53,7 +53,7 @@ pub(super) fn plan(args: &Args) -> Result<()> {
         let message = sentences::has_points_and_a_plan_has_a_vector(&name, &count, &POINTS);
         return Err(Error::new(ErrorKind::Input, message).help(sentences::LEAVE_OUT_POINTS_THAT_THE_PLAN));
     }
-    let crank = args.crank_deg.map_or(case.crank().start, f64::to_radians);
+    let crank = args.crank_deg.map_or(case.crank().start, |value| case.crank().input.read(value));
     let solver = args.with.solver();
     let state = state_at(case, solver, crank).map_err(|error| explained(case, error))?;
     let plans = Plans::of(case, solver, &state, crank);

@@ -12,7 +12,7 @@ use prover::run::Reference;
 /// Options of a picture.
 #[derive(Clone, Debug, Default)]
 pub struct PictureOptions {
-    /// Crank angle (rad, as the scenario states it); `None` for the crank angle of the start.
+    /// Value of the input (rad or m, as the scenario states it); `None` for that of the start.
     pub crank: Option<f64>,
     /// Whether to draw all configurations at the crank angle, each with the modes of its groups.
     pub each_mode: bool,

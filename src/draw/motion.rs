@@ -28,9 +28,11 @@ fn seen() -> Wanted {
 /// If the crank cannot make a revolution, the states are those of the grid.
 pub(super) fn turned(case: &Case, solver: &dyn Solver) -> (Vec<State>, Travels) {
     let crank = case.crank();
-    let turn: Vec<f64> =
-        (0..INSTANTS).map(|k| crank.start + crank.sense() * TAU * k as f64 / INSTANTS as f64).collect();
-    let whole = case.on(Grid::of_inputs(crank, turn)).ok().and_then(|case| visited(&case.wanting(seen()), solver));
+    let whole = crank.input.period().and_then(|(period, _)| {
+        let at = |k: usize| crank.start + crank.sense() * period * k as f64 / INSTANTS as f64;
+        let case = case.on(Grid::of_inputs(crank, (0..INSTANTS).map(at).collect())).ok()?;
+        visited(&case.wanting(seen()), solver)
+    });
     let states = whole.or_else(|| visited(&case.wanting(seen()), solver)).unwrap_or_default();
     with_travels(case, states)
 }

@@ -11,6 +11,7 @@ use drawing::view::{DrawnSubject, Extras, Shot, Trace, cells};
 use drawing::{Sketch, Travels, acting, unit};
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, GroupId, LinkId, LinkPose, Mechanism, Structure};
 use linkage::solver::State;
@@ -32,8 +33,10 @@ pub(crate) enum Note {
 pub(crate) struct Drawn {
     pub(crate) name: String,
     pub(super) title: String,
-    /// Crank angle of the first frame (rad).
+    /// Value of the input in the first frame (SI).
     crank: f64,
+    /// What the input measures.
+    input: Input,
     mechanism: Mechanism,
     drives: Vec<Drive>,
     loads: Vec<linkage::drive::Load>,
@@ -77,9 +80,9 @@ impl Drawn {
         self
     }
 
-    /// The name, and the crank angle in words.
+    /// The name, and the value of the input in words.
     pub(super) fn headline(&self) -> String {
-        sentences::crank_at(&self.name, &((self.crank.to_degrees() * 1e6).round() / 1e6 + 0.0))
+        format!("{}, {}", self.name, self.input.marked(self.crank))
     }
 
     /// The cells of all frames; `room` is the size of the area (mm).
@@ -104,7 +107,7 @@ impl Drawn {
     }
 
     fn new(draft: Draft, crank: f64, shots: Vec<Shot>) -> Drawn {
-        let has_mistakes = draft.mistakes.is_some();
+        let (has_mistakes, input) = (draft.mistakes.is_some(), draft.input());
         let drives = if draft.is_driven_by_guess { Vec::new() } else { draft.drives };
         let Draft { name, title, mechanism, loads, gravity, .. } = draft;
         let mut travels = Travels::none(&mechanism);
@@ -115,6 +118,7 @@ impl Drawn {
             name,
             title,
             crank,
+            input,
             mechanism,
             drives,
             loads,

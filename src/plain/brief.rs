@@ -88,7 +88,9 @@ pub fn worst(proof: &Proof, width: Option<usize>, text: &mut String) {
         [only] => only.info.name,
         _ => "engine",
     };
-    let header = format!("worst channel | at deg> | {}> | {engine}> | error> | bound> | unit", proof.reference);
+    let input = proof.reference_trajectory.input();
+    let (at_unit, reference) = (input.shown_in().0, proof.reference);
+    let header = format!("worst channel | at {at_unit}> | {reference}> | {engine}> | error> | bound> | unit");
     let mut table = flush(&header, width);
     for (engine, channel) in all.into_iter().take(WORST) {
         let (residual, kind) = (&channel.residual, channel.residual.channel.kind);
@@ -107,7 +109,7 @@ pub fn worst(proof: &Proof, width: Option<usize>, text: &mut String) {
         let [right, found] = numbers::beside([right, found - turns], bound);
         table.add_row([
             name,
-            numbers::fixed(residual.worst_crank.to_degrees(), 1),
+            numbers::fixed(input.shown(residual.worst_crank), 1),
             right,
             found,
             numbers::error(difference),

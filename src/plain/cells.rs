@@ -3,6 +3,7 @@
 use crate::sentences;
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
 
+use linkage::input::Input;
 use linkage::math::statistics;
 use prover::numbers;
 
@@ -19,6 +20,13 @@ pub fn table(header: &str) -> Table {
         }
     }
     table
+}
+
+/// Name, in two lines, of a column with the values of an input at which something occurs.
+pub fn at_input(input: Input) -> String {
+    let name = format!("at {}", input.noun());
+    let (first, last) = name.rsplit_once(' ').expect("it has a blank");
+    format!("{first}\n{last}, {}", input.shown_in().0)
 }
 
 /// The distinct items, in the order of their first occurrence.

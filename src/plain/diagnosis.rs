@@ -7,7 +7,7 @@ use prover::diagnosis::{
     Arm, CasePart, Change, DataSlip, Diagnosis, DisagreementCause, ErrorNature, FrameAxis, Over, PartChange,
     PartyStanding, Plain, Since,
 };
-use prover::numbers::{fixed, significant, with_unit};
+use prover::numbers::{fixed, input_in, input_told, significant, with_unit};
 
 /// Column at which the text of a line begins.
 pub const INDENT: usize = 12;
@@ -68,11 +68,11 @@ pub fn standing(standing: &PartyStanding) -> String {
 
 fn since(diagnosis: &Diagnosis, first: &Since) -> String {
     let together: Vec<Channel> = diagnosis.first().iter().map(|one| one.channel.clone()).collect();
-    let (time, crank) = (first.time, first.crank.to_degrees());
-    let mut told = sentences::crank_angle_deg_first_in(&fixed(time, 6), &fixed(crank, 3), &names(&together));
+    let at = input_told(first.input.at(first.crank), 3);
+    let mut told = sentences::at_time_first_in(&fixed(first.time, 6), &at, &names(&together));
     if let Some(next) = diagnosis.since.get(together.len()) {
-        let (time, crank) = (next.time, next.crank.to_degrees());
-        put!(told, sentences::from_deg_in(&fixed(time, 6), &fixed(crank, 3), &next.channel));
+        let at = input_in(next.input.at(next.crank), 3);
+        put!(told, sentences::from_in(&fixed(next.time, 6), &at, &next.channel));
         let more = diagnosis.since.len() - together.len() - 1;
         if more > 0 {
             put!(told, sentences::and_later_in_more(&more));

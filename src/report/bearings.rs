@@ -6,6 +6,7 @@ use serde_json::json;
 use super::pretty::{list, pretty};
 use crate::plain::cells::{fitted, trimmed};
 use design::bearings::{Peak, Peaks, journal_diameter};
+use linkage::input::Input;
 use prover::numbers;
 use scenario::Scenario;
 
@@ -24,33 +25,46 @@ fn diameter(journals: Journals, peak: Peak) -> f64 {
 
 /// The largest reactions as text.
 pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks, width: Option<usize>) -> String {
-    let degrees = |peak: Peak| numbers::fixed(peak.crank.to_degrees(), 4);
+    let input = scenario.case.crank().input;
+    let shown = |peak: Peak| numbers::fixed(input.shown(peak.crank), 4);
     let joints = scenario.case.mechanism.joints().iter().enumerate();
     let rows = joints.map(|(index, joint)| {
         let reaction = peaks.reactions[index];
         let journal = || numbers::fixed_in(1e3 * diameter(journals, reaction), 3, "mm");
         let [journal, moment, at] = peaks.moments[index].map_or_else(
             || [journal(), String::new(), String::new()],
-            |moment| ["slider".into(), numbers::quantity(moment.value, "N m"), degrees(moment)],
+            |moment| ["slider".into(), numbers::quantity(moment.value, "N m"), shown(moment)],
         );
         let largest = numbers::quantity(reaction.value, "N");
-        [joint.name.clone(), largest, degrees(reaction), journal, moment, at]
+        [joint.name.clone(), largest, shown(reaction), journal, moment, at]
     });
-    let header = "joint | largest\nreaction> | at crank\ndeg> | smallest\njournal> | largest\nmoment> | at crank\ndeg>";
-    let table = trimmed(fitted(header, width).add_rows(rows));
+    let at = format!("at {}\n{}", input.word(), input.shown_in().0);
+    let header = format!("joint | largest\nreaction> | {at}> | smallest\njournal> | largest\nmoment> | {at}>");
+    let table = trimmed(fitted(&header, width).add_rows(rows));
     let mut text = format!("{}: {}\n\n{table}\n\n", scenario.name, scenario.title);
-    for (name, peak, unit) in
-        [("shaking force", peaks.shaking_force, "N"), ("balancing moment", peaks.balancing_moment, "N m")]
-    {
-        say!(text, sentences::largest_at_deg(&name, &numbers::quantity(peak.value, unit), &degrees(peak)));
+    let (effort, unit) = effort(input);
+    for (name, peak, unit) in [("shaking force", peaks.shaking_force, "N"), (effort, peaks.balancing_moment, unit)] {
+        let at = numbers::input_in(input.at(peak.crank), 4);
+        say!(text, sentences::largest_at(&name, &numbers::quantity(peak.value, unit), &at));
     }
     say!(text, sentences::journals_lever_mm_bending_stress(&journals.lever_mm, &journals.stress_mpa));
     text
 }
 
+/// What a drive with this input exerts: name and unit.
+fn effort(input: Input) -> (&'static str, &'static str) {
+    match input {
+        Input::Angle | Input::Turn => ("balancing moment", "N m"),
+        Input::Slide => ("driving force", "N"),
+    }
+}
+
 /// The largest reactions as JSON, schema 1.
 pub(crate) fn json(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> String {
-    let whole = |peak: Peak, unit: &str| json!({unit: peak.value, "crank_rad": peak.crank});
+    let input = scenario.case.crank().input;
+    let whole = |peak: Peak, unit: &str| json!({unit: peak.value, input.key(): peak.crank});
+    let (effort, unit) = effort(input);
+    let [effort, unit] = [effort, unit].map(|name| name.replace(' ', "_"));
     let joints = list(scenario.case.mechanism.joints().iter().enumerate(), |(index, joint)| {
         json!({
             "joint": joint.name, "reaction": whole(peaks.reactions[index], "N"),
@@ -61,6 +75,6 @@ pub(crate) fn json(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
     pretty(&json!({
         "schema": 1, "scenario": scenario.name, "lever_m": journals.lever_mm * 1e-3,
         "stress_Pa": journals.stress_mpa * 1e6, "joints": joints, "shaking_force": whole(peaks.shaking_force, "N"),
-        "balancing_moment": whole(peaks.balancing_moment, "N_m"),
+        effort: whole(peaks.balancing_moment, &unit),
     }))
 }

@@ -13,7 +13,7 @@ use crate::plain::judged::Grade;
 use crate::plain::style::{self, wrapped};
 use prover::bounds::Verdict;
 use prover::check::{CUT, FormulaAtInstant, FormulaCause, FormulaOutcome, JudgedFormula, Missing, Term, WORDS};
-use prover::numbers::{beside, error, fixed, fixed_in, with_unit};
+use prover::numbers::{beside, error, fixed, input_told, with_unit};
 use prover::run::Reference;
 use prover::run::solved::Claimed;
 use scenario::{Formula, Scenario};
@@ -89,10 +89,11 @@ pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -
         let [found, right] = values(at);
         let name = format!("{}{}", of(line.judged.order), line.judged.name);
         let [off, bound] = [at.difference.abs(), at.bound].map(error);
-        [name, fixed(at.crank.to_degrees(), 1), found, right, off, bound, line.judged.unit.to_string()]
+        [name, fixed(at.input.shown(at.crank), 1), found, right, off, bound, line.judged.unit.to_string()]
     });
-    let header = "worst formula | at deg> | formula> | mechanism> | error> | bound> | unit";
-    let table = trimmed(flush(header, Some(width)).add_rows(rows));
+    let at_unit = scenario.case.crank().input.shown_in().0;
+    let header = format!("worst formula | at {at_unit}> | formula> | mechanism> | error> | bound> | unit");
+    let table = trimmed(flush(&header, Some(width)).add_rows(rows));
     let mut text = format!("{}\n\n{table}\n", verdict_line(scenario, claimed));
     reasons(&lines, claimed, tell, width, &mut text);
     text
@@ -102,13 +103,14 @@ pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -
 #[must_use]
 pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
     let lines = lines(scenario, claimed);
-    let mut table = flush("formula | claim | at deg> | error> | bound> | verdict", Some(width));
+    let at_unit = scenario.case.crank().input.shown_in().0;
+    let mut table = flush(&format!("formula | claim | at {at_unit}> | error> | bound> | verdict"), Some(width));
     if let Some(claims) = table.column_mut(1) {
         claims.remove_constraint();
     }
     table.add_rows(lines.iter().map(|line| {
         let numbers =
-            |at: FormulaAtInstant| [fixed(at.crank.to_degrees(), 1), error(at.difference.abs()), error(at.bound)];
+            |at: FormulaAtInstant| [fixed(at.input.shown(at.crank), 1), error(at.difference.abs()), error(at.bound)];
         let [at, off, bound] = line.judged.worst.map(numbers).unwrap_or_default();
         let claim = if line.judged.order == 0 { line.judged.claim.clone() } else { String::new() };
         let word = match line.grade {
@@ -215,7 +217,7 @@ fn reason(line: &Line, tell: Tell) -> String {
         FormulaOutcome::Wrong => {
             let mut text = sentences::is_not(&of, &line.judged.name, &line.formula.text, &claim, &line.side);
             let says = |word: &str, at: FormulaAtInstant| {
-                let place = sentences::crank_angle(&fixed_in(at.crank.to_degrees(), 3, "deg"), &fixed(at.time, 6));
+                let place = sentences::at_instant(&input_told(at.input.at(at.crank), 3), &fixed(at.time, 6));
                 let [found, right] = values(at);
                 let found = if at.formula.is_nan() { found } else { with_unit(&found, unit) };
                 let right = with_unit(&right, unit);
@@ -264,7 +266,10 @@ fn cause_json(cause: &FormulaCause) -> Value {
             json!({ "kind": sentences::FOR_THE_MOST_PART, "cause": cause_json(cause), "left": left })
         }
         FormulaCause::Leaves { after, before } => {
-            json!({ "kind": "another branch", "after_deg": after.to_degrees(), "before_deg": before.to_degrees() })
+            let [after_key, before_key] =
+                ["after", "before"].map(|side| format!("{side}_{}", after.input.shown_in().0));
+            let [after, before] = [after, before].map(|at| at.input.shown(at.value));
+            json!({ "kind": "another branch", after_key: after, before_key: before })
         }
     };
     value["words"] = cause.to_string().into();
@@ -276,8 +281,8 @@ fn cause_json(cause: &FormulaCause) -> Value {
 pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
     let at = |at: &FormulaAtInstant| {
         json!({
-            "time_s": at.time, "crank_deg": at.crank.to_degrees(), "formula": at.formula, "mechanism": at.mechanism,
-            "difference": at.difference, "bound": at.bound,
+            "time_s": at.time, at.input.shown_in().1: at.input.shown(at.crank), "formula": at.formula,
+            "mechanism": at.mechanism, "difference": at.difference, "bound": at.bound,
         })
     };
     let (causes, formulas) = (causes(claimed), formulas(scenario));
@@ -285,7 +290,8 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
         claimed.judgement.undefined(&judged.name).map(|undefined| {
             json!({
                 "in": undefined.formula, "written": undefined.written, "from": undefined.fault.at.start,
-                "to": undefined.fault.at.end, "crank_deg": undefined.crank.to_degrees(), "words": undefined.to_string(),
+                "to": undefined.fault.at.end, undefined.input.shown_in().1: undefined.input.shown(undefined.crank),
+                "words": undefined.to_string(),
             })
         })
     };

@@ -5,9 +5,10 @@ use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
 use super::table_csv::csv;
-use crate::plain::cells::{fitted, trimmed};
+use crate::plain::cells::{at_input, fitted, trimmed};
 use design::clearance::{ClearanceResult, ClearanceWork, DistanceCurve, Meeting, PairClearance};
 use linkage::error::{Error, Result};
+use linkage::input::Input;
 use linkage::math::Vec2;
 use prover::numbers;
 use scenario::Scenario;
@@ -45,10 +46,6 @@ fn millimetres(value: f64) -> String {
     numbers::fixed(1e3 * value, 4)
 }
 
-fn degrees(value: f64) -> String {
-    numbers::fixed(value.to_degrees(), 4)
-}
-
 fn place(point: Vec2) -> String {
     format!("({}, {})", numbers::fixed(1e3 * point.x, 2), numbers::fixed(1e3 * point.y, 2))
 }
@@ -65,20 +62,24 @@ pub(crate) fn text(
     width: Option<usize>,
 ) -> String {
     let mut text = String::new();
-    let [from, to] = found.range.map(degrees);
-    say!(text, sentences::clearance_over_crank_angles_to_deg(&scenario.name, &scenario.title, &from, &to));
+    let input = scenario.case.crank().input;
+    let shown = |value: f64| numbers::fixed(input.shown(value), 4);
+    let with_unit = |value: f64| numbers::input_in(input.at(value), 4);
+    let (noun, [from, to]) = (input.noun(), found.range);
+    say!(text, sentences::clearance_over_to(&scenario.name, &scenario.title, &noun, &shown(from), &with_unit(to)));
     if found.pairs.is_empty() {
         say!(text, sentences::NO_TWO_BODIES_CAN_MEET_ALL);
     } else {
         let rows = found.pairs.iter().map(|pair| {
             let ([first, second], smallest) = (names(asked, pair).map(String::from), &pair.smallest);
             let [one, two] = smallest.points.map(place);
-            let contact = pair.collision.map_or(String::new(), |meeting| degrees(meeting.cranks[1]));
-            [format!("{first}, {second}"), millimetres(smallest.distance), degrees(smallest.crank), one, two, contact]
+            let contact = pair.collision.map_or(String::new(), |meeting| shown(meeting.cranks[1]));
+            [format!("{first}, {second}"), millimetres(smallest.distance), shown(smallest.crank), one, two, contact]
         });
+        let (at, unit) = (at_input(input), input.shown_in().0);
         let header =
-            "bodies | smallest\ndistance, mm> | at crank\nangle, deg> | nearest\npoints, mm> | > | contact\nat, deg>";
-        say!(text, "{}\n", trimmed(fitted(header, width).add_rows(rows)));
+            format!("bodies | smallest\ndistance, mm> | {at}> | nearest\npoints, mm> | > | contact\nat, {unit}>");
+        say!(text, "{}\n", trimmed(fitted(&header, width).add_rows(rows)));
         say!(text, sentences::no_distance_is_smaller_by_more(&numbers::significant(1e3 * found.tolerance, 2)));
     }
     if !found.swept.is_empty() {
@@ -95,11 +96,11 @@ pub(crate) fn text(
     }
     for &[from, to] in &found.open {
         let why = sentences::THE_MECHANISM_IS_SINGULAR_THERE;
-        say!(text, sentences::not_proven_from_to_deg(&degrees(from), &degrees(to), &why));
+        say!(text, sentences::not_proven_from_to(&shown(from), &with_unit(to), &why));
     }
     let said = |text: &mut String, what: &str, (pair, meeting): (&PairClearance, Meeting)| {
-        let ([one, two], crank) = (names(asked, pair), degrees(meeting.cranks[1]));
-        say!(text, sentences::and_at_crank_angle_deg_place(&what, &one, &two, &crank, &place(meeting.place)));
+        let ([one, two], at) = (names(asked, pair), numbers::input_told(input.at(meeting.cranks[1]), 4));
+        say!(text, sentences::and_at_place(&what, &one, &two, &at, &place(meeting.place)));
     };
     if let Some(first) = found.first_collision() {
         said(&mut text, "first collision", first);
@@ -117,10 +118,14 @@ pub(crate) fn value(scenario: &Scenario, asked: &ClearanceQuestion, found: &Clea
     let time =
         |crank: f64| Some(scenario.case.crank().time_of(crank)).filter(|t| t.is_finite() && !scenario.case.is_free());
     let point = |point: Vec2| json!([point.x, point.y]);
+    let input = scenario.case.crank().input;
+    let (key, unit) = (input.key(), input.unit());
     let meeting = |own: Option<Meeting>| {
         own.map(|own| {
             let [clear, crank] = own.cranks;
-            json!({"clear_until_rad": clear, "crank_rad": crank, "t_s": time(crank), "place_m": point(own.place)})
+            json!({
+                format!("clear_until_{unit}"): clear, key: crank, "t_s": time(crank), "place_m": point(own.place),
+            })
         })
     };
     let pairs = list(&found.pairs, |pair| {
@@ -128,7 +133,7 @@ pub(crate) fn value(scenario: &Scenario, asked: &ClearanceQuestion, found: &Clea
         json!({
             "bodies": names(asked, pair),
             "smallest_m": smallest.distance, "proven_least_m": smallest.least,
-            "crank_rad": smallest.crank, "t_s": time(smallest.crank),
+            key: smallest.crank, "t_s": time(smallest.crank),
             "points_m": smallest.points.map(point),
             "collision": meeting(pair.collision), "too_near": meeting(pair.too_near),
         })
@@ -143,10 +148,10 @@ pub(crate) fn value(scenario: &Scenario, asked: &ClearanceQuestion, found: &Clea
         first.map(|(pair, own)| json!({"bodies": names(asked, pair), "at": meeting(Some(own))}))
     };
     json!({
-        "scenario": scenario.name, "standing": standing(found).word(), "range_rad": found.range,
+        "scenario": scenario.name, "standing": standing(found).word(), format!("range_{unit}"): found.range,
         "wanted_m": asked.wanted, "tolerance_m": found.tolerance, "pairs": pairs,
         "swept": swept, "first_collision": first(found.first_collision()),
-        "first_too_near": first(found.first_too_near()), "not_proven_rad": found.open,
+        "first_too_near": first(found.first_too_near()), format!("not_proven_{unit}"): found.open,
         "work": {
             "poses": found.work.poses, "distances": found.work.distances,
             "area_poses": found.work.positions, "squares": found.work.squares,
@@ -175,9 +180,14 @@ pub(crate) fn json(scenarios: Vec<Value>) -> String {
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
-pub(crate) fn distances(asked: &ClearanceQuestion, times: &[f64], course: &DistanceCurve) -> Result<String> {
+pub(crate) fn distances(
+    asked: &ClearanceQuestion,
+    input: Input,
+    times: &[f64],
+    course: &DistanceCurve,
+) -> Result<String> {
     let name = |&[a, b]: &[usize; 2]| format!("{}.{}.distance_m", asked.bodies[a].name, asked.bodies[b].name);
-    let header = ["t_s", "crank_rad"].map(String::from).into_iter().chain(asked.pairs.iter().map(name));
+    let header = ["t_s", input.key()].map(String::from).into_iter().chain(asked.pairs.iter().map(name));
     let rows = times.iter().zip(&course.cranks).zip(&course.rows).map(|((t, crank), row)| {
         let values = [*t, *crank].into_iter().chain(row.iter().copied());
         values.map(|value| format!("{value:.16e}")).collect()

@@ -11,6 +11,7 @@ use crate::plain::cells::{counted, flush, some, trimmed};
 use crate::plain::judged::{Grade, counts, grade};
 use crate::plain::style::{self, Detail};
 use crate::plain::{Tell, diagnosis};
+use linkage::input::Input;
 use linkage::math::KeepNan;
 use prover::bounds::Check;
 use prover::check::FormulaCause;
@@ -47,9 +48,9 @@ fn of_pair(pair: &SidePair, all: bool, tell: Tell, width: usize) -> String {
     let mut order: Vec<&Compared> = pair.channels.iter().collect();
     order.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
     let shown = if all { order.len() } else { SHOWN.min(order.len()) };
-    let at = if pair.by_crank { "at deg" } else { "at s" };
-    let header = format!("channel | {at}> | first> | second> | difference> | bound> |");
-    let rows = order[..shown].iter().map(|own| row(own, pair.by_crank));
+    let at = if pair.by_crank { pair.input.shown_in().0 } else { "s" };
+    let header = format!("channel | at {at}> | first> | second> | difference> | bound> |");
+    let rows = order[..shown].iter().map(|own| row(own, pair.by_crank.then_some(pair.input)));
     let mut told = trimmed(flush(&header, Some(width)).add_rows(rows));
     let more = order.len() - shown;
     if more > 0 {
@@ -78,9 +79,10 @@ fn of_pair(pair: &SidePair, all: bool, tell: Tell, width: usize) -> String {
     text
 }
 
-fn row(own: &Compared, by_crank: bool) -> [String; 7] {
+/// The row of a channel; `by` is the input by which the rows are matched, or `None` if they are matched by time.
+fn row(own: &Compared, by: Option<Input>) -> [String; 7] {
     let [at, first, second, difference, bound] = own.worst.map_or_else(Default::default, |at| {
-        let when = if by_crank { numbers::fixed(at.crank.to_degrees(), 2) } else { numbers::fixed(at.time, 6) };
+        let when = by.map_or_else(|| numbers::fixed(at.time, 6), |input| numbers::fixed(input.shown(at.crank), 2));
         // An angle may differ by whole revolutions, which do not count as a difference, so they are subtracted.
         // A value is shown as zero only if it is rounding error and negligible beside the other value.
         // Allowed differences do not reduce the number of digits shown.
@@ -119,17 +121,22 @@ fn sentence(paths: [&Path; 2], pair: &SidePair) -> String {
     let all = pair.channels.len();
     let told = match (disagree, open, pair.crank_is_off()) {
         (0, 0, false) => sentences::all_channels(&agree),
-        (0, 0, true) => sentences::the_crank_angle_and_none(&all),
+        (0, 0, true) => sentences::the_input_and_none(&pair.input.noun(), &all),
         (0, open, false) => sentences::of_channels(&open, &all),
-        (disagree, _, true) => sentences::the_crank_angle_and_of_channels(&disagree, &all),
+        (disagree, _, true) => sentences::the_input_and_of_channels(&pair.input.noun(), &disagree, &all),
         (disagree, _, false) => sentences::of_channels(&disagree, &all),
     };
-    let by = counted(pair.instants - pair.unshared, if pair.by_crank { "crank angle" } else { "time" });
+    let by = counted(pair.instants - pair.unshared, matched_by(pair));
     let values = match pair.values() {
         [judged, of] if judged == of => counted(judged, "value"),
         [judged, of] => sentences::of_values(&judged, &of),
     };
     format!("{}: {told} at {by}, {values}: {}", style::verdict(&pair.verdict()), who(paths, pair))
+}
+
+/// What the rows are matched by.
+fn matched_by(pair: &SidePair) -> &'static str {
+    if pair.by_crank { pair.input.noun() } else { "time" }
 }
 
 fn rank(own: &Compared) -> f64 {
@@ -153,7 +160,8 @@ fn notes(pair: &SidePair) -> String {
         let count = missing - pair.unshared;
         put!(text, sentences::left_out_up_to_instants_of_a_channel(&count));
     }
-    let (what, factor, unit) = if pair.by_crank { ("angle", 1f64.to_degrees(), "deg") } else { ("time", 1.0, "s") };
+    let what = matched_by(pair).rsplit(' ').next().unwrap_or_default();
+    let (factor, unit) = if pair.by_crank { (pair.input.shown(1.0), pair.input.shown_in().0) } else { (1.0, "s") };
     if let Some(Contradiction { rows: [one, other], at, channel, values }) = &pair.contradiction {
         let at = numbers::significant(factor * at, 6);
         let [first, second] = numbers::beside(*values, 0.0);
@@ -190,8 +198,8 @@ fn cause(pair: &SidePair, explained: &Explained, width: usize) -> String {
         put!(text, "\n{}", style::wrapped(&format!("  {what:<8}{told}"), Some(width), 10));
     };
     if let Some(since) = pair.since(of) {
-        let [time, crank] = [numbers::fixed(since.time, 6), numbers::fixed(since.crank.to_degrees(), 3)];
-        line("since", &sentences::crank_angle_deg(&time, &crank));
+        let at = numbers::input_told(pair.input.at(since.crank), 3);
+        line("since", &sentences::at_time(&numbers::fixed(since.time, 6), &at));
     }
     let Some(cause) = cause_of(explained) else {
         line("cause", "not found: no simple slip explains it");
@@ -234,13 +242,14 @@ pub fn why(explained: &Explained) -> Option<String> {
 #[must_use]
 pub fn json(paths: [&Path; 2], comparison: &PartyComparison, tell: Tell) -> String {
     // NaN is written as `null`.
-    let instant = |at: &RowPair| {
+    let instant = |at: &RowPair, input: Input| {
         json!({
-            "t_s": at.time, "crank_deg": at.crank.to_degrees(), "first": at.values[0], "second": at.values[1],
+            "t_s": at.time, input.shown_in().1: input.shown(at.crank), "first": at.values[0], "second": at.values[1],
             "difference": at.difference, "bound": at.bound, "known": at.known,
         })
     };
-    let channel = |own: &Compared| {
+    let channel = |own: &Compared, input: Input| {
+        let instant = |at: &RowPair| instant(at, input);
         json!({
             "channel": own.claim.text, "unit": own.claim.unit(),
             "verdict": own.verdict.word(), "reason": own.verdict.reason(tell),
@@ -264,12 +273,12 @@ pub fn json(paths: [&Path; 2], comparison: &PartyComparison, tell: Tell) -> Stri
     };
     let pair = |pair: &SidePair| {
         json!({
-            "first": pair.names[0], "second": pair.names[1], "by": if pair.by_crank { "crank angle" } else { "time" },
+            "first": pair.names[0], "second": pair.names[1], "by": matched_by(pair),
             "instants": pair.instants, "unshared": pair.unshared, "values": pair.values()[0],
             "jumps_back_in_row": pair.turns_back.map(|(row, _)| row + 1),
             "rows_that_contradict": pair.contradiction.as_ref().map(|own| own.rows.map(|row| row + 1)),
             "only_in_first": pair.alone[0], "only_in_second": pair.alone[1],
-            "channels": list(&pair.channels, channel), "causes": list(&pair.causes, cause),
+            "channels": list(&pair.channels, |own| channel(own, pair.input)), "causes": list(&pair.causes, cause),
             "checks": list(&pair.checks, check),
         })
     };

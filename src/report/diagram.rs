@@ -35,7 +35,7 @@ pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
 /// The points as CSV, one row per point, with 17 significant digits.
 /// The columns are the method, the channel, the crank angle, the time, the value by the method, and the exact value.
 pub(crate) fn points(diagram: &MotionDiagram) -> String {
-    let mut text = String::from("method,channel,crank_rad,t_s,value,exact\n");
+    let mut text = format!("method,channel,{},t_s,value,exact\n", diagram.input.key());
     for found in &diagram.found {
         let which = found.method.gives();
         for (&row, value) in found.rows.iter().zip(&found.values) {
@@ -58,7 +58,7 @@ pub(crate) fn json(scenario: &Scenario, diagram: &MotionDiagram) -> String {
         let which = found.method.gives();
         let points = list(found.rows.iter().zip(&found.values), |(&row, value)| {
             let (crank, time, exact) = (diagram.cranks[row], diagram.times[row], diagram.exact[which][row]);
-            json!({"crank_rad": crank, "t_s": time, "value": value, "exact": exact})
+            json!({diagram.input.key(): crank, "t_s": time, "value": value, "exact": exact})
         });
         json!({
             "method": found.method.words(), "channel": diagram.course.0[which].to_string(), "largest": found.largest,

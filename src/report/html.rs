@@ -19,11 +19,12 @@ use std::collections::BTreeMap;
 use crate::plain::Tell;
 use design::diagram::Graphs;
 use drawing::{Sketch, Travels};
+use linkage::input::Input;
 use markup::contained;
 pub(super) use markup::{escaped, filled};
 use placed::Placed;
 use prover::run::Proof;
-use serde_json::Value;
+use serde_json::{Value, json};
 use thinned::Thinned;
 
 const TEMPLATE: &str = include_str!("html/page.html");
@@ -61,6 +62,11 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
     let beside = placed.as_ref().map_or(0, |placed| loads::width(case) + plans::width(case, placed, 0));
     let thinned = Thinned::of(proof, &errors, beside);
     let mut data = data::of(proof, &errors, &thinned, tell);
+    let input = case.crank().input;
+    if input != Input::Angle {
+        let (noun, word, (unit, _)) = (input.noun(), input.word(), input.shown_in());
+        data.insert("input".into(), json!({ "noun": noun, "word": word, "unit": unit, "factor": input.shown(1.0) }));
+    }
     let picture = match placed {
         Some(placed) => {
             let room = placed.room(&thinned.rows);
@@ -101,6 +107,7 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
             ("findings", &findings::others(proof, tell)),
             ("picture", &picture),
             ("thinned", &told(&thinned)),
+            ("input", input.noun()),
             ("reduced", &no_graphs),
             ("checks", &words::checks(proof)),
             ("structure", &words::structure(proof)),

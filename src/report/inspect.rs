@@ -9,7 +9,7 @@ use analytic::modes::Modes;
 use analytic::range::Range;
 use linkage::mechanism::assembly::{ConfigurationChoice, transmission_sine};
 use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Mechanism};
-use prover::numbers::{fixed_in, significant};
+use prover::numbers::{fixed_in, input_in, significant};
 use scenario::{Scenario, Undecided};
 
 /// Number of digits that are shown of a mass or a moment of inertia.
@@ -44,7 +44,8 @@ pub(crate) fn text(scenario: &Scenario) -> String {
         let driven = if joint.name == mechanism.joints()[case.crank().joint].name { ", driven" } else { "" };
         say!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
     }
-    say!(text, sentences::groups_at_the_start_crank(&fixed_in(case.crank().start.to_degrees(), 3, "deg")));
+    let (input, start) = (case.crank().input, case.crank().start);
+    say!(text, sentences::groups_at_the_start(&input.word(), &input_in(input.at(start), 3)));
     for ((group, &mode), choice) in structure.groups.iter().zip(&case.modes).zip(&scenario.choices) {
         let transmission = transmission_sine(mechanism, group, &case.start)
             .map_or_else(String::new, |sine| sentences::transmission_angle_deg(&sine.abs().asin().to_degrees()));
@@ -67,7 +68,7 @@ fn from_rough_place(choice: &ConfigurationChoice) -> String {
 }
 
 /// The structure as JSON, schema 1.
-/// `modes`: a crank angle (rad) and the configurations at this angle; `range`: the range of motion.
+/// `modes`: a value of the input (SI) and the configurations there; `range`: the range of motion.
 /// Each of `modes` and `range` is written only if it is given.
 /// A group in `undecided` has no mode.
 pub(crate) fn json(
@@ -124,7 +125,7 @@ fn structure(scenario: &Scenario) -> Value {
             &structure.drivers,
             |own| json!({"link": link(own.link), "joint": joint(own.joint), "input": own.input.noun()}),
         ),
-        "start_crank_rad": case.crank().start,
+        format!("start_{}", case.crank().input.key()): case.crank().start,
     })
 }
 

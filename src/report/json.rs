@@ -11,6 +11,7 @@ use crate::plain::diagnosis::{cause, nature, standing};
 use crate::plain::judged::{Grade, grade};
 use linkage::case::LeftOut;
 use linkage::error::{Advice, Error};
+use linkage::input::InputValue;
 use linkage::solver::Provision;
 use linkage::work::Work;
 use prover::bounds::{Check, Verdict};
@@ -21,6 +22,13 @@ use prover::run::{
 
 /// Words by name.
 type Words = BTreeMap<&'static str, String>;
+/// A value of the input, by its key.
+type Keyed = BTreeMap<String, f64>;
+
+/// The value of the input under its key, after `before`: `crank_rad`, `slide_m`.
+fn keyed(before: &str, at: InputValue) -> Keyed {
+    [(format!("{before}{}", at.input.key()), at.value)].into()
+}
 
 /// The whole document.
 #[derive(Debug, Serialize)]
@@ -172,7 +180,8 @@ rows! {
     struct SinceRow = |one: &Since| {} {
         channel: String = one.channel.to_string(),
         t_s: f64 = one.time,
-        crank_rad: f64 = one.crank,
+        #[serde(flatten)]
+        at: Keyed = keyed("", one.input.at(one.crank)),
         difference: f64 = one.difference,
         bound: f64 = one.bound,
         instants_beyond: usize = one.beyond,
@@ -206,7 +215,8 @@ rows! {
         observed_order: f64 = proof.convergence.observed,
         limit: Option<f64> = proof.limit,
         worst_t_s: f64 = residual.worst_time,
-        worst_crank_rad: f64 = residual.worst_crank,
+        #[serde(flatten)]
+        worst: Keyed = keyed("worst_", residual.input.at(residual.worst_crank)),
         /// Number of instants that are not judged: a drive or a loaded link reverses at these instants, or a free
         /// motion begins.
         left_out: usize = proof.left_out,

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::pretty::list;
 use analytic::modes::Modes;
 use linkage::mechanism::{AssemblyMode, GroupId};
-use prover::numbers::{fixed, fixed_in};
+use prover::numbers::{fixed, input_told};
 use scenario::{Scenario, Undecided};
 
 /// Why a configuration has no angular velocities.
@@ -35,7 +35,7 @@ fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], inde
 /// `undecided`: groups that the scenario leaves undecided.
 pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[Undecided]) -> String {
     let mechanism = &scenario.case.mechanism;
-    let mut text = sentences::at_crank_angle(&scenario.name, &fixed_in(crank.to_degrees(), 4, "deg"));
+    let mut text = sentences::scenario_at(&scenario.name, &input_told(scenario.case.told(crank), 4));
     for ((index, group), found) in scenario.case.structure.groups.entries().zip(all) {
         let names = group.names(mechanism);
         let open = open(scenario, all, undecided, index);
@@ -106,5 +106,5 @@ pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[
         }
         value
     });
-    json!({"crank_rad": crank, "groups": groups})
+    json!({scenario.case.crank().input.key(): crank, "groups": groups})
 }

@@ -10,6 +10,7 @@ use lab::mutate::{
     FaultCounts, FaultKind, FaultTally, FaultyParty, FaultyProof, Mutant, Mutated, Plant, Share, Sight, Spoiled, all,
     tally,
 };
+use linkage::input::Input;
 use linkage::math::KeepNan;
 
 /// The result as text, the verdict first.
@@ -243,7 +244,7 @@ pub(crate) fn json(found: &[Mutated], failures: &[(String, String)]) -> String {
     let scenarios = list(found, |one| {
         json!({
             "scenario": one.scenario, "verdict_without": one.verdict, "engine": one.engine,
-            "faults": list(&one.mutants, mutant), "without_part": one.without, "kinds_instead": one.instead,
+            "faults": list(&one.mutants, |own| mutant(own, one.input)), "without_part": one.without, "kinds_instead": one.instead,
             "formulas": one.formulas,
         })
     });
@@ -268,7 +269,7 @@ fn share(share: &Share) -> Value {
     })
 }
 
-fn mutant(mutant: &Mutant) -> Value {
+fn mutant(mutant: &Mutant, input: Input) -> Value {
     let mut value = json!({
         "kind": mutant.kind.name, "party": mutant.party.name(), "outcome": mutant.outcome.word(),
         "change": mutant.effect, "smallest": mutant.smallest,
@@ -278,8 +279,8 @@ fn mutant(mutant: &Mutant) -> Value {
     }
     match &mutant.outcome {
         FaultyProof::Detected { first, clearest, channels, checks } => {
-            value["first"] = sight(first);
-            value["clearest"] = sight(clearest);
+            value["first"] = sight(first, input);
+            value["clearest"] = sight(clearest, input);
             value["channels"] = json!(channels);
             value["checks"] = json!(checks);
         }
@@ -289,9 +290,10 @@ fn mutant(mutant: &Mutant) -> Value {
     value
 }
 
-fn sight(sight: &Sight) -> Value {
+fn sight(sight: &Sight, input: Input) -> Value {
     json!({
         "what": sight.what, "margin": sight.margin,
-        "time_s": sight.since.map(|(time, _)| time), "crank_deg": sight.since.map(|(_, crank)| crank.to_degrees()),
+        "time_s": sight.since.map(|(time, _)| time),
+        input.shown_in().1: sight.since.map(|(_, crank)| input.shown(crank)),
     })
 }

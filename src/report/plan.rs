@@ -11,7 +11,7 @@ use design::plan::{Plans, SingularPoint, VectorPlan};
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::KeepNan;
-use prover::numbers::{self, fixed_in};
+use prover::numbers::{self, input_told};
 use scenario::Scenario;
 
 /// Rounding error of a plan, as a fraction of its largest vector.
@@ -34,10 +34,12 @@ pub(crate) fn text(
     tell: Tell,
     width: Option<usize>,
 ) -> String {
-    let mut text = sentences::at_crank_angle(&scenario.name, &fixed_in(plans.crank.to_degrees(), 4, "deg"));
+    let mut text = sentences::scenario_at(&scenario.name, &input_told(scenario.case.told(plans.crank), 4));
     if is_free {
-        let speed = significant(scenario.case.crank().top_speed());
-        say!(text, sentences::the_motion_is_free_these(&speed));
+        let (input, speed) = (scenario.case.crank().input, significant(scenario.case.crank().top_speed()));
+        let way = if input.period().is_some() { "turning" } else { "moving" };
+        let moves = format!("{} {way}", input.word());
+        say!(text, sentences::the_motion_is_free_these(&moves, &speed, &input.unit()));
     }
     say!(text, sentences::kinematic_diagram_mu_mm(&plans.scheme.scale));
     let links = &plans.scheme.links;
@@ -118,7 +120,7 @@ pub(crate) fn json(scenario: &Scenario, plans: &Plans, singular: &[Result<Singul
         Err(error) => json!({"error": error.line_by(tell)}),
     });
     pretty(&json!({
-        "schema": 1, "scenario": scenario.name, "crank_rad": plans.crank,
+        "schema": 1, "scenario": scenario.name, scenario.case.crank().input.key(): plans.crank,
         "diagram": {"scale_m_per_mm": scheme.scale, "links": links, "points": points},
         "velocity": plan(&plans.velocity), "acceleration": plan(&plans.acceleration), "singular_points": singular,
     }))

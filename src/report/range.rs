@@ -6,8 +6,9 @@ use std::f64::consts::TAU;
 use serde_json::{Value, json};
 
 use super::pretty::list;
-use crate::plain::cells::{fitted, trimmed, worded};
+use crate::plain::cells::{at_input, fitted, trimmed, worded};
 use analytic::range::{Extent, ExtremePosition, GroupCondition, LinkRange, Range, Singularity, ValueAtCrank};
+use linkage::input::Input;
 use linkage::mechanism::GroupId;
 use prover::numbers;
 use scenario::Scenario;
@@ -18,7 +19,8 @@ const EXTREMES: usize = 8;
 /// The range as text.
 pub(crate) fn text(scenario: &Scenario, range: &Range, width: Option<usize>) -> String {
     let mut text = format!("{}: {}\n", scenario.name, scenario.title);
-    say!(text, "crank      {}", extent(range));
+    let input = scenario.case.crank().input;
+    say!(text, "{:11}{}", input.word(), extent(range, input));
     if let Some(four_bar) = &range.four_bar {
         let [frame, driver, coupler, output] = four_bar.lengths;
         say!(text, "four-bar   {}", four_bar.of_type.name());
@@ -30,21 +32,21 @@ pub(crate) fn text(scenario: &Scenario, range: &Range, width: Option<usize>) -> 
     text
 }
 
-fn extent(range: &Range) -> String {
+fn extent(range: &Range, input: Input) -> String {
     match range.extent {
         Extent::FullTurn(1) => "turns fully".into(),
         Extent::FullTurn(turns) => sentences::turns_fully_the_mechanism_is_back(&turns),
         Extent::Limited([from, to]) => {
-            let span = numbers::fixed((to.crank - from.crank).to_degrees(), 6);
-            let [from, to] = [from, to].map(|end| degrees(end.crank, range));
-            sentences::from_to_deg_deg_in_all(&from, &to, &span)
+            let span = numbers::fixed(input.shown(to.crank - from.crank), 6);
+            let [from, to] = [from, to].map(|end| shown(end.crank, range, input));
+            sentences::from_to_in_all(&from, &to, &span, &input.shown_in().0)
         }
     }
 }
 
-/// A crank angle in degrees. If the crank rotates fully, the angle is reduced to the first turn.
-fn degrees(crank: f64, range: &Range) -> String {
-    numbers::fixed(in_turn(crank, range).to_degrees(), 6)
+/// A value of the input. If the crank rotates fully, its angle is reduced to the first turn.
+fn shown(crank: f64, range: &Range, input: Input) -> String {
+    numbers::fixed(input.shown(in_turn(crank, range)), 6)
 }
 
 fn in_turn(crank: f64, range: &Range) -> f64 {
@@ -68,40 +70,47 @@ fn singularities(scenario: &Scenario, range: &Range, width: Option<usize>) -> St
     if range.singularities.is_empty() {
         return sentences::NO_SINGULAR_POSE_ON_THE_WAY.into();
     }
+    let input = scenario.case.crank().input;
     let rows = range.singularities.iter().map(|Singularity { kind, crank, group, determinant }| {
-        let (crank, determinant) = (degrees(*crank, range), numbers::significant(*determinant, 2));
+        let (crank, determinant) = (shown(*crank, range, input), numbers::significant(*determinant, 2));
         [kind.name().to_string(), crank, determinant, names(scenario, *group)]
     });
-    format!("{}\n", trimmed(worded("singular pose | crank, deg> | determinant> | group", width).add_rows(rows)))
+    let header = format!("singular pose | {}, {}> | determinant> | group", input.word(), input.shown_in().0);
+    format!("{}\n", trimmed(worded(&header, width).add_rows(rows)))
 }
 
 fn groups(scenario: &Scenario, range: &Range, width: Option<usize>) -> String {
+    let input = scenario.case.crank().input;
     let rows = range.groups.entries().map(|(index, group)| {
         let ValueAtCrank { crank, value } = group.determinant;
         let transmission = transmission(scenario, index, value);
         let transmission = transmission.map_or("-".into(), |angle| numbers::fixed(angle.to_degrees(), 4));
         let (condition, at) = match group.condition {
-            Some(worst) => (numbers::fixed(worst.value, 4), degrees(worst.crank, range)),
-            None => ("unbounded".into(), degrees(crank, range)),
+            Some(worst) => (numbers::fixed(worst.value, 4), shown(worst.crank, range, input)),
+            None => ("unbounded".into(), shown(crank, range, input)),
         };
-        let (least, crank) = (numbers::fixed(value, 6), degrees(crank, range));
+        let (least, crank) = (numbers::fixed(value, 6), shown(crank, range, input));
         [names(scenario, index), least, transmission, crank, condition, at]
     });
-    let header = "group | smallest\ndeterminant> | transmission\nangle, deg> | at crank\nangle, deg> | largest\ncondition> | at crank\nangle, deg>";
-    trimmed(fitted(header, width).add_rows(rows))
+    let at = at_input(input);
+    let header =
+        format!("group | smallest\ndeterminant> | transmission\nangle, deg> | {at}> | largest\ncondition> | {at}>");
+    trimmed(fitted(&header, width).add_rows(rows))
 }
 
 fn links(scenario: &Scenario, range: &Range, width: Option<usize>) -> String {
+    let input = scenario.case.crank().input;
     let rows = range.links.iter().map(|link| {
         // If a link rotates fully, the interval of its angle has no meaning and is not shown.
         let end =
             |at: ValueAtCrank| if link.turns == 0 { numbers::fixed(at.value.to_degrees(), 6) } else { "-".into() };
         let [least, most] = link.angles.map(end);
         let name = scenario.case.mechanism.links()[link.link].name.clone();
-        [name, motion(link), least, most, positions(&link.extremes, range)]
+        [name, motion(link), least, most, positions(&link.extremes, range, input)]
     });
-    let header = "link | motion | from, deg> | to, deg> | extreme positions, at crank angle, deg";
-    trimmed(worded(header, width).add_rows(rows))
+    let (noun, unit) = (input.noun(), input.shown_in().0);
+    let header = format!("link | motion | from, deg> | to, deg> | extreme positions, at {noun}, {unit}");
+    trimmed(worded(&header, width).add_rows(rows))
 }
 
 fn motion(link: &LinkRange) -> String {
@@ -114,10 +123,11 @@ fn motion(link: &LinkRange) -> String {
     }
 }
 
-fn positions(extremes: &[ExtremePosition], range: &Range) -> String {
+fn positions(extremes: &[ExtremePosition], range: &Range, input: Input) -> String {
     let one = |extreme: &ExtremePosition| {
         let word = if extreme.is_greatest { "greatest" } else { "smallest" };
-        format!("{} ({word}, {})", numbers::fixed(extreme.angle.to_degrees(), 6), degrees(extreme.crank, range))
+        let at = shown(extreme.crank, range, input);
+        format!("{} ({word}, {at})", numbers::fixed(extreme.angle.to_degrees(), 6))
     };
     let more = extremes.len().saturating_sub(EXTREMES);
     let more = (more > 0).then(|| sentences::and_more(&more));
@@ -126,14 +136,16 @@ fn positions(extremes: &[ExtremePosition], range: &Range) -> String {
 
 /// The range as JSON.
 pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
-    let at = |at: &ValueAtCrank, key: &str| json!({"crank_rad": at.crank, key: at.value});
+    let input = scenario.case.crank().input;
+    let at = |at: &ValueAtCrank, key: &str| json!({input.key(): at.crank, key: at.value});
+    let [from_key, to_key] = ["from", "to"].map(|end| format!("{end}_{}", input.unit()));
     let extent = match range.extent {
         Extent::FullTurn(turns) => json!({"full_turn": true, "turns_to_same_pose": turns}),
-        Extent::Limited([from, to]) => json!({"full_turn": false, "from_rad": from.crank, "to_rad": to.crank}),
+        Extent::Limited([from, to]) => json!({"full_turn": false, from_key: from.crank, to_key: to.crank}),
     };
     let singularities = list(&range.singularities, |own| {
         json!({
-            "kind": own.kind.name(), "crank_rad": own.crank, "group": names(scenario, own.group),
+            "kind": own.kind.name(), input.key(): own.crank, "group": names(scenario, own.group),
             "determinant": own.determinant,
             "transmission_angle_rad": transmission(scenario, own.group, own.determinant),
         })
@@ -150,7 +162,7 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
         value
     });
     let extreme =
-        |own: &ExtremePosition| json!({"crank_rad": own.crank, "angle_rad": own.angle, "greatest": own.is_greatest});
+        |own: &ExtremePosition| json!({input.key(): own.crank, "angle_rad": own.angle, "greatest": own.is_greatest});
     let links = list(&range.links, |link| {
         json!({
             "name": scenario.case.mechanism.links()[link.link].name, "least": at(&link.angles[0], "angle_rad"),
@@ -171,7 +183,7 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
     });
     json!({
         "extent": extent, "four_bar": four_bar, "singularities": singularities, "groups": groups, "links": links,
-        "samples": { "crank_rad": list(&range.samples, |sample| json!(sample.crank)), "groups": sampled },
+        "samples": { input.key(): list(&range.samples, |sample| json!(sample.crank)), "groups": sampled },
     })
 }
 

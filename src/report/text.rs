@@ -168,7 +168,9 @@ pub(super) fn sentence(proof: &Proof) -> String {
 
 /// The channels as a table with one row per quantity: its channel with the largest ratio of error to bound.
 fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
-    let header = "quantity | worst channel | crank deg> | error> | of scale> | bound> | order> | verdict";
+    let input = channels.first().map(|own| own.residual.input).unwrap_or_default();
+    let (word, unit) = (input.word(), input.shown_in().0);
+    let header = format!("quantity | worst channel | {word} {unit}> | error> | of scale> | bound> | order> | verdict");
     let quantities = distinct(channels.iter().map(|own| own.residual.channel.kind.quantity));
     let rows = quantities.into_iter().filter_map(|quantity| {
         let family = || channels.iter().filter(|own| own.residual.channel.kind.quantity == quantity);
@@ -177,7 +179,7 @@ fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
         Some([
             format!("{quantity} ({})", family().count()),
             residual.channel.to_string(),
-            numbers::fixed(residual.worst_crank.to_degrees(), 1),
+            numbers::fixed(input.shown(residual.worst_crank), 1),
             numbers::error_in(residual.max, residual.channel.kind.unit.symbol()),
             share(residual.max, residual.scale),
             share(worst.bound, residual.scale),
@@ -185,7 +187,7 @@ fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
             overall(family().map(|own| &own.verdict)).word().to_string(),
         ])
     });
-    trimmed(fitted(header, width).add_rows(rows))
+    trimmed(fitted(&header, width).add_rows(rows))
 }
 
 /// The checks as a table with one row per family: its check with the largest ratio of residual to bound.

@@ -14,7 +14,6 @@ linkage::sentences! {
     and_more(more) = "and {more} more";
     only_the_first_configurations_are_drawn(most) = "only the first {most} configurations are drawn";
     joint_stays_open_by_mm(name, significant) = "joint {name} stays open by {significant} mm";
-    crank_at(name, crank) = "{name}, crank at {crank}°";
     // testing.rs
     GIVE_EVERY_INSTANT_ONCE_CRANK = "give every instant once, crank angles in rad or times in s";
     the_grid_cannot_be(message) = "invalid grid: {message}";
@@ -103,8 +102,8 @@ linkage::sentences! {
     added_at_every_instant_to(amount, of) = "{amount} added at every instant to {of}";
     another_unit_in(told, of) = "another unit in {of}: {told}";
     and_later_in_more(more) = " and later in {more} more";
-    from_deg_in(fixed, fixed_2, channel) = "; from {fixed} s, {fixed_2} deg, in {channel}";
-    crank_angle_deg_first_in(fixed, fixed_2, names) = "t = {fixed} s, crank angle {fixed_2} deg, first in {names}";
+    from_in(fixed, at, channel) = "; from {fixed} s, {at}, in {channel}";
+    at_time_first_in(fixed, at, names) = "t = {fixed} s, {at}, first in {names}";
     cannot_be_told_differ(pairs) = "cannot be decided: {pairs} differ";
     nobody_stand_against(one, other) = "no single party: {one} disagree with {other}";
     all_others_agree_with_each(name) = "{name}; all others agree with each other";
@@ -151,7 +150,7 @@ linkage::sentences! {
     have_no_finite_bound_and_no_figures(channels) = "{channels} have no figures, because their bounds are not finite.";
     // report/bearings.rs
     journals_lever_mm_bending_stress(lever_mm, stress_mpa) = "\njournals: lever {lever_mm} mm, bending stress {stress_mpa} MPa";
-    largest_at_deg(name, value, degrees) = "largest {name:16} {value} at {degrees} deg";
+    largest_at(name, value, at) = "largest {name:16} {value} at {at}";
     // report/bench.rs
     SIDE_ASSUR = "side 1 (assur)";
     finer_settings_were_not_run(left_out) = "\n{left_out} finer settings were not run: the work limit was reached.";
@@ -192,7 +191,7 @@ linkage::sentences! {
     A_MISSING_FACTOR = "a missing factor";
     the_of(order) = "the {order} of ";
     formula_mechanism(word, place, found, right) = "\n  {word:6} {place}: formula {found}, mechanism {right}";
-    crank_angle(fixed_in, fixed) = "crank angle {fixed_in}, t = {fixed} s";
+    at_instant(at, fixed) = "{at}, t = {fixed} s";
     is_not(of, judged, formula, claim, side) = "{of}{judged} = {formula}\n  is not {of}{claim} ({side})";
     SOMETHING_IS_OPEN = "not all formulas could be decided";
     of_wrong(names, counted) = "{names} of {counted} wrong";
@@ -205,13 +204,13 @@ linkage::sentences! {
     // report/clearance.rs
     poses_and_distances_of_convex(word, poses, distances, positions, squares) = "{word}: computed {poses} poses and {distances} distances between convex parts; for swept areas {positions} poses and {squares} tests of squares\n";
     first_nearer_than_the_mm(millimetres) = "first closer than the required {millimetres} mm";
-    and_at_crank_angle_deg_place(what, one, two, crank, place) = "{what}: {one} and {two} at crank angle {crank} deg, position {place} mm";
-    not_proven_from_to_deg(degrees, degrees_2, why) = "not proven from {degrees} to {degrees_2} deg: {why}";
+    and_at_place(what, one, two, at, place) = "{what}: {one} and {two} at {at}, position {place} mm";
+    not_proven_from_to(from, to, why) = "not proven from {from} to {to}: {why}";
     THE_MECHANISM_IS_SINGULAR_THERE = "the mechanism is singular there, or the work limit was reached";
     the_area_of_is_known_to_only_the_work(name, numbers) = "the area of {name} is known only to {numbers}: the work limit was reached";
     no_distance_is_smaller_by_more(numbers) = "true distances are smaller by at most {numbers} mm";
     NO_TWO_BODIES_CAN_MEET_ALL = "no two bodies can meet: all links are joined, and there is no housing\n";
-    clearance_over_crank_angles_to_deg(scenario, scenario_2, from, to) = "{scenario}: {scenario_2}\n\nclearance over crank angles {from} to {to} deg\n";
+    clearance_over_to(scenario, scenario_2, noun, from, to) = "{scenario}: {scenario_2}\n\nclearance over {noun}s {from} to {to}\n";
     // report/closed_form.rs
     time_ratio(time_ratio) = "  time ratio    {time_ratio:.6}";
     pressure_deg_at_most_between_rod(found) = "  pressure      {found:.4} deg at most, between the rod and the slider's line";
@@ -283,7 +282,7 @@ linkage::sentences! {
     from_the_rough_place(mm) = ", {mm} from the approximate position in the file";
     class_order_mode_2(names, class, order, pairs, mode, transmission, from) = "  {names:28} class {class}, order {order}, {pairs}, mode {mode}{transmission}{from}";
     transmission_angle_deg(sine) = ", transmission angle {sine:.2} deg";
-    groups_at_the_start_crank(fixed_in) = "\ngroups at the start (crank {fixed_in})";
+    groups_at_the_start(word, fixed_in) = "\ngroups at the start ({word} {fixed_in})";
     kg_kg(mass, inertia, at) = "m = {mass} kg, J = {inertia} kg·m², {at}";
     structure_links(structure) = "structure  {structure}\n\nlinks";
     // report/json.rs
@@ -309,7 +308,7 @@ linkage::sentences! {
     not_decided_by_the_scenario(why) = "  not chosen by the scenario: {why}";
     only_the_followed_one_is_shown(names, why) = "\n{names}: only the configuration chosen by the scenario is shown; {why}";
     real_configurations(names, found) = "\n{names}: {found} real configurations";
-    at_crank_angle(scenario, fixed_in) = "{scenario} at crank angle {fixed_in}\n";
+    scenario_at(scenario, at) = "{scenario} at {at}\n";
     THE_CONFIGURATION_IS_SINGULAR_ANGULAR = "the configuration is singular: angular velocities are not determined";
     // report/motor_choice.rs
     ratio_efficiency(ratio, efficiency) = "ratio = {ratio}\nefficiency = {efficiency}";
@@ -344,14 +343,14 @@ found down to: faults larger than this are found in every scenario, to a factor 
     singular_point(error) = "\nsingular point: {error}";
     plan_pole_mu_mm(word, plan, symbol, scale, unit) = "\n{word} plan   pole {plan}, mu_{symbol} = {scale} ({unit})/mm";
     kinematic_diagram_mu_mm(scale) = "kinematic diagram   mu_l = {scale} m/mm";
-    the_motion_is_free_these(speed) = "the motion is free: these plans show the nominal motion, with the crank turning at {speed} rad/s";
+    the_motion_is_free_these(moves, speed, unit) = "the motion is free: these plans show the nominal motion, with the {moves} at {speed} {unit}/s";
     // report/range.rs
     THE_GROUP_IS_SINGULAR_AT_A_LIMIT = "the group is singular at a limit: the condition number is unbounded";
     turns_fully_times(turns) = "turns fully, {turns} times";
     over_deg(swing) = "over {swing:.6} deg";
     DOES_NOT_TURN = "does not turn";
     NO_SINGULAR_POSE_ON_THE_WAY = "No singular pose in the range of motion.\n";
-    from_to_deg_deg_in_all(from, to, span) = "from {from} to {to} deg, {span} deg in all";
+    from_to_in_all(from, to, span, unit) = "from {from} to {to} {unit}, {span} {unit} in all";
     turns_fully_the_mechanism_is_back(turns) = "turns fully; the mechanism returns to its first pose after {turns} turns";
     groups_nearest_to_a_singular(groups) = "Groups at their poses nearest to a singular pose:\n{groups}";
     frame_driving_link_coupler_output(frame, driver, coupler, output) = "           frame {frame:.6} m, driving link {driver:.6} m, coupler {coupler:.6} m, output link {output:.6} m";
@@ -413,7 +412,7 @@ found down to: faults larger than this are found in every scenario, to a factor 
     nothing_beyond_the_bounds(but) = "no difference: this explains everything{but}";
     but_for_the_row_at_which_is_off(numbers) = ", except for the row at t = {numbers} s, which is an outlier";
     FOR_THE_MOST_PART_2 = "for the most part, ";
-    crank_angle_deg(time, crank) = "t = {time} s, crank angle {crank} deg";
+    at_time(time, at) = "t = {time} s, {at}";
     only_in_the(which, some) = "\nonly in the {which}: {some}";
     the_jumps_back_in_row_from_to_has_it_begun(what, row, from, to, unit) = "\nthe {what} jumps back in row {row}, from {from} to {to} {unit}: does a second run start there?";
     rows_and_hold_at_the_same(one, other, what, at, unit, channel, first, second) = "\nrows {one} and {other} have the same {what}, {at} {unit}, but different values: {channel} is {first} and {second}";
@@ -421,8 +420,8 @@ found down to: faults larger than this are found in every scenario, to a factor 
     left_out_instants_of_the_second(unshared) = "\nleft out: {unshared} instants that only the second party has";
     of_values(judged, of) = "{judged} of {of} values";
     of_channels(disagree, all) = "{disagree} of {all} channels";
-    the_crank_angle_and_of_channels(disagree, all) = "the crank angle and {disagree} of {all} channels";
-    the_crank_angle_and_none(all) = "the crank angle disagrees; all {all} channels agree";
+    the_input_and_of_channels(noun, disagree, all) = "the {noun} and {disagree} of {all} channels";
+    the_input_and_none(noun, all) = "the {noun} disagrees; all {all} channels agree";
     all_channels(agree) = "all {agree} channels agree";
     THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH = "The other differences are below 2 % of their scale, as an integration method or its time step can cause. Bounds cover only rounding of the data and the uncertainty of the analytic sides: state how accurate the other party is.";
     ALL_WITHIN_THEIR_BOUNDS = ", all within their bounds";

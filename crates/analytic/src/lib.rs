@@ -4,8 +4,6 @@
 
 pub mod assur;
 mod assur_solver;
-#[cfg(test)]
-mod given;
 pub mod modes;
 pub mod motion;
 pub mod newton;

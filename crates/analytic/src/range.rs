@@ -11,6 +11,7 @@
 
 mod constraints;
 mod extremes;
+mod gearing;
 mod grashof;
 mod measure;
 mod singularity;
@@ -25,6 +26,7 @@ pub use singularity::{Singularity, SingularityKind, ValueAtCrank};
 use constraints::{Constraints, Given};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{Group, GroupId, Mechanism, PerGroup, Pose};
 use linkage::work::limited;
@@ -140,24 +142,25 @@ pub fn explained(case: &Case, error: Error) -> Error {
     if !error.is_out_of_reach() {
         return error;
     }
+    let input = case.crank().input;
     let (reached, is_too_much) = limited(ASIDE, || reachable(case));
     let reached = match reached {
-        Ok(Extent::Limited(limits)) => sentences::crank_angles_can_be_reached(&interval(limits)),
+        Ok(Extent::Limited(limits)) => sentences::inputs_can_be_reached(&input.noun(), &interval(limits, input)),
         Ok(Extent::FullTurn(_)) => String::new(),
         Err(why) if why.kind() == ErrorKind::Geometry => format!("; {}", why.message()),
-        Err(why) if is_too_much => sentences::which_crank_angles_can_be_reached(&why.message()),
+        Err(why) if is_too_much => sentences::which_inputs_can_be_reached(&input.noun(), &why.message()),
         Err(_) => String::new(),
     };
     error.map_message(|message| format!("{message}{reached}")).explained()
 }
 
-/// Returns `from X to Y deg on this branch`. The angles are rounded inwards to 1e-6 deg, so that the user can request
-/// them.
-fn interval([from, to]: [Singularity; 2]) -> String {
-    // If an angle is within 1e-9 deg of a printable number, it counts as that number.
-    let from = (from.crank.to_degrees() * 1e6 - 1e-3).ceil() / 1e6 + 0.0;
-    let to = (to.crank.to_degrees() * 1e6 + 1e-3).floor() / 1e6 + 0.0;
-    sentences::from_to_deg_on_this_branch(&from, &to)
+/// Returns `from X to Y deg on this branch`. The numbers are rounded inwards to 1e-6 deg or mm, so that the user can
+/// request them.
+fn interval([from, to]: [Singularity; 2], input: Input) -> String {
+    // If a value is within 1e-9 deg or mm of a printable number, it counts as that number.
+    let from = (input.shown(from.crank) * 1e6 - 1e-3).ceil() / 1e6 + 0.0;
+    let to = (input.shown(to.crank) * 1e6 + 1e-3).floor() / 1e6 + 0.0;
+    sentences::from_to_on_this_branch(&from, &to, &input.shown_in().0)
 }
 
 /// Whether two configurations of a group coincide in this pose within rounding error.

@@ -71,9 +71,9 @@ linkage::sentences! {
     NEWTON_METHOD_DOES_NOT_CONVERGE = "Newton's method does not converge there";
     up_to_turns_on_the_way_to_are_too(turns, t) = "up to {turns} turns until {t} s are too many to follow";
     // range.rs
-    from_to_deg_on_this_branch(from, to) = "from {from:.6} to {to:.6} deg on this branch";
-    which_crank_angles_can_be_reached(why) = "; the reachable crank angles are not known: {why}";
-    crank_angles_can_be_reached(interval) = "; reachable crank angles: {interval}";
+    from_to_on_this_branch(from, to, unit) = "from {from:.6} to {to:.6} {unit} on this branch";
+    which_inputs_can_be_reached(noun, why) = "; the reachable {noun}s are not known: {why}";
+    inputs_can_be_reached(noun, interval) = "; reachable {noun}s: {interval}";
     // range/grashof.rs
     CHANGE_POINT_MECHANISM = "change-point mechanism (s + l = p + q)";
     TRIPLE_ROCKER_NON_GRASHOF = "triple-rocker (non-Grashof, s + l > p + q)";

@@ -27,7 +27,6 @@ linkage::sentences! {
     // draw/clearance_sheet.rs
     smallest_distance_at(distance, names, crank) = "smallest distance {distance}: {names} at {crank}";
     first_collision_at(names, crank) = "first collision: {names} at {crank}";
-    crank_angle_deg(significant) = "crank angle {significant} deg";
     swept_by(body) = "swept by {body}";
     // draw/graph_sheet.rs
     CRANK_ANGLE_DEG_2 = "crank angle φ, deg";
@@ -36,12 +35,10 @@ linkage::sentences! {
     largest_error_rms_observed_order(one, significant, unit, share, significant_2, orders) = "{one}: largest error {significant} {unit} ({share:.2} %), rms {significant_2} {unit}, observed order {orders}";
     CHORDS_WHOSE_SLOPES_GIVE_THE_VELOCITY = "chords whose slopes give the velocity";
     EXACT_BY_THE_SOLVER = "exact, by the solver";
-    CRANK_ANGLE_DEG_3 = "crank angle, deg";
     scale_factor_2(channel, sub, scale, per) = "{channel}, scale factor μ{sub} = {scale} {per}";
     chord_method_and_graphical_integration(divisions) = "chord method and graphical integration, {divisions} divisions of the turn; errors as fractions of half the range of the exact curve";
     // draw/plan_sheet.rs
     FROM_TO = "from → to";
-    crank_at(name, degrees) = "{name}, crank at {degrees}°";
     scale_factor_3(symbol, sub, scale, scripted) = "scale factor {symbol}{sub} = {scale} {scripted}";
     // draw/timing_sheet.rs
     WANTED_REST_OR_AT_LEAST_SO = "required: rest, or at least this displacement";
@@ -60,7 +57,7 @@ linkage::sentences! {
     is_a_derivative_already_a_motion(name) = "\"{name}\" is already a derivative; a motion diagram starts from a position or an angle";
     the_mechanism_has_no_channel(name) = "the mechanism has no channel \"{name}\"";
     // plan/planner.rs
-    GIVE_A_CRANK_ANGLE_IN_DEGREES = "give a crank angle in degrees, such as 70 or -30";
+    give_a_number_in(noun, unit) = "give a {noun} in {unit}, such as 70 or -30";
     name_some_of(all) = "name one or several of {all}";
     no_point_and_no_link_is_called(name) = "no point or link is called \"{name}\"";
     // plan/singular.rs

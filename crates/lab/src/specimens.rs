@@ -4,6 +4,7 @@
 //! A mechanism is drawn in its start pose ([`sketch`]), so that it can be assembled.
 //! It is stored as data ([`spec`]). It can be turned, mirrored and loaded before it becomes the text of a scenario.
 
+pub mod driven;
 pub mod dyads;
 pub mod sketch;
 pub mod spec;

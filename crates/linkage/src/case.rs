@@ -2,6 +2,7 @@
 
 mod builder;
 mod check;
+mod driven_at;
 mod grid;
 mod only;
 mod parts;
@@ -17,7 +18,7 @@ use crate::drive::load::sense_of;
 use crate::drive::{Action, Drive, InputState, Load, LoadState, Motor, Senses, Wrench};
 use crate::input::{Input, InputValue};
 use crate::math::{KeepNan, Motion, Vec2};
-use crate::mechanism::{JointSide, LinkId};
+use crate::mechanism::{GROUND, JointSide, LinkId};
 use crate::trajectory::{CHANNELS, Channel, ChannelSubject, OfLink, Reading, Stage};
 
 pub use builder::CaseBuilder;
@@ -236,6 +237,29 @@ impl Case {
             Input::Angle => motions[drive.link].omega,
             Input::Turn => motions[joint.second.link].omega - motions[joint.first.link].omega,
             Input::Slide => joint.slide(motions).expect("the driven joint slides")[1],
+        }
+    }
+
+    /// Actions of the moment (N m) or force (N) of a drive: on the link that carries the drive, then on the driving link.
+    /// The drive of a crank is carried by the frame.
+    /// At a joint between moving links, and for a slide, the effort acts from the joint's first link on its second link.
+    #[must_use]
+    pub fn effort(&self, drive: &Drive, effort: f64, motions: &[Motion]) -> [Action; 2] {
+        let joint = &self.mechanism.joints()[drive.joint];
+        let ends = [joint.first.link, joint.second.link];
+        match drive.input {
+            Input::Angle => [Action::of_moment(GROUND, -effort), Action::of_moment(drive.link, effort)],
+            Input::Turn => [Action::of_moment(ends[0], -effort), Action::of_moment(ends[1], effort)],
+            Input::Slide => {
+                let axis = motions[ends[0]].arm(joint.axis_on(ends[0]).expect("the driven joint slides"));
+                let place = motions[ends[1]].point(joint.second.local);
+                [(ends[0], -effort), (ends[1], effort)].map(|(link, force)| Action {
+                    link,
+                    force: axis * force,
+                    place,
+                    moment: 0.0,
+                })
+            }
         }
     }
 

@@ -70,6 +70,31 @@ impl Input {
         }
     }
 
+    /// First word of the input's names in columns and files.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Input::Angle => "crank",
+            Input::Turn => "joint",
+            Input::Slide => "slide",
+        }
+    }
+
+    /// The unit in pictures, behind a number.
+    #[must_use]
+    pub const fn sign(self) -> &'static str {
+        match self {
+            Input::Angle | Input::Turn => "°",
+            Input::Slide => " mm",
+        }
+    }
+
+    /// Title of a picture at this value, without digits of rounding error: `crank at 70°`, `slide at 300 mm`.
+    #[must_use]
+    pub fn marked(self, value: f64) -> String {
+        format!("{} at {}{}", self.word(), (self.shown(value) * 1e6).round() / 1e6 + 0.0, self.sign())
+    }
+
     /// Converts a value to the unit in which people read and write it.
     #[inline]
     #[must_use]
@@ -145,6 +170,7 @@ mod tests {
         for input in Input::ALL {
             assert_eq!(input.read(input.shown(0.75)), 0.75);
             assert!(input.key().ends_with(input.unit()) && input.shown_in().1.ends_with(input.shown_in().0));
+            assert!([input.key(), input.shown_in().1].iter().all(|name| name.starts_with(input.word())));
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Whether a value counts as zero depends on a scale.
 //! So every function takes a number of digits or the resolution of the value.
 
+use linkage::input::InputValue;
 use linkage::math::KeepNan;
 pub use linkage::trajectory::shown_unit as shown;
 
@@ -106,6 +107,18 @@ pub fn fixed(value: f64, decimals: usize) -> String {
 #[must_use]
 pub fn fixed_in(value: f64, decimals: usize, unit: &str) -> String {
     with_unit(&fixed(value, decimals), unit)
+}
+
+/// An input's value with `decimals` decimals and its unit: `41.000 deg`, `300.000 mm`.
+#[must_use]
+pub fn input_in(at: InputValue, decimals: usize) -> String {
+    fixed_in(at.input.shown(at.value), decimals, at.input.shown_in().0)
+}
+
+/// As `input_in`, with the name of the input: `crank angle 41.000 deg`, `slide 300.000 mm`.
+#[must_use]
+pub fn input_told(at: InputValue, decimals: usize) -> String {
+    format!("{} {}", at.input.noun(), input_in(at, decimals))
 }
 
 /// Significant digits of a quantity in a report.

@@ -12,7 +12,7 @@ linkage::sentences! {
     another_quantity_is_claimed_it_is(channel) = "it gives another quantity: {channel}";
     or_more(more) = "; or {more} more";
     one_of_several_that_fit_equally(told) = "one of several that fit equally: {told}";
-    another_branch_it_is_right(after, before) = "another branch: it is right up to crank angle {after} deg, but wrong at {before} deg; atan2 instead of acos, asin or atan follows the branch";
+    another_branch_it_is_right(after, before) = "another branch: it is right up to {after}, but wrong at {before}; atan2 instead of acos, asin or atan follows the branch";
     A_MISSING_TERM = "a missing term";
     a_missing_in(noun, formula, what, beside) = "a missing {noun}, in {formula}: `{what}`{beside}";
     DIVISOR_OR_A_FACTOR_TOO_MANY = "divisor, or a factor too many";
@@ -34,7 +34,7 @@ linkage::sentences! {
     PI_PI_PI_PI_PI_PI = "r => r*(180/pi); r/(180/pi); r*(30/pi); r/(30/pi); r*60; r/60; r*(2*pi); r/(2*pi)";
     PI_PI = "t => t*(180/pi); t/(180/pi)";
     // check/undefined.rs
-    at_crank_angle_deg_whatever(message, crank, place, help) = "{message} at crank angle {crank} deg, {place}: {help}, even if the result is multiplied by zero";
+    at_whatever(message, at, place, help) = "{message} at {at}, {place}: {help}, even if the result is multiplied by zero";
     in_from_its_letter(written, formula, start) = "`{written}` in {formula}, from character {start} on";
     // bounds/residual.rs
     COMPARE_ONLY_TRAJECTORIES_THAT_WERE_SOLVED = "compare only trajectories that were solved for the same times";
@@ -50,7 +50,7 @@ linkage::sentences! {
     the_engine_converges_with_order(observed, formal) = "the engine converges with order {observed:.2} instead of {formal:.0} here: its error cannot be estimated";
     THE_SWEEPS_HAVE_HARDLY_BEGUN = "the sweeps have hardly begun to converge here: the error cannot be estimated";
     THE_REFERENCE_IS_ZERO_THROUGHOUT = "the reference is zero throughout, so there is no scale for the error; masses, loads or more instants would give one";
-    is_beyond_the_bound_at_crank(error, bound, t, crank) = "{error} is beyond the bound {bound} at t = {t} s, crank angle {crank} deg";
+    is_beyond_the_bound_at(error, bound, t, at) = "{error} is beyond the bound {bound} at t = {t} s, {at}";
     expected_see(place) = "expected, see {place}";
     // diagnosis/knobs.rs
     WITH_THE_REDUCER_RATIO_TWICE = "with the reducer's ratio applied twice";
@@ -155,7 +155,7 @@ linkage::sentences! {
     ADD_MOTOR_OR_LEAVE_THE_FIGURE = "add `[motor]`, or leave out the figure";
     THE_STEADY_SPEED_NEEDS_A_MOTOR = "the steady speed needs a motor, but the crank has no motor";
     // run/formulas.rs
-    first_at_crank_angle_deg(fixed, fixed_2, found, significant) = "first at t = {fixed} s, crank angle {fixed_2} deg: {found}, the mechanism gives {significant}";
+    first_at(fixed, at, found, significant) = "first at t = {fixed} s, {at}: {found}, the mechanism gives {significant}";
     it_gives(significant) = "it gives {significant}";
     IT_HAS_NO_VALUE = "it has no value";
     cause_not_found(cut) = "cause not found: {cut}";
@@ -314,6 +314,6 @@ linkage::sentences! {
     they_differ_by_up_to_and_neither(largest) = "the parties differ by up to {largest}, but neither is analytic, so no bound is known";
     AT_NO_INSTANT_DO_BOTH_HAVE_A_NUMBER = "there is no instant at which both parties have a number";
     // compare/pair.rs
-    THE_CRANK_ANGLES_DIFFER_AND_NEITHER = "the crank angles differ, but neither party is analytic: state the allowed difference of the channel crank";
+    the_inputs_differ_and_neither(noun) = "the {noun}s differ, but neither party is analytic: state the allowed difference of the channel crank";
     BOTH_ARE_SAID_TO_COUNT_THE_CRANK = "both parties are declared to measure the crank angle alike; digits, rounding error and integration error allow this difference";
 }

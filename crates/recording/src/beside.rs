@@ -19,7 +19,17 @@ pub(super) const LIBRARY: &str = "linkproof ";
 const MOST: usize = 1000;
 
 /// Prefixes of the metadata keys that describe what the user requests in addition to the scenario's text.
-const ASKED: [&str; 7] = ["modes", "parameters", "start_crank_deg", "grid_", "only", "reference", "record_hz"];
+const ASKED: [&str; 9] = [
+    "modes",
+    "parameters",
+    "start_crank_deg",
+    "start_joint_deg",
+    "start_slide_mm",
+    "grid_",
+    "only",
+    "reference",
+    "record_hz",
+];
 /// Prefix of the metadata keys of the engine's settings. A proof may have found these settings, so the other
 /// differences between recordings are reported first.
 const ENGINE: &str = "engine";

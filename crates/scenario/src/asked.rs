@@ -4,6 +4,7 @@ use super::start::{self, Lists};
 use crate::sentences;
 use linkage::drive::Drives;
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::KeepNan;
 use linkage::math::unit;
 use linkage::mechanism::assembly::{ConfigurationChoice, blame, blamed, first_choices, group_of};
@@ -19,12 +20,15 @@ pub struct StartRequest {
     /// NUMBER is the position in the list of [`configurations`](linkage::mechanism::assembly::configurations) at the
     /// start, counted from 1.
     pub modes: Vec<String>,
-    /// Crank angle at t = 0 (rad), in place of `crank` in `[start]`.
-    /// Modes of the file also apply at the requested angle.
-    /// Approximate positions (`near`) apply at the file's angle only. These positions choose a configuration at the
-    /// file's angle.
-    /// The chosen configuration is followed to the requested angle.
+    /// Input at t = 0 (rad or m), in place of `crank` in `[start]` or of `start` of the first drive.
+    /// Modes of the file also apply at the requested input.
+    /// Approximate positions (`near`) apply at the file's input only. These positions choose a configuration at the
+    /// file's input.
+    /// The chosen configuration is followed to the requested input.
     pub crank: Option<f64>,
+    /// Whether `crank` is in the unit in which people write the input (deg or mm), because the caller does not know
+    /// what the input measures.
+    pub is_shown: bool,
     /// Whether the caller defines a grid in place of the file's grid.
     /// The case then has no instants, and the drive need not reach the instants of the file's grid.
     pub without_grid: bool,
@@ -78,6 +82,12 @@ impl StartRequest {
     /// The requested groups with their starts.
     pub fn groups(&self, mechanism: &Mechanism, structure: &Structure) -> Result<Vec<(GroupId, StartGroup)>> {
         self.modes.iter().map(|text| start::asked(text, mechanism, structure)).collect()
+    }
+
+    /// The requested input at t = 0 (SI), if the first drive has this input.
+    #[must_use]
+    pub fn start(&self, input: Input) -> Option<f64> {
+        self.crank.map(|value| if self.is_shown { input.read(value) } else { value })
     }
 }
 
@@ -178,8 +188,8 @@ impl Start<'_> {
     /// angle.
     /// A dyad keeps its mode; a higher group is followed step by step.
     fn followed(&self, own: &(Pose, Vec<ConfigurationChoice>), crank: f64) -> Option<Pose> {
-        let other = crank - std::f64::consts::TAU.copysign(crank - self.crank);
-        self.walked(own, crank).or_else(|| self.walked(own, other))
+        let period = self.drives.crank().input.period();
+        self.walked(own, crank).or_else(|| self.walked(own, crank - period?.0.copysign(crank - self.crank)))
     }
 
     fn walked(&self, (pose, choices): &(Pose, Vec<ConfigurationChoice>), crank: f64) -> Option<Pose> {
@@ -217,8 +227,10 @@ impl Start<'_> {
 
     fn lost(&self, group: &Group, crank: f64) -> Error {
         let names = group.names(self.mechanism);
-        let message = sentences::the_configuration_of_the_group(&names, &self.crank.to_degrees(), &crank.to_degrees());
-        let give = sentences::AN_ANGLE_NEARER_TO_THE_FILE.to_string();
+        let (drive, input) = (self.drives.crank(), self.drives.crank().input);
+        let (to, unit) = (input.shown(crank), input.shown_in().0);
+        let message = sentences::the_configuration_of_the_group(&names, &drive.told(self.crank), &to, &unit);
+        let give = sentences::an_input_nearer_to_the_file(&input.noun());
         Error::new(ErrorKind::Geometry, message)
             .help(Advice::Configuration { give })
             .key(group.key(self.mechanism))

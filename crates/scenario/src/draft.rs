@@ -11,6 +11,7 @@ use super::stated::FileSections;
 use super::{keys, parameter_table, start};
 use linkage::drive::{Drive, Load, MotionLaw};
 use linkage::error::{Error, Result};
+use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{DrivenJoint, GROUND, JointId, Mechanism, StartGroup, Structure};
 
@@ -34,7 +35,7 @@ pub struct Draft {
     pub loads: Vec<Load>,
     /// Acceleration of gravity (m/s^2).
     pub gravity: Vec2,
-    /// Crank angle at t = 0 (rad).
+    /// Input at t = 0 (SI).
     pub crank: f64,
     /// The start of each group, in the order of the structure. If the file states no valid start, the start is the
     /// default.
@@ -69,6 +70,16 @@ impl Draft {
         // mistakes.
         Ok(Draft { mistakes: fault.or(mistakes), ..draft })
     }
+
+    /// What the input measures.
+    #[must_use]
+    pub fn input(&self) -> Input {
+        input(&self.drives)
+    }
+}
+
+fn input(drives: &[Drive]) -> Input {
+    drives.first().map_or(Input::Angle, |drive| drive.input)
 }
 
 fn read(root: &mut TomlTable, asked: &StartRequest) -> Result<Draft> {
@@ -101,7 +112,7 @@ fn read(root: &mut TomlTable, asked: &StartRequest) -> Result<Draft> {
         true => root.source().path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         false => stated.name,
     };
-    let crank = asked.crank.unwrap_or(crank);
+    let crank = asked.start(input(&drives)).unwrap_or(crank);
     let loads =
         stated.loads.into_iter().filter(|load| load.points().iter().all(|end| is_somewhere(end.local))).collect();
     Ok(Draft {

@@ -300,7 +300,7 @@ fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<
     let starts = start::groups(start, stated.groups, mechanism, &structure, &groups, lists).map_err(in_file)?;
     let placing =
         asked::Start { mechanism, structure: &structure, drives, crank: stated.crank, starts: &starts, lists };
-    let placed = placing.placed(asked.crank.unwrap_or(stated.crank), &groups).map_err(|error| {
+    let placed = placing.placed(drives.crank().start, &groups).map_err(|error| {
         let own = group_of(mechanism, &structure, &error);
         if groups.iter().any(|(index, _)| own == Some(*index)) { error } else { in_file(error) }
     })?;
@@ -323,8 +323,8 @@ fn finished(
     source: &Source,
     asked: &StartRequest,
 ) -> Result<(Scenario, Vec<Undecided>)> {
-    let (own_crank, crank) = (stated.crank, asked.crank.unwrap_or(stated.crank));
     let (mechanism, drives) = (stated.mechanism, stated.drives.expect("what is missing has ended the reading"));
+    let (own_crank, crank) = (stated.crank, drives.crank().start);
     let (starts, choices, undecided) = (placed.starts, placed.choices, placed.undecided);
     let modes = choices.iter().map(|choice| choice.mode).collect();
     let start = placed.pose;

@@ -55,7 +55,7 @@ pub const SECTIONS: &[Section] = &[
             .means("turns of the crank after which the table repeats; 2 for a four-stroke engine"),
     ]),
     Section::at("loads.table").with(&[
-        needed("crank", ValueKind::INPUTS).means("crank angle"),
+        needed("crank", ValueKind::ANGLES).means("crank angle"),
         optional("moment", ValueKind::MOMENTS, "required for a moment").means("moment at that angle"),
         optional("x", ValueKind::FORCES, "required for a force").means("force along x at that angle"),
         optional("y", ValueKind::FORCES, "required for a force").means("force along y at that angle"),

@@ -3,6 +3,7 @@
 use crate::sentences;
 use std::sync::Arc;
 
+use super::asked::StartRequest;
 use super::keys::key::{Section, ValueKind, needed, optional};
 use super::motor;
 use super::reader::{Faults, Sign, TomlTable};
@@ -66,18 +67,18 @@ pub fn drives(
     tables: Vec<TomlTable>,
     motor: Option<TomlTable>,
     mechanism: &Mechanism,
-    [crank, asked]: [Option<f64>; 2],
+    (crank, asked): (Option<f64>, &StartRequest),
     faults: &mut Faults,
 ) -> Option<(Drives, f64)> {
     let (mut drives, mut first): (Vec<Drive>, f64) = (Vec::new(), 0.0);
     let (count, whole) = (tables.len(), faults.whole);
     for (index, mut table) in tables.into_iter().enumerate() {
         let own = |table: &mut TomlTable| {
-            let mut drive = drive(table, mechanism, &drives, [crank, asked.filter(|_| index == 0)], whole)?;
+            let mut drive = drive(table, mechanism, &drives, (crank, asked), whole)?;
             check_beside(table, &drive, &drives)?;
             if index == 0 {
                 first = drive.start;
-                drive.start = asked.unwrap_or(first);
+                drive.start = asked.start(drive.input).unwrap_or(first);
             }
             Ok(drive)
         };
@@ -94,6 +95,12 @@ pub fn drives(
     Some((Drives::new(crank, drives), first))
 }
 
+/// Input of the first drive; `None` if its joint is unknown.
+pub fn first_input(tables: &[TomlTable], mechanism: &Mechanism) -> Option<Input> {
+    let joint = mechanism.joint_named(tables.first()?.peek("joint")?)?;
+    Some(Drive::of_joint(&mechanism.joints()[joint], &[], false).0)
+}
+
 /// Checks that a drive can be combined with the drives before it.
 fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()> {
     if !before.is_empty() && before.iter().chain([drive]).any(|drive| drive.through) {
@@ -103,14 +110,14 @@ fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()
     Ok(())
 }
 
-/// Reads a drive. `before` are the drives already read. `starts` are the stated angle of a crank as the first drive, and
-/// the input that replaces the start of this drive.
+/// Reads a drive. `before` are the drives already read. `crank` is the stated angle of a crank as the first drive.
+/// `asked` replaces the start of the first drive.
 /// If the mechanism is `whole`, all its joints are known.
 fn drive(
     table: &mut TomlTable,
     mechanism: &Mechanism,
     before: &[Drive],
-    [crank, asked]: [Option<f64>; 2],
+    (crank, asked): (Option<f64>, &StartRequest),
     whole: bool,
 ) -> Result<Drive> {
     let name = table.string("joint")?;
@@ -122,12 +129,13 @@ fn drive(
     let is_free = table.optional_string("motion")?.as_deref() == Some("free");
     let joint = known.map(|index| &mechanism.joints()[index]);
     let (input, link) = joint.map_or((Input::Angle, LinkId(1)), |joint| Drive::of_joint(joint, before, is_free));
-    let own = if before.is_empty() && input == Input::Angle { crank } else { None };
-    let stated = match own {
-        Some(own) => own,
-        None if before.is_empty() && known.is_none() => 0.0,
-        None => table.quantity("start", of_input(input), Sign::Any)?,
+    let is_in_start = before.is_empty() && (input == Input::Angle || known.is_none());
+    let stated = match is_in_start {
+        // If the angle is missing, the error is in `[start]`.
+        true => crank.unwrap_or_default(),
+        false => table.quantity("start", of_input(input), Sign::Any)?,
     };
+    let asked = asked.start(input).filter(|_| before.is_empty());
     let law = law(table, input.at(asked.unwrap_or(stated)));
     if law.is_err() && whole && known.is_none() {
         let missing = unknown(table);

@@ -108,6 +108,11 @@ impl<'a> TomlTable<'a> {
         self.places.contains_key(key)
     }
 
+    /// The text of a key that is read later; `None` if it is missing or no text.
+    pub fn peek(&self, key: &str) -> Option<&'a str> {
+        self.entry(key)?.value.get_ref().as_str()
+    }
+
     /// The keys, in the order of the file.
     pub fn keys(&self) -> Vec<String> {
         self.entries.iter().map(|entry| entry.key.to_string()).collect()

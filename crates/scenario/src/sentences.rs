@@ -24,8 +24,8 @@ linkage::sentences! {
     THE_FILE_HOLDS_NO_ACCEPTED = "the file contains no accepted figures";
     the_accepted_figures_cannot_be_read(path, error) = "the accepted figures {path} cannot be read: {error}";
     // asked.rs
-    AN_ANGLE_NEARER_TO_THE_FILE = "a crank angle nearer to that of the file's start, or the number of a configuration";
-    the_configuration_of_the_group(names, crank, crank_2) = "the configuration of the group ({names}) at the start, crank angle {crank:.4} deg, cannot be followed to {crank_2:.4} deg";
+    an_input_nearer_to_the_file(noun) = "a {noun} nearer to that of the file's start, or the number of a configuration";
+    the_configuration_of_the_group(names, at, to, unit) = "the configuration of the group ({names}) at the start, {at}, cannot be followed to {to:.4} {unit}";
     // claim.rs
     there_is_no_channel_here(name) = "there is no channel {name} here";
     NAME_ONE_OF_THIS_SCENARIO = "name one of this scenario, such as link.rocker.angle_deg or point.B.x_mm";

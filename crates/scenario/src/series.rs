@@ -2,7 +2,6 @@
 //! Every value is valid at a crank angle or at a time.
 
 use crate::sentences;
-use std::fmt;
 
 use super::printed::{self, PrintedChannel};
 use super::reader::TomlTable;
@@ -53,7 +52,7 @@ pub struct OraclePoint {
 /// Where a value holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum When {
-    /// At a crank angle (rad, as the scenario measures the angle).
+    /// At a value of the input: a crank angle, for example (SI unit, as the scenario measures the input).
     /// If forces determine the motion, the value is valid for the nominal motion.
     Crank(f64),
     /// At a time (s) of the motion of the scenario.
@@ -72,13 +71,13 @@ impl When {
     pub fn time(self) -> Option<f64> {
         if let When::Time(time) = self { Some(time) } else { None }
     }
-}
 
-impl fmt::Display for When {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+    /// The instant in words, for a scenario with this input.
+    #[must_use]
+    pub fn told(self, input: Input) -> String {
         match self {
-            When::Crank(crank) => write!(f, "{:.3}", Input::Angle.at(*crank)),
-            When::Time(time) => write!(f, "{time} s"),
+            When::Crank(value) => format!("{:.3}", input.at(value)),
+            When::Time(time) => format!("{time} s"),
         }
     }
 }

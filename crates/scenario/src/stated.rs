@@ -5,7 +5,7 @@ use super::clearance::ClearanceQuestion;
 use super::engine::{self, EngineSettings};
 use super::header::{check_format, name};
 use super::keys::key::{Section, ValueKind, needed, optional};
-use super::reader::{Faults, Sign, TomlTable};
+use super::reader::{Faults, TomlTable};
 use super::settings::{self, ENGINE_REL};
 use super::unit::ANGLE;
 use super::{clearance, grid, joints, links, loads, motion, start};
@@ -103,11 +103,12 @@ impl<'a> FileSections<'a> {
         let links = links::read(ground.ok(), links.ok(), &mut faults);
         let joints = joints::read(joints, &links, &mut faults);
         let mechanism = mechanism(links, joints, &mut faults);
+        let first_input = drives.as_ref().ok().and_then(|drives| motion::first_input(drives, &mechanism));
         let (mut start, mut groups, mut crank) = (start.ok(), Vec::new(), None);
         if let Some(start) = &mut start {
             let own = |start: &mut TomlTable<'a>| {
                 groups = start.tables("groups")?;
-                let crank = start.optional_quantity("crank", &ANGLE, Sign::Any)?;
+                let crank = crank_of(start, first_input)?;
                 start.finish()?;
                 Ok(crank)
             };
@@ -117,9 +118,8 @@ impl<'a> FileSections<'a> {
         let groups = start::stated(groups, &mechanism, &mut faults);
         let loads = loads::read(loads, &mechanism, &mut faults);
         let drives =
-            drives.ok().and_then(|drives| motion::drives(drives, motor, &mechanism, [crank, asked.crank], &mut faults));
+            drives.ok().and_then(|drives| motion::drives(drives, motor, &mechanism, (crank, asked), &mut faults));
         let (drives, first) = drives.map_or((None, None), |(drives, first)| (Some(drives), Some(first)));
-        check_crank(&mut start, crank, drives.as_ref(), &mut faults);
         let crank = first.or(crank).unwrap_or_default();
         // The sections after this line depend on numbers of the mechanism and of the drive.
         // After a mistake in these numbers, the file therefore does not count as whole.
@@ -169,13 +169,18 @@ impl FileSections<'_> {
     }
 }
 
-/// Checks that `crank` in `[start]` is given for a crank as the first drive, and for no other drive.
-fn check_crank(start: &mut Option<TomlTable>, crank: Option<f64>, drives: Option<&Drives>, faults: &mut Faults) {
-    let (Some(start), Some(drives)) = (start, drives) else { return };
-    let joint = |drive: &Drive| drive.input.noun();
-    if crank.is_some() && drives.crank().input != Input::Angle {
-        let message = sentences::the_first_drive_has_the_input(&joint(drives.crank()));
-        faults.read(start, |start| start.refuse::<()>("crank", message, sentences::GIVE_ITS_START_IN_DRIVE));
+/// The crank angle in `[start]`. It is required if the first drive moves a crank, and refused for any other drive.
+/// `input` is the input of the first drive, if it is known.
+fn crank_of(start: &mut TomlTable, input: Option<Input>) -> Result<Option<f64>> {
+    match input {
+        None | Some(Input::Angle) => start.si("crank").map(Some),
+        Some(input) => match ANGLE.keys("crank").into_iter().find(|key| start.has(key)) {
+            None => Ok(None),
+            Some(key) => {
+                let message = sentences::the_first_drive_has_the_input(&input.noun());
+                start.refuse(&key, message, sentences::GIVE_ITS_START_IN_DRIVE)
+            }
+        },
     }
 }
 

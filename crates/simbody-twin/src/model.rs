@@ -128,7 +128,7 @@ impl Linkage {
                 state.torques[index] = body.drive * sign;
                 if case.drives[index].input == Input::Slide {
                     // Simbody's reaction includes the driving force.
-                    let [_, thrust] = state.thrust(joint, state.torques[index]);
+                    let [_, thrust] = case.effort(&case.drives[index], state.torques[index], &state.motions);
                     state.forces[branch.joint] -= thrust.force;
                 }
             }

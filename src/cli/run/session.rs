@@ -221,7 +221,9 @@ fn metadata(args: &Args, proof: &Proof) -> BTreeMap<String, String> {
     if !args.only.is_empty() {
         metadata.insert("only".into(), args.only.join(" "));
     }
-    metadata.extend(args.start.start_crank_deg.map(|degrees| ("start_crank_deg".into(), degrees.to_string())));
-    metadata.extend(args.grid.told().map(|(name, values)| (format!("grid_{name}"), values.to_string())));
+    let input = proof.scene.case.crank().input;
+    let start = args.start.start_crank_deg;
+    metadata.extend(start.map(|value| (format!("start_{}", input.shown_in().1), value.to_string())));
+    metadata.extend(args.grid.told(input).map(|(name, values)| (format!("grid_{name}"), values.to_string())));
     metadata
 }

@@ -6,12 +6,15 @@
 //! Each kind of group has one file.
 
 mod body;
+mod driving;
 mod higher;
 mod rrr;
+mod shaped;
 mod sliding;
 
 use crate::assur::groups::{SolutionPlan, Step};
-use body::{Action, Body, Reactions};
+use body::Reactions;
+use driving::Driving;
 use higher::Higher;
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
@@ -21,6 +24,7 @@ use linkage::mechanism::LinkId;
 use linkage::solver::State;
 use linkage::work::{Count, WorkTally};
 use rrr::Pinned;
+use shaped::Formed;
 use sliding::Sliding;
 
 /// Force analysis of one group.
@@ -28,6 +32,7 @@ use sliding::Sliding;
 enum Part {
     Pinned(Pinned),
     Sliding(Sliding),
+    Formed(Formed),
     Higher(Higher),
 }
 
@@ -35,8 +40,8 @@ enum Part {
 #[derive(Clone, Debug)]
 pub(super) struct Kinetostatics {
     parts: Vec<Part>,
-    /// The driving links, their pivots and the indices of their drives, outermost link first.
-    drivers: Vec<(Body, Action, usize)>,
+    /// The driving links, outermost link first.
+    drivers: Vec<Driving>,
     /// Loads on every link; empty if the case has no loads.
     loads: Vec<Wrench>,
     /// One load per loaded link, if all loads are moments of resistance; otherwise `None`.
@@ -54,6 +59,7 @@ impl Kinetostatics {
             parts.push(match &plan.steps()[step] {
                 Step::Chain(chain) => Part::Higher(Higher::of(case, step, chain, &settled)),
                 Step::Rrr(_) => Part::Pinned(Pinned::of(case, step, group, &settled)),
+                Step::Shaped(dyad) => Part::Formed(Formed::of(case, step, group, dyad, &settled)),
                 Step::Rrp(_) | Step::Rpr(_) | Step::Rpp(_) | Step::Prp(_) => {
                     Part::Sliding(Sliding::of(case, group, &settled))
                 }
@@ -62,7 +68,7 @@ impl Kinetostatics {
         }
         let mut drivers = Vec::with_capacity(case.drives.len());
         for (index, driver) in case.structure.leading().rev() {
-            drivers.push((Body::of(case, driver.link, &settled), Action::of(case, driver.joint, driver.link), index));
+            drivers.push(Driving::of(case, driver.link, driver.joint, index, &settled));
             settled[driver.joint] = true;
         }
         let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
@@ -105,30 +111,14 @@ impl Kinetostatics {
                     part.solve(case, dyad, motions, reactions);
                 }
                 Part::Sliding(dyad) => dyad.solve(case, motions, reactions),
+                Part::Formed(part) => {
+                    let Step::Shaped(dyad) = &plan.steps()[part.step] else { unreachable!("the step is shaped") };
+                    part.solve(case, dyad, motions, reactions);
+                }
                 Part::Higher(higher) => higher.solve(case, plan, motions, reactions),
             }
         }
-        for (driver, pivot, index) in &self.drivers {
-            let pole = pivot.place(motions);
-            let (force, moment) = driver.resultant(case, motions, reactions, pole);
-            match case.drives[*index].input {
-                Input::Angle => {
-                    pivot.put(-force, reactions);
-                    reactions.efforts[*index] = -moment;
-                }
-                Input::Turn => {
-                    pivot.put(-force, reactions);
-                    pivot.put_moment(-moment, reactions);
-                    reactions.efforts[*index] = -moment * pivot.sign();
-                }
-                Input::Slide => {
-                    let joint = &case.mechanism.joints()[pivot.joint];
-                    let axis = motions[joint.first.link].arm(joint.axis_on(joint.first.link).expect("it slides"));
-                    pivot.put_guided(-force, moment, pole, motions, reactions);
-                    reactions.efforts[*index] = -axis.dot(&force) * pivot.sign();
-                }
-            }
-        }
+        self.drivers.iter().for_each(|driver| driver.solve(case, motions, reactions));
         self.part_efforts(case, motions, reactions);
     }
 

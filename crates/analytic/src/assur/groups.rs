@@ -13,18 +13,20 @@ mod rpp;
 mod rpr;
 mod rrp;
 mod rrr;
+mod shaped;
 
 pub(in crate::assur) use bounds::{Bound, Bounds, Limit};
 #[cfg(feature = "batch")]
 pub(in crate::assur) use chain::{Arrow, Hangs};
 pub use chain::{Chain, ClosingJoint, Node};
-use driver::Driver;
+pub(in crate::assur) use driver::Driver;
 pub use misfit::{Misfit, SINGULAR, SingularityDistance};
 pub use prp::Prp;
 pub use rpp::Rpp;
 pub use rpr::Rpr;
 pub use rrp::Rrp;
 pub use rrr::Rrr;
+pub use shaped::Shaped;
 
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupId, GroupKind, LinkId, Mechanism, PerGroup, Structure};
@@ -48,7 +50,9 @@ pub enum Step {
     Rpp(Rpp),
     /// PRP dyad.
     Prp(Prp),
-    /// Group of more than two links.
+    /// RRR dyad of bodies with given joints.
+    Shaped(Box<Shaped>),
+    /// Any other group.
     Chain(Chain),
 }
 
@@ -61,6 +65,7 @@ impl Step {
             Step::Rpr(dyad) => dyad.positions(motions),
             Step::Rpp(dyad) => dyad.positions(motions),
             Step::Prp(dyad) => dyad.positions(motions),
+            Step::Shaped(dyad) => dyad.positions(angles, motions),
             Step::Chain(chain) => match chain.positions(angles, motions) {
                 true => Ok(()),
                 false => Err(Misfit::Lost),
@@ -76,6 +81,7 @@ impl Step {
             Step::Rpr(dyad) => dyad.velocities(motions),
             Step::Rpp(dyad) => dyad.velocities(motions),
             Step::Prp(dyad) => dyad.velocities(motions),
+            Step::Shaped(dyad) => dyad.velocities(rates, motions),
             Step::Chain(chain) => chain.velocities(rates, motions),
         }
     }
@@ -88,6 +94,7 @@ impl Step {
             Step::Rpr(dyad) => dyad.accelerations(motions),
             Step::Rpp(dyad) => dyad.accelerations(motions),
             Step::Prp(dyad) => dyad.accelerations(motions),
+            Step::Shaped(dyad) => dyad.accelerations(second, motions),
             Step::Chain(chain) => chain.accelerations(second, motions),
         }
     }
@@ -104,6 +111,7 @@ impl Step {
             Step::Rrr(dyad) => Some(dyad.clearance(motions)),
             Step::Rrp(dyad) => Some(dyad.clearance(motions)),
             Step::Rpr(dyad) => Some(dyad.clearance(motions)),
+            Step::Shaped(dyad) => Some(dyad.clearance(motions)),
             Step::Rpp(_) | Step::Prp(_) | Step::Chain(_) => None,
         }
     }
@@ -115,6 +123,7 @@ impl Step {
             Step::Rrr(dyad) => Some(dyad.sine()),
             Step::Rrp(dyad) => Some(dyad.sine(motions)),
             Step::Rpr(dyad) => Some(dyad.sine(motions)),
+            Step::Shaped(dyad) => Some(dyad.sine()),
             Step::Rpp(_) | Step::Prp(_) | Step::Chain(_) => None,
         }
     }
@@ -131,7 +140,7 @@ impl Step {
             Step::Rrp(dyad) => dyad.gauge(),
             Step::Rpr(dyad) => dyad.gauge(),
             Step::Prp(dyad) => dyad.gauge(),
-            Step::Rpp(_) | Step::Chain(_) => f64::NAN,
+            Step::Rpp(_) | Step::Shaped(_) | Step::Chain(_) => f64::NAN,
         }
     }
 
@@ -150,7 +159,7 @@ impl Step {
             Step::Rrp(dyad) => dyad.limit(links, motions, step),
             Step::Rpr(dyad) => dyad.limit(links, farthest, step),
             Step::Prp(dyad) => dyad.limit(links),
-            Step::Rpp(_) | Step::Chain(_) => None,
+            Step::Rpp(_) | Step::Shaped(_) | Step::Chain(_) => None,
         }
     }
 
@@ -161,7 +170,7 @@ impl Step {
             Step::Rrp(dyad) => dyad.bound(band, step, motions, links),
             Step::Rpr(dyad) => dyad.bound(band, links),
             // No bounds are written for these groups, because the travel of their sliders is unlimited.
-            Step::Prp(_) | Step::Rpp(_) | Step::Chain(_) => {}
+            Step::Prp(_) | Step::Rpp(_) | Step::Shaped(_) | Step::Chain(_) => {}
         }
     }
 
@@ -173,6 +182,7 @@ impl Step {
             Step::Rrr(dyad) => Some((Step::Rrr(dyad.flipped()), dyad.links())),
             Step::Rrp(dyad) => Some((Step::Rrp(dyad.flipped()), dyad.links())),
             Step::Rpr(dyad) => Some((Step::Rpr(dyad.flipped()), dyad.links())),
+            Step::Shaped(dyad) => Some((Step::Shaped(Box::new(dyad.flipped())), dyad.links())),
             Step::Rpp(_) | Step::Prp(_) | Step::Chain(_) => None,
         }
     }
@@ -211,6 +221,9 @@ impl SolutionPlan {
         let drivers = structure.leading().map(|(index, driver)| Driver::of(mechanism, index, driver));
         let chain = |group: &Group| Step::Chain(Chain::of(mechanism, group, &structure.drivers));
         let steps = structure.groups.iter().zip(modes).map(|(group, &mode)| match group.kind {
+            GroupKind::Rrr if !group.is_rigid() => {
+                Step::Shaped(Box::new(Shaped::of(mechanism, group, mode, &structure.drivers)))
+            }
             _ if !group.is_rigid() => chain(group),
             GroupKind::Rrr => Step::Rrr(Rrr::of(mechanism, group, mode)),
             GroupKind::Rrp => Step::Rrp(Rrp::of(mechanism, group, mode)),
@@ -371,7 +384,7 @@ impl SolutionPlan {
     pub(crate) fn determinant(&self, group: GroupId) -> Option<f64> {
         match &self.steps[group] {
             Step::Chain(chain) => Some(chain.determinant()),
-            Step::Rrr(_) | Step::Rrp(_) | Step::Rpr(_) | Step::Rpp(_) | Step::Prp(_) => None,
+            Step::Rrr(_) | Step::Rrp(_) | Step::Rpr(_) | Step::Rpp(_) | Step::Prp(_) | Step::Shaped(_) => None,
         }
     }
 

@@ -9,6 +9,7 @@ use super::chord::{closed_slopes, integral, slopes};
 use crate::sentences;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::KeepNan;
 use linkage::math::statistics::{half_range, rms, share};
 use linkage::solver::Solver;
@@ -143,7 +144,9 @@ pub struct MotionDiagram {
     pub divisions: usize,
     /// Number of rows per division. The number is even.
     pub stride: usize,
-    /// Crank angle of every row (rad, as the scenario defines it).
+    /// What the input measures.
+    pub input: Input,
+    /// Input of every row (SI unit, as the scenario defines it).
     pub cranks: Vec<f64>,
     /// Time of every row (s).
     pub times: Vec<f64>,
@@ -205,7 +208,8 @@ impl MotionDiagram {
             MethodResult { method, rows, values, largest, rms: size[0], share, orders }
         });
         let found = found.collect();
-        Ok(MotionDiagram { course: course.clone(), divisions, stride, cranks, times, exact, found })
+        let input = case.crank().input;
+        Ok(MotionDiagram { course: course.clone(), divisions, stride, input, cranks, times, exact, found })
     }
 
     /// Half the range of an exact curve (SI). Index 0 is the displacement, 1 the velocity, 2 the acceleration.

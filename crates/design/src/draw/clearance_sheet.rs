@@ -70,7 +70,8 @@ pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &Cle
     }
     picture.draw_marks();
     picture.number_links();
-    let crank = sentences::crank_angle_deg(&significant(shown.to_degrees()));
+    let input = case.crank().input;
+    let crank = format!("{} {} {}", input.noun(), significant(input.shown(shown)), input.shown_in().0);
     let names = |pair: &PairClearance| pair.bodies.map(|body| asked.bodies[body].name.as_str()).join(" and ");
     let words = if let Some((pair, meeting)) = collision {
         picture.figure.disc(meeting.place / scale, 2.2, "none", solid(ALARM, 0.8));

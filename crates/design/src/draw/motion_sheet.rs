@@ -56,7 +56,8 @@ fn panel(diagram: &MotionDiagram, which: usize) -> DrawnFigure {
     let heading = sentences::scale_factor_2(&channel, &sub(symbol), &scale, &per);
     figure.text(Vec2::new(0.0, height + 8.0), heading, Type { bold: true, ..words(3.8) });
     let middle = Type { anchor: "middle", ..words(TEXT) };
-    figure.text(Vec2::new(LONG / 2.0, -9.0), sentences::CRANK_ANGLE_DEG_3, middle);
+    let (noun, unit) = (diagram.input.noun(), diagram.input.shown_in().0);
+    figure.text(Vec2::new(LONG / 2.0, -9.0), format!("{noun}, {unit}"), middle);
     figure.text(Vec2::new(0.0, height + 2.5), format!("{symbol}, {unit}"), Type { anchor: "end", ..middle });
     caption(&mut figure, &found, which, &unit);
     figure
@@ -113,8 +114,9 @@ fn axes(figure: &mut DrawnFigure, diagram: &MotionDiagram, axis: &ValueAxis) {
         figure.line([Vec2::new(x, 0.0), Vec2::new(x, height)], GRID);
         let labelled = whole.div_ceil(12);
         if k % labelled == 0 || k == whole {
-            let degrees = ((start + turn * k as f64 / whole as f64).to_degrees() * 10.0).round() / 10.0 + 0.0;
-            figure.text(Vec2::new(x, -4.0), format!("{degrees}°"), Type { anchor: "middle", ..words(2.8) });
+            let shown = diagram.input.shown(start + turn * k as f64 / whole as f64);
+            let (shown, sign) = ((shown * 10.0).round() / 10.0 + 0.0, diagram.input.sign());
+            figure.text(Vec2::new(x, -4.0), format!("{shown}{sign}"), Type { anchor: "middle", ..words(2.8) });
         }
     }
     frame(figure, Vec2::new(LONG, height), GREY);

@@ -54,7 +54,8 @@ pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
     ];
     let mut sheet = DrawnFigure::default();
     let large = Type { bold: true, ..words(5.5) };
-    sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), sentences::crank_at(&name, &degrees(plans.crank)), large);
+    let heading = format!("{name}, {}", plans.input.marked(plans.crank));
+    sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), heading, large);
     sheet.text(Vec2::new(MARGIN, -MARGIN - 10.0), title, words(3.6));
     let columns = columns.map(|(heading, figure, table)| (heading, figure, table.figure()));
     let wide = |figure: &DrawnFigure| figure.bounds()[1].x - figure.bounds()[0].x;
@@ -73,12 +74,6 @@ pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
     }
     let [low, high] = sheet.bounds();
     document(&sheet, [(high.x.larger(MARGIN + widest) + MARGIN).ceil(), (MARGIN - low.y).ceil()], name)
-}
-
-/// Formats an angle in degrees, without digits of rounding error.
-fn degrees(angle: f64) -> String {
-    let degrees = (angle.to_degrees() * 1e6).round() / 1e6 + 0.0;
-    format!("{degrees}")
 }
 
 /// Line style of each kind of vector.

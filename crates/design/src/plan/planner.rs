@@ -25,6 +25,7 @@ use super::vectors::{Quantity, VectorPlan};
 use crate::sentences;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::mechanism::{LinkId, Mechanism};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
@@ -32,8 +33,10 @@ use linkage::trajectory::Stage;
 /// Kinematic diagram, velocity plan and acceleration plan of one instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plans {
-    /// Crank angle (rad, as the scenario defines it).
+    /// Value of the input (SI unit, as the scenario defines it).
     pub crank: f64,
+    /// What the input measures.
+    pub input: Input,
     /// Kinematic diagram.
     pub scheme: Scheme,
     /// Velocity plan.
@@ -61,7 +64,7 @@ impl Plans {
         let names = planner.places.iter().map(|place| &place.named);
         let points = names.map(|named| (named.clone(), carriers(&named.name))).collect();
         let [velocity, acceleration] = Quantity::ALL.map(|quantity| planner.plan(quantity, state));
-        Plans { crank, scheme, velocity, acceleration, points }
+        Plans { crank, input: case.crank().input, scheme, velocity, acceleration, points }
     }
 
     /// Keeps only the vectors of the points and links in `names`.
@@ -121,15 +124,18 @@ impl<'a> Planner<'a> {
     }
 }
 
-/// Computes the state of `case` at the crank angle `crank` (rad, as the scenario defines it), up to accelerations.
+/// Computes the state of `case` at the value `crank` of its input (SI unit, as the scenario defines it), up to
+/// accelerations.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for a crank angle too far away to be reached step by step.
 /// Those of the solver.
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
     let grid = Grid::of_inputs(case.crank(), vec![crank]);
-    grid.check(case.crank())
-        .map_err(|message| Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_CRANK_ANGLE_IN_DEGREES))?;
+    grid.check(case.crank()).map_err(|message| {
+        let (noun, unit) = (case.crank().input.noun(), case.crank().input.shown_in().0.replace("deg", "degrees"));
+        Error::new(ErrorKind::Input, message).help(sentences::give_a_number_in(&noun, &unit))
+    })?;
     let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
     let case = case.on(grid)?.wanting(wanted);
     let mut found = State::at_start(&case);

@@ -2,6 +2,7 @@
 
 use super::kinds::{FaultKind, Plant};
 use super::seen::FaultyProof;
+use linkage::input::Input;
 
 linkage::words! {
     /// Who gets a fault.
@@ -61,6 +62,8 @@ pub struct Mutant {
 pub struct Mutated {
     /// Name of the scenario.
     pub scenario: String,
+    /// What the input of the scenario measures.
+    pub input: Input,
     /// Verdict of the scenario's proof without a fault.
     pub verdict: &'static str,
     /// Name of the engine.

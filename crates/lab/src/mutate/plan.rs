@@ -71,7 +71,8 @@ pub fn mutate(scenario: &Scenario, asked: &MutationPlan, progress: &mut dyn FnMu
     let instead = if mutants.iter().any(is_real) { Vec::new() } else { families(&stage)? };
     let formulas = stage.formulas().len();
     let Stage { verdict, engine, .. } = stage;
-    Ok(Mutated { scenario: scenario.name.clone(), verdict, engine, mutants, formulas, without, instead })
+    let (name, input) = (scenario.name.clone(), scenario.case.crank().input);
+    Ok(Mutated { scenario: name, input, verdict, engine, mutants, formulas, without, instead })
 }
 
 /// Work allowed for all faults of a file, divided by the work allowed for one proof.

@@ -12,7 +12,7 @@ use prover::run::{ChannelProof, EngineProof, Judgement, ObservedSides};
 pub struct Sight {
     /// Name of the channel or check, and of the comparison.
     pub what: String,
-    /// First instant at which the bound is exceeded (s), and its crank angle (rad); `None` for a check of the whole
+    /// First instant at which the bound is exceeded (s), and the input (SI); `None` for a check of the whole
     /// run.
     pub since: Option<(f64, f64)>,
     /// Largest difference divided by its bound.

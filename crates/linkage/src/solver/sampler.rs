@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 use super::state::State;
 use crate::case::{Case, Seat};
 use crate::error::Result;
-use crate::input::Input;
 use crate::math::{Motion, Vec2};
 use crate::mechanism::{JointId, JointSide, LinkId};
 use crate::trajectory::channel::rows;
@@ -28,7 +27,7 @@ pub struct Sampler {
     sliders: Vec<(JointId, Mask)>,
     frame: Mask,
     /// The drives that exert a moment. If the crank's drive is one of them, it comes first.
-    drives: Vec<(usize, Mask)>,
+    drives: Vec<(usize, ChannelSubject, Mask)>,
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
     rows: Vec<usize>,
@@ -98,7 +97,7 @@ impl Sampler {
                 Seat::Joint(joint) if subject == ChannelSubject::Slider => sampler.sliders.push((joint, mask)),
                 Seat::Joint(joint) => sampler.joints.push((joint, mask)),
                 Seat::Frame => sampler.frame = mask,
-                Seat::Drive(drive) => sampler.drives.push((drive, mask)),
+                Seat::Drive(drive) => sampler.drives.push((drive, subject, mask)),
             }
         }
         Sampler { channels, ..sampler }
@@ -154,15 +153,20 @@ impl Sampler {
                 OfFrame::Moment => shaking.1,
             });
         }
-        for &(index, mask) in &self.drives {
+        for &(index, subject, mask) in &self.drives {
             let read = |of| match of {
                 OfDrive::Effort => state.torques[index],
             };
-            match (index, case.drives[index].input) {
-                (0, Input::Angle | Input::Turn) => out.put(&rows::DRIVE, mask, read),
-                (_, Input::Angle | Input::Turn) => out.put(&rows::MOTOR, mask, read),
-                (0, Input::Slide) => out.put(&rows::THRUST, mask, read),
-                (_, Input::Slide) => out.put(&rows::FURTHER_THRUST, mask, read),
+            match subject {
+                ChannelSubject::Motor => out.put(&rows::MOTOR, mask, read),
+                ChannelSubject::Thrust => out.put(&rows::THRUST, mask, read),
+                ChannelSubject::FurtherThrust => out.put(&rows::FURTHER_THRUST, mask, read),
+                ChannelSubject::Link
+                | ChannelSubject::Point
+                | ChannelSubject::Joint
+                | ChannelSubject::Slider
+                | ChannelSubject::Frame
+                | ChannelSubject::Drive => out.put(&rows::DRIVE, mask, read),
             }
         }
         debug_assert!(out.values.is_empty(), "as many values as channels");

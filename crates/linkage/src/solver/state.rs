@@ -1,8 +1,6 @@
 //! The state of a mechanism, in the form that all solvers use.
 
 use crate::case::Case;
-use crate::drive::Action;
-use crate::input::Input;
 use crate::math::{KeepNan, Motion, Vec2, cross, unit};
 use crate::mechanism::{GROUND, Joint, PerJoint, PerLink};
 
@@ -55,19 +53,10 @@ impl State {
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
         let (mut force, mut moment) = (Vec2::zeros(), 0.0);
-        for (drive, torque) in case.drives.iter().zip(&self.torques) {
-            match drive.input {
-                // The drive of a crank is mounted on the frame. Its moment on the frame is opposite to its balancing
-                // moment.
-                Input::Angle => moment -= torque,
-                Input::Turn => {}
-                Input::Slide => {
-                    let [first, second] = self.thrust(&case.mechanism.joints()[drive.joint], *torque);
-                    for action in [first, second].into_iter().filter(|action| action.link == GROUND) {
-                        force -= action.force;
-                        moment -= action.about(Vec2::zeros());
-                    }
-                }
+        for (drive, effort) in case.drives.iter().zip(&self.torques) {
+            for action in case.effort(drive, *effort, &self.motions).into_iter().filter(|own| own.link == GROUND) {
+                force += action.force;
+                moment += action.about(Vec2::zeros());
             }
         }
         for (index, joint) in case.mechanism.joints().entries() {
@@ -89,19 +78,6 @@ impl State {
         (force, moment)
     }
 
-    /// Actions of a driving force (N) on the first and on the second link of a prismatic joint.
-    #[must_use]
-    pub fn thrust(&self, joint: &Joint, force: f64) -> [Action; 2] {
-        let axis = self.motions[joint.first.link].arm(joint.axis_on(joint.first.link).expect("the joint slides"));
-        let place = self.motions[joint.second.link].point(joint.second.local);
-        [(joint.first.link, -force), (joint.second.link, force)].map(|(link, force)| Action {
-            link,
-            force: axis * force,
-            place,
-            moment: 0.0,
-        })
-    }
-
     /// Largest opening of a joint (m), and largest distance of a joint from the origin (m).
     /// In a prismatic joint the opening is measured perpendicular to the guide.
     /// The angle between the joint's two axes (rad), multiplied by `size` (m), also counts as an opening.
@@ -121,10 +97,9 @@ impl State {
     /// Largest moment (N m): of a drive, or of a force of a joint or drive at `arm` (m).
     #[must_use]
     pub fn largest_moment(&self, case: &Case, arm: f64) -> f64 {
-        let torques = case.drives.iter().zip(&self.torques).map(|(drive, effort)| match drive.input {
-            Input::Angle | Input::Turn => effort.abs(),
-            Input::Slide => effort.abs() * arm,
-        });
+        // A force acts at the arm, a moment acts as it is.
+        let efforts = case.drives.iter().zip(&self.torques);
+        let torques = efforts.map(|(drive, effort)| effort.abs() * (arm / drive.input.reach(arm)));
         self.forces.iter().map(|force| force.norm() * arm).chain(torques).fold(0.0, f64::larger)
     }
 

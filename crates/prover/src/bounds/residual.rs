@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use linkage::math::{KeepNan, largest_size};
 
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::statistics::{differences, half_range, quantile, rms, share, sorted_sizes};
 use linkage::trajectory::{Channel, Trajectory, Unit};
 
@@ -35,8 +36,10 @@ pub struct Residual {
     pub q99: f64,
     /// Time of the largest difference (s).
     pub worst_time: f64,
-    /// Crank angle of the largest difference (rad).
+    /// Value of the input at the largest difference (SI).
     pub worst_crank: f64,
+    /// What `worst_crank` measures.
+    pub input: Input,
 }
 
 impl Residual {
@@ -301,6 +304,7 @@ fn of_values(channel: &Channel, values: &[f64], scale: f64, errors: &Trajectory)
         q99: quantile(&sorted, 0.99),
         worst_time: errors.times().get(worst).copied().unwrap_or(0.0),
         worst_crank: errors.inputs().get(worst).copied().unwrap_or(0.0),
+        input: errors.input(),
     }
 }
 

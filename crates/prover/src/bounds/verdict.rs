@@ -5,7 +5,7 @@ use crate::sentences;
 use std::fmt;
 
 use super::{Convergence, Residual};
-use crate::numbers::{error_in, fixed, percent};
+use crate::numbers::{error_in, fixed, input_told, percent};
 use crate::tolerance::{BoundBasis, BoundPart, Parts, Tolerance};
 use linkage::error::Advice;
 use linkage::math::KeepNan;
@@ -110,11 +110,10 @@ impl Verdict {
     #[must_use]
     pub fn of_engine(residual: &Residual, convergence: &Convergence, parts: Parts, wanted: f64) -> Self {
         let place = || {
-            let (t, crank) = (residual.worst_time, residual.worst_crank.to_degrees());
             let unit = residual.channel.kind.unit.symbol();
             let (error, bound) = (error_in(residual.max, unit), error_in(parts.sum(), unit));
-            let (t, crank) = (fixed(t, 6), fixed(crank, 3));
-            sentences::is_beyond_the_bound_at_crank(&error, &bound, &t, &crank)
+            let (t, at) = (fixed(residual.worst_time, 6), input_told(residual.input.at(residual.worst_crank), 3));
+            sentences::is_beyond_the_bound_at(&error, &bound, &t, &at)
         };
         Verdict::of_estimate(residual.max, residual.scale, convergence, parts, wanted, place)
     }
@@ -307,7 +306,8 @@ mod tests {
 
     fn residual(max: f64) -> Residual {
         let channel = Channel::named("joint.A.fx_N").unwrap();
-        Residual { channel, scale: 1.0, max, rms: 0.0, q75: 0.0, q99: 0.0, worst_time: 0.1, worst_crank: 1.0 }
+        let (worst_time, worst_crank, input) = (0.1, 1.0, linkage::input::Input::Angle);
+        Residual { channel, scale: 1.0, max, rms: 0.0, q75: 0.0, q99: 0.0, worst_time, worst_crank, input }
     }
 
     fn converging(observed: f64) -> Convergence {

@@ -10,8 +10,9 @@ use super::missing::{Missing, missing};
 use super::slips::{self, FormulaSlip, Mended, SlipKind};
 use super::terms::{self, Term};
 use super::trial::{MOST_LEFT, Trial};
-use crate::numbers::{fixed, significant};
+use crate::numbers::{input_in, input_told, significant};
 use linkage::error::Result;
+use linkage::input::{Input, InputValue};
 use linkage::math::KeepNan;
 use scenario::{Claim, Formulas};
 
@@ -29,12 +30,12 @@ pub enum FormulaCause {
     Missing(Missing),
     /// Terms of the mechanism are missing from the formula.
     Terms(Vec<Term>),
-    /// The formula is right up to a crank angle (rad). Beyond this angle it follows another branch.
+    /// The formula is right up to a value of the input. Beyond this value it follows another branch.
     Leaves {
-        /// Last crank angle (rad) at which the formula is right.
-        after: f64,
-        /// First crank angle (rad) at which the formula is wrong.
-        before: f64,
+        /// Last value of the input at which the formula is right.
+        after: InputValue,
+        /// First value of the input at which the formula is wrong.
+        before: InputValue,
     },
     /// Several causes explain the error equally well. Some of these causes may be missing from the list.
     Several {
@@ -89,7 +90,7 @@ impl fmt::Display for FormulaCause {
                 write!(f, "{noun}, {}", terms.join(" and "))
             }
             FormulaCause::Leaves { after, before } => {
-                let [after, before] = [after, before].map(|crank| fixed(crank.to_degrees(), 3));
+                let (after, before) = (input_told(*after, 3), input_in(*before, 3));
                 write!(f, "{}", sentences::another_branch_it_is_right(&after, &before))
             }
             FormulaCause::Several { causes, more } => {
@@ -249,7 +250,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     // An approximation is not examined for this cause: it is right by chance at the instants at which it crosses the
     // exact curve.
     let is_exact = trial.formula.error.is_none();
-    if let Some(found) = leaves(&rows).filter(|_| is_exact) {
+    if let Some(found) = leaves(&rows, course.input()).filter(|_| is_exact) {
         return Some(found);
     }
     // Largest remainder that counts as evidence for a slip.
@@ -321,14 +322,14 @@ fn of_numbers(rows: &[Row]) -> Option<FormulaCause> {
     offset.or_else(|| by(&|row| row[3]).map(|more| FormulaCause::Factor(1.0 + more)))
 }
 
-/// Recognises a formula that is right up to a crank angle and wrong beyond it.
-fn leaves(rows: &[Row]) -> Option<FormulaCause> {
+/// Recognises a formula that is right up to a value of the input and wrong beyond it.
+fn leaves(rows: &[Row], input: Input) -> Option<FormulaCause> {
     let mut order: Vec<&Row> = rows.iter().collect();
     order.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let is_right = |row: &&Row| (row[2] - row[3]).abs() <= row[4];
     let right = order.iter().copied().take_while(is_right).count();
     (right >= 2 && right < order.len())
-        .then(|| FormulaCause::Leaves { after: order[right - 1][1], before: order[right][1] })
+        .then(|| FormulaCause::Leaves { after: input.at(order[right - 1][1]), before: input.at(order[right][1]) })
 }
 
 #[cfg(test)]

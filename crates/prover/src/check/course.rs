@@ -4,6 +4,7 @@ use crate::sentences;
 use formula::{Function, Operator, Rounded};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
 use scenario::{Claim, Formula, MechanismFigure, PrintedChannel};
@@ -134,6 +135,10 @@ impl<'a> KnownTrajectory<'a> {
 
     pub(super) fn cranks(&self) -> &[f64] {
         self.trajectory.inputs()
+    }
+
+    pub(super) fn input(&self) -> Input {
+        self.trajectory.input()
     }
 
     /// Rows at which a formula is claimed to hold.

@@ -63,6 +63,7 @@ pub(super) fn pairs(
     let mut own = Program::of(&formulas.graph, &[formula.id]);
     let mut at = |row: usize| Pair {
         place: [course.times()[row], course.cranks()[row]],
+        input: course.input(),
         formula: own.run(&course.inputs(row))[0],
         mechanism: claimed.at(row)[0],
     };
@@ -153,7 +154,7 @@ pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<Ju
             let both = own.iter().zip(claims[*claimed].program.answers());
             for (judged, (&formula_value, &mechanism)) in judged.iter_mut().zip(both) {
                 let turn = turn.filter(|_| judged.order == 0);
-                judged.put(formula, turn, Pair { place, formula: formula_value, mechanism });
+                judged.put(formula, turn, Pair { place, input: course.input(), formula: formula_value, mechanism });
             }
         }
     }

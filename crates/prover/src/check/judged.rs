@@ -3,6 +3,7 @@
 use crate::sentences;
 use formula::Rounded;
 use linkage::error::Advice;
+use linkage::input::Input;
 use linkage::math::KeepNan;
 use scenario::{Claim, Formula};
 
@@ -11,8 +12,10 @@ use scenario::{Claim, Formula};
 pub struct FormulaAtInstant {
     /// Time (s).
     pub time: f64,
-    /// Crank angle (rad, in the scenario's convention).
+    /// Value of the input (SI unit, in the scenario's convention).
     pub crank: f64,
+    /// What `crank` measures.
+    pub input: Input,
     /// Value of the formula.
     pub formula: f64,
     /// Value of the mechanism.
@@ -32,10 +35,11 @@ impl FormulaAtInstant {
     }
 }
 
-/// Values of a formula and its claim at an instant: time (s) and crank angle (rad).
+/// Values of a formula and its claim at an instant: time (s) and value of the input (SI).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     pub(super) place: [f64; 2],
+    pub(super) input: Input,
     pub(super) formula: Rounded,
     pub(super) mechanism: Rounded,
 }
@@ -134,7 +138,7 @@ impl JudgedFormula {
 
     /// Judges one instant.
     pub(super) fn put(&mut self, formula: &Formula, turn: Option<f64>, pair: Pair) {
-        let Pair { place: [time, crank], formula: found, mechanism } = pair;
+        let Pair { place: [time, crank], input, formula: found, mechanism } = pair;
         if !has_number(mechanism) {
             return;
         }
@@ -144,7 +148,8 @@ impl JudgedFormula {
         // An undefined value has no rounding error.
         let rounding = if found.is_undefined() { 0.0 } else { found.error };
         let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
-        let at = FormulaAtInstant { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
+        let (value, right) = (found.value, mechanism.value);
+        let at = FormulaAtInstant { time, crank, input, formula: value, mechanism: right, difference, bound };
         // If the mechanism's value is hardly more accurate than the formula's value, the formula is not the cause of
         // the lost digits.
         // So the digits do not count as lost.
@@ -206,6 +211,7 @@ mod tests {
         let claimed = |error: f64, own: f64| {
             let of = |row: u32| Pair {
                 place: [f64::from(row), f64::from(row)],
+                input: Input::Angle,
                 formula: Rounded { value: 2.0, error: 2.0 * error },
                 mechanism: Rounded { value: 2.0, error: 2.0 * own },
             };

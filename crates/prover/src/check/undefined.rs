@@ -5,9 +5,10 @@ use std::fmt;
 
 use super::KnownTrajectory;
 use super::trial::Trial;
-use crate::numbers::fixed;
+use crate::numbers::input_told;
 use formula::FormulaFault;
 use linkage::error::Result;
+use linkage::input::Input;
 use scenario::Formulas;
 
 /// An operation outside its domain, at the first instant at which a formula has no value.
@@ -19,8 +20,10 @@ pub struct Undefined {
     pub fault: FormulaFault,
     /// The operation as it is written.
     pub written: String,
-    /// The crank angle (rad).
+    /// Value of the input (SI).
     pub crank: f64,
+    /// What `crank` measures.
+    pub input: Input,
     /// Whether the formula is right wherever it has a value, and has a value somewhere.
     /// The undefined operation is then the only fault.
     pub is_all: bool,
@@ -28,10 +31,9 @@ pub struct Undefined {
 
 impl fmt::Display for Undefined {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Undefined { formula, fault: FormulaFault { message, at, help }, written, crank, .. } = self;
-        let crank = fixed(crank.to_degrees(), 3);
+        let Undefined { formula, fault: FormulaFault { message, at, help }, written, crank, input, .. } = self;
         let place = sentences::in_from_its_letter(&written, &formula, &(at.start + 1));
-        write!(f, "{}", sentences::at_crank_angle_deg_whatever(&message, &crank, &place, &help))
+        write!(f, "{}", sentences::at_whatever(&message, &input_told(input.at(*crank), 3), &place, &help))
     }
 }
 
@@ -55,5 +57,6 @@ pub fn undefined(formulas: &Formulas, name: &str, course: &KnownTrajectory) -> R
     let is_all = !with.is_empty() && with.iter().all(|&(place, _)| is_right(place));
     let own = &formulas.list[of];
     let written = own.text.get(fault.at.clone()).unwrap_or_default().to_string();
-    Ok((Some(Undefined { formula: own.name.clone(), fault, written, crank: pair.place[1], is_all }), work))
+    let (formula, crank) = (own.name.clone(), pair.place[1]);
+    Ok((Some(Undefined { formula, fault, written, crank, input: pair.input, is_all }), work))
 }

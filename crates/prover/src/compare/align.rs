@@ -2,7 +2,6 @@
 //! second.
 
 use crate::sentences;
-use std::f64::consts::TAU;
 
 use super::allowed::ComparisonRule;
 use super::interpolate::Course;
@@ -45,7 +44,7 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
     // A single shared instant is refused if other instants are not shared, because zero is the same in every unit of
     // time.
     if shared == 0 || shared == 1 && unshared > 0 {
-        let what = if from.is_crank { "crank angle" } else { "time" };
+        let what = if from.is_crank { one.at.input.noun() } else { "time" };
         let which = if shared == 0 { "no" } else { "only one" };
         let message = sentences::of_the_second_party_is_one_of_the_first(&which, &what);
         return Err(Error::new(ErrorKind::Input, message).help(sentences::ALLOW_INTERPOLATION_OR_GIVE_BOTH));
@@ -66,14 +65,16 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
     let both = Both {
         parties: [&first, other],
         at: &to,
+        input: other.at.input,
         instants: [known(&other.at.times), known(&other.at.cranks)],
         drift: of_claims,
         how,
     };
     let mut pair = SidePair { names, unshared, alone, ..SidePair::of(&both, Which::Second, &claims) };
     if let ([Some(ours), Some(theirs)], false) = ([&one.at.cranks, &other.at.cranks], to.is_crank) {
-        let ours = at_places(ours, &from, &places, Some(TAU));
-        pair.checks.extend(crank_check(&both, [&ours, theirs], &drift(&ours, Some(TAU))));
+        let turn = pair.input.period().map(|(turn, _)| turn);
+        let ours = at_places(ours, &from, &places, turn);
+        pair.checks.extend(crank_check(&both, [&ours, theirs], &drift(&ours, turn)));
     }
     Ok(pair)
 }

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::tables::By;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::KeepNan;
 use scenario::mapping::{Allowed, Size};
 use scenario::{Claim, PrintedChannel};
@@ -45,12 +46,13 @@ impl ComparisonRule {
         Words::of(own.filter_map(|(index, allowed)| Some((index, allowed.of.as_deref()?))))
     }
 
-    /// Allowed difference of the crank angle (rad). `scale` is the scale of the crank angle.
-    /// The difference follows from allowances for all channels and for the word `crank`. Absolute sizes are in degrees.
+    /// Allowed difference of the input (SI), such as the crank angle. `scale` is the scale of the input.
+    /// The difference follows from allowances for all channels and for the word `crank`. Absolute sizes are in the unit
+    /// in which people read the input.
     #[must_use]
-    pub fn allows_crank(&self, scale: f64) -> Option<Allowance> {
+    pub fn allows_crank(&self, scale: f64, input: Input) -> Option<Allowance> {
         let own = self.allowed.iter().filter(|own| own.of.as_deref().is_none_or(|word| word == CRANK));
-        allowance(own, scale, 1f64.to_radians())
+        allowance(own, scale, input.read(1.0))
     }
 
     /// Whether the crank angle is requested.
@@ -192,7 +194,7 @@ mod tests {
         }
         // The crank accepts an allowance in degrees or as a fraction of its range. It ignores an allowance for another
         // channel.
-        let crank = |said: &[(Option<&str>, Size)]| how(said).allows_crank(4.0).map(|own| own.fixed);
+        let crank = |said: &[(Option<&str>, Size)]| how(said).allows_crank(4.0, Input::Angle).map(|own| own.fixed);
         assert_eq!(crank(&[(Some("crank"), absolute(180.0))]), Some(std::f64::consts::PI));
         assert_eq!(crank(&[(None, relative(0.5))]), Some(2.0));
         assert_eq!(crank(&[(Some("point.B"), absolute(1.0))]), None);

@@ -59,6 +59,7 @@ pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &Compa
     let both = Both {
         parties: which.beside(&own, &other),
         at: &at,
+        input: scenario.case.crank().input,
         instants: [place(trajectory.times()), place(trajectory.inputs())],
         drift: drift.claims,
         how,

@@ -78,7 +78,9 @@ impl Which {
 pub(super) struct Both<'a> {
     pub parties: [&'a Held; 2],
     pub at: &'a RowKey,
-    /// Times and crank angles of the rows, as far as they are known.
+    /// What the input measures.
+    pub input: Input,
+    /// Times and values of the input of the rows, as far as they are known.
     pub instants: [Vec<f64>; 2],
     /// Uncertainty due to the digits of the instants, by claim and row; empty if the instants are exact.
     pub drift: Vec<Vec<f64>>,
@@ -158,7 +160,7 @@ impl Both<'_> {
                 sentences::they_differ_by_up_to_and_neither(&format_args!("{largest:.3e}")),
                 sentences::SAY_WHAT_DIFFERENCE_IS_ALLOWED,
             ),
-            Some(since) => Verdict::Disagree { place: place(&since) },
+            Some(since) => Verdict::Disagree { place: place(&since, self.input) },
             // If the difference is at most the fraction `TELLING` of the scale, the numbers agree, however large the
             // uncertainty due to their digits.
             None if is_derived && own.widest > TELLING * scale && largest > TELLING * scale => open(
@@ -171,12 +173,12 @@ impl Both<'_> {
 }
 
 /// The instant, and the numbers at this instant.
-pub(super) fn place(at: &RowPair) -> String {
+pub(super) fn place(at: &RowPair, input: Input) -> String {
     let RowPair { time, crank, values: [one, other], .. } = at;
     let when = match (time.is_nan(), crank.is_nan()) {
-        (false, false) => format!("t = {time:.6} s, {:.3}", Input::Angle.at(*crank)),
+        (false, false) => format!("t = {time:.6} s, {:.3}", input.at(*crank)),
         (false, true) => format!("t = {time:.6} s"),
-        (true, _) => format!("{:.3}", Input::Angle.at(*crank)),
+        (true, _) => format!("{:.3}", input.at(*crank)),
     };
     let told = |value: &f64| if value.is_nan() { "no number".into() } else { format!("{value:.9e}") };
     let way_out = match at.difference.is_nan() {

@@ -1,7 +1,6 @@
 //! Result of comparing two sides.
 
 use crate::sentences;
-use std::f64::consts::TAU;
 
 use super::cause::Explained;
 use super::judge::{Both, Compared, RowPair, Which, place};
@@ -10,6 +9,7 @@ use crate::tables::Held;
 use crate::tolerance::{BoundBasis, Tolerance};
 use columns::{Beside, judge};
 use formula::Rounded;
+use linkage::input::Input;
 use linkage::math::statistics::half_range;
 use scenario::Claim;
 
@@ -42,8 +42,10 @@ pub struct SidePair {
     /// Two rows of one instant that contradict each other, in the party that sets the instants.
     /// If such rows exist, no cause is sought.
     pub contradiction: Option<Contradiction>,
-    /// Whether the instants are crank angles.
+    /// Whether the instants are values of the input: crank angles, for example.
     pub by_crank: bool,
+    /// What the input measures.
+    pub input: Input,
     /// Simple causes of the disagreements.
     pub causes: Vec<Explained>,
 }
@@ -56,6 +58,7 @@ impl SidePair {
             contradiction: contradiction(both, party, claims),
             instants: both.at.values.len(),
             by_crank: both.at.is_crank,
+            input: both.input,
             turns_back: both.at.turns_back(),
             ..SidePair::default()
         }
@@ -68,10 +71,11 @@ impl SidePair {
         [judged, self.channels.len() * (self.instants - self.unshared)]
     }
 
-    /// Whether the crank angles of both parties disagree.
+    /// Whether the inputs of both parties disagree.
     #[must_use]
     pub fn crank_is_off(&self) -> bool {
-        let is_off = |check: &Check| check.family == CRANK && matches!(check.verdict, Verdict::Disagree { .. });
+        let name = self.input.noun();
+        let is_off = |check: &Check| check.family == name && matches!(check.verdict, Verdict::Disagree { .. });
         self.checks.iter().any(is_off)
     }
 
@@ -96,7 +100,7 @@ impl SidePair {
 pub struct Contradiction {
     /// Their numbers, from 0.
     pub rows: [usize; 2],
-    /// The instant: a time (s) or a crank angle (rad).
+    /// The instant: a time (s) or a value of the input (SI).
     pub at: f64,
     /// The channel as named in the table.
     pub channel: String,
@@ -128,30 +132,31 @@ fn contradiction(both: &Both, party: Which, claims: &[Claim]) -> Option<Contradi
     })
 }
 
-/// Name of the check of the crank angle.
-const CRANK: &str = "crank angle";
-
-/// Compares the crank angles (rad, as the scenario states them) of both parties at the same rows.
-/// The rows have been matched by times, so the crank angles are an additional check.
-/// `None` if the check is not requested, or if the parties have no row with both angles.
+/// Compares the values of the input (SI unit, as the scenario states them) of both parties at the same rows.
+/// The rows have been matched by times, so these values are an additional check.
+/// `None` if the check is not requested, or if the parties have no row with both values.
 /// `drift` is the uncertainty due to the digits of the times.
 pub(super) fn crank_check(both: &Both, cranks: [&[Rounded]; 2], drift: &[f64]) -> Option<Check> {
     let measure = both.measure();
     let values: Vec<f64> = cranks[measure.party].iter().map(|own| own.value).filter(|own| own.is_finite()).collect();
-    let allowed = both.how.allows_crank(half_range(&values));
+    let (input, turn) = (both.input, both.input.period().map(|(turn, _)| turn));
+    let allowed = both.how.allows_crank(half_range(&values), input);
     let mut allowance = allowed.unwrap_or_default();
     // The allowance includes the rounding error of subtracting whole revolutions.
-    allowance.fixed += 4.0 * f64::EPSILON * TAU;
-    let found = judge(&Beside { values: cranks, places: both.places(), drift, turn: Some(TAU), allowance, measure });
+    allowance.fixed += 4.0 * f64::EPSILON * turn.unwrap_or_default();
+    let found = judge(&Beside { values: cranks, places: both.places(), drift, turn, allowance, measure });
     let worst = found.worst.filter(|_| both.how.asks_for_crank())?;
     let basis = BoundBasis::Wanted(sentences::BOTH_ARE_SAID_TO_COUNT_THE_CRANK);
     let tolerance = Tolerance { bound: worst.bound, basis };
-    let mut check = Check::new(CRANK, worst.difference.abs(), tolerance, "rad");
+    let mut check = Check::new(input.noun(), worst.difference.abs(), tolerance, input.unit());
     check.verdict = match found.since {
         Some(_) if !measure.is_analytic && allowed.is_none() => {
-            Verdict::open(sentences::THE_CRANK_ANGLES_DIFFER_AND_NEITHER)
+            Verdict::open(sentences::the_inputs_differ_and_neither(&input.noun()))
         }
-        Some(at) => Verdict::Disagree { place: place(&RowPair { values: at.values.map(f64::to_degrees), ..at }) },
+        Some(at) => {
+            let values = at.values.map(|value| input.shown(value));
+            Verdict::Disagree { place: place(&RowPair { values, ..at }, input) }
+        }
         None => Verdict::Agree { margin: 1.0 / worst.used() },
     };
     Some(check)

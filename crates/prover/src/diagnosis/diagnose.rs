@@ -6,6 +6,7 @@ use super::nature::{ErrorNature, nature};
 use super::question::{DiagnosisInput, Found, Rank, SuspectChannel};
 use super::{changes, derived, others, slips};
 use crate::bounds::differences;
+use linkage::input::Input;
 use linkage::math::statistics::ascending;
 use linkage::trajectory::{Channel, Trajectory};
 
@@ -113,8 +114,10 @@ pub struct Since {
     pub channel: Channel,
     /// Time of the first instant beyond the bound (s).
     pub time: f64,
-    /// Crank angle of the reference at that instant (rad).
+    /// Input of the reference at that instant (SI).
     pub crank: f64,
+    /// What `crank` measures.
+    pub input: Input,
     /// Suspect minus reference at that instant, in the channel's unit.
     pub difference: f64,
     /// The bound, in the channel's unit.
@@ -149,6 +152,7 @@ fn of_channel(reference: &Trajectory, suspect: &Trajectory, judged: &SuspectChan
         channel: channel.clone(),
         time: reference.times()[first],
         crank: reference.inputs()[first],
+        input: reference.input(),
         difference: values[first],
         bound: *bound,
         beyond: rows.iter().filter(is_beyond).count(),

@@ -100,7 +100,7 @@ mod tests {
             let index = solved.channels().iter().position(|own| own.to_string() == name);
             found.sets[found.of[index.unwrap_or_else(|| panic!("{name}"))]].clone()
         };
-        let (driving, _) = case.structure.drivers[0];
+        let driving = case.structure.drivers[0].link;
         let name = |link: LinkId| &case.mechanism.links()[link].name;
         assert!(set(&format!("link.{}.alpha_rad_s2", name(driving))).is_empty());
         for (index, group) in case.structure.groups.entries() {

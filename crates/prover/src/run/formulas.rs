@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::each_side::{EachSide, Reference};
 use crate::bounds::{Check, Verdict};
 use crate::check::{CUT, FormulaAtInstant, FormulaCause, FormulaOutcome, JudgedFormula, Undefined, WORDS};
-use crate::numbers::{fixed, significant};
+use crate::numbers::{fixed, input_told, significant};
 use crate::tolerance::{BoundBasis, Tolerance};
 
 /// Judgement of all formulas of a scenario.
@@ -88,18 +88,13 @@ fn name(judged: &JudgedFormula) -> String {
 
 /// The first instant beyond the bound, with both values, in words.
 fn place(since: &FormulaAtInstant) -> String {
-    let FormulaAtInstant { time, crank, formula, mechanism, .. } = since;
+    let FormulaAtInstant { time, crank, input, formula, mechanism, .. } = since;
     let found = if formula.is_nan() {
         sentences::IT_HAS_NO_VALUE.to_string()
     } else {
         sentences::it_gives(&significant(*formula, 9))
     };
-    sentences::first_at_crank_angle_deg(
-        &fixed(*time, 6),
-        &fixed(crank.to_degrees(), 3),
-        &found,
-        &significant(*mechanism, 9),
-    )
+    sentences::first_at(&fixed(*time, 6), &input_told(input.at(*crank), 3), &found, &significant(*mechanism, 9))
 }
 
 #[cfg(test)]

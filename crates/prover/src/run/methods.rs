@@ -27,10 +27,11 @@ enum Quantity {
     Force,
 }
 
-/// Largest difference of one method in every quantity, with its crank angle (rad).
+/// Largest difference of one method in every quantity, with the value of the input (SI).
 #[derive(Default)]
 struct Worst {
     differences: [(f64, f64); 4],
+    input: Input,
     failure: Option<Error>,
 }
 
@@ -60,7 +61,7 @@ impl Worst {
         let (value, crank) = shares.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).unwrap_or_default();
         let tolerance = rounding(BOUND, sentences::TWO_METHODS_WITHOUT_A_COMMON);
         let check = Check::new(family, value, tolerance, "").of(detail);
-        let mut check = check.located(|| format!("at {:.3}", Input::Angle.at(crank)));
+        let mut check = check.located(|| format!("at {:.3}", self.input.at(crank)));
         if let Some(error) = self.failure {
             check.verdict = Verdict::Inconclusive { reason: error.message().into(), advice: error.advice().to_vec() };
         }
@@ -81,12 +82,13 @@ struct Watch {
 
 impl Watch {
     fn of(case: &Case, triad: Triad) -> Result<Self> {
+        let worst = || Worst { input: case.crank().input, ..Worst::default() };
         let change = match ClassChange::new(case, &triad) {
-            Ok(change) => Some((change, Worst::default())),
+            Ok(change) => Some((change, worst())),
             Err(error) if error.kind() == ErrorKind::Unsupported => None,
             Err(error) => return Err(error),
         };
-        let [cramer, assur_point, linear] = [(); 3].map(|()| Worst::default());
+        let [cramer, assur_point, linear] = [(); 3].map(|()| worst());
         Ok(Watch { triad, scales: [1.0, 0.0, 0.0, 0.0], cramer, change, assur_point, linear })
     }
 

@@ -11,6 +11,7 @@ use crate::sentences;
 use crate::tolerance::{BoundBasis, BoundOrigin, Tolerance};
 use linkage::case::{Case, Wanted};
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::KeepNan;
 use linkage::math::angle::wrapped;
 use linkage::math::statistics::share;
@@ -56,6 +57,8 @@ struct Answers<'a> {
     nominal: Option<Solved>,
     /// The true motion, sorted by time; `None` if no number is given at a time.
     timed: Option<Solved>,
+    /// Input of the case.
+    input: Input,
     /// Integration error of a side in a channel of the motion itself.
     integration: &'a dyn Fn(Reference, &Channel) -> f64,
 }
@@ -96,7 +99,7 @@ impl<'a> Answers<'a> {
         };
         // If forces determine the true motion, numbers at crank angles belong to the nominal motion.
         let nominal = solved(&case.nominal(), Along::Crank)?;
-        Ok(Answers { nominal, timed: solved(case, Along::Time)?, integration })
+        Ok(Answers { nominal, timed: solved(case, Along::Time)?, input: case.crank().input, integration })
     }
 
     /// A side's results for a series, in the nominal motion and in the motion itself.
@@ -211,7 +214,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
         let Found { deviation, bound, instant, .. } = found(point);
         let tolerance = tolerance(oracle, origin, bound, instant, point.digits);
         let check = Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol());
-        check.located(|| format!("at {}", point.at))
+        check.located(|| format!("at {}", point.at.told(answers.input)))
     };
     let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, side.name()));
     let corrected = |cell: &ExpectedCell| -> Check {
@@ -230,10 +233,10 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
     let checked = |point: &OraclePoint| against(&family, point, origin(oracle)).of(&series.name);
     let mut checks: Vec<Check> = worst.iter().map(|(_, point)| checked(point)).collect();
     if let (Some(point), Some((..=1.0, _))) = (open, worst) {
-        checks = vec![Check { verdict: unproven(point), ..checked(point) }];
+        checks = vec![Check { verdict: unproven(point, answers.input), ..checked(point) }];
     }
     for cell in &series.expected {
-        checks.push(corrected(cell).of(format!("{} at {}", series.name, shortly(cell.point.at))));
+        checks.push(corrected(cell).of(format!("{} at {}", series.name, shortly(cell.point.at, answers.input))));
     }
     if let Some((_, cells)) = &series.wrong {
         checks.extend(worst_of(cells.iter().map(corrected)).map(|check| check.of(&series.name)));
@@ -242,16 +245,16 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
 }
 
 /// The verdict on a number whose deviation may come from the rounding of its instant.
-fn unproven(point: &OraclePoint) -> Verdict {
-    let reason = sentences::at_the_rounding_of_the_instant(&point.at);
+fn unproven(point: &OraclePoint, input: Input) -> Verdict {
+    let reason = sentences::at_the_rounding_of_the_instant(&point.at.told(input));
     let advice = vec![Advice::Text(sentences::PRINT_THE_INSTANTS_WITH_MORE.into())];
     Verdict::Inconclusive { reason, advice }
 }
 
-fn shortly(at: When) -> String {
+fn shortly(at: When, input: Input) -> String {
     match at {
-        When::Crank(crank) => format!("{:.1} deg", crank.to_degrees()),
-        When::Time(_) => at.to_string(),
+        When::Crank(value) => format!("{:.1} {}", input.shown(value), input.shown_in().0),
+        When::Time(_) => at.told(input),
     }
 }
 

@@ -8,6 +8,7 @@ use super::Raw;
 use columns::{MISSING, UNDEFINED, is_missing};
 use formula::{FormulaFault, FormulaGraph, FormulaTree, NodeShape, Program, Rounded};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::statistics::ascending;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::mapping::{INSTANTS, Mapped, Mapping};
@@ -20,8 +21,10 @@ use std::ops::Range;
 pub struct Instants {
     /// Times (s).
     pub times: Option<Vec<Rounded>>,
-    /// Crank angles (rad, as the scenario states them).
+    /// Values of the input: crank angles, for example (SI unit, as the scenario states them).
     pub cranks: Option<Vec<Rounded>>,
+    /// What the input measures.
+    pub input: Input,
 }
 
 /// Quantity by which rows are matched.
@@ -194,7 +197,7 @@ impl Held {
             Some(PartyColumn { claim, values: exact(values), scale: None, mapped: None })
         };
         let columns = trajectory.iter().filter_map(column).collect();
-        Held::of_columns(Instants { times, cranks }, columns)
+        Held::of_columns(Instants { times, cranks, input: trajectory.input() }, columns)
     }
 
     /// The instants of the party's rows, as crank angles or times.
@@ -203,7 +206,7 @@ impl Held {
     /// # Errors
     /// [`ErrorKind::Input`] if the requested instants are missing.
     pub fn at(&self, by: Option<By>) -> Result<RowKey> {
-        let Instants { times, cranks } = &self.at;
+        let Instants { times, cranks, .. } = &self.at;
         let is_crank = by.map_or(times.is_none(), |by| by == By::Crank);
         let found = if is_crank { cranks } else { times };
         let [lacks, has] = if is_crank { ["crank angles", "times"] } else { ["times", "crank angles"] };

@@ -7,8 +7,8 @@ const readUnit = (unit) => READ[unit] || [nice(unit), 1];
 
 let over = 'time';
 const isOneWay = crank.every((value, k) => k === 0 || (value - crank[k - 1]) * (crank[last] - crank[0]) > 0);
-const abscissa = () => (over === 'crank' ? crank.map((value) => value * 180 / Math.PI) : time);
-const abscissaUnit = () => (over === 'crank' ? 'crank, deg' : 't, s');
+const abscissa = () => (over === 'crank' ? crank.map((value) => value * input.factor) : time);
+const abscissaUnit = () => (over === 'crank' ? `${input.word}, ${input.unit}` : 't, s');
 
 /** Functions of what is near the window, called at every instant shown. */
 const near = new Map();
@@ -84,7 +84,7 @@ function chart(card, index) {
   const { width, left, right, upper, gap, lower, axis, head } = PLOT;
   const height = head + upper + axis + (difference ? gap + lower : 0);
   const told = own.bound === undefined ? '' : `; largest error ${digits(own.max * factor, 3)} of ${digits(own.bound * factor, 3)} ${unit} allowed: ${own.verdict}`;
-  const svg = draw(card, 'svg', { class: 'chart', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `${channel.name} over ${over === 'crank' ? 'crank angle' : 'time'}${told}` });
+  const svg = draw(card, 'svg', { class: 'chart', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `${channel.name} over ${over === 'crank' ? input.noun : 'time'}${told}` });
   const [x0, x1] = [left, width - right];
   const ends = range([line]);
   const xs = { ...scale(ends[0], ends[1] > ends[0] ? ends[1] : ends[0] + 1, x0, x1), line };

@@ -15,6 +15,8 @@ const singles = (text) => new Float32Array(bytes(text));
 
 const time = doubles(page.time);
 const crank = doubles(page.crank);
+/** Names of the input, and the unit in which people read it. */
+const input = page.input || { noun: 'crank angle', word: 'crank', unit: 'deg', factor: 180 / Math.PI };
 const last = time.length - 1;
 
 /** A function that calculates once for each of its numbers. */
@@ -67,7 +69,7 @@ function linear(column) {
 
 /** The instant shown in words. */
 function atInstant() {
-  return `t = ${shown.time.toPrecision(6)} s, crank angle ${(linear(crank) * 180 / Math.PI).toFixed(2)} deg`;
+  return `t = ${shown.time.toPrecision(6)} s, ${input.noun} ${(linear(crank) * input.factor).toFixed(2)} ${input.unit}`;
 }
 
 /** A place at the instant shown, smooth between rows: cubic, with the rates at both. */

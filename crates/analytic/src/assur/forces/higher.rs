@@ -94,6 +94,13 @@ impl Higher {
             reactions.efforts[given.drive] = given.factor * multiplier;
             self.hung[given.node].put_moment(*multiplier, reactions);
         }
+        // A driving moment on a link acts on its parent in the opposite sense.
+        for (given, moment) in chain.given().iter().zip(&self.multipliers[2 * chain.closings().len()..]) {
+            if let (false, Some(parent)) = (given.is_slide, nodes[given.node].parent_node) {
+                self.cut[given.node].1 += moment;
+                self.cut[parent].1 -= moment;
+            }
+        }
         for (closing, force) in chain.closings().iter().zip(self.multipliers.chunks_exact(2)) {
             let force = Vec2::new(force[0], force[1]);
             reactions.forces[closing.joint] = force;

@@ -137,7 +137,7 @@ pub(in crate::assur) struct Given {
     /// The sign of the coordinate from the parent to the node, and the same divided by the unit of the node's unknown.
     pub(in crate::assur) sign: f64,
     pub(in crate::assur) factor: f64,
-    is_slide: bool,
+    pub(in crate::assur) is_slide: bool,
     /// The node that has the parent's angle as its unknown.
     parent_spin: Option<usize>,
 }

@@ -29,7 +29,7 @@ pub(in crate::assur) struct Driver {
     pub(in crate::assur) link: LinkId,
     pub(super) base: LinkId,
     /// Number of the drive.
-    pub(super) index: usize,
+    pub(in crate::assur) index: usize,
     /// Position of the joint in the link's frame and in the frame of the link's base.
     pub(super) pivot: Vec2,
     pub(super) place: Vec2,

@@ -59,22 +59,30 @@ impl Rrr {
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group, mode: AssemblyMode) -> Self {
         let on = |joint: JointId, link: LinkId| mechanism.joints()[joint].on(link).expect("the joint is on the link");
-        let spans = [0, 1].map(|k| on(group.inner[0], group.links[k]) - on(group.outer[k], group.links[k]));
-        let squared = spans.map(|span| span.norm_squared());
-        let lengths = squared.map(f64::sqrt);
-        let arms = [0, 1].map(|k| Arm {
-            link: group.links[k],
-            base: mechanism.joints()[group.outer[k]].other(group.links[k]),
-            outer: on(group.outer[k], group.links[k]),
-            at_origin: on(group.outer[k], group.links[k]) == Vec2::zeros(),
-            inverse_span: spans[k] / squared[k],
+        let mut dyad = Rrr::between(mechanism, [0, 1].map(|k| (group.links[k], group.outer[k])), mode);
+        for k in 0..2 {
+            let link = group.links[k];
+            dyad.reshape(k, on(group.inner[0], link) - on(group.outer[k], link));
+        }
+        dyad
+    }
+
+    /// A dyad of two links with their outer joints. [`Rrr::reshape`] gives the links their lengths.
+    pub(super) fn between(mechanism: &Mechanism, ends: [(LinkId, JointId); 2], mode: AssemblyMode) -> Self {
+        let on = |joint: JointId, link: LinkId| mechanism.joints()[joint].on(link).expect("the joint is on the link");
+        let arms = ends.map(|(link, outer)| Arm {
+            link,
+            base: mechanism.joints()[outer].other(link),
+            outer: on(outer, link),
+            at_origin: on(outer, link) == Vec2::zeros(),
+            inverse_span: Vec2::zeros(),
         });
         Rrr {
             arms,
-            squared,
-            range: [(lengths[0] - lengths[1]).powi(2), (lengths[0] + lengths[1]).powi(2)],
-            inverse_lengths: 1.0 / (squared[0] * squared[1]).sqrt(),
-            least: 4.0 * SINGULAR * SINGULAR * squared[0] * squared[1],
+            squared: [f64::NAN; 2],
+            range: [f64::NAN; 2],
+            inverse_lengths: f64::NAN,
+            least: f64::NAN,
             half: if mode == AssemblyMode::Right { -0.5 } else { 0.5 },
             bases: [Vec2::zeros(); 2],
             outers: [Vec2::zeros(); 2],
@@ -84,6 +92,18 @@ impl Rrr {
             product: f64::NAN,
             inverse: f64::NAN,
         }
+    }
+
+    /// Sets the vector from outer to inner joint of the arm `k`, in the frame of its link (m).
+    #[inline]
+    pub(super) fn reshape(&mut self, k: usize, span: Vec2) {
+        self.squared[k] = span.norm_squared();
+        self.arms[k].inverse_span = span / self.squared[k];
+        let squared = self.squared;
+        let lengths = squared.map(f64::sqrt);
+        self.range = [(lengths[0] - lengths[1]).powi(2), (lengths[0] + lengths[1]).powi(2)];
+        self.inverse_lengths = 1.0 / (squared[0] * squared[1]).sqrt();
+        self.least = 4.0 * SINGULAR * SINGULAR * squared[0] * squared[1];
     }
 
     /// World vectors from the outer joints of the group's first and second link to the inner joint (m), and the inverse
@@ -253,18 +273,31 @@ impl Rrr {
     /// Distance of the dyad from a singular pose. Velocities must be known.
     #[inline]
     pub(super) fn clearance(&self, motions: &[Motion]) -> SingularityDistance {
+        self.clearance_with(0.0, motions)
+    }
+
+    /// The same, if the second link's vector between its joints also turns in the frame of its link, by `shape` (rad/s)
+    /// more than that of the first link.
+    #[inline]
+    pub(super) fn clearance_with(&self, shape: f64, motions: &[Motion]) -> SingularityDistance {
         let [r1, r2] = self.spans;
         let (sine, cosine) = (self.product * self.inverse_lengths, r1.dot(&r2) * self.inverse_lengths);
-        let turn = motions[self.arms[1].link].omega - motions[self.arms[0].link].omega;
+        let turn = motions[self.arms[1].link].omega - motions[self.arms[0].link].omega + shape;
         SingularityDistance { sine: sine.abs(), rate: sine.signum() * cosine * turn }
     }
 
     #[inline]
     pub(super) fn velocities(&mut self, motions: &mut [Motion]) {
+        self.velocities_with([Vec2::zeros(); 2], motions);
+    }
+
+    /// The same, if the inner joint has the velocities `extra` (m/s) relative to the two links.
+    #[inline]
+    pub(super) fn velocities_with(&mut self, extra: [Vec2; 2], motions: &mut [Motion]) {
         let [r1, r2] = self.spans;
         self.inverse = 1.0 / self.product;
         let [v1, v2] = [0, 1].map(|k| motions[self.arms[k].base.link].velocity_beyond(self.bases[k]));
-        let quotient = (v2 - v1) * self.inverse;
+        let quotient = ((v2 + extra[1]) - (v1 + extra[0])) * self.inverse;
         for (k, (v, omega)) in [(v1, quotient.dot(&r2)), (v2, quotient.dot(&r1))].into_iter().enumerate() {
             let motion = &mut motions[self.arms[k].link];
             motion.omega = omega;
@@ -274,10 +307,16 @@ impl Rrr {
 
     #[inline]
     pub(super) fn accelerations(&self, motions: &mut [Motion]) {
+        self.accelerations_with([Vec2::zeros(); 2], motions);
+    }
+
+    /// The same, if the acceleration of the inner joint has the additional terms `extra` (m/s^2) on the two links.
+    #[inline]
+    pub(super) fn accelerations_with(&self, extra: [Vec2; 2], motions: &mut [Motion]) {
         let [r1, r2] = self.spans;
         let [a1, a2] = [0, 1].map(|k| motions[self.arms[k].base.link].acceleration_beyond(self.bases[k]));
         let [w1, w2] = self.arms.map(|arm| motions[arm.link].omega);
-        let quotient = ((a2 - r2 * (w2 * w2)) - (a1 - r1 * (w1 * w1))) * self.inverse;
+        let quotient = ((a2 - r2 * (w2 * w2) + extra[1]) - (a1 - r1 * (w1 * w1) + extra[0])) * self.inverse;
         for (k, (a, alpha)) in [(a1, quotient.dot(&r2)), (a2, quotient.dot(&r1))].into_iter().enumerate() {
             let motion = &mut motions[self.arms[k].link];
             let outer = self.outers[k];

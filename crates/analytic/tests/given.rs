@@ -7,8 +7,8 @@ use linkage::drive::MotionLaw;
 use linkage::mechanism::AssemblyMode::{self, Left, Only};
 use linkage::solver::{Solver, State};
 
-use crate::witness::power;
-use crate::{AssurSolver, NewtonSolver};
+use linkproof_analytic::witness::power;
+use linkproof_analytic::{AssurSolver, NewtonSolver};
 
 fn states(case: &Case, solver: &dyn Solver) -> Vec<State> {
     let mut all = Vec::new();

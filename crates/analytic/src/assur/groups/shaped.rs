@@ -1,0 +1,184 @@
+//! RRR dyad of bodies of changing shape: a cylinder and its rod are one link of changing length.
+//!
+//! The root of a body is the link with its outer joint. The other links of the body hang on given joints.
+//! In the frame of the root, the inner joint has the position p(t) from the outer joint, with the rates p' and p''.
+//! The dyad is solved with the present vectors p in closed form.
+//! With w = p' in world axes, the velocity of the inner joint is v + omega x r + w. Its acceleration has the additional
+//! terms p'' in world axes and 2 omega x w (relative motion, Coriolis).
+//! The velocities of the dyad are thus those of rigid links whose outer joints have the velocities v1 + w1 and v2 + w2.
+
+use super::driver::Driver;
+use super::misfit::{Misfit, SingularityDistance};
+use super::rrr::Rrr;
+use linkage::math::{Motion, Vec2, cross, rotated, turned};
+use linkage::mechanism::{AssemblyMode, DrivingLink, Group, JointId, LinkId, Mechanism};
+
+/// One body: its root, and the links that hang on given joints, parents before children.
+#[derive(Clone, Debug)]
+pub(in crate::assur) struct Shape {
+    pub(in crate::assur) root: LinkId,
+    pub(in crate::assur) hung: Vec<Driver>,
+    outer: Vec2,
+    /// The inner joint on a link of the body.
+    inner: (LinkId, Vec2),
+    /// p and its rates in the frame of the root (m, m/s, m/s^2).
+    span: [Vec2; 3],
+}
+
+impl Shape {
+    fn of(
+        mechanism: &Mechanism,
+        group: &Group,
+        [outer, inner]: [JointId; 2],
+        lead: LinkId,
+        all: &[DrivingLink],
+    ) -> Self {
+        let leads = group.leads(mechanism);
+        let members = group.links.iter().zip(&leads).filter(|(_, own)| **own == lead).map(|(&link, _)| link);
+        let members: Vec<LinkId> = members.collect();
+        let on = |joint: JointId| {
+            let joint = &mechanism.joints()[joint];
+            let link =
+                members.iter().copied().find(|&link| joint.on(link).is_some()).expect("the joint is on the body");
+            (link, joint.on(link).expect("the joint is on the link"))
+        };
+        let (root, outer) = on(outer);
+        let (mut placed, mut hung) = (vec![root], Vec::new());
+        while placed.len() < members.len() {
+            let next = all.iter().enumerate().filter(|(_, driver)| group.given.contains(&driver.joint));
+            let found = next.filter_map(|(index, driver)| {
+                let joint = &mechanism.joints()[driver.joint];
+                let [first, second] = [joint.first.link, joint.second.link];
+                let far = if placed.contains(&first) { second } else { first };
+                let reaches = placed.contains(&first) != placed.contains(&second);
+                reaches.then_some((index, DrivingLink { link: far, ..*driver }))
+            });
+            let (index, driver) = found.into_iter().next().expect("a body hangs together");
+            placed.push(driver.link);
+            hung.push(Driver::of(mechanism, index, &driver));
+        }
+        Shape { root, hung, outer, inner: on(inner), span: [Vec2::zeros(); 3] }
+    }
+
+    /// Moves the hung links in the frame of the root. `frame` contains the motions of the body's links in this frame.
+    #[inline]
+    fn form(&mut self, coordinates: &[f64], frame: &mut [Motion]) {
+        frame[self.root] = Motion::REST;
+        self.hung.iter().for_each(|own| own.put_position(coordinates[own.index], frame));
+        self.span[0] = frame[self.inner.0].point(self.inner.1) - self.outer;
+    }
+
+    #[inline]
+    fn rates(&mut self, rates: &[f64], frame: &mut [Motion]) {
+        self.hung.iter().for_each(|own| own.put_velocity(rates[own.index], frame));
+        self.span[1] = frame[self.inner.0].point_velocity(self.inner.1);
+    }
+
+    #[inline]
+    fn seconds(&mut self, rates: [&[f64]; 2], frame: &mut [Motion]) {
+        self.hung.iter().for_each(|own| own.put_acceleration(rates.map(|all| all[own.index]), frame));
+        self.span[2] = frame[self.inner.0].point_acceleration(self.inner.1);
+    }
+
+    /// Rate of rotation of p in the frame of the root (rad/s).
+    fn turn(&self) -> f64 {
+        cross(self.span[0], self.span[1]) / self.span[0].norm_squared()
+    }
+}
+
+/// RRR dyad of bodies with given joints, prepared for solving.
+#[derive(Clone, Debug)]
+pub struct Shaped {
+    dyad: Rrr,
+    shapes: [Shape; 2],
+    /// Motions of the bodies' links in the frames of their roots, one entry per link of the mechanism.
+    frame: Vec<Motion>,
+    /// Rates of all driven coordinates at the last pose.
+    rates: Vec<f64>,
+}
+
+impl Shaped {
+    pub(super) fn of(mechanism: &Mechanism, group: &Group, mode: AssemblyMode, drivers: &[DrivingLink]) -> Self {
+        let leads = group.leads(mechanism);
+        let free: Vec<JointId> = group.inner.iter().copied().filter(|joint| !group.given.contains(joint)).collect();
+        let shapes = [0, 1].map(|k| {
+            let outer = &mechanism.joints()[group.outer[k]];
+            let at =
+                group.links.iter().position(|&link| outer.on(link).is_some()).expect("an outer joint is on a link");
+            Shape::of(mechanism, group, [group.outer[k], free[0]], leads[at], drivers)
+        });
+        let dyad = Rrr::between(mechanism, [0, 1].map(|k| (shapes[k].root, group.outer[k])), mode);
+        Shaped { dyad, shapes, frame: vec![Motion::REST; mechanism.links().len()], rates: vec![0.0; drivers.len()] }
+    }
+
+    /// The dyad of the roots.
+    #[inline]
+    pub(in crate::assur) fn dyad(&self) -> &Rrr {
+        &self.dyad
+    }
+
+    pub(in crate::assur) fn shapes(&self) -> &[Shape; 2] {
+        &self.shapes
+    }
+
+    #[inline]
+    pub(super) fn positions(&mut self, coordinates: &[f64], motions: &mut [Motion]) -> Result<(), Misfit> {
+        for (k, shape) in self.shapes.iter_mut().enumerate() {
+            shape.form(coordinates, &mut self.frame);
+            self.dyad.reshape(k, shape.span[0]);
+        }
+        self.dyad.positions(motions)?;
+        for own in self.shapes.iter().flat_map(|shape| &shape.hung) {
+            own.put_position(coordinates[own.index], motions);
+        }
+        Ok(())
+    }
+
+    #[inline]
+    pub(super) fn velocities(&mut self, rates: &[f64], motions: &mut [Motion]) {
+        self.rates.copy_from_slice(rates);
+        let extra = self.shapes.each_mut().map(|shape| {
+            shape.rates(rates, &mut self.frame);
+            rotated(motions[shape.root].direction, shape.span[1])
+        });
+        self.dyad.velocities_with(extra, motions);
+        for own in self.shapes.iter().flat_map(|shape| &shape.hung) {
+            own.put_velocity(rates[own.index], motions);
+        }
+    }
+
+    #[inline]
+    pub(super) fn accelerations(&mut self, seconds: &[f64], motions: &mut [Motion]) {
+        let extra = self.shapes.each_mut().map(|shape| {
+            shape.seconds([&self.rates, seconds], &mut self.frame);
+            let root = &motions[shape.root];
+            let [relative, second] = [shape.span[1], shape.span[2]].map(|of| rotated(root.direction, of));
+            second + turned(relative) * (2.0 * root.omega)
+        });
+        self.dyad.accelerations_with(extra, motions);
+        for own in self.shapes.iter().flat_map(|shape| &shape.hung) {
+            own.put_acceleration([self.rates[own.index], seconds[own.index]], motions);
+        }
+    }
+
+    /// Returns the dyad in the configuration other than the present one.
+    pub(super) fn flipped(&self) -> Self {
+        Shaped { dyad: self.dyad.flipped(), ..self.clone() }
+    }
+
+    /// The roots of the two bodies.
+    pub(super) fn links(&self) -> [LinkId; 2] {
+        self.dyad.links()
+    }
+
+    /// Sine of the transmission angle, without sign.
+    pub(super) fn sine(&self) -> f64 {
+        self.dyad.sine()
+    }
+
+    /// Distance of the dyad from a singular pose. Velocities must be known.
+    pub(super) fn clearance(&self, motions: &[Motion]) -> SingularityDistance {
+        let [one, other] = self.shapes.each_ref().map(Shape::turn);
+        self.dyad.clearance_with(other - one, motions)
+    }
+}

@@ -1,0 +1,42 @@
+//! Further drives as gearings of the first drive.
+
+use super::constraints::{Constraints, Gearing};
+use crate::sentences;
+use linkage::case::Case;
+use linkage::drive::Drive;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
+
+/// Index of the coordinate of the first drive, and the further drives as gearings. If the speeds are constant, their
+/// ratios to the speed of the first drive are constant.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] if one of several speeds changes.
+pub(super) fn gearings(case: &Case, constraints: &Constraints) -> Result<(usize, Vec<Gearing>)> {
+    let size = case.mechanism.size();
+    let unit = |drive: &Drive| size / drive.input.reach(size);
+    let mut given = 0;
+    let indices: Vec<usize> = case
+        .drives
+        .iter()
+        .map(|drive| {
+            if drive.input == Input::Angle {
+                return Constraints::angle(drive.link);
+            }
+            given += 1;
+            constraints.of_given(given - 1)
+        })
+        .collect();
+    if case.drives.len() > 1 && case.drives.iter().any(|drive| drive.constant_speed().is_none()) {
+        let help = sentences::GIVE_THE_DRIVES_CONSTANT_SPEEDS;
+        return Err(Error::new(ErrorKind::Unsupported, sentences::ONE_OF_SEVERAL_DRIVES_CHANGES).help(help));
+    }
+    let crank = case.crank();
+    let further = case.drives.further().iter().zip(case.drives.ratios(0.0).skip(1)).zip(&indices[1..]);
+    let gearing = |((drive, ratio), &own): ((&Drive, f64), &usize)| {
+        let ratio = ratio * unit(crank) / unit(drive);
+        let [start, of_crank] = [drive, crank].map(|drive| drive.coordinate(drive.start) / unit(drive));
+        Gearing { crank: indices[0], own, ratio, offset: start - ratio * of_crank }
+    };
+    Ok((indices[0], further.map(gearing).collect()))
+}
