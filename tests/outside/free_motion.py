@@ -1,9 +1,10 @@
 """Motions under forces for newton_euler.py: double precision, numpy, no code of this project.
 
-The state is the angles of the free driving links and their speeds. The pose is closed by Newton's method, and the
+The state is the angles and slides of the free drives and their rates. The pose is closed by Newton's method, and the
 accelerations come from one linear system in the coordinates of the links' own frames, with a multiplier for every
-joint: other coordinates than those in which newton_euler.py takes the forces afterwards. Modified midpoint steps are
-extrapolated to order 12 (Gragg, Bulirsch, Stoer). Where a link turns back under a resistance, a step ends.
+joint and for every drive that is not free: other coordinates than those in which newton_euler.py takes the forces
+afterwards. Modified midpoint steps are extrapolated to order 12 (Gragg, Bulirsch, Stoer). Where a link turns back under
+a resistance, a step ends.
 """
 
 import numpy as np
@@ -46,6 +47,7 @@ class Motion:
         self.rate = steps_per_second
         self.free = [d for d, drive in enumerate(m.drives) if drive.get("motion") == "free"]
         self.link = [m.links.index(m.driven(drive)) - 1 for drive in m.drives]
+        self.kind = [m.kind(drive) for drive in m.drives]
         self.n = 3 * (len(m.links) - 1)
         self.body = [(float(mass), float(c[0]), float(c[1]), float(inertia)) for mass, c, inertia in (m.body[l] for l in m.links[1:])]
         self.joints = []
@@ -54,7 +56,8 @@ class Motion:
             ends = (m.links.index(first) - 1, complex(*map(float, a)), m.links.index(second) - 1, complex(*map(float, b)))
             slide = joint["type"] == "prismatic"
             axes = [float(quantity(joint, key, mpf(0))) for key in ("axis", "second_axis")] if slide else None
-            self.joints.append((ends, axes, float(2 * mp.pi * m.turns.get(joint["name"], 0)) if slide else 0.0))
+            self.joints.append((ends, axes, float(2 * mp.pi * m.turns.get(joint["name"], 0))))
+        self.driven = [self.joints[m.joints.index(m.joint(drive))] for drive in m.drives]
         self.sense = {}
         for number, load in enumerate(m.loads):
             assert "table" not in load or load.get("interpolation", "linear") == "smooth", "a linear table has knots"
@@ -102,27 +105,60 @@ class Motion:
             jacobian.append(row)
         return np.array(value), np.vstack(jacobian), np.array(bias)
 
+    def inputs(self, q, v):
+        """What the drives measure, its derivatives by all coordinates, and its second derivative where no link accelerates."""
+        value, jacobian, bias = [], np.zeros((len(self.kind), self.n)), []
+        spin = lambda link: (q[3 * link + 2], v[3 * link + 2]) if link >= 0 else (0.0, 0.0)
+        for kind, link, row, ((i, a, j, b), axes, turns) in zip(self.kind, self.link, jacobian, self.driven):
+            if kind == "angle":
+                row[3 * link + 2] = 1
+                value.append(q[3 * link + 2])
+                bias.append(0.0)
+            elif kind == "turn":
+                row[3 * j + 2], row[3 * i + 2] = 1, -1
+                value.append(q[3 * j + 2] - q[3 * i + 2] - turns)
+                bias.append(0.0)
+            else:
+                # The gap between both places is seen from the first link, which turns.
+                angle, omega = spin(i)
+                along, gap, rate, second = np.exp(1j * (angle + axes[0])), 0j, 0j, 0j
+                dot = lambda p: (along.conjugate() * p).real
+                for body, local, sign in ((j, b, 1), (i, a, -1)):
+                    turn, speed = spin(body)
+                    arm, k = local * np.exp(1j * turn), 3 * body
+                    gap, rate, second = gap + sign * arm, rate + sign * 1j * speed * arm, second - sign * speed**2 * arm
+                    if body >= 0:
+                        gap, rate = gap + sign * complex(*q[k:k + 2]), rate + sign * complex(*v[k:k + 2])
+                        row[k:k + 3] += [sign * along.real, sign * along.imag, sign * dot(1j * arm)]
+                if i >= 0:
+                    row[3 * i + 2] -= dot(1j * gap)
+                value.append(dot(gap))
+                bias.append(dot(second - 2j * omega * rate - omega**2 * gap))
+        return np.array(value), jacobian, np.array(bias)
+
     def drives(self, t, y):
-        """Angles, speeds and accelerations (of those that are prescribed) of the driving links."""
+        """Coordinates, rates and second derivatives (of those that are prescribed) of the drives."""
         count, out = len(self.free), []
         for d, drive in enumerate(self.m.drives):
             if d in self.free:
                 k = self.free.index(d)
                 out.append((y[k], y[count + k], 0.0))
-            else:
-                assert drive.get("law", "constant") == "constant"
+            elif drive.get("law", "constant") == "constant":
                 out.append((float(self.m.law(d, mpf(0))) + float(self.quantity(drive, "speed")) * t, float(self.quantity(drive, "speed")), 0.0))
+            else:
+                # 40 digits leave enough of the differences.
+                h = mpf(10) ** -9
+                before, now, after = (self.m.law(d, mpf(t) + k * h) for k in (-1, 0, 1))
+                out.append((float(now), float((after - before) / (2 * h)), float((before - 2 * now + after) / h**2)))
         return out
 
     def pose(self, t, y, guess):
         """Coordinates and their rates."""
         drives, q, zero = self.drives(t, y), np.array(guess), np.zeros(self.n)
-        held = np.zeros((len(drives), self.n))
-        for d, link in enumerate(self.link):
-            held[d, 3 * link + 2] = 1
         for _ in range(30):
             value, jacobian, _ = self.rows(q, zero)
-            off = np.array([q[3 * link + 2] - own[0] for link, own in zip(self.link, drives)])
+            measured, held, _ = self.inputs(q, zero)
+            off = measured - [own[0] for own in drives]
             full = np.vstack([jacobian, held])
             step = np.linalg.solve(full, np.concatenate([value, off]))
             q -= step
@@ -146,7 +182,7 @@ class Motion:
             force[k:k + 2] += [m * (g + omega**2 * r).real, m * (g + omega**2 * r).imag]
             force[k + 2] += m * (r.real * g.imag - r.imag * g.real)
         if self.m.loads:
-            crank = q[3 * self.link[0] + 2] - float(self.quantity(self.m.drives[0], "zero", mpf(0)))
+            crank = self.inputs(q, v)[0][0] - float(self.quantity(self.m.drives[0], "zero", mpf(0)))
             of = lambda number, _: self.signs[number]
             for link, f, at, moment in self.actions(self.m, [mpf(x) for x in q], [mpf(x) for x in v], self.twists, mpf(crank), of):
                 if link != "ground":
@@ -156,15 +192,15 @@ class Motion:
                         force[k + 2] += (float(at[0]) - q[k]) * float(f[1]) - (float(at[1]) - q[k + 1]) * float(f[0])
                     force[k + 2] += float(moment)
         k = 3 * self.link[0] + 2
+        assert "motor" not in self.m.file or self.kind[0] == "angle"
         torque, inertia, own = motor(self.m, self.quantity, v[k])
         self.motor_least = min(self.motor_least, own)
         mass[k, k] += inertia
         force[k] += torque
         held = [d for d in range(len(self.link)) if d not in self.free]
-        extra = np.zeros((len(held), self.n))
-        for row, d in enumerate(held):
-            extra[row, 3 * self.link[d] + 2] = 1
-        jacobian, bias = np.vstack([jacobian, extra]), np.concatenate([bias, np.zeros(len(held))])
+        _, extra, own = self.inputs(q, v)
+        wanted = np.array([second for _, _, second in self.drives(t, y)])
+        jacobian, bias = np.vstack([jacobian, extra[held]]), np.concatenate([bias, (own - wanted)[held]])
         c = len(bias)
         # Multipliers are forces of the size of the loads: rows of both halves are of one size in SI for these machines.
         a = np.linalg.solve(np.block([[mass, jacobian.T], [jacobian, np.zeros((c, c))]]), np.concatenate([force, -bias]))
@@ -173,7 +209,8 @@ class Motion:
     def slope(self, t, y):
         count = len(self.free)
         q, v, a = self.solved(t, y, self.near + (t - self.when) * self.rates)
-        return np.concatenate([y[count:], [a[3 * self.link[d] + 2] for d in self.free]])
+        _, jacobian, bias = self.inputs(q, v)
+        return np.concatenate([y[count:], (jacobian @ a + bias)[self.free]])
 
     def step(self, t, y, h):
         table = []
@@ -191,7 +228,7 @@ class Motion:
 
     def at(self, start, end):
         """Coordinates, rates and accelerations at a time."""
-        y = [float(start[3 * self.link[d] + 2]) for d in self.free]
+        y = [float(self.m.coordinate(start, d)) for d in self.free]
         speeds = [float(self.quantity(self.m.drives[d], "initial_speed", mpf(0))) for d in self.free]
         y = np.array(y + speeds)
         t, q = 0.0, np.array([float(x) for x in start])

@@ -2,14 +2,15 @@
 
     python3 tests/outside/newton_euler.py BINARY scenarios/NAME.toml INSTANT [INSTANT ...]
 
-An instant is a crank angle in degrees (70), or a time in seconds with its unit (0.35s). With --all there are numbers of
-points, sliders and the frame too.
+An instant is a crank angle in degrees (70), the slide of the first drive in millimetres with its unit (120mm), or a
+time in seconds with its unit (0.35s). With --all there are numbers of points, sliders and the frame too.
 
 It reads the scenario file by itself (tomllib), with units of its own. It closes all joints by Newton's method, follows
 the motion from the start in small steps, differentiates the closed poses by differences in 40 digits, and solves the
-equations of Newton and Euler of all links at once. The binary (`linkproof solve`) only gives a first guess of the pose
-at the start; assembly modes are checked against docs/scenario.md. At a crank angle a free motion has its nominal speed;
-at a time it is integrated by free_motion.py, in double precision, with a step that is halved until nothing printed moves.
+equations of Newton and Euler of all links at once. A drive prescribes the coordinate of its joint, one more equation, and
+its force or moment is one more unknown. The binary (`linkproof solve`) only gives a first guess of the pose at the
+start; assembly modes are checked against docs/scenario.md. At a crank angle a free motion has its nominal speed; at a
+time it is integrated by free_motion.py, in double precision, with a step that is halved until nothing printed moves.
 """
 
 import csv
@@ -26,7 +27,7 @@ import free_motion
 mp.dps = 40
 UNITS = {
     "m": 1, "mm": mpf(1) / 1000, "rad": 1, "deg": mp.pi / 180, "rad_s": 1, "rpm": mp.pi / 30, "s": 1, "ms": mpf(1) / 1000,
-    "kg": 1, "g": mpf(1) / 1000, "kg_m2": 1, "m_s2": 1, "N": 1, "kN": 1000, "N_m": 1, "N_mm": 1000, "N_s_m": 1, "N_m_rad": 1, "N_m_s": 1,
+    "m_s": 1, "mm_s": mpf(1) / 1000, "kg": 1, "g": mpf(1) / 1000, "kg_m2": 1, "m_s2": 1, "N": 1, "kN": 1000, "N_m": 1, "N_mm": 1000, "N_s_m": 1, "N_m_rad": 1, "N_m_s": 1,
 }
 
 
@@ -61,24 +62,71 @@ class Mechanism:
         self.joints = file["joints"]
         drives = file["drive"]
         self.drives = drives if isinstance(drives, list) else [drives]
-        self.start = quantity(file["start"], "crank")
         gravity = file.get("gravity", {})
         self.gravity = (quantity(gravity, "x", mpf(0)), quantity(gravity, "y", mpf(0)))
         self.loads = file.get("loads", [])
         self.turns = {}
         self.twists = {}
+        self.start = self.start_of(0)
+
+    def joint(self, drive):
+        return next(joint for joint in self.joints if joint["name"] == drive["joint"])
+
+    def carriers(self, drive):
+        """From the ground outwards: what an earlier drive moves carries this one."""
+        index = next(index for index, own in enumerate(self.drives) if own is drive)
+        return {"ground"} | {self.driven(own) for own in self.drives[:index]}
 
     def driven(self, drive):
-        joint = next(joint for joint in self.joints if joint["name"] == drive["joint"])
-        # From the ground outwards: what an earlier drive moves carries this one.
-        index = next(index for index, own in enumerate(self.drives) if own is drive)
-        carriers = {"ground"} | {self.driven(own) for own in self.drives[:index]}
-        return next(link for link in joint["links"] if link not in carriers)
+        carriers = self.carriers(drive)
+        return next(link for link in self.joint(drive)["links"] if link not in carriers)
+
+    def kind(self, drive):
+        """What a drive measures: a slide, a link's angle in the world, or the turn of the second link against the first."""
+        joint = self.joint(drive)
+        if joint["type"] == "prismatic":
+            return "slide"
+        carried = self.carriers(drive) if drive.get("motion") == "free" else {"ground"}
+        return "angle" if carried & set(joint["links"]) else "turn"
+
+    def coordinate(self, q, index):
+        """What a drive measures, from the pose."""
+        drive = self.drives[index]
+        joint, kind = self.joint(drive), self.kind(drive)
+        first, second = joint["links"]
+        if kind == "angle":
+            return self.angle(q, self.driven(drive))
+        if kind == "turn":
+            turn = self.angle(q, second) - self.angle(q, first)
+            turns = self.turns.setdefault(joint["name"], mp.nint((turn - self.law(index, mpf(0))) / (2 * mp.pi)))
+            return turn - 2 * mp.pi * turns
+        a, b = (self.at(q, link, local) for link, local in self.sides(joint))
+        along = self.angle(q, first) + quantity(joint, "axis")
+        return mp.cos(along) * (b[0] - a[0]) + mp.sin(along) * (b[1] - a[1])
+
+    def efforts(self, q, index):
+        """What a unit of a drive's force or moment exerts: link, force, place, moment."""
+        drive = self.drives[index]
+        joint, kind, zero = self.joint(drive), self.kind(drive), (mpf(0), mpf(0))
+        first, second = joint["links"]
+        if kind == "slide":
+            along = self.angle(q, first) + quantity(joint, "axis")
+            at = self.at(q, *self.sides(joint)[1])
+            return [(link, (sign * mp.cos(along), sign * mp.sin(along)), at, mpf(0)) for link, sign in ((second, 1), (first, -1))]
+        if kind == "angle" and self.driven(drive) == first:
+            first, second = second, first
+        return [(second, zero, zero, mpf(1)), (first, zero, zero, mpf(-1))]
+
+    def start_of(self, index):
+        drive = self.drives[index]
+        if index == 0 and self.kind(drive) == "angle":
+            return quantity(self.file["start"], "crank")
+        return quantity(drive, "start")
 
     def law(self, index, t):
-        """Angle of a drive in the world."""
+        """What a drive prescribes: an angle in the world, a turn, or a slide."""
         drive = self.drives[index]
-        start = self.start if index == 0 else quantity(drive, "start")
+        start = self.start_of(index)
         zero = quantity(drive, "zero", mpf(0))
         law = drive.get("law", "constant")
         if law == "constant":
@@ -87,7 +135,8 @@ class Mechanism:
             speed, time = quantity(drive, "speed"), quantity(drive, "time")
             return zero + start + (speed * t * t / time / 2 if t < time else speed * (t - time / 2))
         if law == "table":
-            points = [(quantity(row, "time"), quantity(row, "angle")) for row in drive["points"]]
+            own = "slide" if self.kind(drive) == "slide" else "angle"
+            points = [(quantity(row, "time"), quantity(row, own)) for row in drive["points"]]
             return zero + clamped(points, t)
         assert law == "cycloidal", law
         share = t / quantity(drive, "time")
@@ -127,9 +176,7 @@ class Mechanism:
             turn = self.angle(q, second) + quantity(joint, "second_axis", mpf(0)) - along
             turns = self.turns.setdefault(joint["name"], mp.nint(turn / (2 * mp.pi)))
             rows += [mp.cos(along) * (b[1] - a[1]) - mp.sin(along) * (b[0] - a[0]), turn - 2 * mp.pi * turns]
-        for index, drive in enumerate(self.drives):
-            rows.append(self.angle(q, self.driven(drive)) - self.law(index, t))
-        return rows
+        return rows + [self.coordinate(q, index) - self.law(index, t) for index in range(len(self.drives))]
 
     def closed(self, q, t):
         n = len(q)
@@ -151,11 +198,8 @@ class Mechanism:
 
 def first_guess(binary, path, mechanism):
     """Pose at t = 0 as the project has it, in double precision."""
-    crank = mp.nstr(mechanism.start * 180 / mp.pi, 17)
-    free = any(drive.get("motion") == "free" for drive in mechanism.drives)
-    timed = free or mechanism.drives[0].get("law", "constant") != "constant"
-    grid = ["--times", "0"] if timed else ["--crank-deg", crank]
-    out = subprocess.run([binary, "solve", path, "--with", "assur", *grid], check=True, capture_output=True, text=True).stdout
+    command = [binary, "solve", path, "--with", "assur", "--times", "0"]
+    out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     row = next(csv.DictReader(io.StringIO("".join(line + "\n" for line in out.splitlines() if not line.startswith("#")))))
     q = []
     for link in mechanism.links[1:]:
@@ -166,31 +210,36 @@ def first_guess(binary, path, mechanism):
 
 
 def check_modes(m, q):
-    """The assembly modes of docs/scenario.md, of dyads."""
+    """The assembly modes of docs/scenario.md, of dyads. Links that a driven joint joins count as one."""
+    driven = {drive["joint"] for drive in m.drives}
     for group in m.file["start"].get("groups", []):
-        mode, own = group.get("mode"), group["links"]
-        if mode is None or len(own) != 2:
+        mode, parts = group.get("mode"), [[link] for link in group["links"]]
+        for joint in m.joints:
+            if joint["name"] in driven and set(joint["links"]) <= set(group["links"]):
+                one, other = (part for part in parts if set(part) & set(joint["links"]))
+                one += other
+                parts.remove(other)
+        if mode is None or len(parts) != 2:
             continue
-        inner = next(joint for joint in m.joints if set(joint["links"]) == set(own))
-        outer = [next(j for j in m.joints if link in j["links"] and j is not inner and set(j["links"]) - {link} != set(own) - {link}) for link in own]
-        def spot(joint, link):
-            return m.at(q, link, next(local for name, local in m.sides(joint) if name == link))
-        a, b = (spot(joint, link) for joint, link in zip(outer, own))
+        inside = lambda joint: [index for link in joint["links"] for index, part in enumerate(parts) if link in part]
+        inner = next(joint for joint in m.joints if sorted(inside(joint)) == [0, 1])
+        outer = [next(joint for joint in m.joints if inside(joint) == [index]) for index in (0, 1)]
+        def spot(joint, part):
+            return next(m.at(q, name, local) for name, local in m.sides(joint) if name in parts[part])
+        a, b = (spot(joint, part) for part, joint in enumerate(outer))
         slides = [joint for joint in [inner, *outer] if joint["type"] == "prismatic"]
         if not slides:
-            c = spot(inner, own[0])
+            c = spot(inner, 0)
             side = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
             assert (side > 0) == (mode == "left"), group
             continue
         joint = slides[0]
         along = m.angle(q, joint["links"][0]) + quantity(joint, "axis")
         if joint is inner:
-            ends = dict(zip(own, (a, b)))
-            a, b = (ends[link] for link in joint["links"])
+            a, b = (spot(outer[part], part) for part in inside(joint))
         else:
-            pin = outer[0] if outer[1] is joint else outer[1]
-            link = own[0] if pin is outer[0] else own[1]
-            a, b = spot(pin, link), spot(inner, own[0])
+            pin = 0 if outer[1] is joint else 1
+            a, b = spot(outer[pin], pin), spot(inner, 0)
         ahead = mp.cos(along) * (b[0] - a[0]) + mp.sin(along) * (b[1] - a[1])
         assert (ahead > 0) == (mode == "ahead"), group
 
@@ -301,7 +350,7 @@ def actions(m, q, v, twists, crank, sense=lambda number, omega: mp.sign(omega)):
 
 
 def forces(m, q, v, a, loads):
-    """Newton and Euler: forces of the first link on the second, moments in sliders, moments of drives."""
+    """Newton and Euler: forces of the first link on the second, moments in sliders, forces and moments of drives."""
     moving, n = m.links[1:], 3 * len(m.joints) + len(m.drives)
     rows, right = [], []
     def centre(link):
@@ -325,9 +374,12 @@ def forces(m, q, v, a, loads):
             own[2][3 * j] -= sign * (p[1] - s[1])
             own[2][3 * j + 1] += sign * (p[0] - s[0])
             own[2][3 * j + 2] += sign
-        for d, drive in enumerate(m.drives):
-            if m.driven(drive) == link:
-                own[2][3 * len(m.joints) + d] += 1
+        for d in range(len(m.drives)):
+            for target, force, at, moment in m.efforts(q, d):
+                if target == link:
+                    own[0][3 * len(m.joints) + d] += force[0]
+                    own[1][3 * len(m.joints) + d] += force[1]
+                    own[2][3 * len(m.joints) + d] += moment + (at[0] - s[0]) * force[1] - (at[1] - s[1]) * force[0]
         known = [mass * (acceleration[0] - m.gravity[0]), mass * (acceleration[1] - m.gravity[1]), inertia * alpha]
         for target, force, at, moment in loads:
             if target == link:
@@ -369,10 +421,14 @@ def main():
         if is_time and any(drive.get("motion") == "free" for drive in m.drives):
             print_timed(m, start, twists, instant, want)
             continue
-        t = mpf(instant[:-1]) if is_time else m.time_of(mpf(instant) * mp.pi / 180)
+        is_slide = instant.endswith("mm")
+        own = mpf(instant[:-2]) / 1000 if is_slide else 0 if is_time else mpf(instant) * mp.pi / 180
+        t = mpf(instant[:-1]) if is_time else m.time_of(own)
         crank = m.law(0, t) - quantity(m.drives[0], "zero", mpf(0))
         mp.dps = 15
-        steps = max(1, int(abs(m.law(0, t) - m.law(0, mpf(0))) / mpf("0.03")) + 1)
+        # Steps of 0.03 rad or 5 mm.
+        far = [abs(m.law(d, t) - m.law(d, mpf(0))) / (0.005 if m.kind(own) == "slide" else 0.03) for d, own in enumerate(m.drives)]
+        steps = int(max(far)) + 1
         q = list(start)
         before = list(start)
         for k in range(1, steps + 1):
@@ -387,6 +443,8 @@ def main():
         loads = list(actions(m, q, v, twists, crank))
         f = forces(m, q, v, a, loads)
         where, key = (f"{instant[:-1]} s", f"time_s = {instant[:-1]}") if is_time else (f"{instant} deg", f"crank_deg = {instant}")
+        if is_slide:
+            where, key = f"{instant[:-2]} mm", f"crank_mm = {instant[:-2]}"
         print_oracle(m, where, key, SOURCE + ", 40 digits", q, v, a, f, loads, want)
 
 
@@ -407,29 +465,27 @@ def print_timed(m, start, twists, instant, want):
     else:
         raise ValueError("the integration does not converge")
     q, v, a = ([mpf(float(x)) for x in own] for own in (q, v, a))
-    crank = m.angle(q, m.driven(m.drives[0])) - quantity(m.drives[0], "zero", mpf(0))
+    crank = m.coordinate(q, 0) - quantity(m.drives[0], "zero", mpf(0))
     loads = list(actions(m, q, v, twists, crank, lambda number, _: signs[number]))
     f = forces(m, q, v, a, loads)
-    # What moves a free link is known: its forces, taken in other coordinates, must come to that.
+    # What drives a free joint is known: its forces, taken in other coordinates, must come to that.
     largest = max(abs(value) for value in f)
     for d, drive in enumerate(m.drives):
         if drive.get("motion") == "free":
             k = 3 * (m.links.index(m.driven(drive)) - 1) + 2
             torque, inertia, _ = free_motion.motor(m, quantity, float(v[k])) if d == 0 else (0.0, 0.0, 0.0)
             off = abs(f[3 * len(m.joints) + d] - (torque - inertia * a[k])) / largest
-            print(f"# moment of {drive['joint']}: off by {mp.nstr(off, 3)} of the largest force", file=sys.stderr)
+            print(f"# force or moment of {drive['joint']}: off by {mp.nstr(off, 3)} of the largest force", file=sys.stderr)
             assert off < 1e-11, off
     print_oracle(m, f"{instant[:-1]} s", f"time_s = {instant[:-1]}", source, q, v, a, f, loads, want)
 
 
 def print_start(m, q):
-    """The distance of the crank's end from a pivot of the ground at t = 0, which the start angle decides."""
-    link = m.driven(m.drives[0])
-    pivot = next(m.sides(joint) for joint in m.joints if joint["name"] == m.drives[0]["joint"])
-    own = dict(pivot)[link]
-    end = next((name for name, at in m.points[link].items() if at != own and name not in m.points["ground"]), None)
-    fixed = dict(pivot)["ground"]
-    other = next((name for name, at in reversed(m.points["ground"].items()) if at != fixed), None)
+    """The distance of the driven link's end from a pivot of the ground at t = 0, which the start of the drive decides."""
+    link, joint = m.driven(m.drives[0]), m.joint(m.drives[0])
+    turning = dict(m.sides(joint)) if m.kind(m.drives[0]) == "angle" else {}
+    end = next((name for name, at in m.points[link].items() if at != turning.get(link) and name not in m.points["ground"]), None)
+    other = next((name for name, at in reversed(m.points["ground"].items()) if at != turning.get("ground")), None)
     if end is None or other is None:
         return
     a, b = m.at(q, link, m.points[link][end]), m.points["ground"][other]
@@ -455,7 +511,7 @@ def place_of(m, q, v, a, link, local):
 
 def shaking(m, q, f, loads):
     """What joints, drives and loads exert on the frame: force, and moment about the origin."""
-    x, y, moment = mpf(0), mpf(0), -sum(f[3 * len(m.joints) + d] for d in range(len(m.drives)))
+    x, y, moment = mpf(0), mpf(0), mpf(0)
     for j, joint in enumerate(m.joints):
         if "ground" in joint["links"]:
             sign = -1 if joint["links"][0] == "ground" else 1
@@ -463,6 +519,9 @@ def shaking(m, q, f, loads):
             at = m.at(q, second, local)
             x, y = x + sign * f[3 * j], y + sign * f[3 * j + 1]
             moment += sign * (at[0] * f[3 * j + 1] - at[1] * f[3 * j] + f[3 * j + 2])
+    for d in range(len(m.drives)):
+        effort = f[3 * len(m.joints) + d]
+        loads = loads + [(link, (effort * u[0], effort * u[1]), at, effort * own) for link, u, at, own in m.efforts(q, d)]
     for target, force, at, own in loads:
         if target == "ground":
             x, y = x + force[0], y + force[1]
@@ -520,8 +579,9 @@ def print_oracle(m, where, key, source, q, v, a, f, loads, want):
     for d, drive in enumerate(m.drives):
         if drive.get("motion") == "free" and (d > 0 or "motor" not in m.file):
             continue
-        name = "drive.torque_N_m" if d == 0 else f"drive.{drive['joint']}.torque_N_m"
-        add("balancing_moment", name, "moment", f[3 * len(m.joints) + d])
+        suffix, kind = ("force_N", "force") if m.kind(drive) == "slide" else ("torque_N_m", "moment")
+        name = f"drive.{suffix}" if d == 0 else f"drive.{drive['joint']}.{suffix}"
+        add("balancing_moment", name, kind, f[3 * len(m.joints) + d])
     largest = {}
     for _, kind, value in values:
         largest[kind] = max(largest.get(kind, mpf(0)), abs(value))

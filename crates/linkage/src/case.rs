@@ -240,6 +240,29 @@ impl Case {
         }
     }
 
+    /// Channels whose signed sum is the coordinate of the first drive, its rate and its second derivative.
+    /// The coordinate differs from the input by the drive's zero.
+    #[must_use]
+    pub fn input_channels(&self) -> [Vec<(Channel, f64)>; 3] {
+        let drive = self.crank();
+        let joint = &self.mechanism.joints()[drive.joint];
+        let named = |subject: &str, of: &str, suffix: &str, sign: f64| {
+            let channel = Channel::named(&format!("{subject}.{of}.{suffix}")).expect("the channel is in the table");
+            (channel, sign)
+        };
+        let link =
+            |link: LinkId, suffix: &str, sign: f64| named("link", &self.mechanism.links()[link].name, suffix, sign);
+        let of_links = ["angle_rad", "omega_rad_s", "alpha_rad_s2"];
+        match drive.input {
+            Input::Angle => of_links.map(|suffix| vec![link(drive.link, suffix, 1.0)]),
+            Input::Turn => {
+                of_links.map(|suffix| vec![link(joint.second.link, suffix, 1.0), link(joint.first.link, suffix, -1.0)])
+            }
+            Input::Slide => ["slide_m", "slide_speed_m_s", "slide_acceleration_m_s2"]
+                .map(|suffix| vec![named("joint", &joint.name, suffix, 1.0)]),
+        }
+    }
+
     /// Actions of the moment (N m) or force (N) of a drive: on the link that carries the drive, then on the driving link.
     /// The drive of a crank is carried by the frame.
     /// At a joint between moving links, and for a slide, the effort acts from the joint's first link on its second link.

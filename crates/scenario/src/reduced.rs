@@ -7,6 +7,7 @@
 use crate::sentences;
 use formula::{FormulaTree, Operator};
 use linkage::case::Case;
+use linkage::input::Input;
 use linkage::mechanism::{GROUND, Link};
 
 /// A quantity that is an arithmetic expression of channels.
@@ -15,6 +16,8 @@ pub(super) struct Quantity {
     pub(super) name: &'static str,
     /// Symbol of its unit.
     pub(super) unit: &'static str,
+    /// Whether the quantity belongs to a slide as the input. Otherwise it belongs to an angle.
+    of_slide: bool,
     tree: fn(&Case) -> Found,
 }
 
@@ -22,11 +25,14 @@ pub(super) struct Quantity {
 type Found = Result<FormulaTree, (String, String)>;
 
 /// All reduced quantities. The quantities do not include motor, reducer and flywheel.
-pub(super) const QUANTITIES: [Quantity; 2] = [
+pub(super) const QUANTITIES: [Quantity; 4] = [
     // I* = sum of m (v / omega)^2 + J (omega_link / omega)^2.
-    Quantity { name: "drive.reduced_inertia_kg_m2", unit: "kg m^2", tree: inertia },
+    Quantity { name: "drive.reduced_inertia_kg_m2", unit: "kg m^2", of_slide: false, tree: inertia },
     // Moment of gravity and loads reduced to the crank, counter-clockwise positive.
-    Quantity { name: "drive.reduced_moment_N_m", unit: "N m", tree: moment },
+    Quantity { name: "drive.reduced_moment_N_m", unit: "N m", of_slide: false, tree: moment },
+    // The same for a slide as the input, with its speed in place of omega.
+    Quantity { name: "drive.reduced_mass_kg", unit: "kg", of_slide: true, tree: inertia },
+    Quantity { name: "drive.reduced_force_N", unit: "N", of_slide: true, tree: moment },
 ];
 
 impl Quantity {
@@ -35,7 +41,15 @@ impl Quantity {
     /// # Errors
     /// Message and help, if the quantity has no meaning in the case.
     pub(super) fn of(&self, case: &Case) -> Found {
+        let input = case.crank().input;
         match case.drives.len() {
+            1 if (input == Input::Slide) != self.of_slide => {
+                let own = QUANTITIES.iter().filter(|own| own.of_slide != self.of_slide).map(|own| own.name);
+                Err((
+                    sentences::the_quantity_is_not_of_a(&self.name, &input.noun()),
+                    sentences::use_one_of(&(own.collect::<Vec<_>>().join("; "))),
+                ))
+            }
             1 => (self.tree)(case),
             count => Err((
                 sentences::is_of_one_crank_but_the_mechanism(&self.name, &count),
@@ -56,7 +70,7 @@ fn inertia(case: &Case) -> Found {
         let help = sentences::GIVE_THE_LINKS_MASS_KG_AND_INERTIA.into();
         return Err((sentences::NOTHING_IN_THE_MECHANISM_HAS_A_MASS.into(), help));
     };
-    Ok(FormulaTree::pair(Operator::Over, sum, square(crank(case), "omega_rad_s")))
+    Ok(FormulaTree::pair(Operator::Over, sum, FormulaTree::pair(Operator::Power, rate(case), FormulaTree::number(2.0))))
 }
 
 fn moment(case: &Case) -> Found {
@@ -72,12 +86,11 @@ fn moment(case: &Case) -> Found {
         );
         of_inertias(link, across, product(link, ["omega_rad_s", "alpha_rad_s2"]))
     });
-    let gained = sum(powers).map_or(FormulaTree::number(0.0), |sum| {
-        FormulaTree::pair(Operator::Over, sum, of_link(crank(case), "omega_rad_s"))
-    });
+    let gained = sum(powers).map_or(FormulaTree::number(0.0), |sum| FormulaTree::pair(Operator::Over, sum, rate(case)));
+    let drive = if case.crank().input == Input::Slide { "drive.force_N" } else { "drive.torque_N_m" };
     // If the crank has no driving torque, there is no drive moment to subtract.
     Ok(match case.drives.with_moment().next() {
-        Some(_) => FormulaTree::pair(Operator::Minus, gained, FormulaTree::name("drive.torque_N_m")),
+        Some(_) => FormulaTree::pair(Operator::Minus, gained, FormulaTree::name(drive)),
         None => gained,
     })
 }
@@ -88,8 +101,13 @@ fn masses(case: &Case) -> impl Iterator<Item = &Link> {
     links.map(|(_, link)| link).filter(|link| link.mass > 0.0 || link.inertia > 0.0)
 }
 
-fn crank(case: &Case) -> &Link {
-    &case.mechanism.links()[case.crank().link]
+/// Rate of the input.
+fn rate(case: &Case) -> FormulaTree {
+    let [_, rate, _] = case.input_channels();
+    let mut terms = rate.into_iter().map(|(channel, _)| FormulaTree::name(channel.to_string()));
+    let first = terms.next().expect("the rate has a channel");
+    // The rate of an angle between two links is the difference of their angular velocities.
+    terms.fold(first, |sum, term| FormulaTree::pair(Operator::Minus, sum, term))
 }
 
 /// The link's mass times `of_mass` plus its moment of inertia times `of_inertia`. Terms that are zero are left out.

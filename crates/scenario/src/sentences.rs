@@ -320,6 +320,8 @@ linkage::sentences! {
     NOTHING_IN_THE_MECHANISM_HAS_A_MASS = "no part of the mechanism has a mass, so there is no inertia to reduce to the crank";
     GIVE_THE_LINKS_MASS_KG_AND_INERTIA = "give the links mass_kg and inertia_kg_m2; a motor's rotor is not counted";
     TAKE_A_SCENARIO_WITH_ONE_DRIVE = "use a scenario with one [drive], or claim channels of single links";
+    the_quantity_is_not_of_a(name, noun) = "{name} does not exist here: the input of the drive is a {noun}";
+    use_one_of(known) = "use one of: {known}";
     is_of_one_crank_but_the_mechanism(name, count) = "{name} belongs to one crank, but the mechanism has {count} drives";
     // series.rs
     is_not_in_the_run_which_goes(time, end) = "{time} s is outside the run, which goes from 0 to {end} s";

@@ -12,6 +12,7 @@ use crate::range::{Extent, Range, SingularityKind};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::{Course, Load};
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::{KeepNan, Motion, quadrature, root};
 use linkage::mechanism::{Link, LinkId};
 use linkage::solver::{Solver, State};
@@ -98,6 +99,10 @@ impl Reach {
 /// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables whose
 /// common period exceeds a thousand turns.
 pub fn kinks(case: &Case) -> Result<Kinks> {
+    if case.crank().input != Input::Angle {
+        let message = sentences::the_drive_moves_no_crank(&case.crank().input.noun());
+        return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::DRIVE_THE_MECHANISM_AT_A_CRANK));
+    }
     if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
         let message = sentences::reduced_quantities_are_asked_for_but_a_load(&load.sort());
         return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::GIVE_IT_AS_A_TABLE_OF_FORCES));

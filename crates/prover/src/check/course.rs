@@ -9,16 +9,20 @@ use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
 use scenario::{Claim, Formula, MechanismFigure, PrintedChannel};
 
+/// Columns with their signs.
+type InputColumns = Vec<(usize, f64)>;
+
 /// A side's trajectory with the error of every value, by column and row (SI units).
+#[derive(Clone)]
 pub struct KnownTrajectory<'a> {
     trajectory: &'a Trajectory,
     error: &'a dyn Fn(usize, usize) -> f64,
     crank_name: &'a str,
-    /// Columns of the crank's angular velocity and acceleration. `None` if the side does not have them.
-    crank: [Option<usize>; 2],
-    /// Column of the angle of a crank that moves under forces. `None` if the side does not have it.
-    /// The error of this angle is that of the integration.
-    angle: Option<usize>,
+    /// Columns whose signed sums are the rate and the acceleration of the input. `None` if the side does not have them.
+    crank: [Option<InputColumns>; 2],
+    /// Columns of the input of a motion under forces. `None` if the side does not have them.
+    /// The error of the input is that of the integration.
+    angle: Option<InputColumns>,
     /// Values of the whole mechanism, in SI units.
     figures: &'a [(MechanismFigure, Rounded)],
     /// Smallest error assumed for every channel, in its SI unit; empty for no lower limit.
@@ -56,11 +60,7 @@ impl Column<'_> {
 /// Returns the channels that are needed to judge a claim on a case, derivatives included.
 #[must_use]
 pub fn needed(claim: &Claim, case: &Case) -> Vec<Channel> {
-    let crank = &case.mechanism.links()[case.crank().link].name;
-    let mut all: Vec<Channel> = ["angle_rad", "omega_rad_s", "alpha_rad_s2"]
-        .iter()
-        .filter_map(|suffix| Channel::named(&format!("link.{crank}.{suffix}")))
-        .collect();
+    let mut all: Vec<Channel> = case.input_channels().into_iter().flatten().map(|(channel, _)| channel).collect();
     for (_, channel) in &claim.channels {
         all.extend(across(channel));
         let mut next = Some(channel.channel.clone());
@@ -97,20 +97,14 @@ impl<'a> KnownTrajectory<'a> {
     #[must_use]
     pub fn new(case: &'a Case, trajectory: &'a Trajectory, error: &'a dyn Fn(usize, usize) -> f64) -> Self {
         let crank = &case.mechanism.links()[case.crank().link].name;
-        let of = |suffix: &str| {
-            let channel = Channel::named(&format!("link.{crank}.{suffix}"))?;
-            trajectory.channels().iter().position(|own| *own == channel)
-        };
-        let angle = case.is_free().then(|| of("angle_rad")).flatten();
-        KnownTrajectory {
-            trajectory,
-            error,
-            crank_name: crank,
-            crank: ["omega_rad_s", "alpha_rad_s2"].map(of),
-            angle,
-            figures: &[],
-            least: &[],
-        }
+        let channels = trajectory.channels();
+        let [coordinate, rate, second] = case.input_channels().map(|all| -> Option<InputColumns> {
+            let column =
+                |(channel, sign): &(Channel, f64)| Some((channels.iter().position(|own| own == channel)?, *sign));
+            all.iter().map(column).collect()
+        });
+        let angle = case.is_free().then_some(coordinate).flatten();
+        KnownTrajectory { trajectory, error, crank_name: crank, crank: [rate, second], angle, figures: &[], least: &[] }
     }
 
     /// Adds values of the whole mechanism, in SI units.
@@ -122,7 +116,7 @@ impl<'a> KnownTrajectory<'a> {
     /// Sets the smallest error assumed for every channel, in its SI unit.
     #[must_use]
     pub fn known_at_least(&'a self, least: &'a [f64]) -> Self {
-        KnownTrajectory { least, ..*self }
+        KnownTrajectory { least, ..self.clone() }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -177,12 +171,16 @@ impl<'a> KnownTrajectory<'a> {
 
     /// Input values of the formulas at an instant.
     pub(super) fn inputs(&self, row: usize) -> [Rounded; 4] {
-        let of = |column: Option<usize>| {
-            let column = column?;
-            let value = self.trajectory.column_near(&self.trajectory.channels()[column], column)?[row];
-            Some(Rounded { value, error: (self.error)(column, row) })
+        let of = |columns: &Option<InputColumns>| {
+            let mut sum = Rounded::exact(0.0);
+            for &(column, sign) in columns.as_ref()? {
+                let value = self.trajectory.column_near(&self.trajectory.channels()[column], column)?[row];
+                sum.value += sign * value;
+                sum.error += (self.error)(column, row);
+            }
+            Some(sum)
         };
-        let [omega, alpha] = self.crank.map(|column| of(column).unwrap_or(Rounded::exact(f64::NAN)));
+        let [omega, alpha] = self.crank.each_ref().map(|columns| of(columns).unwrap_or(Rounded::exact(f64::NAN)));
         [self.crank(row), Rounded::nearly(self.times()[row]), omega, alpha]
     }
 
@@ -190,7 +188,8 @@ impl<'a> KnownTrajectory<'a> {
     #[must_use]
     pub fn crank(&self, row: usize) -> Rounded {
         let mut phi = Rounded::nearly(self.cranks()[row]);
-        phi.error += self.angle.map_or(0.0, |column| (self.error)(column, row));
+        let columns = self.angle.iter().flatten();
+        phi.error += columns.map(|&(column, _)| (self.error)(column, row)).sum::<f64>();
         phi
     }
 
