@@ -16,6 +16,7 @@ pub mod compare;
 pub(crate) mod diagram;
 pub(crate) mod drive;
 pub(crate) mod drive_graphs;
+pub(crate) mod drivers;
 pub mod explain;
 pub(crate) mod html;
 pub(crate) mod inspect;

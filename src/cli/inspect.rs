@@ -4,10 +4,13 @@ use std::path::PathBuf;
 
 use super::outputs::{Outputs, results};
 use super::{load, number};
+use crate::report::drivers::Drivers;
 use crate::report::{inspect as report, modes, range};
+use crate::sentences;
 use analytic::range::explained;
-use linkage::case::Grid;
+use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::JointId;
 use linkage::work::limited;
 use prover::run::BUDGET;
 use scenario::StartRequest;
@@ -28,6 +31,9 @@ pub(super) struct Args {
     /// Crank angle (deg), or slide (mm), for --modes, as the scenario states it [default: that of the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, requires = "modes", value_parser = number::finite)]
     at_crank_deg: Option<f64>,
+    /// Show the structure for another driven joint: its groups and its class; `all` shows every joint
+    #[arg(long, value_name = "JOINT", conflicts_with_all = ["modes", "range"])]
+    driver: Option<String>,
     /// Work allowed for --range, in steps of an engine without sweeps [default: 2e7]
     #[arg(long, value_name = "STEPS", allow_hyphen_values = true, requires = "range", value_parser = number::positive)]
     budget: Option<f64>,
@@ -66,11 +72,25 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
         true => Some(limited(args.budget.unwrap_or(BUDGET), || analytic::range::Range::of(case)).0?),
         false => None,
     };
+    let drivers = args.driver.as_ref().map(|name| drivers(case, name)).transpose()?;
     let modes = modes.as_ref().map(|(crank, all)| (*crank, all.as_slice()));
-    let text = |width| match (modes, &range) {
-        (Some((crank, modes)), _) => modes::text(&scenario, crank, modes, &undecided),
-        (None, Some(range)) => range::text(&scenario, range, width),
-        (None, None) => report::text(&scenario),
+    let text = |width| match (modes, &range, &drivers) {
+        (Some((crank, modes)), ..) => modes::text(&scenario, crank, modes, &undecided),
+        (None, Some(range), _) => range::text(&scenario, range, width),
+        (None, None, Some(drivers)) => drivers.text(case),
+        (None, None, None) => report::text(&scenario),
     };
-    args.outputs.deliver(|_| Ok(report::json(&scenario, modes, &undecided, range.as_ref())), text)
+    args.outputs.deliver(|_| Ok(report::json(&scenario, modes, &undecided, range.as_ref(), drivers.as_ref())), text)
+}
+
+/// The structures for the driven joint called `name`, or for all joints.
+fn drivers(case: &Case, name: &str) -> Result<Drivers> {
+    let joints = case.mechanism.joints();
+    let asked: Vec<JointId> = joints.ids().filter(|&id| name == "all" || joints[id].name == name).collect();
+    if asked.is_empty() {
+        let names: Vec<&str> = joints.iter().map(|joint| joint.name.as_str()).collect();
+        let error = Error::new(ErrorKind::Input, sentences::there_is_no_joint_called(&name));
+        return Err(error.help(sentences::give_one_of_the_joints(&names.join(", "))));
+    }
+    Ok(Drivers::of(case, &asked))
 }

@@ -3,6 +3,7 @@
 use crate::sentences;
 use serde_json::{Value, json};
 
+use super::drivers::Drivers;
 use super::pretty::{list, pretty};
 use super::{modes, range};
 use analytic::modes::Modes;
@@ -25,7 +26,7 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     if let Some(source) = &scenario.source {
         say!(text, "source     {source}");
     }
-    say!(text, "mobility   W = 3*{links} - 2*{joints} = {}", structure.mobility);
+    say!(text, sentences::mobility_and_given(&links, &joints, &structure.mobility, &case.drives.len()));
     say!(text, sentences::structure_links(&structure.formula(mechanism)));
     for ((id, link), pose) in mechanism.links().entries().zip(&case.start.0) {
         let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
@@ -41,7 +42,8 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     say!(text, "\njoints");
     for joint in mechanism.joints() {
         let [first, second] = ends(mechanism, joint);
-        let driven = if joint.name == mechanism.joints()[case.crank().joint].name { ", driven" } else { "" };
+        let driven = case.drives.iter().any(|drive| mechanism.joints()[drive.joint].name == joint.name);
+        let driven = if driven { ", driven" } else { "" };
         say!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
     }
     let (input, start) = (case.crank().input, case.crank().start);
@@ -68,14 +70,16 @@ fn from_rough_place(choice: &ConfigurationChoice) -> String {
 }
 
 /// The structure as JSON, schema 1.
-/// `modes`: a value of the input (SI) and the configurations there; `range`: the range of motion.
-/// Each of `modes` and `range` is written only if it is given.
+/// `modes`: a value of the input (SI) and the configurations there; `range`: the range of motion; `drivers`: structures
+/// for other driven joints.
+/// Each of them is written only if it is given.
 /// A group in `undecided` has no mode.
 pub(crate) fn json(
     scenario: &Scenario,
     modes: Option<(f64, &[Modes])>,
     undecided: &[Undecided],
     range: Option<&Range>,
+    drivers: Option<&Drivers>,
 ) -> String {
     let mut value = structure(scenario);
     for open in undecided {
@@ -87,6 +91,9 @@ pub(crate) fn json(
     }
     if let Some(range) = range {
         value["range"] = range::json(scenario, range);
+    }
+    if let Some(drivers) = drivers {
+        value["driven_at"] = drivers.json(&scenario.case);
     }
     pretty(&value)
 }

@@ -4,6 +4,9 @@ linkage::sentences! {
     // cli/accept.rs
     linkproof_accept_writes_it(file) = "`linkproof accept {file}` writes it";
     nothing_was_accepted_of_there(file, place) = "{file} has no accepted figures: {place} does not exist";
+    // cli/inspect.rs
+    there_is_no_joint_called(name) = "there is no joint \"{name}\"";
+    give_one_of_the_joints(names) = "give one of {names}, or `all`";
     // cli/advice.rs
     such_as(name, to) = ", such as {name} {to}";
     ALL_OF_THEM_WITH_JSON = "-o FILE.json lists all of them";

@@ -277,6 +277,10 @@ linkage::sentences! {
     POINTS_MM_ITS_FRAME = "points (mm, in the link's frame)";
     class_order_mode(links, class, order, pairs, mode) = "{links}: class {class}, order {order}, {pairs}, mode {mode}";
     BASIS_OF_THE_BOUND = "basis of the bound";
+    // report/drivers.rs
+    STRUCTURE_FOR_OTHER_DRIVEN_JOINTS = "structure if the first drive moves another joint\n";
+    driven_at(joint, class, formula) = "  {joint:14} class {class}: {formula}";
+    not_driven_at(joint, why) = "  {joint:14} not possible: {why}";
     // report/inspect.rs
     from_the_rough_place_the_next(mm, mm_2) = ", {mm} from the approximate position in the file, the next configuration {mm_2}";
     from_the_rough_place(mm) = ", {mm} from the approximate position in the file";
@@ -284,6 +288,7 @@ linkage::sentences! {
     transmission_angle_deg(sine) = ", transmission angle {sine:.2} deg";
     groups_at_the_start(word, fixed_in) = "\ngroups at the start ({word} {fixed_in})";
     kg_kg(mass, inertia, at) = "m = {mass} kg, J = {inertia} kg·m², {at}";
+    mobility_and_given(links, joints, mobility, given) = "mobility   W = 3*{links} - 2*{joints} = {mobility}, given coordinates {given}";
     structure_links(structure) = "structure  {structure}\n\nlinks";
     // report/json.rs
     NOTHING_LEFT_TO_CHOOSE = "nothing left to choose";

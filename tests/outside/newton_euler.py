@@ -485,7 +485,8 @@ def print_start(m, q):
     link, joint = m.driven(m.drives[0]), m.joint(m.drives[0])
     turning = dict(m.sides(joint)) if m.kind(m.drives[0]) == "angle" else {}
     end = next((name for name, at in m.points[link].items() if at != turning.get(link) and name not in m.points["ground"]), None)
-    other = next((name for name, at in reversed(m.points["ground"].items()) if at != turning.get("ground")), None)
+    others = (name for name, at in reversed(m.points["ground"].items()) if name not in m.points[link] and at != turning.get("ground"))
+    other = next(others, None)
     if end is None or other is None:
         return
     a, b = m.at(q, link, m.points[link][end]), m.points["ground"][other]

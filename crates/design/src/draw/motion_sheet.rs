@@ -56,8 +56,8 @@ fn panel(diagram: &MotionDiagram, which: usize) -> DrawnFigure {
     let heading = sentences::scale_factor_2(&channel, &sub(symbol), &scale, &per);
     figure.text(Vec2::new(0.0, height + 8.0), heading, Type { bold: true, ..words(3.8) });
     let middle = Type { anchor: "middle", ..words(TEXT) };
-    let (noun, unit) = (diagram.input.noun(), diagram.input.shown_in().0);
-    figure.text(Vec2::new(LONG / 2.0, -9.0), format!("{noun}, {unit}"), middle);
+    let over = format!("{}, {}", diagram.input.noun(), diagram.input.shown_in().0);
+    figure.text(Vec2::new(LONG / 2.0, -9.0), over, middle);
     figure.text(Vec2::new(0.0, height + 2.5), format!("{symbol}, {unit}"), Type { anchor: "end", ..middle });
     caption(&mut figure, &found, which, &unit);
     figure
