@@ -59,7 +59,7 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     }
     let mut poses = PoseSolver::new(case)?;
     let [from, to] = ends(case.grid.inputs.iter().copied());
-    let parts = ((to - from) / SAMPLE_STEP).ceil().larger(1.0) as usize;
+    let parts = ((to - from) / case.step(SAMPLE_STEP)).ceil().larger(1.0) as usize;
     let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
     let joints = case.mechanism.joints();
     let mut quantities: Vec<Quantity> = Vec::new();
@@ -73,12 +73,12 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     quantities.push(Box::new(|state| state.torques[0].abs()));
     let mut samples = vec![Vec::with_capacity(cranks.len()); quantities.len()];
     for &crank in &cranks {
-        let state = at(case, &mut poses, crank)?;
+        let state = poses.solve_at(crank, Stage::BalancingMoment)?;
         for (column, quantity) in samples.iter_mut().zip(&quantities) {
             column.push(quantity(state));
         }
     }
-    let refine = |(quantity, column): (&Quantity, &Vec<f64>)| refined(case, &mut poses, quantity, &cranks, column);
+    let refine = |(quantity, column): (&Quantity, &Vec<f64>)| refined(&mut poses, quantity, &cranks, column);
     let peaks = quantities.iter().zip(&samples).map(refine).collect::<Result<Vec<_>>>()?;
     let mut peaks = peaks.into_iter();
     let mut next = || peaks.next().expect("every quantity has a peak");
@@ -93,14 +93,9 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
 /// Quantity whose peak is sought, as a function of the state.
 type Quantity<'a> = Box<dyn Fn(&State) -> f64 + 'a>;
 
-fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p State> {
-    let drive = case.crank().at(case.crank().time_of(crank));
-    poses.solve(crank, drive.rate, drive.acceleration, Stage::BalancingMoment)
-}
-
 /// Finds the largest sample and refines it by golden-section search between the neighbouring samples.
-fn refined(case: &Case, poses: &mut PoseSolver, quantity: &Quantity, cranks: &[f64], samples: &[f64]) -> Result<Peak> {
-    let mut value = |crank: f64| -> Result<f64> { Ok(quantity(at(case, poses, crank)?)) };
+fn refined(poses: &mut PoseSolver, quantity: &Quantity, cranks: &[f64], samples: &[f64]) -> Result<Peak> {
+    let mut value = |crank: f64| -> Result<f64> { Ok(quantity(poses.solve_at(crank, Stage::BalancingMoment)?)) };
     let (crank, value) = extremum::greatest(cranks, samples, &mut value)?;
     Ok(Peak { value, crank })
 }

@@ -17,6 +17,7 @@ use std::f64::consts::TAU;
 use analytic::{AssurSolver, PoseSolver};
 use linkage::case::{Case, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::Motion;
 use linkage::math::statistics::ends;
 use linkage::mechanism::GroupKind;
@@ -214,6 +215,11 @@ pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
 /// Returns the crank angles at the instants of the grid (rad).
 /// For a motion under forces, the angles come from the solution of the motion.
 fn cranks(case: &Case) -> Result<Vec<f64>> {
+    if let Some(drive) = case.drives.iter().find(|drive| drive.input != Input::Angle) {
+        let message =
+            sentences::clearance_needs_cranks(&case.mechanism.joints()[drive.joint].name, &drive.input.noun());
+        return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::DRIVE_THE_MECHANISM_AT_CRANKS));
+    }
     if !case.is_free() {
         return Ok(case.grid.inputs.clone());
     }

@@ -11,6 +11,8 @@ use std::f64::consts::{PI, TAU};
 const DRIVE: f64 = 8.0;
 const SWEEP: f64 = 1.7;
 const AHEAD: f64 = 0.35;
+/// Distance of a slide's arrow from the joint, in units of the sketch.
+const BESIDE: f64 = 5.5;
 /// Radius of a motor's circle, in units of the sketch.
 const MOTOR: f64 = 3.4;
 /// Length of an arrow's head, upper limit of this length divided by the arrow's length, and half width of the head.
@@ -92,7 +94,15 @@ pub fn of_drive(mechanism: &Mechanism, drive: &Drive, u: f64) -> Vec<Mark> {
     let arm = arm.unwrap_or_else(|| Vec2::new(1.0, 0.0));
     let sense = drive.sense();
     let mut marks = Vec::new();
-    if drive.has_moment() {
+    let joint = &mechanism.joints()[drive.joint];
+    if let Some(axis) = joint.axis_on(drive.link).filter(|_| drive.has_moment()) {
+        // Beside the joint, in the direction in which the slide moves the link.
+        let sign = if joint.second.link == drive.link { sense } else { -sense };
+        let marked = arrow(axis * (sign * 2.0 * DRIVE * u), u);
+        let beside = pin + turned(axis) * (BESIDE * u) - axis * (sign * DRIVE * u);
+        let roles = [MarkRole::Drive, MarkRole::DriveHead];
+        marks.extend(marked.into_iter().zip(roles).map(|(mark, role)| moved(mark, role, beside)));
+    } else if drive.has_moment() {
         let [arc, head] = turning(sense, DRIVE * u, arm.y.atan2(arm.x) + sense * AHEAD, u);
         marks.extend([moved(arc, MarkRole::Drive, pin), moved(head, MarkRole::DriveHead, pin)]);
     }

@@ -195,7 +195,9 @@ impl Start<'_> {
     fn walked(&self, (pose, choices): &(Pose, Vec<ConfigurationChoice>), crank: f64) -> Option<Pose> {
         let way = crank - self.crank;
         let has_higher = self.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
-        let steps = if has_higher { (way.abs() / STEP).ceil().larger(1.0) as usize } else { 1 };
+        let size = self.mechanism.size();
+        let turned = way.abs() * self.drives.crank().input.reach(size) / size;
+        let steps = if has_higher { (turned / STEP).ceil().larger(1.0) as usize } else { 1 };
         let mut pose = pose.clone();
         for step in 1..=steps {
             let angles = self.angles(self.crank + way * step as f64 / steps as f64);

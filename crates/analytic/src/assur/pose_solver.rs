@@ -304,6 +304,20 @@ impl<'a> PoseSolver<'a> {
         self.solve(grid.inputs[row], drive.rate, drive.acceleration, deepest)
     }
 
+    /// The state at an input of the first drive, with the rates of all drives at that instant. The law of the first drive
+    /// must reach the input at a unique time.
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::solve`].
+    pub fn solve_at(&mut self, input: f64, deepest: Stage) -> Result<&State> {
+        let t = self.case.crank().time_of(input);
+        let drive = self.case.crank().at(t);
+        match self.by_time {
+            true => self.solve(t, 1.0, 0.0, deepest),
+            false => self.solve(input, drive.rate, drive.acceleration, deepest),
+        }
+    }
+
     /// The input at a crank angle, for messages.
     fn told(&self, crank: f64) -> InputValue {
         self.case.told(if self.by_time { self.case.crank().at(crank).value } else { crank })

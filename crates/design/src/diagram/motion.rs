@@ -8,7 +8,7 @@
 use super::chord::{closed_slopes, integral, slopes};
 use crate::sentences;
 use linkage::case::{Case, Grid, Wanted};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::math::KeepNan;
 use linkage::math::statistics::{half_range, rms, share};
@@ -174,11 +174,15 @@ impl MotionDiagram {
             let message = sentences::THE_CHORD_METHOD_DIVIDES_A_TURN;
             return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::GIVE_THE_DRIVE_A_CONSTANT));
         }
+        let Some((turn, _)) = case.crank().input.period() else {
+            let message = sentences::a_diagram_needs_a_turn(&case.crank().input.noun());
+            return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::SolutionTable));
+        };
         // Every midpoint of a division, a half division or a quarter division is a row.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
         let sense = case.crank().sense();
-        let crank = |row: usize| case.crank().start + sense * TAU * (row as f64 / rows as f64);
+        let crank = |row: usize| case.crank().start + sense * turn * (row as f64 / rows as f64);
         let grid = Grid::of_inputs(case.crank(), (0..=rows).map(crank).collect());
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
         let trajectory = solver.solve(&case.on(grid)?.wanting(wanted))?;
