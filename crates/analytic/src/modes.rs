@@ -40,11 +40,11 @@ pub struct Modes {
 /// Returns the crank angle reached.
 fn reached(case: &Case, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
     let mut poses = PoseSolver::counting_turns(case)?;
-    let Err(error) = poses.solve(crank, 1.0, 0.0, Stage::Positions) else { return Ok((poses, crank)) };
+    let Err(error) = poses.solve_place(crank, Stage::Positions) else { return Ok((poses, crank)) };
     if error.kind() == ErrorKind::Geometry && case.drives.further().is_empty() {
         let other = crank - TAU.copysign(crank - case.crank().start);
         let mut round = PoseSolver::counting_turns(case)?;
-        if round.solve(other, 1.0, 0.0, Stage::Positions).is_ok() {
+        if round.solve_place(other, Stage::Positions).is_ok() {
             return Ok((round, other));
         }
     }
@@ -60,12 +60,9 @@ fn reached(case: &Case, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
 pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
     let mechanism = &case.mechanism;
     let (mut poses, crank) = reached(case, crank)?;
-    let t = case.crank().time_of(crank);
-    let omega = if case.is_steady() { case.crank().at(t).rate } else { case.crank().top_speed() };
-    let (angles, omegas) =
-        (case.drives.coordinates(crank), case.drives.ratios(t).map(|ratio| ratio * omega).collect::<Vec<f64>>());
-    poses.solve(crank, omega, 0.0, Stage::Velocities)?;
+    poses.solve_place(crank, Stage::Velocities)?;
     let state = poses.with_angles().clone();
+    let [angles, omegas] = [poses.coordinates().to_vec(), poses.speeds().to_vec()];
     let followed: Vec<LinkPose> =
         state.motions.iter().zip(&state.angles).map(|(m, &angle)| LinkPose { origin: m.origin, angle }).collect();
     let pose = Pose(followed.into());

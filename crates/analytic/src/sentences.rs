@@ -5,6 +5,8 @@ linkage::sentences! {
     the_drive_moves_no_crank(noun) = "quantities reduced to the crank are requested, but the input of the drive is a {noun}";
     DRIVE_THE_MECHANISM_AT_A_CRANK = "drive a link that is hinged to the ground, or claim `drive.reduced_mass_kg` and `drive.reduced_force_N` as formulas";
     // range/tracking.rs
+    the_slide_has_no_limit(at) = "the mechanism can be followed up to {at}, and no limit is in sight";
+    THE_MECHANISM_MOVES_OVER = "the grid of the file may lie anywhere on this side";
     ONE_OF_SEVERAL_DRIVES_CHANGES = "the range of motion is a curve only if all drives have constant speeds, and one of several drives changes its speed";
     GIVE_THE_DRIVES_CONSTANT_SPEEDS = "give all drives constant speeds";
     // assur/passing.rs

@@ -131,14 +131,18 @@ impl Mechanism {
     }
 
     /// Guide and block of a sliding joint; `None` for a joint that does not slide.
-    /// The ground is always the guide.
+    /// The ground is always the guide. A joint that is drawn as a cylinder has its first link as the guide.
     /// Of two moving links, the link with the larger size is the guide. If the sizes are equal, the joint's first link
     /// is the guide.
     #[must_use]
     pub fn guide_and_block(&self, joint: &Joint) -> Option<[JointSide; 2]> {
         let size = |side: JointSide| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
         let (first, second) = (joint.first, joint.second);
-        joint.slides().then(|| if size(first) >= size(second) { [first, second] } else { [second, first] })
+        // A cylinder is the first link of its joint.
+        let is_cylinder = joint.drawn == Some(Guise::Cylinder) && joint.on(GROUND).is_none();
+        joint
+            .slides()
+            .then(|| if is_cylinder || size(first) >= size(second) { [first, second] } else { [second, first] })
     }
 
     /// Points of moving links, each name once. Each entry has the first link that carries the point and its position on

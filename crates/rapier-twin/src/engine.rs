@@ -6,8 +6,11 @@ use super::tree::SpanningTree;
 use super::{noise, run};
 use crate::sentences;
 use linkage::case::Case;
+use linkage::drive::Drive;
 use linkage::engine::{Engine, Extrapolated, Route, Settings, Statics};
 use linkage::error::Result;
+use linkage::input::Input;
+use linkage::mechanism::GROUND;
 use linkage::solver::{Progress, Provision, Solver, Visit};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
 
@@ -80,8 +83,12 @@ impl Engine for Rapier {
 
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         let native = self.settings.route == Route::Native && channel.stage >= Stage::Reactions;
+        // The motor of a slide between separate moving bodies acts along the axis at the start of the step.
+        let is_moving = |drive: &Drive| case.mechanism.joints()[drive.joint].on(GROUND).is_none();
+        let turns_axis =
+            self.build == Build::Impulse && case.drives.iter().any(|own| own.input == Input::Slide && is_moving(own));
         // A free motion has order 1, because the loads at the start of a step act during the whole step.
-        if native || case.is_free() { 1.0 } else { 2.0 }
+        if native || turns_axis || case.is_free() { 1.0 } else { 2.0 }
     }
 
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {

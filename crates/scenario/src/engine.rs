@@ -13,6 +13,7 @@ use super::setting::EngineSetting;
 use linkage::drive::Drive;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{ErrorKind, Result};
+use linkage::input::Input;
 
 /// An engine by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -284,6 +285,10 @@ pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     }
     table.finish()?;
     let omega = drive.top_speed();
+    if let (Some(_), Input::Slide) = (angle, drive.input) {
+        let help = sentences::GIVE_THE_TIME_STEP_OF_THE_ENGINE;
+        return table.refuse("step", sentences::THE_STEP_IS_AN_ANGLE_BUT, help);
+    }
     own.step = match (time, angle) {
         (Some(dt), None) => table.given("dt", Some(dt)),
         (None, Some(angle)) => table.given("step", Some((angle / omega).abs())),

@@ -65,6 +65,7 @@ use self::stated::FileSections;
 use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::drive::Drives;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::mechanism::assembly::{ConfigurationChoice, group_of};
 use linkage::mechanism::{Mechanism, StartGroup, Structure};
 
@@ -329,6 +330,12 @@ fn finished(
     let modes = choices.iter().map(|choice| choice.mode).collect();
     let start = placed.pose;
     let (loads, gravity, grid, wanted) = (stated.loads, stated.gravity, stated.grid, Wanted::ALL);
+    if drives.crank().input != Input::Angle
+        && let Some(load) = loads.iter().find(|load| load.courses().any(|course| course.knots().is_some()))
+    {
+        let message = sentences::a_table_of_a_load_is_over_the_crank(&load.sort(), &drives.crank().input.noun());
+        return Err(Error::new(ErrorKind::Unsupported, message).key("loads").help(sentences::GIVE_THE_LOAD_A_CONSTANT));
+    }
     let case =
         Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted, only: None })?;
     let case = match stated.channels {

@@ -7,7 +7,7 @@ use super::asked::StartRequest;
 use super::keys::key::{Section, ValueKind, needed, optional};
 use super::motor;
 use super::reader::{Faults, Sign, TomlTable};
-use super::unit::{of_input, of_input_rate};
+use super::unit::{LENGTH, SPEED, UnitFamily, of_input, of_input_rate};
 use super::words::{Words, names, suggestion};
 use linkage::drive::{Drive, DriveMotion, Drives, MotionLaw};
 use linkage::error::Result;
@@ -20,7 +20,8 @@ pub const SECTIONS: &[Section] = &[
     Section::at("drive").with(&[
         needed("joint", ValueKind::Text).means(
             "the driven joint. A prismatic joint has its slide as input, a revolute joint on the ground the crank angle, \
-             any other revolute joint the angle of its second link minus that of its first link",
+             any other revolute joint the angle of its second link minus that of its first link. A free link on the link \
+             of an earlier drive has its world angle as input",
         ),
         optional("law", ValueKind::Choice(|| names(LAWS)), "`\"constant\"`")
             .means("law of the input over time, see below"),
@@ -87,7 +88,16 @@ pub fn drives(
         // does not count as whole.
         faults.whole &= drives.len() > index;
     }
-    let motor = motor.map(|mut motor| faults.read(&mut motor, motor::read));
+    let motor = motor.map(|mut motor| {
+        let input = drives.first().map_or(Input::Angle, |drive| drive.input);
+        faults.read(&mut motor, |motor| {
+            if input != Input::Angle {
+                let message = sentences::a_motor_needs_a_crank(&input.noun());
+                return Err(motor.fault(message).help(sentences::TAKE_MOTOR_OUT_OR_DRIVE));
+            }
+            motor::read(motor)
+        })
+    });
     if drives.len() < count || matches!(motor, Some(None)) {
         return None;
     }
@@ -95,10 +105,18 @@ pub fn drives(
     Some((Drives::new(crank, drives), first))
 }
 
-/// Input of the first drive; `None` if its joint is unknown.
+/// Input of the first drive; `None` without a drive.
 pub fn first_input(tables: &[TomlTable], mechanism: &Mechanism) -> Option<Input> {
-    let joint = mechanism.joint_named(tables.first()?.peek("joint")?)?;
-    Some(Drive::of_joint(&mechanism.joints()[joint], &[], false).0)
+    let table = tables.first()?;
+    let joint = table.peek("joint").and_then(|name| mechanism.joint_named(name));
+    Some(joint.map_or_else(|| guessed(table), |joint| Drive::of_joint(&mechanism.joints()[joint], &[], false).0))
+}
+
+/// Input that the keys of a drive at an unknown joint suggest.
+fn guessed(table: &TomlTable) -> Input {
+    let lengths = [("start", &LENGTH), ("to", &LENGTH), ("zero", &LENGTH), ("speed", &SPEED)];
+    let has = |(key, family): &(&str, &'static UnitFamily)| family.keys(key).iter().any(|key| table.has(key));
+    if lengths.iter().any(has) { Input::Slide } else { Input::Angle }
 }
 
 /// Checks that a drive can be combined with the drives before it.
@@ -128,8 +146,11 @@ fn drive(
     };
     let is_free = table.optional_string("motion")?.as_deref() == Some("free");
     let joint = known.map(|index| &mechanism.joints()[index]);
-    let (input, link) = joint.map_or((Input::Angle, LinkId(1)), |joint| Drive::of_joint(joint, before, is_free));
-    let is_in_start = before.is_empty() && (input == Input::Angle || known.is_none());
+    let (input, link) = match joint {
+        Some(joint) => Drive::of_joint(joint, before, is_free),
+        None => (guessed(table), LinkId(1)),
+    };
+    let is_in_start = before.is_empty() && input == Input::Angle;
     let stated = match is_in_start {
         // If the angle is missing, the error is in `[start]`.
         true => crank.unwrap_or_default(),

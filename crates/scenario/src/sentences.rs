@@ -1,6 +1,15 @@
 //! All messages that this crate can show, in one file, so that they can be read as a list.
 
 linkage::sentences! {
+    // engine.rs
+    THE_STEP_IS_AN_ANGLE_BUT = "the step is given as a rotation of the crank, but the input of the first drive is a slide";
+    GIVE_THE_TIME_STEP_OF_THE_ENGINE = "give the time step: `dt_s` or `dt_ms`";
+    // lib.rs
+    a_table_of_a_load_is_over_the_crank(sort, noun) = "a load of type {sort} is a table over the crank angle, but the input of the first drive is a {noun}";
+    GIVE_THE_LOAD_A_CONSTANT = "give the load a constant value, or drive the mechanism at a crank";
+    // motion.rs
+    a_motor_needs_a_crank(noun) = "the motor drives a crank, but the input of the first drive is a {noun}";
+    TAKE_MOTOR_OUT_OR_DRIVE = "take `[motor]` out, or drive the mechanism at a crank";
     // grid.rs
     the_grid_has_units_of_but_the_input_is(family, noun) = "the grid is given by {family}, but the input of the first drive is a {noun}";
     give_the_grid_in(unit) = "give the grid in {unit} (`from_{unit}`, `to_{unit}`, `step_{unit}`) or by time (`from_s`, `to_s`, `step_s`)";

@@ -4,8 +4,8 @@
 use crate::sentences;
 
 use super::printed::{self, PrintedChannel};
-use super::reader::TomlTable;
-use super::unit::{ANGLE, NamedUnit, TIME};
+use super::reader::{Sign, TomlTable};
+use super::unit::{NamedUnit, TIME, of_input};
 use super::words::suggestion;
 use formula::Rounded;
 use linkage::case::{Case, Grid};
@@ -178,7 +178,8 @@ const HELP: &str = sentences::A_NUMBER_HOLDS_AT_A_CRANK;
 
 /// Reads an instant under `crank` or `time`, with a unit.
 pub(super) fn instant(table: &mut TomlTable, case: &Case) -> Result<When> {
-    let crank = table.optional_si("crank")?;
+    let family = of_input(case.crank().input);
+    let crank = table.optional_quantity("crank", family, Sign::Any)?;
     let time = table.optional_si("time")?;
     match (crank, time) {
         (Some(crank), None) => Ok(When::Crank(crank)),
@@ -189,7 +190,11 @@ pub(super) fn instant(table: &mut TomlTable, case: &Case) -> Result<When> {
         (Some(_), Some(_)) => {
             table.refuse("time", sentences::A_CRANK_ANGLE_AND_A_TIME, sentences::keep_one_of_the_two_2(&HELP))
         }
-        (None, None) => Err(table.lacks(&["crank_deg", "crank_rad", "time_s", "time_ms"], HELP)),
+        (None, None) => {
+            let keys: Vec<String> =
+                family.keys("crank").into_iter().rev().chain(["time_s".into(), "time_ms".into()]).collect();
+            Err(table.lacks(&keys.iter().map(String::as_str).collect::<Vec<_>>(), HELP))
+        }
     }
 }
 
@@ -205,7 +210,7 @@ pub(super) struct Rows {
 
 impl Rows {
     /// Reads the column that `crank` or `time` names. The column's name ends in its unit.
-    pub fn read(table: &mut TomlTable) -> Result<Self> {
+    pub fn read(table: &mut TomlTable, case: &Case) -> Result<Self> {
         let (crank, time) = (table.optional_string("crank")?, table.optional_string("time")?);
         let (key, column, is_time) = match (crank, time) {
             (Some(column), None) => ("crank", column, false),
@@ -217,7 +222,7 @@ impl Rows {
             (None, None) => return Err(table.lacks(&["crank", "time"], COLUMN_HELP)),
         };
         let (units, help) = match is_time {
-            false => (ANGLE.units, sentences::THE_COLUMN_OF_CRANK_ANGLES),
+            false => (of_input(case.crank().input).units, sentences::THE_COLUMN_OF_CRANK_ANGLES),
             true => (TIME.units, sentences::THE_COLUMN_OF_TIMES_ENDS),
         };
         match units.iter().find(|unit| column.ends_with(&format!("_{}", unit.suffix))) {

@@ -40,7 +40,7 @@ pub fn read(oracle: &mut TomlTable, known: &Known, case: &Case) -> Result<(Strin
     let source = Source::new(&path, &text);
     let rows = Rows::read(&source).map_err(|error| error.key(oracle.path_of("file")))?;
 
-    let from = series::Rows::read(oracle)?;
+    let from = series::Rows::read(oracle, case)?;
     let mut columns = oracle.table("columns")?;
     let needed = rows.records.len() as f64 * (OF_ROW + OF_NUMBER * columns.keys().len() as f64);
     let most = known.memory.unwrap_or(MOST);

@@ -34,6 +34,9 @@ pub static TEMPLATES: &[Template] = templates![
     "pendulum",
     "class-iii",
     "class-iv",
+    "excavator",
+    "scissor-lift",
+    "toggle-press",
 ];
 
 /// The template with a name, in which `_` may replace `-`.

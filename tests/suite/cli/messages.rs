@@ -60,7 +60,7 @@ fn inspect_as_json() {
     let count = |key: &str| found[key].as_array().unwrap().len();
     assert_eq!((&found["schema"], &found["mobility"]), (&json!(1), &json!(1)));
     assert_eq!((count("links"), count("joints"), count("groups")), (8, 10, 3));
-    assert_eq!(found["drivers"], json!([{"link": "crank", "joint": "1"}]));
+    assert_eq!(found["drivers"], json!([{"link": "crank", "joint": "1", "input": "crank angle"}]));
     let group = &found["groups"][1];
     assert_eq!(group["links"], json!(["rod_35", "rocker_65"]));
     assert_eq!(

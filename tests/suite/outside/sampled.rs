@@ -3,9 +3,10 @@
 
 use linkage::case::{Case, Wanted};
 use linkage::drive::load::Acts;
-use linkage::drive::{Course, Load};
+use linkage::drive::{Course, Drive, Load};
+use linkage::input::Input;
 use linkage::math::{KeepNan, Vec2, cross};
-use linkage::mechanism::{GROUND, JointId, JointSide, LinkId};
+use linkage::mechanism::{GROUND, JointKind, JointSide, LinkId};
 use linkage::trajectory::{Channel, Trajectory};
 use linkproof::Scenario;
 
@@ -121,13 +122,42 @@ impl Row<'_> {
         all
     }
 
-    fn torques(&self) -> Vec<(LinkId, f64)> {
+    /// Efforts of the drives: the drive, its moment or force, and the rate of its input.
+    fn efforts(&self) -> Vec<(&Drive, f64, f64)> {
         let drives = self.case.drives.iter().enumerate().filter(|(_, drive)| drive.has_moment());
-        let name = |index: usize, joint: JointId| match index {
-            0 => "drive.torque_N_m".to_string(),
-            _ => format!("drive.{}.torque_N_m", self.case.mechanism.joints()[joint].name),
+        let of = |(index, drive): (usize, &'_ Drive)| {
+            let joint = &self.case.mechanism.joints()[drive.joint];
+            let name = if index == 0 { "drive".to_string() } else { format!("drive.{}", joint.name) };
+            let suffix = if drive.input == Input::Slide { "force_N" } else { "torque_N_m" };
+            self.read(&format!("{name}.{suffix}"))
         };
-        drives.map(|(index, drive)| (drive.link, self.read(&name(index, drive.joint)))).collect()
+        drives.map(|(index, drive)| (drive, of((index, drive)), self.rate(drive))).collect()
+    }
+
+    /// Rate of the input of a drive.
+    fn rate(&self, drive: &Drive) -> f64 {
+        let joint = &self.case.mechanism.joints()[drive.joint];
+        let omega = |link: LinkId| self.link(link).turn[1];
+        match drive.input {
+            Input::Angle => omega(drive.link),
+            Input::Turn => omega(joint.second.link) - omega(joint.first.link),
+            Input::Slide => self.read(&format!("joint.{}.slide_speed_m_s", joint.name)),
+        }
+    }
+
+    /// Force and moment about the origin of a drive on the frame.
+    fn on_frame(&self, drive: &Drive, effort: f64) -> (Vec2, f64) {
+        let joint = &self.case.mechanism.joints()[drive.joint];
+        let sign = match (drive.input, [joint.first.link, joint.second.link]) {
+            (Input::Angle, _) => return (Vec2::zeros(), -effort),
+            (Input::Slide, [GROUND, _]) => -1.0,
+            (Input::Slide, [_, GROUND]) => 1.0,
+            (Input::Turn | Input::Slide, _) => return (Vec2::zeros(), 0.0),
+        };
+        let JointKind::Prismatic { axes: [axis, _] } = joint.kind else { panic!("a slide has an axis") };
+        let (sin, cos) = self.link(joint.first.link).turn[0].sin_cos();
+        let own = Vec2::new(cos * axis.x - sin * axis.y, sin * axis.x + cos * axis.y) * (sign * effort);
+        (own, cross(self.point(joint.second)[0], own))
     }
 
     /// Five imbalances, each divided by its largest term.
@@ -135,7 +165,7 @@ impl Row<'_> {
     /// momentum.
     /// The fifth imbalance is the total power of drives, loads, weights and inertia.
     fn imbalances(&self) -> [f64; 5] {
-        let (case, loads, torques) = (self.case, self.loads(), self.torques());
+        let (case, loads, efforts) = (self.case, self.loads(), self.efforts());
         let sampled = (self.pair("frame", ["fx_N", "fy_N"]), self.read("frame.moment_N_m"));
         // Sum of forces and moments about the origin, and the largest term of each.
         let (mut force, mut moment) = (sampled.0, sampled.1);
@@ -158,7 +188,10 @@ impl Row<'_> {
             let couple = if joint.slides() { self.read(&format!("{name}.moment_N_m")) * sign } else { 0.0 };
             take(own, cross(self.point(joint.second)[0], own) + couple);
         }
-        torques.iter().for_each(|(_, torque)| take(Vec2::zeros(), -torque));
+        for (drive, effort, _) in &efforts {
+            let (own, about) = self.on_frame(drive, *effort);
+            take(own, about);
+        }
         let on_frame = loads.iter().filter(|own| own.0 == GROUND);
         on_frame.for_each(|(_, place, own, couple)| take(*own, cross(*place, *own) + couple));
         let by_reactions = [force.norm() / largest, moment.abs() / turning];
@@ -189,7 +222,7 @@ impl Row<'_> {
             let moves = if *link == GROUND { Vec2::zeros() } else { velocity + omega * Vec2::new(-arm.y, arm.x) };
             work(if own.norm() == 0.0 { couple * omega } else { own.dot(&moves) });
         }
-        torques.iter().for_each(|(link, torque)| work(torque * self.link(*link).turn[1]));
+        efforts.iter().for_each(|(_, effort, rate)| work(effort * rate));
         let of = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
         let [by_force, by_moment] = [of(force.norm(), largest), of(moment.abs(), turning)];
         [by_reactions[0], by_reactions[1], by_force, by_moment, of(power.abs(), strongest)]
@@ -202,7 +235,7 @@ fn worst(case: &Case, all: &Trajectory) -> [f64; 5] {
     let mut worst = [0.0f64; 5];
     for row in 0..all.times().len() {
         let at = Row { case, all, row };
-        let is_at_rest = case.is_free() && case.drives.iter().all(|drive| at.link(drive.link).turn[1] == 0.0);
+        let is_at_rest = case.is_free() && case.drives.iter().all(|drive| at.rate(drive) == 0.0);
         if !is_at_rest {
             for (worst, own) in worst.iter_mut().zip(at.imbalances()) {
                 *worst = worst.larger(own);

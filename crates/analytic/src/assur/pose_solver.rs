@@ -318,6 +318,31 @@ impl<'a> PoseSolver<'a> {
         }
     }
 
+    /// The state at an input of the first drive, for a list of configurations.
+    /// If the speeds of the drives vary, the first drive has its top speed, and further drives have theirs in proportion.
+    /// If several drives have laws of their own, they have the rates of their laws.
+    pub(crate) fn solve_place(&mut self, input: f64, deepest: Stage) -> Result<&State> {
+        let drive = self.case.crank();
+        if self.by_time {
+            let t = if input == drive.start { 0.0 } else { drive.time_of(input) };
+            return self.solve(t, 1.0, 0.0, deepest);
+        }
+        let omega = if self.case.is_steady() { drive.at(drive.time_of(input)).rate } else { drive.top_speed() };
+        self.solve(input, omega, 0.0, deepest)
+    }
+
+    /// Coordinates of all driven joints at the last pose.
+    pub(crate) fn coordinates(&mut self) -> &[f64] {
+        self.turn(self.crank);
+        &self.inputs
+    }
+
+    /// Rates of all driven coordinates at the last pose.
+    pub(crate) fn speeds(&mut self) -> &[f64] {
+        self.find_rates(self.crank);
+        &self.rates[0]
+    }
+
     /// The input at a crank angle, for messages.
     fn told(&self, crank: f64) -> InputValue {
         self.case.told(if self.by_time { self.case.crank().at(crank).value } else { crank })

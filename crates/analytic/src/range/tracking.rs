@@ -328,6 +328,9 @@ impl<'a> Tracker<'a> {
             }
             let is_near = next.sigma < MEET;
             let extent = self.extent(&next.q);
+            if !returns && (next.q[self.crank] - points[0].q[self.crank]).abs() > FAR {
+                return Err(self.unlimited(&next.q));
+            }
             points.push(next);
             if extent > tried {
                 tried = extent * FARTHER;
@@ -340,6 +343,13 @@ impl<'a> Tracker<'a> {
             }
         }
         Err(self.lost(&points[points.len() - 1].q))
+    }
+
+    /// The error for a slide without a limit.
+    fn unlimited(&self, q: &ColumnVector) -> Error {
+        let at = self.case.told(self.crank_of(q));
+        let message = sentences::the_slide_has_no_limit(&at);
+        Error::new(ErrorKind::Unsupported, message).at_input(at).help(sentences::THE_MECHANISM_MOVES_OVER)
     }
 
     /// Distance of the farthest link from the crank's pivot, divided by [`NEAR`] sizes of the mechanism; at least 1.
@@ -464,14 +474,12 @@ impl<'a> Tracker<'a> {
     }
 
     /// Whether all links have the same pose at `a` and `b`, apart from whole turns.
+    /// Slides between links are given by the poses of the links.
     fn is_same(&self, a: &Point, b: &Point) -> bool {
-        self.case
-            .mechanism
-            .links()
-            .ids()
-            .skip(1)
-            .map(Constraints::angle)
-            .all(|k| (unit(a.q[k]) - unit(b.q[k])).norm() < 1e-6)
+        (0..self.constraints.of_links()).all(|k| match k % 3 {
+            2 => (unit(a.q[k]) - unit(b.q[k])).norm() < 1e-6,
+            _ => (a.q[k] - b.q[k]).abs() < 1e-6,
+        })
     }
 }
 
