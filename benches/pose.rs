@@ -11,10 +11,12 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-use analytic::PoseSolver;
 use analytic::assur::batch::{Batch, Poses};
+use analytic::{AssurSolver, PoseSolver};
 use four_bar::FourBar;
+use linkage::drive::MotionLaw;
 use linkage::mechanism::LinkId;
+use linkage::solver::Solver;
 use linkage::trajectory::Stage;
 use scenario::Scenario;
 
@@ -156,4 +158,40 @@ fn main() {
         let [all, positions, batch] = PARTS.map(|(_, part)| shortest(turns_of(&scenario.case, part)) / measure);
         println!("{name:20} {all:>10.2} {positions:>10.2} {batch:>10.2}");
     }
+    let boom = scenario("boom_lift").case;
+    let crank = boom.mechanism.joint_named("O").expect("the boom is hinged at O");
+    let inputs = |case: &Case| case.grid.inputs.clone();
+    let of_ram = shortest(swing_of(&boom, &inputs(&boom)));
+    // The same mechanism over the same motion, driven at the boom's hinge.
+    let angles = angles_of(&boom);
+    let rise = angles[angles.len() - 1] - angles[0];
+    let law = |_| MotionLaw::Cycloidal { rise, time: 1.0 };
+    let at_crank = boom.driven_at(crank, law, vec![0.0, 1.0]).expect("the boom is a crank");
+    let of_crank = shortest(swing_of(&at_crank, &angles));
+    println!(
+        "\nboom on a ram, all: {:.2}; driven at its hinge: {:.2}; ratio {:.2}",
+        of_ram / measure,
+        of_crank / measure,
+        of_ram / of_crank
+    );
+}
+
+/// Returns a function that solves as many poses as a revolution, forwards and back through these inputs.
+fn swing_of<'a>(case: &'a Case, inputs: &[f64]) -> Box<dyn FnMut() + 'a> {
+    let (from, to) = (inputs[0], inputs[inputs.len() - 1]);
+    let at = |k: usize| from + (to - from) * (1.0 - (angle(k)).cos()) / 2.0;
+    let all: Vec<f64> = (0..POSES).map(at).collect();
+    let mut poses = PoseSolver::new(case).unwrap();
+    Box::new(move || {
+        for &input in &all {
+            let _ = black_box(poses.solve(black_box(input), 1.0, 0.0, Stage::BalancingMoment).unwrap().torques[0]);
+        }
+    })
+}
+
+/// Angles of the boom at its first and last instant (rad).
+fn angles_of(boom: &Case) -> Vec<f64> {
+    let solved = AssurSolver.solve(boom).unwrap();
+    let angles = solved.named("link.boom.angle_rad").unwrap();
+    vec![angles[0], angles[angles.len() - 1]]
 }

@@ -288,6 +288,8 @@ impl SolutionPlan {
             // Most groups are RRR dyads, so this kind is tested first.
             if let Step::Rrr(dyad) = step {
                 dyad.motions(motions).map_err(|why| OutOfReach { group, why })?;
+            } else if let Step::Shaped(dyad) = step {
+                dyad.motions([angles, omegas, alphas], motions).map_err(|why| OutOfReach { group, why })?;
             } else {
                 step.positions(angles, motions).map_err(|why| OutOfReach { group, why })?;
                 step.velocities(omegas, motions);

@@ -12,12 +12,14 @@
 //! Two links on a given joint are one rigid body at every instant, so the group is classified by its bodies.
 
 mod contour;
+mod driven;
 mod group;
 mod owners;
 #[cfg(test)]
 mod tests;
 
 use crate::sentences;
+pub use driven::{DrivenJoint, DrivingLink};
 pub use group::{Group, GroupKind};
 
 use super::{GROUND, LinkPose, Mechanism, Pose};
@@ -26,35 +28,6 @@ use crate::input::Input;
 use crate::mechanism::{GroupId, JointId, LinkId, PerGroup, PerLink};
 use contour::highest_contour;
 use owners::{Owners, check_sparse};
-
-/// A joint whose coordinate is given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DrivenJoint {
-    /// The joint.
-    pub joint: JointId,
-    /// What its coordinate measures.
-    pub input: Input,
-}
-
-impl From<JointId> for DrivenJoint {
-    /// The joint of a crank.
-    fn from(joint: JointId) -> Self {
-        DrivenJoint { joint, input: Input::Angle }
-    }
-}
-
-/// A link that a drive moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DrivingLink {
-    /// The link. For a joint between two links of a group, it is the joint's second link.
-    pub link: LinkId,
-    /// The driven joint.
-    pub joint: JointId,
-    /// What the joint's coordinate measures.
-    pub input: Input,
-    /// Whether the link belongs to a group. Otherwise it stands on the ground or on an earlier driving link.
-    pub in_group: bool,
-}
 
 /// Result of the structural analysis of a mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]

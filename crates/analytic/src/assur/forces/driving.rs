@@ -3,13 +3,19 @@
 use super::body::{Action, Body, Reactions};
 use linkage::case::Case;
 use linkage::input::Input;
-use linkage::math::{Motion, Vec2};
+use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::{JointId, LinkId};
 
 /// A link and its driven joint.
 #[derive(Clone, Debug)]
 pub(super) struct Driving {
     body: Body,
+    joint: DrivenPivot,
+}
+
+/// The driven joint of a link.
+#[derive(Clone, Debug)]
+pub(super) struct DrivenPivot {
     pivot: Action,
     /// Number of the drive.
     index: usize,
@@ -21,10 +27,24 @@ pub(super) struct Driving {
 impl Driving {
     /// The link `link` on the driven joint of the drive with the number `index`.
     pub(super) fn of(case: &Case, link: LinkId, joint: JointId, index: usize, settled: &[bool]) -> Self {
+        Driving { body: Body::of(case, link, settled), joint: DrivenPivot::of(case, link, joint, index) }
+    }
+
+    /// Stores the reaction and the driving moment or force for which the link is in equilibrium.
+    #[inline]
+    pub(super) fn solve(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
+        let pole = self.joint.pivot.place(motions);
+        let (force, moment) = self.body.resultant(case, motions, reactions, pole);
+        self.joint.balance(force, moment, pole, motions, reactions);
+    }
+}
+
+impl DrivenPivot {
+    /// The driven joint of `link`, that of the drive with the number `index`.
+    pub(super) fn of(case: &Case, link: LinkId, joint: JointId, index: usize) -> Self {
         let first = case.mechanism.joints()[joint].first.link;
         let axis = case.mechanism.joints()[joint].axis_on(first).unwrap_or_default();
-        Driving {
-            body: Body::of(case, link, settled),
+        DrivenPivot {
             pivot: Action::of(case, joint, link),
             index,
             input: case.drives[index].input,
@@ -32,12 +52,18 @@ impl Driving {
         }
     }
 
-    /// Stores the reaction and the driving moment or force for which the link is in equilibrium.
+    /// Stores the reaction and the driving moment or force that balance a force on the link (N) and its moment about the
+    /// world point `pole` (N m).
     /// The reaction includes the driving force, and at a joint between moving links the driving moment.
     #[inline]
-    pub(super) fn solve(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
-        let pole = self.pivot.place(motions);
-        let (force, moment) = self.body.resultant(case, motions, reactions, pole);
+    pub(super) fn balance(&self, force: Vec2, moment: f64, pole: Vec2, motions: &[Motion], reactions: &mut Reactions) {
+        if self.input == Input::Slide {
+            let axis = motions[self.axis.0].arm(self.axis.1);
+            self.pivot.put_guided(-force, moment, pole, motions, reactions);
+            reactions.efforts[self.index] = -axis.dot(&force) * self.pivot.sign();
+            return;
+        }
+        let moment = moment + cross(pole - self.pivot.place(motions), force);
         match self.input {
             Input::Angle => {
                 self.pivot.put(-force, reactions);
@@ -48,11 +74,7 @@ impl Driving {
                 self.pivot.put_moment(-moment, reactions);
                 reactions.efforts[self.index] = -moment * self.pivot.sign();
             }
-            Input::Slide => {
-                let axis = motions[self.axis.0].arm(self.axis.1);
-                self.pivot.put_guided(-force, moment, pole, motions, reactions);
-                reactions.efforts[self.index] = -axis.dot(&force) * self.pivot.sign();
-            }
+            Input::Slide => unreachable!("a slide is balanced above"),
         }
     }
 }

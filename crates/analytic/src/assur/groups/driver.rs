@@ -56,6 +56,11 @@ impl Driver {
         Driver { link: driver.link, base: base.link, index, pivot, place: base.local, at_origin, way }
     }
 
+    /// Whether the given coordinate is a slide.
+    pub(super) fn slides(&self) -> bool {
+        matches!(self.way, Way::Slide { .. })
+    }
+
     /// Whether the link is a crank: its world angle is given.
     pub(super) fn is_crank(&self) -> bool {
         matches!(self.way, Way::Angle)
@@ -112,6 +117,24 @@ impl Driver {
         if self.base == GROUND && self.at_origin && self.is_crank() {
             let (direction, omega, alpha) = (unit(coordinate), rate, second);
             motions[self.link] = Motion { origin: self.place, direction, omega, alpha, ..Motion::REST };
+            return;
+        }
+        if let Way::Slide { axis, turn, sign } = self.way {
+            // The link turns with its base: its origin is a point of the base that moves along the axis.
+            let base = &motions[self.base];
+            let (axis, direction) = (base.arm(axis), rotated(base.direction, turn));
+            let arm = base.arm(self.place) + axis * (sign * coordinate) - rotated(direction, self.pivot);
+            let (omega, alpha) = (base.omega, base.alpha);
+            motions[self.link] = Motion {
+                origin: base.origin + arm,
+                direction,
+                velocity: base.velocity_beyond(arm) + axis * (sign * rate),
+                omega,
+                acceleration: base.acceleration_beyond(arm)
+                    + axis * (sign * second)
+                    + turned(axis) * (2.0 * omega * sign * rate),
+                alpha,
+            };
             return;
         }
         self.put_position(coordinate, motions);

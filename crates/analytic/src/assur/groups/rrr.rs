@@ -64,6 +64,7 @@ impl Rrr {
             let link = group.links[k];
             dyad.reshape(k, on(group.inner[0], link) - on(group.outer[k], link));
         }
+        dyad.measure();
         dyad
     }
 
@@ -95,10 +96,16 @@ impl Rrr {
     }
 
     /// Sets the vector from outer to inner joint of the arm `k`, in the frame of its link (m).
+    /// [`Rrr::measure`] must follow.
     #[inline]
     pub(super) fn reshape(&mut self, k: usize, span: Vec2) {
         self.squared[k] = span.norm_squared();
         self.arms[k].inverse_span = span / self.squared[k];
+    }
+
+    /// Computes the limits of the dyad from the lengths of its arms.
+    #[inline]
+    pub(super) fn measure(&mut self) {
         let squared = self.squared;
         let lengths = squared.map(f64::sqrt);
         self.range = [(lengths[0] - lengths[1]).powi(2), (lengths[0] + lengths[1]).powi(2)];

@@ -23,6 +23,8 @@ pub(in crate::assur) struct Shape {
     inner: (LinkId, Vec2),
     /// p and its rates in the frame of the root (m, m/s, m/s^2).
     span: [Vec2; 3],
+    /// If all given joints are slides, p is linear in them: p at zero slides, and for each drive the derivative of p.
+    linear: Option<(Vec2, Vec<(usize, Vec2)>)>,
 }
 
 impl Shape {
@@ -57,7 +59,37 @@ impl Shape {
             placed.push(driver.link);
             hung.push(Driver::of(mechanism, index, &driver));
         }
-        Shape { root, hung, outer, inner: on(inner), span: [Vec2::zeros(); 3] }
+        let mut shape = Shape { root, hung, outer, inner: on(inner), span: [Vec2::zeros(); 3], linear: None };
+        if shape.hung.iter().all(Driver::slides) {
+            let mut frame = vec![Motion::REST; mechanism.links().len()];
+            let mut at = |unit: Option<usize>| {
+                let coordinates: Vec<f64> = (0..all.len()).map(|k| if unit == Some(k) { 1.0 } else { 0.0 }).collect();
+                shape.form(&coordinates, &mut frame);
+                shape.span[0]
+            };
+            let zero = at(None);
+            let drives: Vec<usize> = shape_drives(group, mechanism, &members, all);
+            let derivatives = drives.into_iter().map(|drive| (drive, at(Some(drive)) - zero)).collect();
+            shape.linear = Some((zero, derivatives));
+        }
+        shape
+    }
+
+    /// p and its rates for these coordinates, rates and accelerations of all drives.
+    #[inline]
+    fn all(&mut self, [coordinates, rates, seconds]: [&[f64]; 3], frame: &mut [Motion]) {
+        let Some((zero, derivatives)) = &self.linear else {
+            self.form(coordinates, frame);
+            self.rates(rates, frame);
+            self.seconds([rates, seconds], frame);
+            return;
+        };
+        self.span = [*zero, Vec2::zeros(), Vec2::zeros()];
+        for &(drive, by) in derivatives {
+            self.span[0] += by * coordinates[drive];
+            self.span[1] += by * rates[drive];
+            self.span[2] += by * seconds[drive];
+        }
     }
 
     /// Moves the hung links in the frame of the root. `frame` contains the motions of the body's links in this frame.
@@ -84,6 +116,17 @@ impl Shape {
     fn turn(&self) -> f64 {
         cross(self.span[0], self.span[1]) / self.span[0].norm_squared()
     }
+}
+
+/// Numbers of the drives between the links of a body.
+fn shape_drives(group: &Group, mechanism: &Mechanism, members: &[LinkId], all: &[DrivingLink]) -> Vec<usize> {
+    let inside = |driver: &DrivingLink| {
+        let joint = &mechanism.joints()[driver.joint];
+        group.given.contains(&driver.joint)
+            && members.contains(&joint.first.link)
+            && members.contains(&joint.second.link)
+    };
+    all.iter().enumerate().filter(|(_, driver)| inside(driver)).map(|(index, _)| index).collect()
 }
 
 /// RRR dyad of bodies with given joints, prepared for solving.
@@ -121,12 +164,36 @@ impl Shaped {
         &self.shapes
     }
 
+    /// Positions, velocities and accelerations in one pass.
+    #[inline]
+    pub(super) fn motions(&mut self, of_drives: [&[f64]; 3], motions: &mut [Motion]) -> Result<(), Misfit> {
+        for (k, shape) in self.shapes.iter_mut().enumerate() {
+            shape.all(of_drives, &mut self.frame);
+            self.dyad.reshape(k, shape.span[0]);
+        }
+        self.rates.copy_from_slice(of_drives[1]);
+        self.dyad.measure();
+        self.dyad.positions(motions)?;
+        let relative = self.shapes.each_ref().map(|shape| rotated(motions[shape.root].direction, shape.span[1]));
+        self.dyad.velocities_with(relative, motions);
+        let extra = [0, 1].map(|k| {
+            let (shape, root) = (&self.shapes[k], &motions[self.shapes[k].root]);
+            rotated(root.direction, shape.span[2]) + turned(relative[k]) * (2.0 * root.omega)
+        });
+        self.dyad.accelerations_with(extra, motions);
+        for own in self.shapes.iter().flat_map(|shape| &shape.hung) {
+            own.place_at(of_drives.map(|all| all[own.index]), motions);
+        }
+        Ok(())
+    }
+
     #[inline]
     pub(super) fn positions(&mut self, coordinates: &[f64], motions: &mut [Motion]) -> Result<(), Misfit> {
         for (k, shape) in self.shapes.iter_mut().enumerate() {
             shape.form(coordinates, &mut self.frame);
             self.dyad.reshape(k, shape.span[0]);
         }
+        self.dyad.measure();
         self.dyad.positions(motions)?;
         for own in self.shapes.iter().flat_map(|shape| &shape.hung) {
             own.put_position(coordinates[own.index], motions);

@@ -1,0 +1,33 @@
+//! Joints whose coordinate is given, and the links that they move.
+
+use crate::input::Input;
+use crate::mechanism::{JointId, LinkId};
+
+/// A joint whose coordinate is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrivenJoint {
+    /// The joint.
+    pub joint: JointId,
+    /// What its coordinate measures.
+    pub input: Input,
+}
+
+impl From<JointId> for DrivenJoint {
+    /// The joint of a crank.
+    fn from(joint: JointId) -> Self {
+        DrivenJoint { joint, input: Input::Angle }
+    }
+}
+
+/// A link that a drive moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrivingLink {
+    /// The link. For a joint between two links of a group, it is the joint's second link.
+    pub link: LinkId,
+    /// The driven joint.
+    pub joint: JointId,
+    /// What the joint's coordinate measures.
+    pub input: Input,
+    /// Whether the link belongs to a group. Otherwise it stands on the ground or on an earlier driving link.
+    pub in_group: bool,
+}
