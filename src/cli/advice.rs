@@ -79,7 +79,7 @@ mod tests {
             (Advice::OtherReference { solver: "newton" }, "use side \"newton\" as the reference: --reference newton"),
             (Advice::AllResults, "-o FILE.json lists all of them"),
             ("check the lengths".into(), "check the lengths"),
-            (Advice::ShortenGrid, "shorten the grid to the crank angles that can be reached on this branch"),
+            (Advice::ShortenGrid, "shorten the grid to the inputs that can be reached on this branch"),
         ] {
             assert_eq!(told(&advice), words);
         }

@@ -83,10 +83,12 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
     args.outputs.deliver(|_| Ok(report::json(&scenario, modes, &undecided, range.as_ref(), drivers.as_ref())), text)
 }
 
-/// The structures for the driven joint called `name`, or for all joints.
+/// The structures for the driven joint called `name`, or for all joints without a further drive.
 fn drivers(case: &Case, name: &str) -> Result<Drivers> {
     let joints = case.mechanism.joints();
-    let asked: Vec<JointId> = joints.ids().filter(|&id| name == "all" || joints[id].name == name).collect();
+    let is_open = |id: JointId| case.drives.further().iter().all(|drive| drive.joint != id);
+    let asked: Vec<JointId> =
+        joints.ids().filter(|&id| joints[id].name == name || name == "all" && is_open(id)).collect();
     if asked.is_empty() {
         let names: Vec<&str> = joints.iter().map(|joint| joint.name.as_str()).collect();
         let error = Error::new(ErrorKind::Input, sentences::there_is_no_joint_called(&name));

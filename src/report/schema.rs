@@ -22,7 +22,7 @@ fn object(path: &str) -> Value {
     let mut properties = Map::new();
     let (mut required, mut choices) = (Vec::new(), Vec::new());
     for key in keys {
-        let spellings = key.spellings();
+        let spellings = key.all_spellings();
         for spelling in &spellings {
             properties.insert(spelling.clone(), of_key(key, path));
         }

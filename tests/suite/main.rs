@@ -69,6 +69,7 @@ mod triad_methods;
 mod trunk;
 mod tune;
 mod tutorial;
+mod units;
 mod variants60;
 mod work_allowed;
 mod wrong_tables;

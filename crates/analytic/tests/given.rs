@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use linkage::case::{Case, CaseBuilder};
 use linkage::drive::MotionLaw;
+use linkage::math::KeepNan;
 use linkage::mechanism::AssemblyMode::{self, Left, Only};
 use linkage::solver::{Solver, State};
 
@@ -35,14 +36,14 @@ fn agrees(case: &Case) -> Vec<State> {
     };
     for (a, b) in one.iter().zip(&other) {
         for (a, b) in numbers(a).iter().zip(&numbers(b)) {
-            let scale = a.iter().fold(1e-9, |most: f64, own| most.max(own.abs()));
-            let off = a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+            let scale = a.iter().fold(1e-9, |most: f64, own| most.larger(own.abs()));
+            let off = a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.larger((a - b).abs()));
             assert!(off <= 1e-11 * scale, "{off:e} of {scale:e}: {a:?} {b:?}");
         }
         let given: f64 =
             case.drives.iter().zip(&a.torques).map(|(drive, effort)| effort * case.drive_rate(drive, &a.motions)).sum();
         let known = power::of_known_forces(case, a);
-        assert!((given + known).abs() <= 1e-9 * known.abs().max(1.0), "{given} {known}");
+        assert!((given + known).abs() <= 1e-9 * known.abs().larger(1.0), "{given} {known}");
     }
     one
 }

@@ -12,8 +12,8 @@ crate::sentences! {
     // case/check.rs
     the_mode_is_none_of_group(mode, group) = "group {group} has no assembly mode \"{mode}\"";
     there_are_assembly_modes_but_groups(modes, groups) = "there are {modes} assembly modes, but {groups} groups";
-    TAKE_FIRST_POSE_AT_THE_WORLD = "use `first_pose` at the world angles of the drives, or another pose in which all joints are closed";
-    link_stands_rad_off_the_angle(name, off) = "link \"{name}\" is {off} rad away from the start angle of its drive";
+    TAKE_FIRST_POSE_AT_THE_WORLD = "use `first_pose` at the coordinates of the drives, or another pose in which all joints are closed";
+    link_is_away_from_its_start(name, off, unit) = "link \"{name}\" is {off} {unit} away from the start of its drive";
     joint_is_open_in_the_start(joint, at, gap, turn) = "joint \"{joint}\" is open in the start pose, {at}: by {gap} m and {turn} rad";
     link_has_no_place_in_the_start(link, pose) = "link \"{link}\" has no valid pose in the start pose: {pose}";
     the_ground_is_moved_in_the_start(poses) = "the ground is moved in the start pose: {poses}";
@@ -31,19 +31,19 @@ crate::sentences! {
     joint_or_link_is_driven_already(names) = "{names}: joint or link is driven already";
     GIVE_THE_CRANK_A_LENGTH = "give the crank a length";
     moves_nothing_all_joints_of_the_link(names) = "{names} moves no point: all joints of the link lie at one point";
-    the_joint_is_but_a_drive(names, joint) = "{names}: the joint is {joint}, but a drive needs a revolute joint";
+    the_joint_is_but_a_drive(names, joint) = "{names}: the joint is {joint}, which does not have this input";
     the_joint_does_not_carry(names) = "{names}: the joint does not carry a moving link of that name";
     the_drive_of_link_at_joint(link, joint) = "the drive of link \"{link}\" at joint \"{joint}\"";
     but_there_are_links_and_joints(message, links, joints) = "{message}, but there are {links} links and {joints} joints";
-    drive_turns_link_at_joint(index, link, joint) = "drive {index} turns link {link} at joint {joint}";
-    ASK_FOR_INSTANTS_AND_CRANK = "request instants and crank angles that the drive reaches";
-    the_grid_has_times_but_crank(times, cranks) = "the grid has {times} times, but {cranks} crank angles";
+    drive_turns_link_at_joint(index, link, joint) = "drive {index} moves link {link} at joint {joint}";
+    ASK_FOR_INSTANTS_AND_CRANK = "request instants and inputs that the drive reaches";
+    the_grid_has_times_but_crank(times, cranks) = "the grid has {times} times, but {cranks} inputs";
     gravity_is(x, y) = "gravity is ({x}, {y}) m/s²";
     // case/grid.rs
     the_grid_leads_turns_away(most, value) = "the grid extends to {most} turns from zero; the limit is {value}";
     the_grid_leads_to_but_the_drive(t, name, end) = "the grid extends to {t} s, but the drive's law \"{name}\" is defined from 0 to {end} s";
     the_drive_law_does_not_come(name, drive) = "the drive's law \"{name}\" does not reach a {drive} of the grid at exactly one time";
-    THE_MOTION_IS_FREE_WHEN_THE_CRANK = "the motion is free: the time at which the crank reaches an angle depends on the forces";
+    THE_MOTION_IS_FREE_WHEN_THE_CRANK = "the motion is free: the time at which the input reaches a value depends on the forces";
     // engine/bodies.rs
     GIVE_EVERY_LINK_BOTH = "give every link a mass and a moment of inertia";
     link_has_no_mass_or_no_moment(bare, software) = "link \"{bare}\" has no mass or no moment of inertia: {software} cannot move it under forces";
@@ -59,7 +59,7 @@ crate::sentences! {
     name_a_channel_of_the_solution(groups) = "name a channel of the solution, such as joint.A.fx_N, or a group: {groups}";
     READ_THEM_OFF_A_TABLE_OF_THE_SOLUTION = "take the values from a table of the solution instead";
     THE_RANGE_OF_MOTION_SHOWS = "the range of motion shows what limits the crank and which links turn fully";
-    SHORTEN_THE_GRID_TO_THE_CRANK = "shorten the grid to the crank angles that can be reached on this branch";
+    SHORTEN_THE_GRID_TO_THE_CRANK = "shorten the grid to the inputs that can be reached on this branch";
     solve_the_scenario_with_side(solver) = "solve the scenario with side \"{solver}\" alone";
     take_side_as_the_reference(solver) = "use side \"{solver}\" as the reference";
     take_another_way_to_the_reactions(routes) = "choose another method for the reactions: {routes}";
@@ -122,9 +122,9 @@ crate::sentences! {
     its_outer_joints_are_apart(distance, across) = "its outer joints are {distance:.6} m apart, but its links keep them {across:.6} m apart perpendicular to the axis of its prismatic joint";
     its_inner_joint_slides_along(height, length) = "its inner joint slides along a line {height:.6} m away from its outer pin, but its rod is {length:.6} m long";
     its_outer_joints_are_apart_its_links(distance, radius_1, radius_1_2) = "its outer joints are {distance:.6} m apart, but its links span {radius_1:.6} to {radius_1_2:.6} m";
-    CHECK_THE_AXES_OR_START_AT_A_CRANK = "check the axes, or start at a crank angle at which they cross";
+    CHECK_THE_AXES_OR_START_AT_A_CRANK = "check the axes, or start at an input at which they cross";
     the_dyad_cannot_be_assembled(sine) = "the dyad cannot be assembled: the axes of its two prismatic joints are parallel (sine {sine})";
-    CHECK_THE_LENGTHS_AND_THE_GROUND = "check the lengths and the ground points, or start at a crank angle that can be reached";
+    CHECK_THE_LENGTHS_AND_THE_GROUND = "check the lengths and the ground points, or start at an input that can be reached";
     the_dyad_cannot_be_assembled_2(what) = "the dyad cannot be assembled: {what}";
     // mechanism/assembly/four_link.rs
     THE_GROUP_CANNOT_BE_ASSEMBLED = "the group cannot be assembled: it has no real configuration";
@@ -139,7 +139,7 @@ crate::sentences! {
     the_configuration_found_from_the_rough(point, distance, half) = "in the configuration found from the approximate positions, point \"{point}\" is {distance:.4} m from its approximate position, more than half a link ({half:.4} m)";
     NO_CONFIGURATION_OF_THE_GROUP = "no configuration of the group is found from the approximate positions";
     // mechanism/structure.rs
-    THE_DRIVEN_JOINT_TURNS_LINKS_WITH_KEPT_ANGLES = "the driven joint turns two links whose angle other drives and prismatic joints already keep";
+    THE_DRIVEN_JOINT_TURNS_LINKS_WITH_KEPT_ANGLES = "the driven joint gives the angle between two links that other drives and prismatic joints already fix";
     DRIVE_ANOTHER_JOINT = "drive another joint, or make one of the prismatic joints revolute";
     the_mobility_is_but_the_number(n, p, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} = {mobility}, but the number of drives is {drives}";
     THE_MECHANISM_IS_OVER_CONSTRAINED = "the mechanism is over-constrained: remove the surplus joints or drives";

@@ -236,7 +236,7 @@ linkage::sentences! {
     the_rows_of_a_table_have_and_no(has, lacks) = "the rows of a table have {has}, but no {lacks}";
     MAP_COLUMNS_TO_CHANNELS_SUCH_AS_PHI3 = "map columns to channels, such as phi3*180/pi=link.rocker.angle_deg";
     no_column_of_the_table_is_a_channel(some) = "no column of the table is a channel; its columns are {some}";
-    MAP_A_COLUMN_TO_TIME_TIME = "map a column to time_s, time_ms, crank_deg or crank_rad, such as time=time_s";
+    MAP_A_COLUMN_TO_TIME_TIME = "map a column to time_s, time_ms, crank_deg, joint_deg or slide_mm, such as time=time_s";
     nothing_says_where_the_rows(some) = "the table has no column of times or crank angles; its columns are {some}";
     TAKE_THE_ROW_OUT_OR_COMPLETE = "remove the row, or complete it";
     holds_at_no_instant_is_no_number(raw, mapped) = "{raw} has no instant: `{mapped}` is not a number there";
@@ -288,6 +288,8 @@ linkage::sentences! {
     // compare/align.rs
     ALLOW_INTERPOLATION_OR_GIVE_BOTH = "allow interpolation, or give both parties the same instants; check the units of the instants";
     of_the_second_party_is_one_of_the_first(which, what) = "{which} {what} of the second party occurs in the first";
+    the_rows_of_the_parties_have_different_inputs(one, other) = "the rows of one party have a {one}, those of the other a {other}";
+    MAP_THE_INSTANTS_OF_BOTH_TO_THE_SAME_INPUT = "map the instants of both parties to the same input, or to times";
     MAP_THE_COLUMNS_OF_BOTH_TO_THE_SAME = "map the columns of both parties to the same channels";
     the_two_have_no_channel_in_common(some, some_2) = "the two parties have no channel in common: {some} against {some_2}";
     // compare/allowed.rs

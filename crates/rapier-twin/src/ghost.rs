@@ -11,6 +11,7 @@ use super::newton_euler::NewtonEuler;
 use super::tree::SpanningTree;
 use linkage::case::Case;
 use linkage::error::Result;
+use linkage::input::Input;
 use linkage::solver::State;
 
 /// Stand-ins for missing masses, flywheels in accelerated motion, and loads that are missing in the engine.
@@ -24,9 +25,11 @@ impl Ghost {
     /// The stand-ins of a case. If its loads are missing in the engine (`unloaded`), they are included too.
     /// `None` if nothing has to be subtracted.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
-        // At constant speed, flywheels are left out: a flywheel adds a moment only while it is accelerated.
+        // The flywheel of a crank adds a moment only while it is accelerated. That of a slide is a mass with a weight.
         let tree = SpanningTree::none(&case.mechanism);
-        let masses = if case.is_steady() { masses(case, &tree) } else { masses_with_flywheels(case, &tree) };
+        let only_cranks = case.drives.iter().all(|drive| drive.input == Input::Angle);
+        let flywheels_idle = case.is_steady() && only_cranks;
+        let masses = if flywheels_idle { masses(case, &tree) } else { masses_with_flywheels(case, &tree) };
         let links = case.mechanism.links().iter().zip(masses);
         let mut extra: Vec<[f64; 2]> =
             links.map(|(link, [mass, inertia])| [mass - link.mass, inertia - link.inertia]).collect();

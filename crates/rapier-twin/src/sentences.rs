@@ -31,7 +31,7 @@ linkage::sentences! {
     the_engine_kinetic_energy_has_grown(growth, place) = "the engine's kinetic energy has grown {growth} times in one step, {place}";
     the_engine_link_has_turned(name, degrees, place) = "the engine's link \"{name}\" has turned by {degrees:.1} deg in one step, {place}";
     // newton_euler.rs
-    SHORTEN_THE_GRID_TO_THE_CRANK = "shorten the grid to the crank angles before the dead point";
+    SHORTEN_THE_GRID_TO_THE_CRANK = "shorten the grid to the inputs before the dead point";
     the_reactions_are_not_determined(t) = "the reactions are not determined at t = {t:.6} s (dead point)";
     // reactions.rs
     THE_MOTION_IS_FREE_BUT_A_PROBE = "the motion is free, but a probe needs prescribed speeds";

@@ -319,7 +319,7 @@ fn formula(table: &mut TomlTable, formulas: &mut Formulas, case: &Case) -> Resul
         return table.refuse(key, message, help);
     }
     if claimed.is_none() {
-        let spellings = ["from", "to"].into_iter().flat_map(|key| family.keys(key)).chain(["error".to_string()]);
+        let spellings = ["from", "to"].into_iter().flat_map(|key| family.all_keys(key)).chain(["error".to_string()]);
         if let Some(key) = spellings.into_iter().find(|key: &String| table.has(key)) {
             let message = sentences::belongs_to_a_claim_and_this_formula(&key);
             return table.refuse(&key, message, sentences::ADD_CHANNEL_OR_TAKE_IT_OUT);

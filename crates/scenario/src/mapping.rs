@@ -8,6 +8,7 @@ use super::source::Source;
 use super::words::suggestion;
 use formula::FormulaFault;
 use linkage::error::{Error, ErrorKind, Place, Result};
+use linkage::input::Input;
 
 /// The mapping of the numbers of a table to instants and channels.
 #[derive(Clone, Debug, Default)]
@@ -73,13 +74,19 @@ impl Size {
     }
 }
 
-/// Names for the instants of rows. Each name has its factor to SI, and a flag that says whether it is a crank angle.
-pub const INSTANTS: [(&str, f64, bool); 4] = [
-    ("time_s", 1.0, false),
-    ("time_ms", 1e-3, false),
-    ("crank_rad", 1.0, true),
-    ("crank_deg", std::f64::consts::PI / 180.0, true),
+/// Names for the instants of rows. Each name has its factor to SI. A value of the input has the kind of input.
+pub const INSTANTS: [(&str, f64, Option<Input>); 8] = [
+    ("time_s", 1.0, None),
+    ("time_ms", 1e-3, None),
+    ("crank_rad", 1.0, Some(Input::Angle)),
+    ("crank_deg", DEGREE, Some(Input::Angle)),
+    ("joint_rad", 1.0, Some(Input::Turn)),
+    ("joint_deg", DEGREE, Some(Input::Turn)),
+    ("slide_m", 1.0, Some(Input::Slide)),
+    ("slide_mm", 1e-3, Some(Input::Slide)),
 ];
+/// One degree (rad).
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 impl Mapped {
     /// Parses `EXPR=NAME`, as an argument gives it; `what` names the text in messages.
@@ -107,10 +114,11 @@ impl Mapped {
         Mapped { name: name.into(), text: text.into(), place, start: 0 }
     }
 
-    /// If the name is one of [`INSTANTS`]: its factor to SI, and whether it is a crank angle. Otherwise `None`.
+    /// If the name is one of [`INSTANTS`]: its factor to SI, and the kind of input unless it is a time.
+    /// Otherwise `None`.
     #[must_use]
-    pub fn instant(&self) -> Option<(f64, bool)> {
-        INSTANTS.iter().find(|(name, ..)| *name == self.name).map(|&(_, factor, is_crank)| (factor, is_crank))
+    pub fn instant(&self) -> Option<(f64, Option<Input>)> {
+        INSTANTS.iter().find(|(name, ..)| *name == self.name).map(|&(_, factor, input)| (factor, input))
     }
 
     /// An error in the arithmetic expression.

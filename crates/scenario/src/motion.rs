@@ -115,7 +115,7 @@ pub fn first_input(tables: &[TomlTable], mechanism: &Mechanism) -> Option<Input>
 /// Input that the keys of a drive at an unknown joint suggest.
 fn guessed(table: &TomlTable) -> Input {
     let lengths = [("start", &LENGTH), ("to", &LENGTH), ("zero", &LENGTH), ("speed", &SPEED)];
-    let has = |(key, family): &(&str, &'static UnitFamily)| family.keys(key).iter().any(|key| table.has(key));
+    let has = |(key, family): &(&str, &'static UnitFamily)| family.all_keys(key).iter().any(|key| table.has(key));
     if lengths.iter().any(has) { Input::Slide } else { Input::Angle }
 }
 
@@ -257,11 +257,19 @@ fn cycloidal(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
 /// A law of motion from a table. The motion starts from rest at t = 0 and ends at rest at the last point.
 fn points(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
     let InputValue { input, value: start } = start;
+    let [key, example] = match input {
+        Input::Slide => ["slide", "write `points = [{ time_s = 0, slide_mm = 0 }, { time_s = 0.5, slide_mm = 90 }]`"],
+        Input::Angle | Input::Turn => {
+            ["angle", "write `points = [{ time_s = 0, angle_deg = 0 }, { time_s = 0.5, angle_deg = 90 }]`"]
+        }
+    };
+    if !table.has("points") {
+        return Err(table.lacks(&["points"], example));
+    }
     let mut points: Vec<(f64, f64)> = Vec::new();
     for mut point in table.tables("points")? {
         let read = point.read(|point| {
             let time = point.si("time")?;
-            let key = if input == Input::Slide { "slide" } else { "angle" };
             let gone = point.si(key)? - start;
             point.finish()?;
             Ok((time, gone))
@@ -280,8 +288,7 @@ fn points(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
         }
     }
     if points.len() < 2 || points.iter().all(|&(_, gone)| gone == 0.0) {
-        let help = "write `points = [{ time_s = 0, angle_deg = 0 }, { time_s = 0.5, angle_deg = 90 }]`";
-        return table.refuse("points", sentences::A_TABLE_OF_ANGLES_NEEDS_TWO, help);
+        return table.refuse("points", sentences::A_TABLE_OF_ANGLES_NEEDS_TWO, example);
     }
     Ok(MotionLaw::Table(Arc::new(Piecewise::clamped_spline(&points, [0.0; 2]))))
 }

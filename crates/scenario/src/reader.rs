@@ -210,7 +210,9 @@ impl<'a> TomlTable<'a> {
 
     /// Value of `key`. The key is recorded as requested.
     fn take(&mut self, key: &str) -> Option<&'a Spanned<DeValue<'a>>> {
-        self.asked.push(key.to_string());
+        if !self.asked.iter().any(|own| own == key) {
+            self.asked.push(key.to_string());
+        }
         let &place = self.places.get(key)?;
         self.used.insert(self.entries[place].key);
         Some(self.entries[place].value)

@@ -9,7 +9,7 @@ linkage::sentences! {
     GIVE_THE_LOAD_A_CONSTANT = "give the load a constant value, or drive the mechanism at a crank";
     // motion.rs
     a_motor_needs_a_crank(noun) = "the motor drives a crank, but the input of the first drive is a {noun}";
-    TAKE_MOTOR_OUT_OR_DRIVE = "take `[motor]` out, or drive the mechanism at a crank";
+    TAKE_MOTOR_OUT_OR_DRIVE = "remove `[motor]`, or drive the mechanism at a crank";
     // grid.rs
     the_grid_has_units_of_but_the_input_is(family, noun) = "the grid is given by {family}, but the input of the first drive is a {noun}";
     give_the_grid_in(unit) = "give the grid in {unit} (`from_{unit}`, `to_{unit}`, `step_{unit}`) or by time (`from_s`, `to_s`, `step_s`)";
@@ -115,14 +115,14 @@ linkage::sentences! {
     belongs_to_a_claim_and_this_formula(key) = "`{key}` belongs to a claim, but this formula has no claim";
     LEAVE_IT_OUT_IF_THE_FORMULA = "leave it out if the formula is exact";
     A_CLAIMED_ERROR_MUST_BE_A_POSITIVE = "a claimed error must be a positive number";
-    THE_LAST_CRANK_ANGLE_IS_LESS = "the last crank angle is less than the first";
+    THE_LAST_CRANK_ANGLE_IS_LESS = "the last input is less than the first";
     there_is_no(name) = "there is no `{name}`";
     write_or(name, key) = "write `{name}` or `{key}`";
     CHOOSE_ANOTHER_NAME = "choose another name";
     is_a_parameter_or_a_formula(name) = "`{name}` is already a parameter or a formula";
     // grid.rs
     CHECK_FROM_TO_AND_THE_SIZE = "check `from`, `to` and the size and sign of `step`";
-    CHECK_THE_UNIT_AND_SIZE_OF_THE_GRID = "check the unit and size of the grid and of `drive.speed`";
+    CHECK_THE_UNIT_AND_SIZE_OF_THE_GRID = "check the unit and size of the grid, and the law of the drive";
     GIVE_THE_GRID_BY_TIME_FROM_TO_STEP = "give the grid by time (`from_s`, `to_s`, `step_s`, or a list `times_s`)";
     THE_GRID_IS_GIVEN_TWICE = "the grid is given twice";
     KEEP_ONE_OF_A_RANGE_FROM_TO_STEP = "keep one of: a range (`from`, `to`, `step`), a list of crank angles (`angles`), a list of times (`times`)";
@@ -227,13 +227,13 @@ linkage::sentences! {
     CHECK_THE_UNITS_OF_ITS_SPEED = "check the units of its speed and of its length";
     at_rad_link_of_has_points(speed, link, link_2) = "at {speed} rad/s, link \"{link}\" of {link_2} m has points that are faster than light";
     // motion.rs
-    A_TABLE_OF_ANGLES_NEEDS_TWO = "a table of angles needs at least two points with different angles";
+    A_TABLE_OF_ANGLES_NEEDS_TWO = "a table needs at least two points with different values";
     WRITE_THE_POINTS_IN_ASCENDING_ORDER = "write the points in ascending order of time, each time once";
     the_times_do_not_ascend_comes(time, last) = "the times do not ascend: {time} s comes after {last} s";
     WRITE_THE_START_AS_THE_FIRST = "write the start as the first point";
-    the_table_does_not_begin(input, input_2) = "the table does not begin with the start of the crank, {input} {input_2} at 0 s";
-    GIVE_A_CRANK_ANGLE_OTHER = "give a crank angle other than that of the start";
-    THE_CRANK_IS_TO_STAY_WHERE = "the crank would not move from its start";
+    the_table_does_not_begin(input, input_2) = "the table does not begin with the start of the input, {input} {input_2} at 0 s";
+    GIVE_A_CRANK_ANGLE_OTHER = "give a value other than that of the start";
+    THE_CRANK_IS_TO_STAY_WHERE = "the input would not change";
     IS_NO_LAW_OF_MOTION = "is not a law of motion";
     is_no_way_through_a_change(other) = "\"{other}\" is not a way to pass a change point";
     WRITE_THROUGH_SMOOTH_FOR_THE_BRANCH = "write `through = \"smooth\"` for the branch with continuous velocities, or remove the key";

@@ -158,7 +158,7 @@ fn group(
     {
         return Err(foreign_mode(&table, asked, group));
     }
-    let mode = if links == group.links { mode } else { mode.map(AssemblyMode::swapped) };
+    let mode = if is_in_order(&links, group, mechanism) { mode } else { mode.map(AssemblyMode::swapped) };
     let near = near.into_iter().map(|near| side_point(near, mechanism, group)).collect::<Result<_>>()?;
     Ok((index, StartGroup { mode, rank: None, near }))
 }
@@ -168,6 +168,14 @@ fn group_of(links: &[LinkId], structure: &Structure) -> Option<GroupId> {
     let mut sorted = links.to_vec();
     sorted.sort_unstable();
     structure.groups.find(|group| group.links == sorted)
+}
+
+/// Whether the first of the group's `links` belongs to the group's first body.
+/// An assembly mode refers to the order of the two bodies.
+fn is_in_order(links: &[LinkId], group: &Group, mechanism: &Mechanism) -> bool {
+    let leads = group.leads(mechanism);
+    let body = |link: LinkId| group.links.iter().position(|&own| own == link).map(|at| leads[at]);
+    links.first().and_then(|&link| body(link)) == leads.first().copied()
 }
 
 /// The group and the start that `LINK,LINK=MODE` or `LINK,LINK=NUMBER` requests.
@@ -203,7 +211,7 @@ pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result
         return Err(Error::new(ErrorKind::Input, message)
             .help(Advice::Configuration { give: sentences::a_number_from_the_list_of_configurations(&names, &or) }));
     };
-    let in_order = links.is_some_and(|links| links == group.links);
+    let in_order = links.is_some_and(|links| is_in_order(&links, group, mechanism));
     let mode = if in_order { found } else { found.swapped() };
     Ok((index, StartGroup { mode: Some(mode), ..StartGroup::default() }))
 }

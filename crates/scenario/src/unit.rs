@@ -35,6 +35,8 @@ pub struct UnitFamily {
     pub noun: &'static str,
     /// Units, the SI unit first.
     pub units: &'static [NamedUnit],
+    /// Further units. Keys may end in them, but messages and channels name only `units`.
+    pub further: &'static [NamedUnit],
     /// Upper limit of the magnitude in SI, far beyond any real machine. A number above the limit is a mistake in the
     /// unit.
     /// Up to this limit, solvers and engines can still handle products with other quantities of the file.
@@ -43,20 +45,35 @@ pub struct UnitFamily {
 
 impl UnitFamily {
     const fn of(noun: &'static str, units: &'static [NamedUnit], most: f64) -> UnitFamily {
-        UnitFamily { noun, units, most }
+        UnitFamily { noun, units, further: &[], most }
     }
 
-    /// The spellings of a key of this family: `length_m` or `length_mm`.
+    const fn also(self, further: &'static [NamedUnit]) -> UnitFamily {
+        UnitFamily { further, ..self }
+    }
+
+    /// All units in which a key of this family may be written.
+    fn all(&self) -> impl DoubleEndedIterator<Item = &'static NamedUnit> {
+        self.units.iter().chain(self.further)
+    }
+
+    /// The usual spellings of a key of this family: `length_m` or `length_mm`.
     #[must_use]
     pub fn keys(&self, base: &str) -> Vec<String> {
         self.units.iter().map(|unit| format!("{base}_{}", unit.suffix)).collect()
+    }
+
+    /// All spellings of a key of this family, the usual spellings first.
+    #[must_use]
+    pub fn all_keys(&self, base: &str) -> Vec<String> {
+        self.all().map(|unit| format!("{base}_{}", unit.suffix)).collect()
     }
 
     /// The unit at the end of `key`, if `key` consists of `base` and a unit of this family.
     #[must_use]
     pub fn unit_of(&self, base: &str, key: &str) -> Option<&'static NamedUnit> {
         let suffix = key.strip_prefix(base)?.strip_prefix('_')?;
-        self.units.iter().find(|unit| unit.suffix == suffix)
+        self.all().find(|unit| unit.suffix == suffix)
     }
 }
 
@@ -65,29 +82,37 @@ const fn si(suffix: &'static str) -> NamedUnit {
 }
 
 /// Lengths and coordinates.
-pub static LENGTH: UnitFamily = UnitFamily::of("a length", &[si("m"), unit("mm", 1.0, 1e3)], 1e9);
+pub static LENGTH: UnitFamily = UnitFamily::of("a length", &[si("m"), unit("mm", 1.0, 1e3)], 1e9)
+    .also(&[unit("cm", 1.0, 1e2), unit("in", 25.4, 1e3)]);
 /// Angles.
 pub static ANGLE: UnitFamily = UnitFamily::of("an angle", &[si("rad"), unit("deg", PI / 180.0, 1.0)], 1e9);
 /// Angular velocities; rpm are turns per minute.
-pub static ANGULAR_SPEED: UnitFamily =
-    UnitFamily::of(sentences::AN_ANGULAR_VELOCITY, &[si("rad_s"), unit("rpm", TAU, 60.0)], 1e9);
+pub static ANGULAR_SPEED: UnitFamily = UnitFamily::of(
+    sentences::AN_ANGULAR_VELOCITY,
+    &[si("rad_s"), unit("rpm", TAU, 60.0)],
+    1e9,
+)
+.also(&[unit("deg_s", PI / 180.0, 1.0)]);
 /// Speeds along a line.
-pub static SPEED: UnitFamily = UnitFamily::of("a speed", &[si("m_s"), unit("mm_s", 1.0, 1e3)], 1e9);
+pub static SPEED: UnitFamily = UnitFamily::of("a speed", &[si("m_s"), unit("mm_s", 1.0, 1e3)], 1e9)
+    .also(&[unit("cm_s", 1.0, 1e2), unit("in_s", 25.4, 1e3)]);
 /// Times.
 pub static TIME: UnitFamily = UnitFamily::of("a time", &[si("s"), unit("ms", 1.0, 1e3)], 1e12);
 /// Masses.
-pub static MASS: UnitFamily = UnitFamily::of("a mass", &[si("kg"), unit("g", 1.0, 1e3)], 1e30);
+pub static MASS: UnitFamily = UnitFamily::of("a mass", &[si("kg"), unit("g", 1.0, 1e3)], 1e30)
+    .also(&[unit("t", 1e3, 1.0), unit("lb", 0.453_592_37, 1.0)]);
 /// Moments of inertia.
 pub static INERTIA: UnitFamily = UnitFamily::of(sentences::A_MOMENT_OF_INERTIA, &[si("kg_m2")], 1e30);
 /// Accelerations.
 pub static ACCELERATION: UnitFamily = UnitFamily::of("an acceleration", &[si("m_s2")], 1e12);
 /// Moments of forces.
-pub static MOMENT: UnitFamily = UnitFamily::of("a moment", &[si("N_m")], 1e20);
+pub static MOMENT: UnitFamily = UnitFamily::of("a moment", &[si("N_m")], 1e20).also(&[unit("kN_m", 1e3, 1.0)]);
 /// Moments per angular velocity.
 pub static MOMENT_PER_SPEED: UnitFamily =
     UnitFamily::of(sentences::A_CHANGE_OF_A_MOMENT_WITH_AN_ANGULAR, &[si("N_m_s")], 1e20);
 /// Forces.
-pub static FORCE: UnitFamily = UnitFamily::of("a force", &[si("N"), unit("kN", 1e3, 1.0)], 1e20);
+pub static FORCE: UnitFamily =
+    UnitFamily::of("a force", &[si("N"), unit("kN", 1e3, 1.0)], 1e20).also(&[unit("lbf", 4.448_221_615_260_5, 1.0)]);
 /// Forces per length.
 pub static STIFFNESS: UnitFamily = UnitFamily::of("a stiffness", &[si("N_m"), unit("N_mm", 1e3, 1.0)], 1e20);
 /// Forces per velocity.
@@ -125,20 +150,14 @@ pub fn of_input_rate(input: Input) -> &'static UnitFamily {
 }
 
 /// Units that scenario files do not support: ending of the key, name, and size in a supported unit.
-static UNSUPPORTED: [(&str, &str, &str); 17] = [
-    ("cm", "centimetres", "1 cm = 10 mm"),
-    ("in", "inches", "1 in = 25.4 mm"),
+static UNSUPPORTED: [(&str, &str, &str); 11] = [
     ("inch", "inches", "1 in = 25.4 mm"),
     ("ft", "feet", "1 ft = 304.8 mm"),
     ("um", "micrometres", "1 um = 1e-3 mm"),
-    ("lb", "pounds", "1 lb = 0.45359237 kg"),
-    ("t", "tonnes", "1 t = 1000 kg"),
-    ("lbf", "pounds-force", "1 lbf = 4.4482216152605 N"),
     ("kgf", "kilograms-force", "1 kgf = 9.80665 N"),
     ("kp", "kiloponds", "1 kp = 9.80665 N"),
     ("grad", "gradians", "1 grad = 0.9 deg"),
     ("turns", "turns", "1 turn = 360 deg"),
-    ("deg_s", "degrees per second", "1 deg/s = 0.0174532925199433 rad/s"),
     ("rps", "turns per second", "1 turn/s = 60 rpm"),
     ("hz", "hertz", "1 turn/s = 60 rpm"),
     ("min", "minutes", "1 min = 60 s"),
@@ -175,7 +194,7 @@ pub static ALL: [&UnitFamily; 16] = [
 /// The longest unit at the end of a key, with the first family that contains this unit.
 #[must_use]
 pub fn ending(key: &str) -> Option<(&'static UnitFamily, &'static NamedUnit)> {
-    let all = ALL.iter().flat_map(|family| family.units.iter().map(move |unit| (*family, unit)));
+    let all = ALL.iter().flat_map(|family| family.all().map(move |unit| (*family, unit)));
     let ends =
         |unit: &NamedUnit| key.strip_suffix(unit.suffix).is_some_and(|rest| rest.len() > 1 && rest.ends_with('_'));
     // Of several units with the same length, the first unit is kept.
@@ -185,7 +204,7 @@ pub fn ending(key: &str) -> Option<(&'static UnitFamily, &'static NamedUnit)> {
 /// Whether two units measure the same quantity.
 #[must_use]
 pub fn alike(one: &NamedUnit, other: &NamedUnit) -> bool {
-    let has = |family: &UnitFamily, unit: &NamedUnit| family.units.iter().any(|own| own.suffix == unit.suffix);
+    let has = |family: &UnitFamily, unit: &NamedUnit| family.all().any(|own| own.suffix == unit.suffix);
     ALL.iter().any(|family| has(family, one) && has(family, other))
 }
 
@@ -194,7 +213,7 @@ mod tests {
     use super::*;
 
     fn si_of(family: &UnitFamily, suffix: &str, value: f64) -> f64 {
-        family.units.iter().find(|unit| unit.suffix == suffix).unwrap().to_si(value)
+        family.all().find(|unit| unit.suffix == suffix).unwrap().to_si(value)
     }
 
     #[test]
@@ -207,6 +226,9 @@ mod tests {
         assert_eq!(si_of(&TIME, "ms", 1.0), 1e-3);
         assert_eq!(si_of(&FORCE, "kN", 1.5), 1500.0);
         assert_eq!(si_of(&STIFFNESS, "N_mm", 1.5), 1500.0);
+        assert_eq!([si_of(&LENGTH, "cm", 2.6), si_of(&LENGTH, "in", 10.0)], [0.026, 0.254]);
+        assert_eq!([si_of(&FORCE, "lbf", 1.0), si_of(&MASS, "lb", 100.0)], [4.448_221_615_260_5, 45.359_237]);
+        assert_eq!([si_of(&MOMENT, "kN_m", 2.5), si_of(&MASS, "t", 1.5)], [2500.0, 1500.0]);
     }
 
     #[test]
@@ -230,7 +252,7 @@ mod tests {
     fn keys_end_in_their_unit() {
         assert_eq!(LENGTH.keys("length"), ["length_m", "length_mm"]);
         assert_eq!(LENGTH.unit_of("length", "length_mm").unwrap().suffix, "mm");
-        assert!(LENGTH.unit_of("length", "length").is_none() && LENGTH.unit_of("length", "length_cm").is_none());
+        assert!(LENGTH.unit_of("length", "length").is_none() && LENGTH.unit_of("length", "length_ft").is_none());
         assert!(LENGTH.unit_of("x", "x_m_s").is_none());
     }
 }

@@ -14,7 +14,7 @@ linkage::sentences! {
     GIVE_AN_ACCURACY_BETWEEN_AND_FOR_ONE = "give an accuracy between 0 and 1, such as 1e-8";
     the_engine_accuracy_is(accuracy) = "the engine's accuracy is {accuracy}";
     // model.rs
-    SHORTEN_THE_GRID_TO_THE_CRANK = "shorten the grid to the crank angles before the dead point";
+    SHORTEN_THE_GRID_TO_THE_CRANK = "shorten the grid to the inputs before the dead point";
     CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED = "check that the pose can be assembled there";
     simbody_stopped_at(t, at, gap, message) = "Simbody stopped at t = {t:.6} s, {at}{gap}: {message}";
     joint_open_by(case, gap) = ", joint \"{case}\" open by {gap} m";

@@ -303,7 +303,7 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
 }
 
 /// Commands on a scenario; usual commands occur more often in the list.
-const COMMANDS: [&str; 36] = [
+const COMMANDS: [&str; 37] = [
     "run FILE --no-record -q",
     "run FILE",
     "run FILE --no-record --verbose --json out.json --html out.html",
@@ -312,6 +312,7 @@ const COMMANDS: [&str; 36] = [
     "inspect FILE --modes",
     "run FILE --no-record -q",
     "inspect FILE --range",
+    "inspect FILE --driver all",
     "solve FILE --with assur",
     "draw FILE -o out.svg --loads --dimensions",
     "export FILE --mjcf -",

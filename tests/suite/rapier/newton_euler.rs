@@ -8,6 +8,7 @@ use proptest::prelude::*;
 
 use linkage::case::Case;
 use linkage::drive::Wrench;
+use linkage::input::Input;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, cross, turned, unit};
 use linkage::mechanism::{Joint, JointId, SpanningTree};
@@ -71,8 +72,25 @@ fn dense(case: &Case, state: &State) -> (Vec<Vec<f64>>, Vec<f64>) {
         }
     }
     let first = case.mechanism.equations();
-    for (index, drive) in case.drives.iter().enumerate() {
-        matrix[3 * drive.link.index() - 1][first + index] = 1.0;
+    for (column, drive) in (first..).zip(&case.drives) {
+        let joint = &case.mechanism.joints()[drive.joint];
+        if drive.input == Input::Angle {
+            matrix[3 * drive.link.index() - 1][column] = 1.0;
+            continue;
+        }
+        for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
+            let Some(row) = (3 * side.link.index()).checked_sub(3) else { continue };
+            let Some(axis) = joint.axis_on(joint.first.link).map(|axis| state.motions[joint.first.link].arm(axis))
+            else {
+                matrix[row + 2][column] = sign;
+                continue;
+            };
+            let place = state.motions[joint.second.link].point(joint.second.local);
+            let arm = place - state.motions[side.link].point(links[side.link].mass_centre);
+            matrix[row][column] = axis.x * sign;
+            matrix[row + 1][column] = axis.y * sign;
+            matrix[row + 2][column] = cross(arm, axis) * sign;
+        }
     }
     let mut loads = vec![Wrench::ZERO; links.len()];
     case.loads_on(&state.motions, &state.angles, &mut loads);

@@ -241,7 +241,12 @@ fn start(parts: &CaseParts) -> Result<()> {
         };
         if !(off <= LARGEST_OPENING) {
             let name = &links[drive.link].name;
-            let message = sentences::link_stands_rad_off_the_angle(&name, &format_args!("{off:.3e}"));
+            let apart = match drive.input {
+                Input::Angle | Input::Turn => off,
+                Input::Slide => off * reach,
+            };
+            let message =
+                sentences::link_is_away_from_its_start(&name, &format_args!("{apart:.3e}"), &drive.input.unit());
             return Err(Error::new(ErrorKind::Geometry, message).key("start").help(CLOSED));
         }
     }

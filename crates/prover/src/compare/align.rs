@@ -25,6 +25,11 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
     let has_times = [one, other].iter().all(|own| own.at.times.is_some());
     let by = how.by.unwrap_or(if has_times { By::Time } else { By::Crank });
     let (from, to) = (one.at(Some(by))?, other.at(Some(by))?);
+    let inputs = [one.at.input, other.at.input];
+    if by == By::Crank && inputs[0] != inputs[1] {
+        let message = sentences::the_rows_of_the_parties_have_different_inputs(&inputs[0].noun(), &inputs[1].noun());
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::MAP_THE_INSTANTS_OF_BOTH_TO_THE_SAME_INPUT));
+    }
     let asked = how.asked();
     let wanted = other.columns.iter().map(|own| &own.claim).filter(|claim| asked(claim));
     let claims: Vec<Claim> = wanted.filter(|claim| one.holds(claim)).cloned().collect();
@@ -71,7 +76,8 @@ pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<S
         how,
     };
     let mut pair = SidePair { names, unshared, alone, ..SidePair::of(&both, Which::Second, &claims) };
-    if let ([Some(ours), Some(theirs)], false) = ([&one.at.cranks, &other.at.cranks], to.is_crank) {
+    let have_one_input = !to.is_crank && inputs[0] == inputs[1];
+    if let ([Some(ours), Some(theirs)], true) = ([&one.at.cranks, &other.at.cranks], have_one_input) {
         let turn = pair.input.period().map(|(turn, _)| turn);
         let ours = at_places(ours, &from, &places, turn);
         pair.checks.extend(crank_check(&both, [&ours, theirs], &drift(&ours, turn)));

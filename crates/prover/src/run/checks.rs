@@ -3,7 +3,7 @@
 use super::each_side::{EachSide, Reference};
 use super::known::{Known, of_condition};
 use super::observe::Observed;
-use super::problem::Problem;
+use super::problem::{Problem, built};
 use super::runs::Runs;
 use crate::bounds::{Check, Convergence, difference};
 use crate::sentences;
@@ -173,7 +173,7 @@ fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
 fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let kind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
     // If all moments are only rounding, the scale is the moment that the mechanism's data make possible.
-    let scale = problem.built().unless(runs.single().moment, Unit::NewtonMetre);
+    let scale = built(problem.case).unless(runs.single().moment, Unit::NewtonMetre);
     let gaps = |run: &Observed| run.moment_gap().collect::<Vec<f64>>();
     let by_differences = engine.settings().route == Route::Differences;
     Vanishing {

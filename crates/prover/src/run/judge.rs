@@ -9,7 +9,7 @@ use super::doubt::Doubt;
 use super::engine_proof::{ChannelProof, EngineInfo, EngineProof};
 use super::known::Known;
 use super::observe::Observed;
-use super::problem::Problem;
+use super::problem::{Problem, built};
 use super::runs::Runs;
 use crate::bounds::{Convergence, Ladder, Residual, Verdict, largest_difference, overall, residuals_on, scales_beyond};
 use crate::tolerance::Parts;
@@ -109,7 +109,7 @@ impl<'a> Judge<'a> {
     pub(super) fn new(problem: Problem<'a>, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
         let channels = reference.trajectory.channels().iter().enumerate();
         let errors: Vec<f64> = channels.map(|(index, channel)| known.error(channel.kind.stage, index)).collect();
-        let scales = scales_beyond(&errors, &reference.trajectory, &problem.built());
+        let scales = scales_beyond(&errors, &reference.trajectory, &built(problem.case));
         Judge { problem, reference, scales, known, asked, asks: Asks::All }
     }
 

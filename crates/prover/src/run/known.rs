@@ -6,6 +6,7 @@
 use super::dependence::Dependence;
 use super::each_side::{EachSide, Reference};
 use super::observe::pose_of;
+use super::problem::built;
 use super::sensitivity;
 use crate::bounds::{largest_difference, magnitudes_by};
 use analytic::range::conditions;
@@ -168,6 +169,10 @@ impl Known {
         let integration = EachSide::tried(|side| integration(sides[side]))?;
         let dependence = Dependence::of(case, own.channels());
         let magnitudes = magnitudes_by(own, &dependence.of, &|from, to| dependence.feeds(from, to));
+        // Without coordinates among the channels, a velocity that vanishes has no other size.
+        let sizes = built(case);
+        let sized = magnitudes.into_iter().zip(own.channels());
+        let magnitudes: Vec<f64> = sized.map(|(size, channel)| sizes.unless(size, channel.kind.unit)).collect();
         let turned = match case.is_free() {
             true => Vec::new(),
             false => case.grid.inputs.iter().map(|crank| crank.abs()).collect(),

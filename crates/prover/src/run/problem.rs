@@ -23,16 +23,14 @@ impl<'a> Problem<'a> {
         let Scenario { oracles, formulas, engine_rel, .. } = scenario;
         Problem { case, oracles, formulas, engine_rel: *engine_rel }
     }
+}
 
-    /// Size, speed and force that follow from the data of the case, whatever parts of the case move.
-    /// These three values are the scales for quantities that vanish in the whole mechanism.
-    /// The force is the larger of two forces: the weight of all links, and the force that accelerates the links at this
-    /// speed and size.
-    /// The force is zero without masses.
-    pub(super) fn built(&self) -> Built {
-        let case = self.case;
-        let (length, speed) = (case.mechanism.size(), case.drives.top_speed(case.mechanism.size()));
-        let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
-        Built { length, speed, force: mass * case.gravity.norm().larger(speed * speed * length) }
-    }
+/// Size, speed and force that follow from the data of the case, whatever parts of the case move.
+/// These three values are the scales for quantities that vanish in the whole mechanism.
+/// The force is the larger of two forces: the weight of all links, and the force that accelerates the links at this
+/// speed and size. The force is zero without masses.
+pub(super) fn built(case: &Case) -> Built {
+    let (length, speed) = (case.mechanism.size(), case.drives.top_speed(case.mechanism.size()));
+    let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
+    Built { length, speed, force: mass * case.gravity.norm().larger(speed * speed * length) }
 }

@@ -141,10 +141,10 @@ impl Held {
         let mut at = Instants::default();
         let own: Vec<Mapped> = if mapping.at.is_empty() { instants_of(raw) } else { Vec::new() };
         for mapped in mapping.at.iter().chain(&own) {
-            let (factor, is_crank) =
+            let (factor, input) =
                 mapped.instant().ok_or_else(|| mapped.wrong(sentences::THIS_IS_NO_INSTANT, sentences::MAP_A_TIME))?;
             let printed = reader.column(mapped)?;
-            let chosen = if mapped.name == "crank_deg" { columns::degrees_chosen } else { columns::chosen };
+            let chosen = if mapped.name.ends_with("_deg") { columns::degrees_chosen } else { columns::chosen };
             let is_chosen = chosen(&printed);
             // Instants that were chosen as printed, not rounded, get only the rounding error of the conversion to SI
             // units.
@@ -154,7 +154,10 @@ impl Held {
                 let message = sentences::holds_at_no_instant_is_no_number(&raw.place(row), &mapped.text);
                 return Err(mapped.wrong(&message, sentences::TAKE_THE_ROW_OUT_OR_COMPLETE));
             }
-            *(if is_crank { &mut at.cranks } else { &mut at.times }) = Some(values);
+            if let Some(input) = input {
+                at.input = input;
+            }
+            *(if input.is_some() { &mut at.cranks } else { &mut at.times }) = Some(values);
         }
         if at.times.is_none() && at.cranks.is_none() {
             let message = sentences::nothing_says_where_the_rows(&some(&raw.names));
@@ -278,7 +281,7 @@ fn instants_of(raw: &Raw) -> Vec<Mapped> {
         named.map(|name| Mapped::same(name, name)).chain(seconds.map(|name| Mapped::same("time_s", name))).collect();
     for name in &raw.names {
         let Some(mapped) = in_words(name).map(|instant| Mapped::same(instant, name)) else { continue };
-        let is_crank = |of: &Mapped| of.instant().is_some_and(|(_, is_crank)| is_crank);
+        let is_crank = |of: &Mapped| of.instant().is_some_and(|(_, input)| input.is_some());
         if !all.iter().any(|own| is_crank(own) == is_crank(&mapped)) {
             all.push(mapped);
         }

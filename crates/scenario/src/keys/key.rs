@@ -83,12 +83,22 @@ impl FileKey {
         FileKey { meaning, ..self }
     }
 
-    /// The spellings of the key, units included.
+    /// The usual spellings of the key, units included.
     #[must_use]
     pub fn spellings(&self) -> Vec<String> {
+        self.spelled(UnitFamily::keys)
+    }
+
+    /// All spellings of the key, units included.
+    #[must_use]
+    pub fn all_spellings(&self) -> Vec<String> {
+        self.spelled(UnitFamily::all_keys)
+    }
+
+    fn spelled(&self, keys: fn(&UnitFamily, &str) -> Vec<String>) -> Vec<String> {
         match self.kind.families() {
             [] => vec![self.name.into()],
-            families => families.iter().flat_map(|family| family.keys(self.name)).collect(),
+            families => families.iter().flat_map(|family| keys(family, self.name)).collect(),
         }
     }
 }

@@ -26,7 +26,7 @@ impl<'a> TomlTable<'a> {
 
     /// Whether a quantity is present under one of its spellings.
     pub fn has_si(&self, key: &str) -> bool {
-        self.row(key).spellings().iter().any(|spelling| self.has(spelling))
+        self.row(key).all_spellings().iter().any(|spelling| self.has(spelling))
     }
 
     /// A quantity in SI, as its row describes it; `None` if the quantity is missing.
@@ -124,7 +124,7 @@ impl<'a> TomlTable<'a> {
         if si == 0.0 || (SMALLEST..=family.most).contains(&si.abs()) {
             return Ok(si);
         }
-        let UnitFamily { noun, units, most } = family;
+        let UnitFamily { noun, units, most, .. } = family;
         let (found, unit) = (found(self.source, value), units[0].suffix);
         let message = sentences::found_but_is_zero_or_of_a_size(
             &found,
@@ -140,8 +140,9 @@ impl<'a> TomlTable<'a> {
     /// All spellings are recorded as requested.
     fn spelled(&mut self, base: &str, families: &[&'static UnitFamily]) -> Result<Option<Spelled>> {
         let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
+        let all: Vec<String> = families.iter().flat_map(|family| family.all_keys(base)).collect();
         let mut present: Vec<usize> =
-            spellings.iter().filter_map(|spelling| self.places.get(spelling.as_str()).copied()).collect();
+            all.iter().filter_map(|spelling| self.places.get(spelling.as_str()).copied()).collect();
         present.sort_unstable();
         let Some(&at) = present.first() else {
             let wrong = self.misspelt_unit(base, families[0], &spellings);

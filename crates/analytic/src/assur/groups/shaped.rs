@@ -1,4 +1,5 @@
 //! RRR dyad of bodies of changing shape: a cylinder and its rod are one link of changing length.
+//! See docs/numerics/given.md.
 //!
 //! The root of a body is the link with its outer joint. The other links of the body hang on given joints.
 //! In the frame of the root, the inner joint has the position p(t) from the outer joint, with the rates p' and p''.

@@ -66,7 +66,11 @@ impl<'a> MjcfModel<'a> {
         for load in &case.loads {
             limits::check(load)?;
         }
-        let tree = SpanningTree::of(&case.mechanism);
+        let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
+        let mut tree = SpanningTree::of(&case.mechanism);
+        if driven.iter().any(|joint| tree.cut.contains(joint)) {
+            tree = SpanningTree::with(&case.mechanism, &driven);
+        }
         let bodies = tree.branches.iter().map(|branch| body(case, start, branch)).collect();
         let mut model = MjcfModel { case, name, step, tree, bodies, frictions: Vec::new() };
         model.frictions = model.frictions();
