@@ -251,7 +251,7 @@ impl Instants {
                 .help(sentences::GIVE_EVERY_INSTANT_ONCE_CRANK)
         };
         let grid = (self.grid)(crank, listed(self.values.clone()).map_err(wrong)?);
-        grid.check(crank).map_err(wrong)?;
+        grid.check(&scenario.case.drives).map_err(wrong)?;
         Ok(grid)
     }
 }

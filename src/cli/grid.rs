@@ -45,7 +45,7 @@ impl GridArgs {
             }
             (None, None) => return Ok(case.clone()),
         };
-        grid.check(crank).map_err(|message| Error::new(ErrorKind::Input, message).help(help))?;
+        grid.check(&case.drives).map_err(|message| Error::new(ErrorKind::Input, message).help(help))?;
         case.on(grid)
     }
 

@@ -62,7 +62,7 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
         true => {
             let crank = args.at_crank_deg.map_or(case.crank().start, |value| case.crank().input.read(value));
             Grid::of_inputs(case.crank(), vec![crank])
-                .check(case.crank())
+                .check(&case.drives)
                 .map_err(|message| Error::new(ErrorKind::Input, message).help("check --at-crank-deg"))?;
             Some((crank, analytic::modes::all(case, crank).map_err(|error| explained(case, error))?))
         }

@@ -108,7 +108,7 @@ impl Case {
     /// # Errors
     /// The errors of [`Grid::check`].
     pub fn on(&self, grid: Grid) -> Result<Case> {
-        check::grid(&grid, self.crank())?;
+        check::grid(&grid, &self.drives)?;
         Ok(self.of_parts(CaseParts { grid, ..self.parts.clone() }))
     }
 

@@ -7,7 +7,7 @@ use super::keys::key::{Section, ValueKind, optional};
 use super::reader::{Sign, TomlTable};
 use super::unit::{TIME, UnitFamily, of_input};
 use linkage::case::Grid;
-use linkage::drive::Drive;
+use linkage::drive::Drives;
 use linkage::error::Result;
 
 /// Descriptions of the keys that this module reads.
@@ -75,7 +75,7 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
 
 /// The grid of a scenario, by crank angle or by time: a range or a list.
 /// If `is_replaced`, the grid is read but not checked against the drive, and the returned grid is empty.
-pub fn read(table: &mut TomlTable, drive: &Drive, is_replaced: bool) -> Result<Grid> {
+pub fn read(table: &mut TomlTable, drives: &Drives, is_replaced: bool) -> Result<Grid> {
     let mut lists = Vec::new();
     for key in ["angles", "slides", "times"] {
         lists.extend(table.optional_si_list(key)?.map(|(family, values)| (key, family, values)));
@@ -101,6 +101,7 @@ pub fn read(table: &mut TomlTable, drive: &Drive, is_replaced: bool) -> Result<G
     if is_replaced {
         return Ok(Grid::default());
     }
+    let drive = drives.crank();
     let by_input = !std::ptr::eq(family, &TIME);
     if by_input && !std::ptr::eq(family, of_input(drive.input)) {
         let message = sentences::the_grid_has_units_of_but_the_input_is(&family.noun, &drive.input.noun());
@@ -111,7 +112,7 @@ pub fn read(table: &mut TomlTable, drive: &Drive, is_replaced: bool) -> Result<G
         true => sentences::GIVE_THE_GRID_BY_TIME_FROM_TO_STEP,
         false => sentences::CHECK_THE_UNIT_AND_SIZE_OF_THE_GRID,
     };
-    grid.check(drive).map_err(|message| table.fault(message).help(help))?;
+    grid.check(drives).map_err(|message| table.fault(message).help(help))?;
     Ok(grid)
 }
 

@@ -359,7 +359,7 @@ fn finished(
     }
     let series = oracles.iter().flat_map(|oracle| &oracle.series);
     let cranks: Vec<f64> = series.flat_map(OracleSeries::instants).filter_map(When::crank).collect();
-    if let Err(message) = Grid::of_inputs(case.crank(), cranks).check(case.crank()) {
+    if let Err(message) = Grid::of_inputs(case.crank(), cranks).check(&case.drives) {
         let error = Error::new(ErrorKind::Input, sentences::published_numbers(&message)).key("oracle");
         return Err(error.help(match case.crank().is_free() {
             true => sentences::GIVE_THE_NUMBERS_AT_TIMES,

@@ -276,7 +276,7 @@ pub(super) fn end(case: &Case) -> Option<f64> {
 /// Checks that the motion of the case is solved at the time `time` (s).
 /// The time must be within the run up to `end`, and the law of motion must be defined at this time.
 fn checked(case: &Case, end: Option<f64>, time: f64) -> std::result::Result<(), String> {
-    Grid::of_times(case.crank(), vec![time]).check(case.crank())?;
+    Grid::of_times(case.crank(), vec![time]).check(&case.drives)?;
     let Some(end) = end else { return Ok(()) };
     match (0.0..=end * (1.0 + ROUNDING)).contains(&time) {
         true => Ok(()),

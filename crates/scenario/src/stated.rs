@@ -126,14 +126,11 @@ impl<'a> FileSections<'a> {
         faults.whole &= faults.is_empty();
         let clearance =
             clearance.and_then(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));
-        let crank_drive = match &drives {
-            Some(drives) => drives.crank().clone(),
-            None => Drive::prescribed(JointId(0), LinkId(1), 0.0, 0.0, MotionLaw::ConstantSpeed(1.0)),
-        };
-        let grid = grid
-            .ok()
-            .and_then(|mut grid| faults.read(&mut grid, |grid| grid::read(grid, &crank_drive, asked.without_grid)));
-        let engine = engine.and_then(|mut table| faults.read(&mut table, |table| engine::read(table, &crank_drive)));
+        let stand_in = || Drive::prescribed(JointId(0), LinkId(1), 0.0, 0.0, MotionLaw::ConstantSpeed(1.0));
+        let all = drives.clone().unwrap_or_else(|| Drives::new(stand_in(), Vec::new()));
+        let grid =
+            grid.ok().and_then(|mut grid| faults.read(&mut grid, |grid| grid::read(grid, &all, asked.without_grid)));
+        let engine = engine.and_then(|mut table| faults.read(&mut table, |table| engine::read(table, all.crank())));
         root.part(faults.end());
         Ok(FileSections {
             name: name.unwrap_or_default(),

@@ -226,7 +226,7 @@ mod tests {
         assert_eq!(si_of(&TIME, "ms", 1.0), 1e-3);
         assert_eq!(si_of(&FORCE, "kN", 1.5), 1500.0);
         assert_eq!(si_of(&STIFFNESS, "N_mm", 1.5), 1500.0);
-        assert_eq!([si_of(&LENGTH, "cm", 2.6), si_of(&LENGTH, "in", 10.0)], [0.026, 0.254]);
+        assert_eq!([si_of(&LENGTH, "cm", 2.5), si_of(&LENGTH, "in", 10.0)], [0.025, 0.254]);
         assert_eq!([si_of(&FORCE, "lbf", 1.0), si_of(&MASS, "lb", 100.0)], [4.448_221_615_260_5, 45.359_237]);
         assert_eq!([si_of(&MOMENT, "kN_m", 2.5), si_of(&MASS, "t", 1.5)], [2500.0, 1500.0]);
     }

@@ -13,7 +13,7 @@ fn laws_and_their_grids() {
             "law = \"cycloidal\"\nto_deg = 0\ntime_s = 1\n".into(),
             "to_deg = 0",
             "drive.to_deg",
-            &["not move from its start"],
+            &["the input would not change"],
         ),
         ("law = \"cycloidal\"\nto_deg = 90\ntime_s = 1\n".into(), "[grid]", "grid", &["does not reach a crank angle"]),
         (table("{ time_s = 0, angle_deg = 0 }"), "points = [{ time_s", "drive.points", &["at least two points"]),

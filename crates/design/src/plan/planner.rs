@@ -132,7 +132,7 @@ impl<'a> Planner<'a> {
 /// Those of the solver.
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
     let grid = Grid::of_inputs(case.crank(), vec![crank]);
-    grid.check(case.crank()).map_err(|message| {
+    grid.check(&case.drives).map_err(|message| {
         let (noun, unit) = (case.crank().input.noun(), case.crank().input.shown_in().0.replace("deg", "degrees"));
         Error::new(ErrorKind::Input, message).help(sentences::give_a_number_in(&noun, &unit))
     })?;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use super::grid::Grid;
 use super::parts::CaseParts;
-use crate::drive::{Drive, DriveMotion, MotionLaw, Motor, MotorLaw};
+use crate::drive::{Drive, DriveMotion, Drives, MotionLaw, Motor, MotorLaw};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::Input;
 use crate::math::{KeepNan, unit};
@@ -31,16 +31,16 @@ pub(super) fn all(parts: &CaseParts) -> Result<()> {
     }
     start(parts)?;
     modes(parts)?;
-    grid(&parts.grid, parts.drives.crank())
+    grid(&parts.grid, &parts.drives)
 }
 
 /// Checks the instants.
-pub(super) fn grid(grid: &Grid, crank: &Drive) -> Result<()> {
+pub(super) fn grid(grid: &Grid, drives: &Drives) -> Result<()> {
     if grid.times.len() != grid.inputs.len() {
         let [times, cranks] = [grid.times.len(), grid.inputs.len()];
         return Err(wrong("grid", sentences::the_grid_has_times_but_crank(&times, &cranks)));
     }
-    grid.check(crank).map_err(|message| wrong("grid", message).help(sentences::ASK_FOR_INSTANTS_AND_CRANK))
+    grid.check(drives).map_err(|message| wrong("grid", message).help(sentences::ASK_FOR_INSTANTS_AND_CRANK))
 }
 
 fn wrong(key: &str, message: impl Into<String>) -> Error {

@@ -3,7 +3,7 @@
 use crate::sentences;
 use std::f64::consts::TAU;
 
-use crate::drive::Drive;
+use crate::drive::{Drive, Drives};
 use crate::math::KeepNan;
 use crate::math::statistics::ascending;
 
@@ -51,12 +51,30 @@ impl Grid {
     pub const MOST_TURNS: f64 = 1e5;
 
     /// Checks that all times and angles are finite and that all angles are within [`Grid::MOST_TURNS`].
-    /// Also checks that the drive's law is defined at all times.
+    /// Also checks that the law of every drive is defined at all times.
     ///
     /// # Errors
     /// A message that names one of three faults: the grid reaches too far, the law ends too early, or the crank is free
     /// and the grid consists of crank angles.
-    pub fn check(&self, drive: &Drive) -> std::result::Result<(), String> {
+    pub fn check(&self, drives: &Drives) -> std::result::Result<(), String> {
+        self.check_crank(drives.crank())?;
+        let further = (2..).zip(drives.further()).filter(|(_, drive)| drive.constant_speed().is_none());
+        for (number, drive) in further {
+            let end = drive.end().unwrap_or(f64::INFINITY);
+            if let Some(t) = self.beyond(end) {
+                return Err(sentences::the_grid_leads_to_but_drive(&t, &number, &drive.law_name(), &end));
+            }
+        }
+        Ok(())
+    }
+
+    /// The first time before t = 0 or after `end` (s).
+    /// A time may exceed the end by a rounding error, so a relative excess of 1e-12 is allowed.
+    fn beyond(&self, end: f64) -> Option<f64> {
+        self.times.iter().copied().find(|&t| t < 0.0 || t > end * (1.0 + 1e-12))
+    }
+
+    fn check_crank(&self, drive: &Drive) -> std::result::Result<(), String> {
         let has_angles_alone =
             self.times.iter().all(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite());
         if drive.is_free() && !self.is_empty() && has_angles_alone {
@@ -67,9 +85,8 @@ impl Grid {
             if self.times.iter().any(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite()) {
                 return Err(sentences::the_drive_law_does_not_come(&name, &drive.input.noun()));
             }
-            // A time may exceed the law's end by a rounding error, so the check allows a relative excess of 1e-12.
             let end = drive.end().unwrap_or(f64::INFINITY);
-            if let Some(t) = self.times.iter().find(|&&t| t < 0.0 || t > end * (1.0 + 1e-12)) {
+            if let Some(t) = self.beyond(end) {
                 return Err(sentences::the_grid_leads_to_but_the_drive(&t, &name, &end));
             }
         }

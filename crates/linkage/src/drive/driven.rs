@@ -324,7 +324,10 @@ mod tests {
                 assert_eq!(drive.coordinate(state.value), 3.0 + state.value);
             }
         }
-        assert!(drive(table()).time_of(0.6).is_nan());
+        // The table reaches 0.8 three times, 0.6 once, and starts at 0.5.
+        let own = drive(table());
+        assert!(own.time_of(0.8).is_nan() && own.time_of(1.6).is_nan() && own.time_of(0.5) == 0.0);
+        assert!([0.6, 1.2, 1.5].iter().all(|&value| (own.at(own.time_of(value)).value - value).abs() < 1e-15));
         let cycloidal = drive(MotionLaw::Cycloidal { rise: 2.0, time: 0.05 });
         assert_eq!([cycloidal.time_of(0.5), cycloidal.time_of(2.5)], [0.0, 0.05]);
         assert!(cycloidal.time_of(2.6).is_nan() && cycloidal.time_of(0.4).is_nan());

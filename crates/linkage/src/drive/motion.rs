@@ -134,8 +134,7 @@ impl MotionLaw {
     }
 
     /// First time (s) at which the driving link has turned by the angle `gone` (rad).
-    /// NaN if the law never reaches the angle.
-    /// NaN also for every table, because a table may reach the angle more than once.
+    /// NaN if the law never reaches the angle, or if a table reaches it more than once. The start is reached at t = 0.
     #[inline]
     #[must_use]
     pub fn time_of(&self, gone: f64) -> f64 {
@@ -147,9 +146,36 @@ impl MotionLaw {
                 late => late + time / 2.0,
             },
             MotionLaw::Cycloidal { rise, time } => time * cycloid(gone / rise),
-            MotionLaw::Table(_) => f64::NAN,
+            MotionLaw::Table(ref table) => only_time(table, gone),
         }
     }
+}
+
+/// Number of parts into which each interval of a table is divided, to find where the table reaches a value.
+const PARTS: usize = 32;
+
+/// The only time (s) at which a table reaches `gone`, by sign changes and bisection; NaN if there is no such time.
+fn only_time(table: &Piecewise, gone: f64) -> f64 {
+    if gone == 0.0 {
+        return 0.0;
+    }
+    // A difference at the level of rounding errors counts as zero, so that the last value of the table is reached.
+    let off =
+        |t: f64| Some(table.at(t)[0] - gone).filter(|off| off.abs() > 4.0 * f64::EPSILON * gone.abs()).unwrap_or(0.0);
+    let parts = table.knots().windows(2).flat_map(|pair| {
+        let at = |k: usize| pair[0] + (pair[1] - pair[0]) * k as f64 / PARTS as f64;
+        (0..PARTS).map(move |k| [at(k), if k + 1 == PARTS { pair[1] } else { at(k + 1) }])
+    });
+    let mut times = parts.filter_map(|[low, high]| {
+        let is_before = off(low) < 0.0;
+        if off(low) == 0.0 || off(high) != 0.0 && (off(high) < 0.0) == is_before {
+            return None;
+        }
+        let Ok([low, high]) = root::halved([low, high], HALVINGS, |t| Ok::<_, Infallible>((off(t) < 0.0) == is_before));
+        Some(if off(high) == 0.0 { high } else { f64::midpoint(low, high) })
+    });
+    let first = times.next().unwrap_or(f64::NAN);
+    if times.next().is_some() { f64::NAN } else { first }
 }
 
 /// Number of bisections of the law's whole duration.

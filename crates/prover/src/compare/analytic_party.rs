@@ -119,7 +119,7 @@ fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
     }
     let crank = scenario.case.crank();
     let grid = if at.is_crank { Grid::of_inputs(crank, all) } else { Grid::of_times(crank, all) };
-    grid.check(crank).map_err(|message| {
+    grid.check(&scenario.case.drives).map_err(|message| {
         let help = match at.is_crank && crank.is_free() {
             true => sentences::GIVE_THE_TABLE_A_COLUMN_OF_TIMES,
             false => sentences::CHECK_THE_UNIT_OF_THE_INSTANTS,

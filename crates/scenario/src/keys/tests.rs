@@ -8,7 +8,7 @@ use crate::reader::asked;
 use crate::{Scenario, files_in};
 
 /// Changes of a scenario that make readers request keys that no scenario of the repository has.
-const CHANGES: [(&str, &str, &str); 7] = [
+const CHANGES: [(&str, &str, &str); 10] = [
     (
         "crank_rocker",
         "speed_rpm = 130",
@@ -41,6 +41,21 @@ const CHANGES: [(&str, &str, &str); 7] = [
          corners = [{ x_mm = 0, y_mm = -90 }, { x_mm = 9, y_mm = -80 }, { x_mm = 0, y_mm = -70 }]\n[grid]",
     ),
     ("ov7_base", "file = ", "digits = 3\nfile = "),
+    ("boom_lift", "from_s = 0\nto_s = 4\nstep_s = 0.05\n", "from_mm = 1\nto_mm = 2\nstep_mm = 1\n"),
+    (
+        "boom_lift",
+        "[grid]",
+        "[[oracle]]\nname = \"a\"\nbasis = \"derived\"\nsource = \"s\"\ncrank_mm = 20\n\
+         values = [{ channel = \"link.boom.angle_deg\", value = 1, digits = 1 }]\n[grid]",
+    ),
+    (
+        "boom_lift",
+        "[grid]",
+        "[[oracle]]\nsource = \"s\"\nfile = \"ov7_new/positions.csv\"\ncrank = \"P4x_mm\"\n\
+         [oracle.columns]\nP5x_mm = { channel = \"link.boom.angle_deg\", expect = [\n\
+         { crank_mm = 95.72, finding = \"f\", right = { value = 1, digits = 1 } }] }\n\
+         [grid]",
+    ),
 ];
 
 fn asked_by_readers() -> BTreeMap<String, BTreeSet<String>> {

@@ -147,8 +147,8 @@ fn unsupported_combinations_of_drives_are_refused() {
     let error = of(free(JointId(0), None), prescribed).unwrap_err();
     assert!(error.kind() == Unsupported && error.message().contains("is attached to a moving link"), "{error}");
     let ramp = Drive::prescribed(JointId(0), LinkId(1), 0.0, 0.0, MotionLaw::Ramp { speed: 1.0, time: 1.0 });
-    let error = of(ramp, free(JointId(1), None)).unwrap_err();
-    assert!(error.kind() == Unsupported && error.message().contains("variable speed"), "{error}");
+    let pair = of(ramp, free(JointId(1), None)).unwrap();
+    assert!(pair.is_free() && pair.crank().constant_speed().is_none());
 }
 
 #[test]
@@ -210,6 +210,6 @@ fn an_invalid_grid_is_refused() {
     let case = turning(four_bar());
     assert!(case.on(far).is_err() && case.on(Grid::of_times(case.crank(), vec![1.0])).is_ok());
     let uneven = Grid { times: vec![0.0], inputs: Vec::new() };
-    assert!(case.on(uneven).unwrap_err().message().contains("1 times, but 0 crank angles"));
+    assert!(case.on(uneven).unwrap_err().message().contains("1 times, but 0 inputs"));
     assert!(case.on(Grid { times: vec![f64::NAN], inputs: vec![0.0] }).is_err());
 }
