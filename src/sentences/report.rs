@@ -128,7 +128,7 @@ linkage::sentences! {
     forces_as_itself_exerts_them_2(info) = "the forces that {info} itself exerts";
     AS_THE_ENGINE_EXERTS_IT = " as the engine exerts it";
     // plain/reasons.rs
-    up_to_of_instants_are_not_judged(most, proof, quantities, info) = "Up to {most} of {proof} instants are not judged in {quantities} ({info}): a drive or a loaded link reverses at these instants, or the motion begins.";
+    up_to_of_instants_are_not_judged(most, proof, quantities, info) = "Up to {most} of {proof} instants are not judged in {quantities} ({info}): a drive or a loaded link reverses there, an acceleration jumps, or the motion begins.";
     checks_disagree_as_expected_see(count, told) = "\n{count} checks disagree as expected, see\n  {told}";
     and_more_3(open, tell) = "\n... and {open} more ({tell})";
     // report/accept.rs

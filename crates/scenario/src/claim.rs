@@ -122,13 +122,20 @@ impl Claim {
     }
 }
 
+/// The channel of the first drive, if `name` contains its joint: `drive.force_N` for `drive.X.force_N`.
+fn of_first_drive<'a>(name: &str, known: &'a [String]) -> Option<&'a str> {
+    let (joint, quantity) = name.strip_prefix("drive.")?.split_once('.')?;
+    let is_further = known.iter().any(|own| own.starts_with(&format!("drive.{joint}.")));
+    known.iter().map(String::as_str).find(|own| !is_further && own.strip_prefix("drive.") == Some(quantity))
+}
+
 /// The message for an unknown name, and a help text with the known name that is nearest to it.
 fn unknown(name: &str, all: &[Channel]) -> (String, String) {
     let known: Vec<String> = all.iter().map(Channel::to_string).collect();
     let reduced = QUANTITIES.iter().map(|own| own.name);
     let figures: Vec<String> = MechanismFigure::claims().collect();
     let all = known.iter().chain(&figures).map(String::as_str).chain(reduced);
-    let help = match nearest(name, all) {
+    let help = match of_first_drive(name, &known).or_else(|| nearest(name, all)) {
         Some(near) => sentences::did_you_mean(&near),
         None => sentences::NAME_ONE_OF_THIS_SCENARIO.into(),
     };
