@@ -87,7 +87,7 @@ fn random_mechanisms_driven_at_any_joint_never_disagree() {
         let Some(specimen) = sample(chain(&mut random, &SORTS, dyads).0) else { continue };
         let Some(case) = driven_elsewhere(&mut random, &specimen.scenario.case) else { continue };
         let scenario = Scenario { case, ..specimen.scenario };
-        let word = match prove(&scenario, &Options::default().budget(WORK)) {
+        let word = match prove(&scenario, &Options::default()) {
             Ok(proof) => {
                 let formula = scenario.case.structure.formula(&scenario.case.mechanism);
                 assert_ne!(proof.verdict.word(), "disagree", "{formula}: {:?}\n{}", proof.verdict, scenario.text);
