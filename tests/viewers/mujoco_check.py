@@ -108,7 +108,7 @@ def moment_of(scenario, model, data, name):
             if body == carried:
                 spin = data.body(load["link"]).cvel[2]
                 read += math.copysign(load["moment_N_m"], spin)
-        elif load["type"].startswith("torsion_"):
+        elif load["type"] == "moment" or load["type"].startswith("torsion_"):
             # An actuator turns the two bodies of one joint against each other: no other joint of the tree carries it.
             actuator = model.actuator(f"load.{number}")
             if actuator.trnid[0] == model.joint(name).id:
