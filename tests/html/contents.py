@@ -40,6 +40,45 @@ def numbers(text):
     return [float(own) for own in re.findall(NUMBER, text)]
 
 
+# Sizes of units in SI, by the ending of a key; the longest ending counts.
+UNITS = {"mm": 1e-3, "cm": 1e-2, "deg": math.pi / 180, "rpm": math.tau / 60, "g": 1e-3, "kN": 1e3, "N_mm": 1e3, "ms": 1e-3, "mm_s": 1e-3}
+UNITS |= {own: 1.0 for own in ("m", "rad", "kg", "kg_m2", "N", "N_m", "m_s2", "m_s", "rad_s", "s", "N_m_s", "N_s_m", "N_m_rad")}
+
+
+def split(key):
+    """Name and size of the unit of a key; a key without a unit has the size 0."""
+    ends = [own for own in UNITS if key.endswith(f"_{own}")]
+    longest = max(ends, key=len, default=None)
+    return (key, 0.0) if longest is None else (key[: -len(longest) - 1], UNITS[longest])
+
+
+def given_in(scenario):
+    """The tables of a scenario file; numbers that it computes from parameters are numbers here."""
+    read = tomllib.loads(Path(scenario).read_text())
+    known = {}
+
+    def computed(text, size):
+        names = {own: value / (size or 1.0) if unit else value for own, (value, unit) in known.items()}
+        plain = {"pi": math.pi, "sqrt": math.sqrt, "sin": math.sin, "cos": math.cos, "atan2": math.atan2, "acos": math.acos}
+        named = re.sub(r"(?<![\w.])[A-Za-z_]\w*", lambda found: f"all_names[{found[0]!r}]", text.replace("^", "**"))
+        return eval(named, {"__builtins__": {}, "all_names": plain | names})
+
+    for key, value in read.get("parameters", {}).items():
+        name, size = split(key)
+        number = computed(value, size) if isinstance(value, str) else value
+        known |= {key: (number, 0.0), name: (number * (size or 1.0), size)}
+
+    def resolved(key, value):
+        if isinstance(value, dict):
+            return {own: resolved(own, inner) for own, inner in value.items()}
+        if isinstance(value, list):
+            return [resolved(key, inner) for inner in value]
+        _, size = split(key)
+        return computed(value, size) if size and isinstance(value, str) else value
+
+    return {key: value if key in ("parameters", "formula", "oracle") else resolved(key, value) for key, value in read.items()}
+
+
 def place_of(row, scenario, link, local):
     """World place (m) of a place of a link, from the solution's angle and mass centre."""
     if link == "ground":
@@ -100,7 +139,7 @@ def check_loads(tab, data, scenario, rows):
     """Every load is drawn where the solution has its place, along its force, as long as the scale says."""
     if "loads" not in data:
         return
-    given = tomllib.loads(Path(scenario).read_text())
+    given = given_in(scenario)
     motion, time = data["motion"], tab.evaluate("() => [...time]")
     unit, size = motion["unit"], motion["size"]
     scale, largest, moment = tab.evaluate("() => [loadScale, largestLoad, largestMoment]")
@@ -153,12 +192,14 @@ def check_plans(tab, data, linkproof, scenario):
     drives = tomllib.loads(Path(scenario).read_text()).get("drive", {})
     if not plans or any(own.get("motion") == "free" for own in (drives if isinstance(drives, list) else [drives])):
         return
+    joint = (drives[0] if isinstance(drives, list) else drives)["joint"]
+    slides = any(own["name"] == joint and own["type"] == "prismatic" for own in tomllib.loads(Path(scenario).read_text())["joints"])
     show(tab, "#plan-list")
     count = tab.evaluate("() => time.length")
     for at in sorted({count // 7, count // 3, 5 * count // 6}):
         tab.evaluate(GO_TO, at)
         crank = tab.evaluate("() => crank[shown.row]")
-        made = subprocess.run([linkproof, "plan", scenario, f"--crank-deg={math.degrees(crank)!r}", "-o", "-"], capture_output=True, text=True)
+        made = subprocess.run([linkproof, "plan", scenario, f"--crank-deg={crank * 1e3 if slides else math.degrees(crank)!r}", "-o", "-"], capture_output=True, text=True)
         need(made.returncode == 0, made.stderr)
         right = json.loads(made.stdout)
         for number, plan in enumerate(plans):
