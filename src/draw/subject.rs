@@ -13,7 +13,8 @@ use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, GroupId, LinkId, LinkPose, Mechanism, Structure};
+use linkage::mechanism::assembly::ConfigurationChoice;
+use linkage::mechanism::{AssemblyMode, DrivingLink, GROUND, LinkId, LinkPose, Mechanism, StartGroup, Structure};
 use linkage::solver::State;
 use scenario::{Draft, Scenario};
 
@@ -210,12 +211,13 @@ impl Drawn {
     /// All configurations at a crank angle (rad).
     fn each_mode(draft: Draft, crank: f64, error: Option<Error>) -> Result<Drawn> {
         let structure = draft.structure.clone()?;
-        let angles = angles(&draft.drives, crank);
-        let mut all = all_modes(&draft.mechanism, &structure, &angles, &draft.starts, MOST + 1);
+        let angles = structure.given_at_start(&draft.mechanism, &angles(&draft.drives, crank));
+        let structure = structure.at_start();
+        let mut all = all_modes(&draft.mechanism, structure, &angles, &draft.starts, MOST + 1);
         let is_cut = all.len() > MOST;
         all.truncate(MOST);
-        let own = lay(&draft.mechanism, &structure, &angles, &draft.starts);
-        let headings = all.iter().map(|laid| heading(&draft.mechanism, &structure, laid, &own)).collect();
+        let own = lay(&draft.mechanism, structure, &angles, &draft.starts);
+        let headings = all.iter().map(|laid| heading(&draft.mechanism, structure, laid, &own)).collect();
         // If the file states no mode, the list of configurations shows the possible modes, so the missing mode is not a
         // fault.
         // A configuration that does not close is not a fault either.
@@ -259,18 +261,12 @@ fn angles(drives: &[Drive], crank: f64) -> Vec<f64> {
 
 fn draft_of(scenario: &Scenario) -> Draft {
     let case = &scenario.case;
-    let standing = |(index, group): (GroupId, &linkage::mechanism::Group)| {
-        let mode = case.modes[index];
-        match mode {
-            AssemblyMode::Followed => scenario.starts[index].clone(),
-            AssemblyMode::Left | AssemblyMode::Right | AssemblyMode::Ahead | AssemblyMode::Behind => {
-                linkage::mechanism::StartGroup { mode: Some(mode), ..Default::default() }
-            }
-            AssemblyMode::Only => {
-                debug_assert!(group.kind.has_one_configuration());
-                linkage::mechanism::StartGroup::default()
-            }
+    let standing = |(choice, start): (&ConfigurationChoice, &StartGroup)| match choice.mode {
+        AssemblyMode::Followed => start.clone(),
+        AssemblyMode::Left | AssemblyMode::Right | AssemblyMode::Ahead | AssemblyMode::Behind => {
+            StartGroup { mode: Some(choice.mode), ..StartGroup::default() }
         }
+        AssemblyMode::Only => StartGroup::default(),
     };
     Draft {
         name: scenario.name.clone(),
@@ -282,7 +278,7 @@ fn draft_of(scenario: &Scenario) -> Draft {
         loads: case.loads.clone(),
         gravity: case.gravity,
         crank: case.crank().start,
-        starts: case.structure.groups.entries().map(standing).collect(),
+        starts: scenario.choices.iter().zip(&scenario.starts).map(standing).collect(),
         mistakes: None,
     }
 }

@@ -9,7 +9,7 @@ use super::{modes, range};
 use analytic::modes::Modes;
 use analytic::range::Range;
 use linkage::mechanism::assembly::{ConfigurationChoice, transmission_sine};
-use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Mechanism};
+use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Mechanism, Transmission, TransmissionKind};
 use prover::numbers::{fixed_in, input_in, significant};
 use scenario::{Scenario, Undecided};
 
@@ -26,7 +26,11 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     if let Some(source) = &scenario.source {
         say!(text, "source     {source}");
     }
-    say!(text, sentences::mobility_and_given(&links, &joints, &structure.mobility, &case.drives.len()));
+    let coupled = match mechanism.transmissions().len() {
+        0 => String::new(),
+        count => format!(" - {count}"),
+    };
+    say!(text, sentences::mobility_and_given(&links, &joints, &coupled, &structure.mobility, &case.drives.len()));
     say!(text, sentences::structure_links(&structure.formula(mechanism)));
     for ((id, link), pose) in mechanism.links().entries().zip(&case.start.0) {
         let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
@@ -46,16 +50,38 @@ pub(crate) fn text(scenario: &Scenario) -> String {
         let driven = if driven { ", driven" } else { "" };
         say!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
     }
+    if !mechanism.transmissions().is_empty() {
+        say!(text, "\ntransmissions");
+    }
+    for own in mechanism.transmissions() {
+        say!(text, "{}", transmission(mechanism, own));
+    }
     let (input, start) = (case.crank().input, case.crank().start);
     say!(text, sentences::groups_at_the_start(&input.word(), &input_in(input.at(start), 3)));
-    for ((group, &mode), choice) in structure.groups.iter().zip(&case.modes).zip(&scenario.choices) {
+    for ((index, group), &mode) in structure.groups.entries().zip(&case.modes) {
         let transmission = transmission_sine(mechanism, group, &case.start)
             .map_or_else(String::new, |sine| sentences::transmission_angle_deg(&sine.abs().asin().to_degrees()));
-        let (names, from) = (group.names(mechanism), from_rough_place(choice));
+        let from = scenario.choice(index).map_or_else(String::new, from_rough_place);
+        let names = group.names(mechanism);
         let (class, order, pairs, mode) = (group.class, group.order(), group.pairs(), mode.name());
         say!(text, sentences::class_order_mode_2(&names, &class, &order, &pairs, &mode, &transmission, &from));
     }
     text
+}
+
+/// A transmission in one line: its kind, links, ratio and pitch radii.
+fn transmission(mechanism: &Mechanism, own: &Transmission) -> String {
+    let [first, second, carrier] = own.links().map(|link| mechanism.links()[link].name.as_str());
+    let [pitch, other] = own.members.map(|member| format!("{} mm", significant(member.radius * 1e3, SHOWN)));
+    let (ratio, radii) = match own.design.kind {
+        TransmissionKind::Rack { .. } => {
+            (format!("{} mm/rad", significant(own.ratio() * 1e3, SHOWN)), sentences::pitch_radius(&pitch))
+        }
+        TransmissionKind::Gears { .. } | TransmissionKind::Belt { .. } => {
+            (significant(own.ratio(), SHOWN), sentences::pitch_radii(&pitch, &other))
+        }
+    };
+    sentences::a_transmission(&own.name(), &own.design.kind.name(), &first, &second, &carrier, &ratio, &radii)
 }
 
 /// Distance of the configuration from the approximate positions in the file, and the distance of the next-nearest
@@ -115,19 +141,32 @@ fn structure(scenario: &Scenario) -> Value {
         mechanism.joints(),
         |joint| json!({"name": joint.name, "type": joint.kind.name(), "links": ends(mechanism, joint)}),
     );
-    let groups = list(structure.groups.iter().zip(&case.modes).zip(&scenario.choices), |((group, mode), choice)| {
+    let groups = list(structure.groups.entries().zip(&case.modes), |((index, group), mode)| {
+        let choice = scenario.choice(index);
         json!({
             "links": list(&group.links, |&own| link(own)), "inner_joints": list(&group.inner, |&own| joint(own)),
             "outer_joints": list(&group.outer, |&own| joint(own)),
             "given_joints": list(&group.given, |&own| joint(own)), "class": group.class, "order": group.order(),
             "kind": group.pairs(), "mode": mode.name(),
             "transmission_angle_rad": transmission_sine(mechanism, group, &case.start).map(|sine| sine.abs().asin()),
-            "from_rough_place_m": choice.nearest_m, "next_from_rough_place_m": choice.next_m,
+            "from_rough_place_m": choice.and_then(|choice| choice.nearest_m),
+            "next_from_rough_place_m": choice.and_then(|choice| choice.next_m),
+        })
+    });
+    let transmissions = list(mechanism.transmissions(), |own| {
+        let [first, second, carrier] = own.links().map(link);
+        let radii = own.members.map(|member| member.radius);
+        let slides = matches!(own.design.kind, TransmissionKind::Rack { .. });
+        json!({
+            "name": own.name(), "type": own.design.kind.name(), "links": [first, second], "carrier": carrier,
+            if slides { "ratio_m_per_rad" } else { "ratio" }: own.ratio(), "pitch_radii_m": radii,
+            "start_joint": joint(own.design.joint),
         })
     });
     json!({
         "schema": 1, "scenario": scenario.name, "title": scenario.title, "mobility": structure.mobility,
         "formula": structure.formula(mechanism), "groups": groups, "links": links, "joints": joints,
+        "transmissions": transmissions,
         "drivers": list(
             &structure.drivers,
             |own| json!({"link": link(own.link), "joint": joint(own.joint), "input": own.input.noun()}),

@@ -66,6 +66,10 @@ fn meaning(channel: &Channel, seat: Seat, case: &Case) -> String {
             let joint = &mechanism.joints()[joint];
             sentences::in_on(&quantity, &of, &name(joint.first.link), &name(joint.second.link))
         }
+        Seat::Transmission(index) => {
+            let [first, second] = mechanism.transmissions()[index].design.links;
+            sentences::in_on(&quantity, &of, &name(first), &name(second))
+        }
         Seat::Frame => sentences::on_the_frame(&quantity),
         Seat::Drive(drive) => sentences::on_link(&quantity, &name(case.drives[drive].link)),
     };

@@ -63,7 +63,7 @@ fn names(scenario: &Scenario, group: GroupId) -> String {
 
 /// Transmission angle (rad) for a determinant; `None` if the group is not a dyad.
 fn transmission(scenario: &Scenario, group: GroupId, determinant: f64) -> Option<f64> {
-    (scenario.case.structure.groups[group].links.len() == 2).then(|| determinant.abs().asin())
+    scenario.case.structure.groups[group].kind.letters().map(|_| determinant.abs().asin())
 }
 
 fn singularities(scenario: &Scenario, range: &Range, width: Option<usize>) -> String {

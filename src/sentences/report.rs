@@ -40,6 +40,8 @@ linkage::sentences! {
     MOMENT_OF_THE_MOTOR = "moment of the motor";
     speed_at_at(joint) = "speed at {joint} at t = 0";
     angle_of_the_drive_at_at(joint) = "angle of the drive at {joint} at t = 0";
+    ratio_of_transmission(name) = "ratio of transmission {name}";
+    pressure_angle_of_transmission(name) = "pressure angle of transmission {name}";
     speed_of_the_drive_at(joint) = "speed of the drive at {joint}";
     another_configuration_of(group) = "another configuration of {group}";
     free_length_of_load_spring(number) = "free length of load {number}, spring";
@@ -288,7 +290,10 @@ linkage::sentences! {
     transmission_angle_deg(sine) = ", transmission angle {sine:.2} deg";
     groups_at_the_start(word, fixed_in) = "\ngroups at the start ({word} {fixed_in})";
     kg_kg(mass, inertia, at) = "m = {mass} kg, J = {inertia} kg·m², {at}";
-    mobility_and_given(links, joints, mobility, given) = "mobility   W = 3*{links} - 2*{joints} = {mobility}, given coordinates {given}";
+    mobility_and_given(links, joints, transmissions, mobility, given) = "mobility   W = 3*{links} - 2*{joints}{transmissions} = {mobility}, given coordinates {given}";
+    a_transmission(name, kind, first, second, carrier, ratio, radii) = "  {name:14} {kind}, {first} - {second} on {carrier}, ratio {ratio}, {radii}";
+    pitch_radii(first, second) = "pitch radii {first} and {second}";
+    pitch_radius(first) = "pitch radius {first}";
     structure_links(structure) = "structure  {structure}\n\nlinks";
     // report/json.rs
     NOTHING_LEFT_TO_CHOOSE = "nothing left to choose";

@@ -189,11 +189,11 @@ def check_loads(tab, data, scenario, rows):
 def check_plans(tab, data, linkproof, scenario):
     """Vectors are those of `linkproof plan`, and what is drawn is to one scale."""
     plans = data.get("plans", {}).get("plans", [])
-    drives = tomllib.loads(Path(scenario).read_text()).get("drive", {})
-    if not plans or any(own.get("motion") == "free" for own in (drives if isinstance(drives, list) else [drives])):
+    given = tomllib.loads(Path(scenario).read_text())
+    drives = given["drive"] if isinstance(given["drive"], list) else [given["drive"]]
+    if not plans or any(own.get("motion") == "free" for own in drives):
         return
-    joint = (drives[0] if isinstance(drives, list) else drives)["joint"]
-    slides = any(own["name"] == joint and own["type"] == "prismatic" for own in tomllib.loads(Path(scenario).read_text())["joints"])
+    slides = any(own["name"] == drives[0]["joint"] and own["type"] == "prismatic" for own in given["joints"])
     show(tab, "#plan-list")
     count = tab.evaluate("() => time.length")
     for at in sorted({count // 7, count // 3, 5 * count // 6}):

@@ -8,7 +8,7 @@ time in seconds with its unit (0.35s). With --all there are numbers of points, s
 It reads the scenario file by itself (tomllib), with units of its own. It closes all joints by Newton's method, follows
 the motion from the start in small steps, differentiates the closed poses by differences in 40 digits, and solves the
 equations of Newton and Euler of all links at once. A drive prescribes the coordinate of its joint, one more equation, and
-its force or moment is one more unknown. The binary (`linkproof solve`) only gives a first guess of the pose at the
+its force or moment is one more unknown; transmissions.py has the equations of gears, racks and belts. The binary (`linkproof solve`) only gives a first guess of the pose at the
 start; assembly modes are checked against docs/scenario.md. At a crank angle a free motion has its nominal speed; at a
 time it is integrated by free_motion.py, in double precision, with a step that is halved until nothing printed moves.
 """
@@ -23,6 +23,7 @@ import tomllib
 from mpmath import mp, mpf
 
 import free_motion
+import transmissions
 
 mp.dps = 40
 UNITS = {
@@ -65,6 +66,7 @@ class Mechanism:
         gravity = file.get("gravity", {})
         self.gravity = (quantity(gravity, "x", mpf(0)), quantity(gravity, "y", mpf(0)))
         self.loads = file.get("loads", [])
+        self.transmissions = [transmissions.Transmission(self, own, quantity) for own in file.get("transmissions", [])]
         self.turns = {}
         self.twists = {}
         self.start = self.start_of(0)
@@ -176,6 +178,7 @@ class Mechanism:
             turn = self.angle(q, second) + quantity(joint, "second_axis", mpf(0)) - along
             turns = self.turns.setdefault(joint["name"], mp.nint(turn / (2 * mp.pi)))
             rows += [mp.cos(along) * (b[1] - a[1]) - mp.sin(along) * (b[0] - a[0]), turn - 2 * mp.pi * turns]
+        rows += [own.row(q) for own in self.transmissions]
         return rows + [self.coordinate(q, index) - self.law(index, t) for index in range(len(self.drives))]
 
     def closed(self, q, t):
@@ -350,8 +353,24 @@ def actions(m, q, v, twists, crank, sense=lambda number, omega: mp.sign(omega)):
 
 
 def forces(m, q, v, a, loads):
-    """Newton and Euler: forces of the first link on the second, moments in sliders, forces and moments of drives."""
-    moving, n = m.links[1:], 3 * len(m.joints) + len(m.drives)
+    """Newton and Euler: forces of the first link on the second, moments in sliders, forces and moments of drives.
+
+    The last unknowns are the forces of transmissions. Flanks push and strands pull: a force of the wrong sign takes the
+    other flank or strand.
+    """
+    for own in m.transmissions:
+        own.sense = 1
+    found = balance(m, q, v, a, loads)
+    wrong = [own for own, force in zip(m.transmissions, found[3 * len(m.joints) + len(m.drives):]) if force < 0]
+    for own in wrong:
+        own.sense = -1
+    return balance(m, q, v, a, loads) if wrong else found
+
+
+def balance(m, q, v, a, loads):
+    geared = 3 * len(m.joints) + len(m.drives)
+    moving, n = m.links[1:], geared + len(m.transmissions)
+    loads = loads + [(*own, mpf(0)) for transmission in m.transmissions for own in transmission.known(q)]
     rows, right = [], []
     def centre(link):
         return m.at(q, link, m.body[link][1])
@@ -380,6 +399,12 @@ def forces(m, q, v, a, loads):
                     own[0][3 * len(m.joints) + d] += force[0]
                     own[1][3 * len(m.joints) + d] += force[1]
                     own[2][3 * len(m.joints) + d] += moment + (at[0] - s[0]) * force[1] - (at[1] - s[1]) * force[0]
+        for d, transmission in enumerate(m.transmissions):
+            for target, force, at in transmission.efforts(q):
+                if target == link:
+                    own[0][geared + d] += force[0]
+                    own[1][geared + d] += force[1]
+                    own[2][geared + d] += (at[0] - s[0]) * force[1] - (at[1] - s[1]) * force[0]
         known = [mass * (acceleration[0] - m.gravity[0]), mass * (acceleration[1] - m.gravity[1]), inertia * alpha]
         for target, force, at, moment in loads:
             if target == link:
@@ -408,6 +433,8 @@ def main():
     m = Mechanism(text)
     start = m.closed(first_guess(binary, path, m), mpf(0))
     check_modes(m, start)
+    for own in m.transmissions:
+        own.begin(start)
     twists = {}
     for number, load in enumerate(m.loads):
         if load["type"] == "torsion_spring":
@@ -523,6 +550,10 @@ def shaking(m, q, f, loads):
     for d in range(len(m.drives)):
         effort = f[3 * len(m.joints) + d]
         loads = loads + [(link, (effort * u[0], effort * u[1]), at, effort * own) for link, u, at, own in m.efforts(q, d)]
+    for t, own in enumerate(m.transmissions):
+        size = f[3 * len(m.joints) + len(m.drives) + t]
+        loads = loads + [(link, (size * u[0], size * u[1]), at, mpf(0)) for link, u, at in own.efforts(q)]
+        loads = loads + [(*other, mpf(0)) for other in own.known(q)]
     for target, force, at, own in loads:
         if target == "ground":
             x, y = x + force[0], y + force[1]
@@ -574,6 +605,8 @@ def print_oracle(m, where, key, source, q, v, a, f, loads, want):
         add("reactions", f"joint.{joint['name']}.fy_N", "force", f[3 * j + 1])
         if joint["type"] == "prismatic":
             add("reactions", f"joint.{joint['name']}.moment_N_m", "moment", f[3 * j + 2])
+    for t, own in enumerate(m.transmissions):
+        add("reactions", f"transmission.{own.name}.force_N", "force", f[3 * len(m.joints) + len(m.drives) + t])
     if ALL:
         for name, kind, value in zip(("fx_N", "fy_N", "moment_N_m"), ("force", "force", "moment"), shaking(m, q, f, loads)):
             add("balancing_moment", f"frame.{name}", kind, value)

@@ -135,7 +135,11 @@ fn value(mechanism: &Mechanism, channel: &Channel, time: f64) -> f64 {
             }
         }
         ChannelSubject::Drive => reactions(mechanism, &motions).1,
-        ChannelSubject::Slider | ChannelSubject::Motor | ChannelSubject::Thrust | ChannelSubject::FurtherThrust => {
+        ChannelSubject::Slider
+        | ChannelSubject::Transmission
+        | ChannelSubject::Motor
+        | ChannelSubject::Thrust
+        | ChannelSubject::FurtherThrust => {
             panic!("a four-bar on a crank has no {channel}")
         }
     }

@@ -9,7 +9,7 @@ use linkage::case::Case;
 use linkage::error::{ErrorKind, Result};
 use linkage::math::unit;
 use linkage::mechanism::assembly::{Configuration, configurations};
-use linkage::mechanism::{AssemblyMode, LinkId, LinkPose, Pose, Structure};
+use linkage::mechanism::{AssemblyMode, LinkId, LinkPose, Pose};
 use linkage::trajectory::Stage;
 
 /// One real configuration of a group.
@@ -68,10 +68,7 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
     let pose = Pose(followed.into());
     let mut groups = Vec::with_capacity(case.structure.groups.len());
     for (index, group) in case.structure.groups.entries() {
-        let part = Structure {
-            groups: case.structure.groups.iter().take(index.index() + 1).cloned().collect(),
-            ..case.structure.clone()
-        };
+        let part = case.structure.of_groups(case.structure.groups.ids().take(index.index() + 1));
         let mut modes = Vec::new();
         let (found, unknown) = match configurations(mechanism, group, &pose) {
             Ok(found) => (found, None),

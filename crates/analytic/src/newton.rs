@@ -7,6 +7,7 @@ mod passing;
 mod solver;
 mod steps;
 mod system;
+mod transmission;
 mod whole_turns;
 
 pub use solver::{NewtonAt, NewtonSolver, TIGHT_NEWTON};

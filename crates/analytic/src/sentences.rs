@@ -90,6 +90,8 @@ linkage::sentences! {
     LIMIT_OF_ROTATION_DEAD_POINT = "limit of rotation (dead point)";
     // range/tracking.rs
     CHECK_THE_LENGTHS_OR_START = "check the lengths, or start at another crank angle";
+    ASK_FOR_INSTANTS_OF_A_GRID = "use `solve` over the turns of interest";
+    the_mechanism_does_not_return(turns) = "the mechanism does not return to its first pose within {turns} turns";
     the_poses_of_the_mechanism(at) = "the poses of the mechanism cannot be followed at {at}";
     START_AT_ANOTHER_CRANK_ANGLE = "start at another crank angle, where the configurations are distinct";
     the_start_pose_at_is_singular(at, names) = "the start pose at {at:.6} is singular: two configurations of the group ({names}) meet there";

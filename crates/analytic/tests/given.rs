@@ -40,8 +40,12 @@ fn agrees(case: &Case) -> Vec<State> {
             let off = a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.larger((a - b).abs()));
             assert!(off <= 1e-11 * scale, "{off:e} of {scale:e}: {a:?} {b:?}");
         }
-        let given: f64 =
-            case.drives.iter().zip(&a.torques).map(|(drive, effort)| effort * case.drive_rate(drive, &a.motions)).sum();
+        let given: f64 = case
+            .drives
+            .iter()
+            .zip(&a.torques)
+            .map(|(drive, effort)| effort * case.drive_state(drive, &a.motions, &a.angles).rate)
+            .sum();
         let known = power::of_known_forces(case, a);
         assert!((given + known).abs() <= 1e-9 * known.abs().larger(1.0), "{given} {known}");
     }

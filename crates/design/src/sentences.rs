@@ -69,6 +69,7 @@ linkage::sentences! {
     the_leads_are_parallel_their(names) = "the leads {names} are parallel: their singular point lies at infinity";
     // export/mjcf/effects.rs
     ITS_LENGTH_IS_THE_ANGLE_THAT_THE_LOAD = "The tendon's length is the angle that the load depends on.";
+    ITS_LENGTH_IS_CONSTANT = "A transmission: the tendon's length is constant.";
     ITS_LENGTH_IS_THE_LINK_ANGLE = "The tendon's length is the link's angle.";
     FORCES_IN_WORLD_AXES_REFER = "Forces in world axes refer to this site.";
     // export/mjcf/limits.rs

@@ -113,6 +113,7 @@ impl Laid {
 /// Driven joints have these coordinates (rad or m), and `starts` selects the mode of every group.
 #[must_use]
 pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts: &[StartGroup]) -> Laid {
+    let (structure, angles) = (structure.at_start(), &structure.given_at_start(mechanism, angles)[..]);
     let mut laid = Laid::of_structure(mechanism, structure, angles);
     let mut done: Vec<GroupId> = Vec::new();
     for (index, group) in structure.groups.entries() {
@@ -121,10 +122,7 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
         }
         let mut tried = done.clone();
         tried.push(index);
-        let part = Structure {
-            groups: tried.iter().map(|&index| structure.groups[index].clone()).collect(),
-            ..structure.clone()
-        };
+        let part = structure.of_groups(tried.iter().copied());
         let wanted: Vec<StartGroup> = tried.iter().map(|&index| starts[index].clone()).collect();
         match first_choices(mechanism, &part, angles, &wanted) {
             Ok((pose, choices)) => {
@@ -190,7 +188,15 @@ fn dyad(mechanism: &Mechanism, laid: &Laid) -> Option<Group> {
             [true, false, true] => GroupKind::Prp,
             [true, true, true] => return None,
         };
-        Some(Group { links, inner: vec![inner], outer: outer.to_vec(), given: Vec::new(), class: 2, kind })
+        Some(Group {
+            links,
+            inner: vec![inner],
+            outer: outer.to_vec(),
+            given: Vec::new(),
+            trains: Vec::new(),
+            class: 2,
+            kind,
+        })
     })
 }
 

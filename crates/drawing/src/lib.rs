@@ -33,6 +33,7 @@ pub mod sheet;
 mod sign;
 mod sketch;
 mod stretched;
+mod transmission;
 mod travel;
 pub mod view;
 

@@ -108,6 +108,10 @@ roles! {
     Slot = "slot": Link, Paper, 0.6, Links;
     /// Cylinder of a moving link, in which a piston slides.
     Cylinder = "cylinder": Link, Paper, 0.6, Links;
+    /// Pitch circle of a wheel with a stroke that turns with it, or pitch line of a rack.
+    Wheel = "wheel": Link, None, 0.45, Links;
+    /// Strand of a belt.
+    Strand = "strand": Link, None, 0.45, Links;
     /// Block on a guide.
     Block = "block": Link, Paper, 0.7, Blocks;
     /// Piston, and its rings.

@@ -4,7 +4,7 @@ use super::mark::{Layer, Mark, MarkRole};
 use super::sign::LoadSign;
 use super::stretched::Stretched;
 use super::travel::Travels;
-use super::{body, guide, pins, sign, stretched};
+use super::{body, guide, pins, sign, stretched, transmission};
 use linkage::case::CaseParts;
 use linkage::drive::{Drive, Load};
 use linkage::math::{Vec2, turned};
@@ -82,7 +82,8 @@ impl Sketch {
             LinkMarks { link, marks, size: body::size(mechanism, link) }
         };
         let mut bodies: Vec<LinkMarks> = mechanism.links().ids().map(body).collect();
-        for (link, mark) in guide::marks(mechanism, travels, unit).into_iter().chain(pins::marks(mechanism, unit)) {
+        let pairs = guide::marks(mechanism, travels, unit).into_iter().chain(pins::marks(mechanism, unit));
+        for (link, mark) in transmission::marks(mechanism, travels).into_iter().chain(pairs) {
             bodies[link].marks.push(mark);
         }
         Sketch { unit, bodies, stretched: Vec::new(), loads: Vec::new(), labels: labels(mechanism) }

@@ -6,5 +6,6 @@
 
 pub mod driven;
 pub mod dyads;
+pub mod geared;
 pub mod sketch;
 pub mod spec;

@@ -228,18 +228,6 @@ impl Case {
         InputState { value: drive.from_coordinate(value), rate, acceleration }
     }
 
-    /// Rate of the input of a drive (rad/s or m/s) in a state of the mechanism.
-    #[inline]
-    #[must_use]
-    pub fn drive_rate(&self, drive: &Drive, motions: &[Motion]) -> f64 {
-        let joint = &self.mechanism.joints()[drive.joint];
-        match drive.input {
-            Input::Angle => motions[drive.link].omega,
-            Input::Turn => motions[joint.second.link].omega - motions[joint.first.link].omega,
-            Input::Slide => joint.slide(motions).expect("the driven joint slides")[1],
-        }
-    }
-
     /// Channels whose signed sum is the coordinate of the first drive, its rate and its second derivative.
     /// The coordinate differs from the input by the drive's zero.
     #[must_use]
@@ -291,10 +279,7 @@ impl Case {
     #[inline]
     #[must_use]
     pub fn step(&self, turn: f64) -> f64 {
-        match self.crank().input {
-            Input::Angle | Input::Turn => turn,
-            Input::Slide => turn * self.mechanism.size(),
-        }
+        turn * self.crank().input.span(self.mechanism.size())
     }
 
     /// Whether forces determine the motion of a driving link (a free motion).

@@ -126,6 +126,16 @@ impl Input {
         }
     }
 
+    /// Change of the input that moves points by about the size of the mechanism (m): one radian, or a slide of this size.
+    #[inline]
+    #[must_use]
+    pub const fn span(self, size: f64) -> f64 {
+        match self {
+            Input::Angle | Input::Turn => 1.0,
+            Input::Slide => size,
+        }
+    }
+
     /// Length that corresponds to one unit of the input, if `size` (m) is the size of the mechanism.
     /// A slide is a length itself. An angle moves points by up to the size of the mechanism.
     #[inline]

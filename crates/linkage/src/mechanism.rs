@@ -9,10 +9,11 @@ mod placing;
 pub mod pose;
 pub mod spanning_tree;
 pub mod structure;
+pub mod transmission;
 
 use crate::sentences;
 pub use assembly::{AssemblyMode, StartGroup, first_pose};
-pub use ids::{GroupId, JointId, LinkId, Ordinal, Per, PerGroup, PerJoint, PerLink};
+pub use ids::{GroupId, JointId, LinkId, Ordinal, Per, PerGroup, PerJoint, PerLink, PerTransmission, TransmissionId};
 pub use name::{LONGEST_NAME, is_sound_name, is_unseen};
 pub use outline::ring;
 pub use parts::{GROUND, Guise, Joint, JointKind, JointSide, Link, Point};
@@ -20,6 +21,7 @@ pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
 pub use spanning_tree::{SpanningTree, TreeBranch};
 pub use structure::{DrivenJoint, DrivingLink, Group, GroupKind, Structure};
+pub use transmission::{Coordinate, LineOfAction, Transmission, TransmissionDesign, TransmissionKind};
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -32,6 +34,7 @@ use crate::math::KeepNan;
 pub struct Mechanism {
     links: PerLink<Link>,
     joints: PerJoint<Joint>,
+    transmissions: PerTransmission<Transmission>,
     /// Joints on every link, in order.
     on: PerLink<Vec<JointId>>,
     /// For every joint: index of its first equation in the list of all joints' equations. The last entry is the total
@@ -82,7 +85,27 @@ impl Mechanism {
             *next += joint.kind.equations();
             Some(*next)
         }));
-        Mechanism { links, joints, on, rows, size: if size > 0.0 { size } else { 1.0 } }
+        let size = if size > 0.0 { size } else { 1.0 };
+        Mechanism { links, joints, transmissions: PerTransmission::default(), on, rows, size }
+    }
+
+    /// This mechanism with the given transmissions in place of its own.
+    ///
+    /// # Errors
+    /// Those of [`Transmission::of`]; [`ErrorKind::Input`] for two transmissions of one name.
+    pub fn with_transmissions(mut self, designs: Vec<TransmissionDesign>) -> Result<Self> {
+        let mut taken = BTreeSet::new();
+        let mut all = Vec::with_capacity(designs.len());
+        for design in designs {
+            if !taken.insert(design.name.clone()) {
+                return Err(Error::new(ErrorKind::Input, sentences::two_transmissions_are_called(&design.name))
+                    .key(format!("transmissions.{}", design.name))
+                    .help(sentences::GIVE_EVERY_TRANSMISSION_ITS_OWN_NAME));
+            }
+            all.push(Transmission::of(&self.links, &self.joints, self.size, design)?);
+        }
+        self.transmissions = all.into();
+        Ok(self)
     }
 
     /// All links; index 0 is the ground.
@@ -97,6 +120,32 @@ impl Mechanism {
         &self.joints
     }
 
+    /// All transmissions.
+    #[must_use]
+    pub fn transmissions(&self) -> &PerTransmission<Transmission> {
+        &self.transmissions
+    }
+
+    /// The statements of all transmissions.
+    #[must_use]
+    pub fn transmission_designs(&self) -> Vec<TransmissionDesign> {
+        self.transmissions.iter().map(|own| own.design.clone()).collect()
+    }
+
+    /// Index of a transmission's equation in the list of all equations: after those of the joints.
+    #[inline]
+    #[must_use]
+    pub fn row_of_transmission(&self, transmission: TransmissionId) -> usize {
+        self.equations() + transmission.index()
+    }
+
+    /// Index of the equation of the drive with this number: after those of the joints and transmissions.
+    #[inline]
+    #[must_use]
+    pub fn row_of_drive(&self, drive: usize) -> usize {
+        self.equations() + self.transmissions.len() + drive
+    }
+
     /// Indices of a joint's equations in a list of all joints' equations, in the order of joints.
     #[inline]
     #[must_use]
@@ -105,7 +154,7 @@ impl Mechanism {
     }
 
     /// Total number of equations of all joints.
-    /// In a list of equations, those of the joints come first. Other equations, such as those of drives, follow.
+    /// In a list of equations, those of the joints come first. Those of the transmissions and of the drives follow.
     #[inline]
     #[must_use]
     pub fn equations(&self) -> usize {

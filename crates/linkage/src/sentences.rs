@@ -94,6 +94,8 @@ crate::sentences! {
     it_joins_with_itself(link) = "it joins \"{link}\" with itself";
     GIVE_THE_AXIS_BY_ITS_ANGLE = "give the axis by its angle";
     ITS_AXIS_IS_NO_UNIT_VECTOR = "its axis is not a unit vector";
+    GIVE_EVERY_TRANSMISSION_ITS_OWN_NAME = "give every transmission a unique name";
+    two_transmissions_are_called(name) = "two transmissions are called \"{name}\"";
     GIVE_EVERY_JOINT_ITS_OWN = "give every joint a unique name";
     two_joints_are_called(joint) = "two joints are called \"{joint}\"";
     GIVE_EVERY_LINK_ITS_OWN_NAME = "give every link a unique name (\"ground\" is taken)";
@@ -143,6 +145,11 @@ crate::sentences! {
     THE_DRIVEN_JOINT_TURNS_LINKS_WITH_KEPT_ANGLES = "the driven joint gives the angle between two links that other drives and prismatic joints already fix";
     DRIVE_ANOTHER_JOINT = "drive another joint, or make one of the prismatic joints revolute";
     the_mobility_is_but_the_number(n, p, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} = {mobility}, but the number of drives is {drives}";
+    the_mobility_with_transmissions_is(n, p, t, mobility, drives) = "the mobility is W = 3*{n} - 2*{p} - {t} = {mobility}, with {t} transmissions, but the number of drives is {drives}";
+    the_start_joint_of_a_transmission_changes(group) = "the joints that give the start of the transmissions change the group {group}, which has no transmission";
+    the_start_joint_is_driven(name, joint) = "the start of transmission \"{name}\" is that of joint \"{joint}\", which is driven";
+    GIVE_A_JOINT_OF_THE_TRANSMISSION = "name another joint of a member or of the carrier with `start_joint`";
+    the_start_of_the_transmissions(message) = "with the joints that give the start of the transmissions: {message}";
     THE_MECHANISM_IS_OVER_CONSTRAINED = "the mechanism is over-constrained: remove the surplus joints or drives";
     ADD_THE_MISSING_JOINTS_OR_DRIVES = "add the missing joints or drives, or remove the loose links";
     LINKS_THAT_ARE_JOINED_BY_PRISMATIC = "links that are connected by prismatic joints only cannot turn relative to each other: one joint of the loop must be revolute";
@@ -168,4 +175,15 @@ crate::sentences! {
     MASS_CENTRE_POSITION = "mass centre position";
     // work.rs
     the_work_that_is_allowed(allowed) = "the work limit of {allowed} steps was reached before the motion was solved";
+    // mechanism/assembly/configurations.rs
+    the_configurations_of_the_train(group) = "the configurations of the train ({group}) depend on the turns of its wheels";
+    // mechanism/transmission.rs
+    MOVE_THE_AXLES_APART = "check the positions of the axles, the numbers of teeth and the radii";
+    THE_MEMBERS_CANNOT_TOUCH = "the members cannot touch: the axles coincide, or the wheels overlap";
+    JOIN_THE_RACK = "join rack and carrier by a prismatic joint";
+    THE_RACK_DOES_NOT_SLIDE = "no prismatic joint connects the rack, the second link, with the carrier";
+    JOIN_THE_MEMBER_TO_THE_CARRIER = "join the wheel to the carrier by a revolute joint, or to a third link at a joint of the carrier with that link";
+    the_member_has_no_axle(link, carrier) = "link \"{link}\" has no axle on the carrier \"{carrier}\"";
+    NAME_TWO_MEMBERS = "name two different members and, with `carrier`, the link that carries their axles";
+    A_TRANSMISSION_NEEDS_THREE_LINKS = "the two members and the carrier are not three different links";
 }

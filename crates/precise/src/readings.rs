@@ -7,7 +7,9 @@ use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::angle::wrapped;
 use linkage::mechanism::{GROUND, Joint, JointId, JointSide, LinkId};
-use linkage::trajectory::{Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Trajectory};
+use linkage::trajectory::{
+    Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Reading, Trajectory,
+};
 
 use super::Long;
 use super::frame::{Frame, Snapshot};
@@ -92,6 +94,7 @@ impl<'a> Places<'a> {
                     OfSlider::Moment => instant.moments[joint].rounded(),
                 }
             }
+            Reading::Transmission(OfTransmission::Force) => unreachable!("transmissions are refused"),
             Reading::Frame(reading) => {
                 let (force, moment) = shaking(case, instant);
                 match reading {

@@ -10,6 +10,7 @@ linkage::sentences! {
     // task.rs
     no_precise_numbers(what) = "no precise reference: {what}";
     AN_INSTANT_LIES_BEFORE = "an instant lies before t = 0";
+    THERE_ARE_TRANSMISSIONS = "there are transmissions";
     THERE_ARE_LOADS = "there are loads";
     CHANGE_POINTS_MAY_BE_PASSED = "change points may be passed";
     THERE_ARE_SEVERAL_DRIVES = "there are several drives";

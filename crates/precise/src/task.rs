@@ -41,6 +41,9 @@ impl Task {
         if !case.loads.is_empty() {
             return refused(sentences::THERE_ARE_LOADS);
         }
+        if !case.mechanism.transmissions().is_empty() {
+            return refused(sentences::THERE_ARE_TRANSMISSIONS);
+        }
         if case.grid.times.iter().any(|&t| t < 0.0) {
             return refused(sentences::AN_INSTANT_LIES_BEFORE);
         }

@@ -53,6 +53,7 @@ linkage::sentences! {
     is_beyond_the_bound_at(error, bound, t, at) = "{error} is beyond the bound {bound} at t = {t} s, {at}";
     expected_see(place) = "expected, see {place}";
     // diagnosis/knobs.rs
+    THE_INVERSE_RATIO = "the inverse ratio";
     WITH_THE_REDUCER_RATIO_TWICE = "with the reducer's ratio applied twice";
     WITHOUT_THE_REDUCER_RATIO = "without the reducer's ratio";
     DIVIDED_BY_THE_EFFICIENCY_INSTEAD = "divided by the efficiency instead of multiplied";

@@ -8,7 +8,7 @@ use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
-use linkage::math::{KeepNan, Motion, Vec2, turned, unit};
+use linkage::math::{KeepNan, Motion, Vec2, cross, turned, unit};
 use linkage::mechanism::{GROUND, GroupId, LinkPose};
 use linkage::solver::State;
 
@@ -162,6 +162,17 @@ impl Watched {
                     }
                 };
                 let entries = along.into_iter().enumerate();
+                entries.for_each(|(c, value)| constraints.add(first, 3 * column + c, sign * value));
+            }
+            first += 1;
+        }
+        for transmission in group.trains.iter().map(|&id| &case.mechanism.transmissions()[id]) {
+            let (carrier, line) = (&motions[transmission.design.carrier], &transmission.lines[0]);
+            let direction = carrier.arm(line.direction);
+            for ((link, foot), sign) in transmission.design.links.into_iter().zip(line.feet).zip([-1.0, 1.0]) {
+                let Some(column) = group.links.iter().position(|&own| own == link) else { continue };
+                let turn = cross(carrier.point(foot) - motions[link].origin, direction) / size;
+                let entries = [direction.x, direction.y, turn].into_iter().enumerate();
                 entries.for_each(|(c, value)| constraints.add(first, 3 * column + c, sign * value));
             }
             first += 1;

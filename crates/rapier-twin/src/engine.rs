@@ -1,5 +1,6 @@
 //! Rapier as an `Engine` and as a `Solver`.
 
+use super::lines::Lines;
 use super::newton_euler::NewtonEuler;
 use super::rapier::{Build, Precision, Rapier};
 use super::tree::SpanningTree;
@@ -54,7 +55,8 @@ impl Engine for Rapier {
     }
 
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
-        let alone = case.drives.len() == 1 && SpanningTree::of(&case.mechanism).cut.is_empty();
+        let is_tree = SpanningTree::of(&case.mechanism).cut.is_empty() && case.mechanism.transmissions().is_empty();
+        let alone = case.drives.len() == 1 && is_tree;
         let reports = self.settings.route == Route::Native;
         let begins = case.is_free() && case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
         match self.build {
@@ -73,8 +75,12 @@ impl Engine for Rapier {
         if self.settings.route != Route::Differences || case.wanted.deepest() < Stage::Reactions {
             return None;
         }
-        let mut equations = NewtonEuler::new(case);
-        Some(Box::new(move |case, row, state| equations.solve(case, state, case.grid.times[row])))
+        let (mut equations, mut lines) = (NewtonEuler::new(case), Lines::of(case));
+        Some(Box::new(move |case, row, state| {
+            let t = case.grid.times[row];
+            equations.solve(case, state, t)?;
+            lines.as_mut().map_or(Ok(()), |lines| lines.change(case, state, t))
+        }))
     }
 
     fn overrun(&self) -> f64 {

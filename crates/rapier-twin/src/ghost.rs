@@ -60,7 +60,8 @@ impl Ghost {
             *own -= ghost;
         }
         let moments = state.moments.iter_mut().zip(&self.state.moments);
-        for (own, ghost) in moments.chain(state.torques.iter_mut().zip(&self.state.torques)) {
+        let transmitted = state.transmitted.iter_mut().zip(&*self.state.transmitted);
+        for (own, ghost) in moments.chain(transmitted).chain(state.torques.iter_mut().zip(&self.state.torques)) {
             *own -= ghost;
         }
         Ok(())

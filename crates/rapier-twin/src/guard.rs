@@ -301,7 +301,7 @@ mod tests {
     use crate::{Build, Precision};
     use linkage::fixtures::{four_bar, turning};
     use linkage::math::{rotated, unit};
-    use linkage::mechanism::JointId;
+    use linkage::mechanism::{JointId, TransmissionId};
 
     /// A world whose steps fail. After a failing step, the world reports wrong positions and angles.
     struct Broken {
@@ -365,6 +365,9 @@ mod tests {
         }
         fn reaction(&self, joint: JointId) -> Option<(Vec2, f64)> {
             self.world.reaction(joint)
+        }
+        fn transmitted(&self, transmission: TransmissionId) -> f64 {
+            self.world.transmitted(transmission)
         }
         fn torque(&self, drive: usize) -> f64 {
             self.world.torque(drive)

@@ -9,6 +9,7 @@ mod engine;
 mod free;
 mod ghost;
 mod guard;
+mod lines;
 mod masses;
 mod native;
 pub mod newton_euler;

@@ -10,7 +10,7 @@ use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::error::Result;
 use linkage::math::Vec2;
-use linkage::mechanism::{JointId, PerJoint};
+use linkage::mechanism::{JointId, PerJoint, TransmissionId};
 use linkage::solver::State;
 
 /// Delay of the engine's reports, in substeps.
@@ -37,6 +37,8 @@ pub(super) struct Native {
     reporters: PerJoint<Option<usize>>,
     ghost: Option<Ghost>,
     row: Vec<f64>,
+    /// Number of drives, whose moments are the last values of a row.
+    drives: usize,
     /// Lower limit of the step at the centre of the interpolation. Readings before this step are extrapolated.
     lowest: i64,
 }
@@ -45,7 +47,7 @@ impl Native {
     pub(super) fn new(case: &Case, worlds: &[Guard], settings: &Settings, start: i64) -> Self {
         let plain = worlds[0].world().tree().branches.is_empty();
         let cuts: Vec<&[JointId]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
-        let width = 3 * case.mechanism.joints().len() + case.drives.len();
+        let width = 3 * case.mechanism.joints().len() + case.mechanism.transmissions().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
         // In a free motion, the first reported step is step 1.
         // If bodies move at the start, the impulses of the first steps are incomplete, so these steps are left out.
@@ -54,18 +56,21 @@ impl Native {
         let lowest = if case.is_free() { 3 + first_steps(case, plain) } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
         let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);
-        Native { step, late, ring, reporters, ghost, row, lowest }
+        Native { step, late, ring, reporters, ghost, row, drives: case.drives.len(), lowest }
     }
 
     /// Stores the reports of a step.
     /// `direct` is the moment of the crank's motor (N m) that was applied as a load.
     pub(super) fn push(&mut self, worlds: &[Guard], direct: f64) {
         let row = self.ring.push();
-        let drives = 3 * self.reporters.len();
+        let (first, drives) = (3 * self.reporters.len(), row.len() - self.drives);
         for (joint, &world) in self.reporters.entries() {
             let Some(world) = world else { continue };
             let (force, moment) = worlds[world].world().reaction(joint).expect("the tree of this world cuts the joint");
             row[3 * joint.index()..][..3].copy_from_slice(&[force.x, force.y, moment]);
+        }
+        for (transmission, force) in row[first..drives].iter_mut().enumerate() {
+            *force = worlds[0].world().transmitted(TransmissionId(transmission));
         }
         for (drive, torque) in row[drives..].iter_mut().enumerate() {
             *torque = worlds[0].world().torque(drive);
@@ -81,7 +86,8 @@ impl Native {
             let row = &self.row[3 * joint.index()..];
             (state.forces[joint], state.moments[joint]) = (Vec2::new(row[0], row[1]), row[2]);
         }
-        let drives = 3 * self.reporters.len();
+        let (first, drives) = (3 * self.reporters.len(), self.row.len() - self.drives);
+        state.transmitted = self.row[first..drives].to_vec().into();
         state.torques.copy_from_slice(&self.row[drives..]);
         self.ghost.as_mut().map_or(Ok(()), |ghost| ghost.take_off(case, state, t))
     }

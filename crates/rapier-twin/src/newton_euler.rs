@@ -19,6 +19,7 @@
 //! The moment of a crank acts from the frame. Any other driving moment or force also acts on the inner link.
 //! The number of the remaining equations equals the number of components in cut joints.
 //! A four-bar has two such equations; the equations of all its links together are nine.
+//! A transmission is a cut joint with one component: the force in its first line of action.
 
 mod seam;
 mod stages;
@@ -27,12 +28,12 @@ use crate::sentences;
 use std::ops::Range;
 
 use linkage::case::Case;
-use linkage::drive::{Drive, Wrench};
+use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
-use linkage::math::Vec2;
 use linkage::math::dense::solve_pair;
-use linkage::mechanism::{JointId, SpanningTree};
+use linkage::math::{Vec2, cross};
+use linkage::mechanism::SpanningTree;
 use linkage::solver::State;
 use linkage::work::{Count, WorkTally};
 use seam::{PAIR, Seam, Stand, Term};
@@ -44,8 +45,10 @@ pub struct NewtonEuler {
     /// The links of the tree, from the ground outwards.
     tree: Vec<Limb>,
     cut: Vec<Seam>,
-    /// For each cut joint, the range of its components in the list of all components.
+    /// For each cut joint, then for each transmission, the range of its components in the list of all components.
     of_cut: Vec<Range<usize>>,
+    /// For each transmission, the indices of its members in the tree.
+    members: Vec<[Option<usize>; 2]>,
     /// The joints of the tree, then the cut joints, in the present pose.
     stands: Vec<Stand>,
     /// Force and moment that the joint carrying a link must transmit to the link, for every link of the tree.
@@ -73,8 +76,8 @@ impl NewtonEuler {
     /// The equations with other masses (kg) and moments of inertia (kg m^2), and with a fraction of the loads.
     #[must_use]
     pub fn of(case: &Case, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
-        let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
-        NewtonEuler::along(case, &SpanningTree::with(&case.mechanism, &driven), masses, load_share)
+        let tree = SpanningTree::with(&case.mechanism, &case.drives.joint_ids());
+        NewtonEuler::along(case, &tree, masses, load_share)
     }
 
     /// The equations along any tree that contains all links and all driven joints.
@@ -82,17 +85,18 @@ impl NewtonEuler {
     /// loads.
     #[must_use]
     pub fn along(case: &Case, tree: &SpanningTree, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
-        let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
-        let acts_on_both = |drive: &Drive| drive.input != Input::Angle;
         let mut numbers = vec![None; masses.len()];
         for (number, branch) in tree.branches.iter().enumerate() {
             numbers[branch.link] = Some(number);
         }
-        let limbs = tree.branches.iter().map(|branch| Limb {
-            seam: Seam::new(case, branch.joint, [branch.parent, branch.link], &numbers),
-            drive: driven.iter().position(|&joint| joint == branch.joint),
-            is_rigid: case.drives.iter().any(|drive| drive.joint == branch.joint && acts_on_both(drive)),
-            terms: Vec::new(),
+        let limbs = tree.branches.iter().map(|branch| {
+            let drive = case.drives.iter().position(|drive| drive.joint == branch.joint);
+            Limb {
+                seam: Seam::new(case, branch.joint, [branch.parent, branch.link], &numbers),
+                drive,
+                is_rigid: drive.is_some_and(|index| case.drives[index].input != Input::Angle),
+                terms: Vec::new(),
+            }
         });
         let mut limbs: Vec<Limb> = limbs.collect();
         let cut = tree.cut.iter().map(|&joint| {
@@ -100,15 +104,19 @@ impl NewtonEuler {
             Seam::new(case, joint, sides.map(|side| side.link), &numbers)
         });
         let cut: Vec<Seam> = cut.collect();
+        let transmissions = case.mechanism.transmissions();
+        let members: Vec<[Option<usize>; 2]> =
+            transmissions.iter().map(|own| own.design.links.map(|link| numbers[link])).collect();
         let mut components = 0;
-        let of_cut = cut.iter().map(|seam| {
-            let first = components;
-            components += case.mechanism.joints()[seam.joint].kind.equations();
-            first..components
+        let counts = cut.iter().map(|seam| case.mechanism.joints()[seam.joint].kind.equations());
+        let of_cut = counts.chain(transmissions.iter().map(|_| 1)).map(|count| {
+            components += count;
+            components - count..components
         });
         let of_cut: Vec<Range<usize>> = of_cut.collect();
-        for (seam, terms) in cut.iter().zip(&of_cut) {
-            for side in seam.numbers {
+        let sides = cut.iter().map(|seam| seam.numbers).chain(members.iter().copied());
+        for (numbers, terms) in sides.zip(&of_cut) {
+            for side in numbers {
                 let mut next = side;
                 while let Some(number) = next {
                     let limb = &mut limbs[number];
@@ -127,6 +135,7 @@ impl NewtonEuler {
             needs: vec![[0.0; 3]; limbs.len() * (components + 1)],
             stages: stages(&limbs, &of_cut),
             of_cut,
+            members,
             components: vec![0.0; components],
             loads: vec![Wrench::ZERO; masses.len()],
             tree: limbs,
@@ -142,6 +151,20 @@ impl NewtonEuler {
     /// # Errors
     /// [`ErrorKind::Numeric`] where the equations do not determine the reactions.
     pub fn solve(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
+        case.loads_on(&state.motions, &state.angles, &mut self.loads);
+        self.balance(case, state, t)
+    }
+
+    /// Like [`NewtonEuler::solve`], with the given loads on all links.
+    ///
+    /// # Errors
+    /// Those of [`NewtonEuler::solve`].
+    pub(super) fn solve_under(&mut self, loads: &[Wrench], case: &Case, state: &mut State, t: f64) -> Result<()> {
+        self.loads.copy_from_slice(loads);
+        self.balance(case, state, t)
+    }
+
+    fn balance(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         self.tally.one(Count::Forces);
         self.begin(case, state);
         self.pass_on();
@@ -213,7 +236,6 @@ impl NewtonEuler {
         let width = self.components.len() + 1;
         self.stands.clear();
         self.stands.extend(self.tree.iter().map(|limb| &limb.seam).chain(&self.cut).map(|seam| seam.stand(state)));
-        case.loads_on(&state.motions, &state.angles, &mut self.loads);
         self.needs.as_flattened_mut().fill(0.0);
         for (limb, needs) in self.tree.iter().zip(self.needs.chunks_exact_mut(width)) {
             let link = limb.seam.links[1];
@@ -232,6 +254,17 @@ impl NewtonEuler {
                 }
             }
         }
+        let meshes = case.mechanism.transmissions().iter().zip(&self.members);
+        for ((transmission, members), term) in meshes.zip(self.of_cut[self.cut.len()..].iter().map(|own| own.start)) {
+            let (carrier, line) = (&state.motions[transmission.design.carrier], &transmission.lines[0]);
+            let direction = carrier.arm(line.direction);
+            for (k, sign) in [-1.0, 1.0].into_iter().enumerate() {
+                let (Some(number), link) = (members[k], transmission.design.links[k]) else { continue };
+                let centre = state.motions[link].point(case.mechanism.links()[link].mass_centre);
+                let given = [direction.x, direction.y, cross(carrier.point(line.feet[k]) - centre, direction)];
+                (0..3).for_each(|c| self.needs[number * width + term][c] -= sign * given[c]);
+            }
+        }
     }
 
     /// Computes reactions and driving moments from the components in the cut joints.
@@ -243,6 +276,9 @@ impl NewtonEuler {
                 None => (Vec2::new(components[0], components[1]), 0.0),
                 Some(normal) => (normal * components[0], components[1]),
             };
+        }
+        for (transmitted, term) in state.transmitted.iter_mut().zip(&self.of_cut[self.cut.len()..]) {
+            *transmitted = self.components[term.start];
         }
         let needs = self.needs.chunks_exact(constant + 1);
         for ((Limb { seam, drive, is_rigid, terms }, stand), own) in self.tree.iter().zip(stands).zip(needs) {

@@ -46,6 +46,7 @@ impl<'a> Probe<'a> {
     pub(super) fn solve(&mut self, case: &Case, window: &Window, state: &mut State, t: f64) -> Result<()> {
         state.forces.fill(Vec2::zeros());
         state.moments.fill(0.0);
+        state.transmitted.iter_mut().for_each(|force| *force = 0.0);
         state.torques.fill(0.0);
         for index in 0..self.worlds.len() {
             for (step, share, settling) in [(self.step, -1.0, 2), (0.5 * self.step, 2.0, 1)] {
@@ -78,6 +79,9 @@ impl<'a> Probe<'a> {
             state.moments[joint] += moment * share;
         }
         if index == 0 {
+            for (transmission, force) in state.transmitted.entries_mut() {
+                *force += world.transmitted(transmission) * share;
+            }
             for (drive, torque) in state.torques.iter_mut().enumerate() {
                 *torque += world.torque(drive) * share;
             }

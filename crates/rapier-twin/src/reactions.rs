@@ -1,6 +1,7 @@
 //! Source of reactions and moments in a run.
 
 use super::guard::{Guard, guards};
+use super::lines::Lines;
 use super::masses::Loading;
 use super::native::Native;
 use super::newton_euler::NewtonEuler;
@@ -15,8 +16,14 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
+/// Reactions and moments of a run.
+pub(super) struct Reactions<'a> {
+    source: Source<'a>,
+    lines: Option<Lines>,
+}
+
 /// Source of reactions and moments.
-pub(super) enum Reactions<'a> {
+enum Source<'a> {
     /// None are wanted.
     Unwanted,
     Differences(NewtonEuler),
@@ -45,18 +52,18 @@ impl<'a> Reactions<'a> {
             Build::Impulse => guards(engine, case, vec![SpanningTree::none(mechanism)], Loading::Read),
         };
         if case.wanted.deepest() < Stage::Reactions {
-            return Ok((Reactions::Unwanted, moving()?));
+            return Ok((Reactions { source: Source::Unwanted, lines: None }, moving()?));
         }
-        match engine.settings.route {
-            Route::Differences => Ok((Reactions::Differences(NewtonEuler::new(case)), moving()?)),
+        let (source, worlds) = match engine.settings.route {
+            Route::Differences => (Source::Differences(NewtonEuler::new(case)), moving()?),
             Route::Native => {
                 let worlds = reporting(engine)?;
-                Ok((Reactions::Native(Native::new(case, &worlds, &engine.settings, from)), worlds))
+                (Source::Native(Native::new(case, &worlds, &engine.settings, from)), worlds)
             }
             Route::Probe if case.is_free() => {
                 let message = sentences::THE_MOTION_IS_FREE_BUT_A_PROBE;
                 let help = Advice::OtherRoute { routes: &["differences", "native"] };
-                Err(Error::new(ErrorKind::Unsupported, message).help(help))
+                return Err(Error::new(ErrorKind::Unsupported, message).help(help));
             }
             Route::Probe => {
                 // A world placed in a pose has no gap to correct in its first substep.
@@ -65,15 +72,16 @@ impl<'a> Reactions<'a> {
                 // A tiny step therefore has a single substep.
                 let undivided = engine.set(Settings { substeps: 1, ..engine.settings });
                 let probe = Probe::new(case, reporting(&undivided)?, probe_turn(engine.precision));
-                Ok((Reactions::Probe(probe), moving()?))
+                (Source::Probe(probe), moving()?)
             }
-        }
+        };
+        Ok((Reactions { source, lines: Lines::of(case) }, worlds))
     }
 
     /// Stores the reports of the worlds after a step.
     /// `direct` is the moment of the crank's motor (N m) that was applied as a load.
     pub(super) fn keep(&mut self, worlds: &[Guard], direct: f64) {
-        if let Reactions::Native(native) = self {
+        if let Source::Native(native) = &mut self.source {
             native.push(worlds, direct);
         }
     }
@@ -83,11 +91,12 @@ impl<'a> Reactions<'a> {
     /// # Errors
     /// [`ErrorKind::Numeric`] where the equations do not determine the reactions, or if a probe fails.
     pub(super) fn solve(&mut self, case: &Case, window: &Window, state: &mut State, t: f64) -> Result<()> {
-        match self {
-            Reactions::Unwanted => Ok(()),
-            Reactions::Differences(statics) => statics.solve(case, state, t),
-            Reactions::Native(native) => native.solve(case, state, t),
-            Reactions::Probe(probe) => probe.solve(case, window, state, t),
+        match &mut self.source {
+            Source::Unwanted => {}
+            Source::Differences(statics) => statics.solve(case, state, t)?,
+            Source::Native(native) => native.solve(case, state, t)?,
+            Source::Probe(probe) => probe.solve(case, window, state, t)?,
         }
+        self.lines.as_mut().map_or(Ok(()), |lines| lines.change(case, state, t))
     }
 }

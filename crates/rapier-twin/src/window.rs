@@ -23,7 +23,8 @@ const WIDTH: usize = 3;
 /// - The first step ignores the change of the transfer functions.
 pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
     let moving = case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
-    let has_loops = case.mechanism.joints().len() >= case.mechanism.links().len();
+    let closed = case.mechanism.joints().len() + case.mechanism.transmissions().len();
+    let has_loops = closed >= case.mechanism.links().len();
     if plain || moving || has_loops { 2 } else { 0 }
 }
 

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::tree::SpanningTree;
 use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
-use linkage::mechanism::{Joint, JointId, JointSide, LinkId, LinkPose};
+use linkage::mechanism::{Joint, JointId, JointSide, LinkId, LinkPose, TransmissionId};
 
 /// A link's angle as far as the engine knows it (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -177,6 +177,10 @@ pub trait World {
     /// `None` for joints of the tree, which report no reaction.
     /// The world must have been built for reading reactions.
     fn reaction(&self, joint: JointId) -> Option<(Vec2, f64)>;
+
+    /// Force of a transmission in its first line of action (N), from the impulse of the last step. The force has either
+    /// sign: the row pushes and pulls.
+    fn transmitted(&self, transmission: TransmissionId) -> f64;
 
     /// Driving moment on the drive's link (N m), from the motor's impulse in the last step.
     fn torque(&self, drive: usize) -> f64;

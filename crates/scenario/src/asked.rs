@@ -196,7 +196,7 @@ impl Start<'_> {
         let way = crank - self.crank;
         let has_higher = self.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
         let size = self.mechanism.size();
-        let turned = way.abs() * self.drives.crank().input.reach(size) / size;
+        let turned = way.abs() / self.drives.crank().input.span(size);
         let steps = if has_higher { (turned / STEP).ceil().larger(1.0) as usize } else { 1 };
         let mut pose = pose.clone();
         for step in 1..=steps {

@@ -37,7 +37,7 @@ pub struct Draft {
     pub gravity: Vec2,
     /// Input at t = 0 (SI).
     pub crank: f64,
-    /// The start of each group, in the order of the structure. If the file states no valid start, the start is the
+    /// The start of each group of the structure at the start, in its order. If the file states no valid start, the start is the
     /// default.
     pub starts: Vec<StartGroup>,
     /// The mistakes of the file, if there are any.
@@ -97,6 +97,7 @@ fn read(root: &mut TomlTable, asked: &StartRequest) -> Result<Draft> {
     let starts = structure.as_ref().map_or_else(
         |_| Vec::new(),
         |structure| {
+            let structure = structure.at_start();
             let wanted = asked.groups(&mechanism, structure).unwrap_or_default();
             let none = vec![StartGroup::default(); structure.groups.len()];
             let given =
@@ -145,5 +146,6 @@ fn with_places(mechanism: &Mechanism) -> Mechanism {
     for link in &mut links {
         link.points.retain(|point| is_somewhere(point.local));
     }
-    Mechanism::unchecked(links, mechanism.joints().to_vec())
+    let placed = Mechanism::unchecked(links, mechanism.joints().to_vec());
+    placed.clone().with_transmissions(mechanism.transmission_designs()).unwrap_or(placed)
 }

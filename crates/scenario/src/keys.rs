@@ -8,7 +8,10 @@ mod tests;
 
 pub use key::{FileKey, Section, ValueKind};
 
-use super::{clearance, engine, formula, grid, joints, links, loads, motion, motor, oracle, settings, start, stated};
+use super::{
+    clearance, engine, formula, grid, joints, links, loads, motion, motor, oracle, settings, start, stated,
+    transmissions,
+};
 
 /// All sections.
 pub fn sections() -> impl Iterator<Item = &'static Section> {
@@ -16,6 +19,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         stated::SECTIONS,
         links::SECTIONS,
         joints::SECTIONS,
+        transmissions::SECTIONS,
         motion::SECTIONS,
         motor::SECTIONS,
         loads::SECTIONS,

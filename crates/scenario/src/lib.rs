@@ -39,6 +39,7 @@ mod table_file;
 pub mod templates;
 #[cfg(test)]
 mod tests;
+mod transmissions;
 pub mod unit;
 pub mod words;
 
@@ -67,7 +68,7 @@ use linkage::drive::Drives;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::mechanism::assembly::{ConfigurationChoice, group_of};
-use linkage::mechanism::{Mechanism, StartGroup, Structure};
+use linkage::mechanism::{GroupId, Mechanism, StartGroup, Structure};
 
 /// A scenario: the problem, the engine's settings, and the published numbers with which the result is compared.
 ///
@@ -105,9 +106,10 @@ pub struct Scenario {
     pub formulas: Formulas,
     /// Outlines and the question about distances between them, if the scenario asks this question.
     pub clearance: Option<ClearanceQuestion>,
-    /// The start that the file requests for each group, in the order of the structure.
+    /// The start that the file requests for each group of the structure at the start, in its order
+    /// ([`Structure::at_start`]).
     pub starts: Vec<StartGroup>,
-    /// How each group was placed at the start, in the order of the structure.
+    /// How each of these groups was placed at the start.
     pub choices: Vec<ConfigurationChoice>,
 }
 
@@ -224,11 +226,12 @@ impl Scenario {
             path: PathBuf::new(),
             text: String::new(),
             choices: case
-                .modes
-                .iter()
-                .map(|&mode| ConfigurationChoice { mode, nearest_m: None, next_m: None })
+                .structure
+                .modes_at_start(&case.modes)
+                .into_iter()
+                .map(|mode| ConfigurationChoice { mode, nearest_m: None, next_m: None })
                 .collect(),
-            starts: vec![StartGroup::default(); case.structure.groups.len()],
+            starts: vec![StartGroup::default(); case.structure.at_start().groups.len()],
             case,
             engine: EngineSettings::default(),
             engine_rel: settings::ENGINE_REL,
@@ -263,6 +266,14 @@ impl Scenario {
         Ok(self)
     }
 
+    /// How a group of the case was placed at the start; `None` for a group with transmissions.
+    #[must_use]
+    pub fn choice(&self, group: GroupId) -> Option<&ConfigurationChoice> {
+        let structure = &self.case.structure;
+        let at_start = structure.at_start().groups.find(|own| *own == structure.groups[group])?;
+        self.choices.get(at_start.index())
+    }
+
     /// The same scenario with every drive in its nominal motion, for questions about crank angles.
     #[must_use]
     pub fn nominal(self) -> Scenario {
@@ -295,14 +306,17 @@ fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<
         unreachable!("what is missing has ended the reading");
     };
     let structure = structure(&stated.mechanism, drives).map_err(in_file)?;
+    let (mechanism, at_start) = (&stated.mechanism, structure.at_start());
     // Errors of a requested start are returned without a position in the file, because the caller requests the start.
-    let groups = asked.groups(&stated.mechanism, &structure)?;
-    let mechanism = &stated.mechanism;
-    let starts = start::groups(start, stated.groups, mechanism, &structure, &groups, lists).map_err(in_file)?;
-    let placing =
-        asked::Start { mechanism, structure: &structure, drives, crank: stated.crank, starts: &starts, lists };
+    let groups = asked.groups(mechanism, at_start)?;
+    if drives.crank().start != stated.crank && !mechanism.transmissions().is_empty() {
+        let message = sentences::THE_START_OF_TRANSMISSIONS_IS_THAT_OF_THE_FILE;
+        return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::CHANGE_THE_STARTS_IN_THE_FILE));
+    }
+    let starts = start::groups(start, stated.groups, mechanism, at_start, &groups, lists).map_err(in_file)?;
+    let placing = asked::Start { mechanism, structure: at_start, drives, crank: stated.crank, starts: &starts, lists };
     let placed = placing.placed(drives.crank().start, &groups).map_err(|error| {
-        let own = group_of(mechanism, &structure, &error);
+        let own = group_of(mechanism, at_start, &error);
         if groups.iter().any(|(index, _)| own == Some(*index)) { error } else { in_file(error) }
     })?;
     stated.groups = Vec::new();
@@ -327,7 +341,7 @@ fn finished(
     let (mechanism, drives) = (stated.mechanism, stated.drives.expect("what is missing has ended the reading"));
     let (own_crank, crank) = (stated.crank, drives.crank().start);
     let (starts, choices, undecided) = (placed.starts, placed.choices, placed.undecided);
-    let modes = choices.iter().map(|choice| choice.mode).collect();
+    let modes = structure.modes(&choices.iter().map(|choice| choice.mode).collect::<Vec<_>>());
     let start = placed.pose;
     let (loads, gravity, grid, wanted) = (stated.loads, stated.gravity, stated.grid, Wanted::ALL);
     if drives.crank().input != Input::Angle

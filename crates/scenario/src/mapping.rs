@@ -78,12 +78,12 @@ impl Size {
 pub const INSTANTS: [(&str, f64, Option<Input>); 8] = [
     ("time_s", 1.0, None),
     ("time_ms", 1e-3, None),
-    ("crank_rad", 1.0, Some(Input::Angle)),
-    ("crank_deg", DEGREE, Some(Input::Angle)),
-    ("joint_rad", 1.0, Some(Input::Turn)),
-    ("joint_deg", DEGREE, Some(Input::Turn)),
-    ("slide_m", 1.0, Some(Input::Slide)),
-    ("slide_mm", 1e-3, Some(Input::Slide)),
+    (Input::Angle.key(), 1.0, Some(Input::Angle)),
+    (Input::Angle.shown_in().1, DEGREE, Some(Input::Angle)),
+    (Input::Turn.key(), 1.0, Some(Input::Turn)),
+    (Input::Turn.shown_in().1, DEGREE, Some(Input::Turn)),
+    (Input::Slide.key(), 1.0, Some(Input::Slide)),
+    (Input::Slide.shown_in().1, 1e-3, Some(Input::Slide)),
 ];
 /// One degree (rad).
 const DEGREE: f64 = std::f64::consts::PI / 180.0;

@@ -75,7 +75,8 @@ pub fn drives(
     let (count, whole) = (tables.len(), faults.whole);
     for (index, mut table) in tables.into_iter().enumerate() {
         let own = |table: &mut TomlTable| {
-            let mut drive = drive(table, mechanism, &drives, (crank, asked), whole)?;
+            let first_drive = (index == 0).then_some((crank, asked));
+            let mut drive = drive(table, mechanism, &drives, first_drive, whole)?;
             check_beside(table, &drive, &drives)?;
             if index == 0 {
                 first = drive.start;
@@ -128,14 +129,14 @@ fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()
     Ok(())
 }
 
-/// Reads a drive. `before` are the drives already read. `crank` is the stated angle of a crank as the first drive.
-/// `asked` replaces the start of the first drive.
+/// Reads a drive. `before` are the drives already read. `first` is given for the first drive: the stated angle of a
+/// crank, and the request that replaces the start.
 /// If the mechanism is `whole`, all its joints are known.
 fn drive(
     table: &mut TomlTable,
     mechanism: &Mechanism,
     before: &[Drive],
-    (crank, asked): (Option<f64>, &StartRequest),
+    first: Option<(Option<f64>, &StartRequest)>,
     whole: bool,
 ) -> Result<Drive> {
     let name = table.string("joint")?;
@@ -150,13 +151,12 @@ fn drive(
         Some(joint) => Drive::of_joint(joint, before, is_free),
         None => (guessed(table), LinkId(1)),
     };
-    let is_in_start = before.is_empty() && input == Input::Angle;
-    let stated = match is_in_start {
+    let stated = match first {
         // If the angle is missing, the error is in `[start]`.
-        true => crank.unwrap_or_default(),
-        false => table.quantity("start", of_input(input), Sign::Any)?,
+        Some((crank, _)) if input == Input::Angle => crank.unwrap_or_default(),
+        Some(_) | None => table.quantity("start", of_input(input), Sign::Any)?,
     };
-    let asked = asked.start(input).filter(|_| before.is_empty());
+    let asked = first.and_then(|(_, asked)| asked.start(input));
     let law = law(table, input.at(asked.unwrap_or(stated)));
     if law.is_err() && whole && known.is_none() {
         let missing = unknown(table);

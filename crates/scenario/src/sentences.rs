@@ -7,6 +7,8 @@ linkage::sentences! {
     // lib.rs
     a_table_of_a_load_is_over_the_crank(sort, noun) = "a load of type {sort} is a table over the crank angle, but the input of the first drive is a {noun}";
     GIVE_THE_LOAD_A_CONSTANT = "give the load a constant value, or drive the mechanism at a crank";
+    THE_START_OF_TRANSMISSIONS_IS_THAT_OF_THE_FILE = "the starts of the transmissions belong to the start of the first drive that the file states";
+    CHANGE_THE_STARTS_IN_THE_FILE = "change both in the file, or ask for a grid from another input";
     // motion.rs
     a_motor_needs_a_crank(noun) = "the motor drives a crank, but the input of the first drive is a {noun}";
     TAKE_MOTOR_OUT_OR_DRIVE = "remove `[motor]`, or drive the mechanism at a crank";
@@ -435,4 +437,22 @@ linkage::sentences! {
     THERE_IS_NONE_THAT_COULD = "no name is possible here";
     did_you_mean_4(quote, near) = "did you mean {quote}{near}{quote}?";
     it_is_none_of_more_than_names(most) = "it is not among the more than {most} names that are allowed here";
+    // transmissions.rs
+    IS_NO_TYPE_OF_TRANSMISSION = "is not a type of transmission";
+    found_links_but_a_transmission_has_two(links) = "found {links} links, but a transmission has two members";
+    NAME_TWO_WHEELS = "write `links = [\"pinion\", \"wheel\"]`";
+    the_start_joint_is_taken(joint, other) = "joint \"{joint}\" already fixes the start of transmission \"{other}\"";
+    the_start_has_units_of(family, joint, kind) = "the start is given by {family}, but joint \"{joint}\" is {kind}";
+    GIVE_AN_ANGLE_OR_A_SLIDE = "give the angle of a revolute joint (`start_deg`) or the slide of a prismatic joint (`start_mm`)";
+    NAME_ANOTHER_START_JOINT = "name another joint of a member or of the carrier with `start_joint`";
+    no_joint_connects_with_the_carrier(link, carrier) = "no joint connects the second link \"{link}\" with the carrier \"{carrier}\"";
+    NAME_THE_START_JOINT = "name a joint of a member or of the carrier with `start_joint`";
+    IS_NO_CONTACT_OF_GEARS = "is not a contact of gears";
+    EQUAL_GEARS_CANNOT_BE_INTERNAL = "a ring gear has more teeth than its wheel";
+    GIVE_THE_RING_MORE_TEETH = "give the ring gear more teeth";
+    GIVE_THE_PITCH_RADII = "give the pitch radii of both wheels";
+    IS_NO_COURSE_OF_STRANDS = "is not a course of strands";
+    the_pressure_angle_is(degrees) = "the pressure angle is {degrees} deg";
+    GIVE_A_PRESSURE_ANGLE_BELOW_90 = "give a pressure angle below 90 deg; 20 deg is usual";
+    found_numbers_for_two_wheels(key) = "`{key}` must have two positive numbers";
 }

@@ -136,8 +136,9 @@ pub fn also_missing(
     asked: impl FnOnce(&Structure) -> Vec<(GroupId, StartGroup)>,
 ) -> Option<Error> {
     let structure = Structure::of(mechanism, drives).ok()?;
-    let is_given = |index: GroupId| stated.iter().any(|own| group_of(&own.links, &structure) == Some(index));
-    missing(start, is_given, mechanism, &structure, &asked(&structure)).err()
+    let structure = structure.at_start();
+    let is_given = |index: GroupId| stated.iter().any(|own| group_of(&own.links, structure) == Some(index));
+    missing(start, is_given, mechanism, structure, &asked(structure)).err()
 }
 
 fn group(
@@ -218,11 +219,7 @@ pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result
 
 /// The assembly modes of a group of this kind that can be requested by name.
 fn modes_of(kind: GroupKind) -> &'static [AssemblyMode] {
-    match kind {
-        GroupKind::Rrr => &[AssemblyMode::Left, AssemblyMode::Right],
-        GroupKind::Rrp | GroupKind::Rpr => &[AssemblyMode::Ahead, AssemblyMode::Behind],
-        GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher | GroupKind::Driven => &[],
-    }
+    kind.modes().map_or(&[], |modes| modes)
 }
 
 fn foreign_mode(table: &TomlTable, asked: AssemblyMode, group: &Group) -> Error {

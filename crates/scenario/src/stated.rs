@@ -8,7 +8,7 @@ use super::keys::key::{Section, ValueKind, needed, optional};
 use super::reader::{Faults, TomlTable};
 use super::settings::{self, ENGINE_REL};
 use super::unit::ANGLE;
-use super::{clearance, grid, joints, links, loads, motion, start};
+use super::{clearance, grid, joints, links, loads, motion, start, transmissions};
 use crate::sentences;
 use linkage::case::Grid;
 use linkage::drive::{Drive, Drives, Load, MotionLaw};
@@ -27,6 +27,7 @@ pub const SECTIONS: &[Section] = &[Section::at("").with(&[
     needed("ground", ValueKind::Table).means("the frame"),
     needed("links", ValueKind::Table).means("moving links by name"),
     needed("joints", ValueKind::Tables).means("joints"),
+    optional("transmissions", ValueKind::Tables, "none").means("gear pairs, racks and belts"),
     needed("drive", ValueKind::TableOrTables).means("drives; the input of the first one identifies an instant"),
     optional("motor", ValueKind::Table, "none").means("motor of the crank"),
     optional("gravity", ValueKind::Table, "none").means("acceleration of gravity"),
@@ -83,6 +84,7 @@ impl<'a> FileSections<'a> {
         let (ground, links, joints) = (root.table("ground"), root.table("links"), root.tables("joints")?);
         let (drives, motor) = (root.needed_tables("drive"), root.optional_table("motor")?);
         let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
+        let transmissions = root.tables("transmissions")?;
         let (start, grid, channels) = (root.table("start"), root.table("grid"), root.optional_table("channels")?);
         let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
         let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
@@ -103,6 +105,7 @@ impl<'a> FileSections<'a> {
         let links = links::read(ground.ok(), links.ok(), &mut faults);
         let joints = joints::read(joints, &links, &mut faults);
         let mechanism = mechanism(links, joints, &mut faults);
+        let mechanism = transmissions::read(transmissions, mechanism, &mut faults);
         let first_input = drives.as_ref().ok().and_then(|drives| motion::first_input(drives, &mechanism));
         let (mut start, mut groups, mut crank) = (start.ok(), Vec::new(), None);
         if let Some(start) = &mut start {

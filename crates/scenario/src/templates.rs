@@ -37,6 +37,8 @@ pub static TEMPLATES: &[Template] = templates![
     "excavator",
     "scissor-lift",
     "toggle-press",
+    "geared-five-bar",
+    "planetary",
 ];
 
 /// The template with a name, in which `_` may replace `-`.

@@ -13,7 +13,7 @@ use linkage::input::Input;
 use linkage::math::{Vec2, cross};
 use linkage::mechanism;
 use linkage::mechanism::{
-    JointId, LinkId,
+    LinkId,
     spanning_tree::{SpanningTree, TreeBranch, coordinate},
 };
 use linkage::solver::State;
@@ -46,7 +46,7 @@ impl Linkage {
             Error::new(ErrorKind::Input, sentences::simbody_cannot_take_the_mechanism(&failure.message))
         };
         let mechanism = &case.mechanism;
-        let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
+        let driven = case.drives.joint_ids();
         let tree = SpanningTree::with(mechanism, &driven);
         let mut model = SimbodyModel::new(case.gravity.into());
         // Bodies are numbered in the order of the branches. The ground is 0 in Simbody and in the mechanism.

@@ -3,7 +3,7 @@
 use super::markup::escaped;
 use super::placed::Placed;
 use drawing::palette;
-use drawing::{Fill, Ink, Layer, Mark, MarkShape, Sketch};
+use drawing::{Fill, Ink, Layer, Mark, MarkRole, MarkShape, Sketch};
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkId, LinkPose};
 
@@ -98,7 +98,9 @@ fn element(mark: &Mark, unit: f64) -> String {
     let class = format!("class=\"{} {ink} {fill}\" stroke-width=\"{}\"", mark.role.name(), number(look.width));
     match &mark.shape {
         MarkShape::Circle { centre, radius } => {
-            let [x, y, r, ring] = [centre.x, centre.y, *radius, RING * radius].map(|own| number(own / unit));
+            // The engine's pins surround those of the reference; its wheels lie on them, dashed.
+            let ring = if mark.role == MarkRole::Wheel { *radius } else { RING * radius };
+            let [x, y, r, ring] = [centre.x, centre.y, *radius, ring].map(|own| number(own / unit));
             format!("<circle {class} cx=\"{x}\" cy=\"{y}\" r=\"{r}\" data-ring=\"{ring}\"/>")
         }
         MarkShape::Line { .. } | MarkShape::Arc { .. } => {

@@ -206,6 +206,7 @@ fn faults_in_every_shipped_scenario_are_named() {
         if links[link].mass > 0.0 && case.wanted.has(Stage::Reactions) {
             links[link].mass *= 1.05;
             let heavy = Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
+            let heavy = heavy.with_transmissions(case.mechanism.transmission_designs()).unwrap();
             let expected = format!("mass of {}: ", case.mechanism.links()[link].name);
             add("too heavy", &case.with(|parts| parts.mechanism = heavy).unwrap(), &expected);
         }

@@ -11,11 +11,12 @@ use toml_edit::{Item, TableLike, Value};
 use super::{SOURCE, files, loaded};
 
 /// Sections that describe a mechanism, its motion and its loads.
-const SECTIONS: [&str; 11] = [
+const SECTIONS: [&str; 12] = [
     "links.*",
     "links.*.points.*",
     "links.*.mass_centre",
     "joints",
+    "transmissions",
     "drive",
     "drive.points",
     "motor",

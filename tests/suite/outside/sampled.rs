@@ -192,6 +192,21 @@ impl Row<'_> {
             let (own, about) = self.on_frame(drive, *effort);
             take(own, about);
         }
+        for transmission in case.mechanism.transmissions() {
+            let transmitted = self.read(&format!("transmission.{}.force_N", transmission.name()));
+            let carrier = transmission.design.carrier;
+            let (sin, cos) = self.link(carrier).turn[0].sin_cos();
+            for (line, force) in transmission.lines.iter().zip(transmission.forces(transmitted)) {
+                let own = Vec2::new(
+                    cos * line.direction.x - sin * line.direction.y,
+                    sin * line.direction.x + cos * line.direction.y,
+                );
+                let members = transmission.design.links.into_iter().zip(line.feet).zip([-force, force]);
+                for ((_, foot), signed) in members.filter(|((link, _), _)| *link == GROUND) {
+                    take(own * signed, cross(self.point(JointSide { link: carrier, local: foot })[0], own * signed));
+                }
+            }
+        }
         let on_frame = loads.iter().filter(|own| own.0 == GROUND);
         on_frame.for_each(|(_, place, own, couple)| take(*own, cross(*place, *own) + couple));
         let by_reactions = [force.norm() / largest, moment.abs() / turning];

@@ -32,7 +32,7 @@ fn shipped() -> Vec<(String, Case)> {
 /// The equations along the tree in use, and along further trees with all links and all driven joints.
 /// The further trees are chosen so that every joint belongs to some tree.
 fn along_all_trees(case: &Case) -> Vec<(SpanningTree, NewtonEuler)> {
-    let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
+    let driven = case.drives.joint_ids();
     let masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
     let mut trees = vec![SpanningTree::with(&case.mechanism, &driven)];
     for tree in SpanningTree::covering(&case.mechanism, &case.wanted_reactions()) {
@@ -71,7 +71,20 @@ fn dense(case: &Case, state: &State) -> (Vec<Vec<f64>>, Vec<f64>) {
             }
         }
     }
-    let first = case.mechanism.equations();
+    for (index, transmission) in case.mechanism.transmissions().entries() {
+        let (column, carrier) =
+            (case.mechanism.row_of_transmission(index), &state.motions[transmission.design.carrier]);
+        let line = &transmission.lines[0];
+        let direction = carrier.arm(line.direction);
+        for ((link, foot), sign) in transmission.design.links.into_iter().zip(line.feet).zip([-1.0, 1.0]) {
+            let Some(row) = (3 * link.index()).checked_sub(3) else { continue };
+            let arm = carrier.point(foot) - state.motions[link].point(links[link].mass_centre);
+            matrix[row][column] = direction.x * sign;
+            matrix[row + 1][column] = direction.y * sign;
+            matrix[row + 2][column] = cross(arm, direction) * sign;
+        }
+    }
+    let first = case.mechanism.row_of_drive(0);
     for (column, drive) in (first..).zip(&case.drives) {
         let joint = &case.mechanism.joints()[drive.joint];
         if drive.input == Input::Angle {
@@ -140,7 +153,7 @@ fn flat(case: &Case, state: &State) -> Vec<f64> {
             Some(normal) => [force.dot(&normal), state.moments[index]],
         }
     });
-    joints.chain(state.torques.iter().copied()).collect()
+    joints.chain(state.transmitted.iter().copied()).chain(state.torques.iter().copied()).collect()
 }
 
 proptest! {

@@ -13,7 +13,7 @@ mod shaped;
 mod sliding;
 
 use crate::assur::groups::{SolutionPlan, Step};
-use body::Reactions;
+use body::{Reactions, Settled};
 use driving::Driving;
 use higher::Higher;
 use linkage::case::Case;
@@ -53,7 +53,7 @@ pub(super) struct Kinetostatics {
 impl Kinetostatics {
     /// Prepares the groups in reverse order, then the driving links.
     pub(super) fn of(case: &Case, plan: &SolutionPlan) -> Self {
-        let mut settled = vec![false; case.mechanism.joints().len()];
+        let mut settled = Settled::nothing(&case.mechanism);
         let mut parts = Vec::with_capacity(case.structure.groups.len());
         for (step, group) in case.structure.groups.entries().rev() {
             parts.push(match &plan.steps()[step] {
@@ -64,12 +64,12 @@ impl Kinetostatics {
                     Part::Sliding(Sliding::of(case, group, &settled))
                 }
             });
-            group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
+            settled.add_group(group);
         }
         let mut drivers = Vec::with_capacity(case.drives.len());
         for (index, driver) in case.structure.leading().rev() {
             drivers.push(Driving::of(case, driver.link, driver.joint, index, &settled));
-            settled[driver.joint] = true;
+            settled.add(driver.joint);
         }
         let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
         let resistances = case.loads.iter().map(Load::resistance).collect::<Option<Vec<_>>>().map(merged);
@@ -102,8 +102,8 @@ impl Kinetostatics {
 
     fn balance(&mut self, case: &Case, plan: &SolutionPlan, state: &mut State) {
         self.tally.one(Count::Forces);
-        let State { motions, forces, moments, torques, .. } = state;
-        let reactions = &mut Reactions { forces, moments, efforts: torques, loads: &self.loads };
+        let State { motions, forces, moments, transmitted, torques, .. } = state;
+        let reactions = &mut Reactions { forces, moments, transmitted, efforts: torques, loads: &self.loads };
         for part in &mut self.parts {
             match part {
                 Part::Pinned(part) => {

@@ -297,11 +297,7 @@ impl<'a> PoseSolver<'a> {
     /// Those of [`PoseSolver::solve`].
     pub fn solve_row(&mut self, row: usize, deepest: Stage) -> Result<&State> {
         let grid = &self.case.grid;
-        if self.by_time {
-            return self.solve(grid.times[row], 1.0, 0.0, deepest);
-        }
-        let drive = self.case.crank().at(grid.times[row]);
-        self.solve(grid.inputs[row], drive.rate, drive.acceleration, deepest)
+        self.solve_when(grid.times[row], grid.inputs[row], deepest)
     }
 
     /// The state at an input of the first drive, with the rates of all drives at that instant. The law of the first drive
@@ -310,12 +306,16 @@ impl<'a> PoseSolver<'a> {
     /// # Errors
     /// Those of [`PoseSolver::solve`].
     pub fn solve_at(&mut self, input: f64, deepest: Stage) -> Result<&State> {
-        let t = self.case.crank().time_of(input);
-        let drive = self.case.crank().at(t);
-        match self.by_time {
-            true => self.solve(t, 1.0, 0.0, deepest),
-            false => self.solve(input, drive.rate, drive.acceleration, deepest),
+        self.solve_when(self.case.crank().time_of(input), input, deepest)
+    }
+
+    /// The state at time `t` (s), at which the first drive has this input.
+    fn solve_when(&mut self, t: f64, input: f64, deepest: Stage) -> Result<&State> {
+        if self.by_time {
+            return self.solve(t, 1.0, 0.0, deepest);
         }
+        let drive = self.case.crank().at(t);
+        self.solve(input, drive.rate, drive.acceleration, deepest)
     }
 
     /// The state at an input of the first drive, for a list of configurations.
@@ -324,8 +324,7 @@ impl<'a> PoseSolver<'a> {
     pub(crate) fn solve_place(&mut self, input: f64, deepest: Stage) -> Result<&State> {
         let drive = self.case.crank();
         if self.by_time {
-            let t = if input == drive.start { 0.0 } else { drive.time_of(input) };
-            return self.solve(t, 1.0, 0.0, deepest);
+            return self.solve_at(input, deepest);
         }
         let omega = if self.case.is_steady() { drive.at(drive.time_of(input)).rate } else { drive.top_speed() };
         self.solve(input, omega, 0.0, deepest)

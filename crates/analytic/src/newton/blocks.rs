@@ -43,7 +43,7 @@ impl Blocks {
         let mut parts: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
         let rows_of = |joint: JointId| case.mechanism.rows(joint);
         let columns_of = |link: LinkId| 3 * (link.index() - 1)..3 * link.index();
-        let row_of_drive = |index: usize| case.mechanism.equations() + index;
+        let row_of_drive = |index: usize| case.mechanism.row_of_drive(index);
         for (index, driver) in case.structure.leading() {
             let rows = rows_of(driver.joint).chain([row_of_drive(index)]).collect();
             parts.push((rows, columns_of(driver.link).collect()));
@@ -51,7 +51,8 @@ impl Blocks {
         for group in &case.structure.groups {
             let given = case.drives.iter().enumerate().filter(|(_, drive)| group.given.contains(&drive.joint));
             let joints = group.outer.iter().chain(&group.inner).flat_map(|&joint| rows_of(joint));
-            let rows = joints.chain(given.map(|(index, _)| row_of_drive(index))).collect();
+            let trains = group.trains.iter().map(|&id| case.mechanism.row_of_transmission(id));
+            let rows = joints.chain(given.map(|(index, _)| row_of_drive(index))).chain(trains).collect();
             parts.push((rows, group.links.iter().flat_map(|&link| columns_of(link)).collect()));
         }
         let n = 3 * (case.mechanism.links().len() - 1);

@@ -44,8 +44,7 @@ impl System<'_> {
                         self.jacobian.add(row, column + 2, axis.dot(&turned(arm)) * sign);
                     }
                 }
-                let first = self.centre(joint.first.link) + self.arm(joint.first.link, joint.first.local);
-                self.residual[row] = axis.dot(&(place - first)) - at;
+                self.residual[row] = self.slide(joint) - at;
             }
         }
     }
@@ -54,6 +53,12 @@ impl System<'_> {
     fn slide_axis(&self, joint: &Joint) -> (Vec2, Vec2) {
         let axis = self.along(joint.first.link, joint.axis_on(joint.first.link).expect("the joint slides"));
         (axis, self.centre(joint.second.link) + self.arm(joint.second.link, joint.second.local))
+    }
+
+    /// Slide of a prismatic joint (m).
+    pub(super) fn slide(&self, joint: &Joint) -> f64 {
+        let (axis, place) = self.slide_axis(joint);
+        axis.dot(&(place - self.centre(joint.first.link) - self.arm(joint.first.link, joint.first.local)))
     }
 
     /// Right-hand side of a drive's equation for the accelerations, if the input has the acceleration `of_input`.

@@ -64,7 +64,7 @@ impl<'a> Embedded<'a> {
 
     fn find_columns(&mut self) {
         let n = self.system.q.len();
-        let first = self.system.case.mechanism.equations();
+        let first = self.system.case.mechanism.row_of_drive(0);
         for (index, column) in self.columns.chunks_mut(n).enumerate() {
             column.fill(0.0);
             column[first + index] = 1.0;

@@ -63,7 +63,7 @@ impl System<'_> {
                 // Between the two times the drive may move forwards and back. Its top speed bounds the total angle.
                 None => drive.top_speed().abs() * (t - self.time).abs(),
             };
-            way * drive.input.reach(size) / size
+            way / drive.input.span(size)
         };
         let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
         // Refuse too many turns. If a law reaches its top speed only for a moment, this check is the only limit of
@@ -151,7 +151,10 @@ impl System<'_> {
         for (index, joint) in case.mechanism.joints().entries() {
             self.assemble_joint(index, joint);
         }
-        let first = case.mechanism.equations();
+        for (index, transmission) in case.mechanism.transmissions().entries() {
+            self.assemble_transmission(index, transmission);
+        }
+        let first = case.mechanism.row_of_drive(0);
         for (row, drive) in self.drives() {
             self.assemble_drive(row, drive, self.inputs[row - first].value);
         }
@@ -163,7 +166,7 @@ impl System<'_> {
         self.tally.one(Count::Accelerations);
         self.rate.fill(0.0);
         let case = self.case;
-        let first = case.mechanism.equations();
+        let first = case.mechanism.row_of_drive(0);
         for (index, input) in self.inputs.iter().enumerate() {
             self.rate[first + index] = input.rate;
         }
@@ -173,6 +176,9 @@ impl System<'_> {
         }
         for (index, joint) in case.mechanism.joints().entries() {
             self.put_gamma(index, joint);
+        }
+        for (index, transmission) in case.mechanism.transmissions().entries() {
+            self.second[case.mechanism.row_of_transmission(index)] = self.transmission_gamma(transmission);
         }
         self.jacobian.solve(&mut self.second);
     }
@@ -198,6 +204,9 @@ impl System<'_> {
         }
         self.tally.one(Count::Forces);
         self.jacobian.solve_transposed(&mut self.lambda);
+        if !self.case.mechanism.transmissions().is_empty() {
+            self.change_lines();
+        }
     }
 
     /// Refuses a pose beyond a singular pose: every block must keep the sign of its determinant.
@@ -257,6 +266,9 @@ impl System<'_> {
         }
         for (index, joint) in self.case.mechanism.joints().entries() {
             (state.forces[index], state.moments[index]) = self.reaction(index, joint);
+        }
+        for (index, transmitted) in state.transmitted.entries_mut() {
+            *transmitted = self.lambda[self.case.mechanism.row_of_transmission(index)];
         }
         for ((row, _), torque) in self.drives().zip(&mut state.torques) {
             *torque = self.lambda[row];

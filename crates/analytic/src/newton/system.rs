@@ -6,7 +6,7 @@ use super::blocks::Blocks;
 use linkage::case::Case;
 use linkage::drive::{Drive, InputState, Wrench};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::{GROUND, Joint, JointSide, LinkId};
+use linkage::mechanism::{GROUND, Joint, JointSide, LinkId, PerTransmission};
 use linkage::trajectory::Stage;
 use linkage::work::WorkTally;
 
@@ -24,10 +24,14 @@ pub(super) struct System<'a> {
     pub(super) rate: Vec<f64>,
     pub(super) second: Vec<f64>,
     /// Multipliers of the joints, in the order of [`Mechanism::rows`](linkage::mechanism::Mechanism::rows), then those
-    /// of the drives.
+    /// of the transmissions, then those of the drives.
     pub(super) lambda: Vec<f64>,
+    /// Changes of the multipliers by the second lines of action of the transmissions.
+    pub(super) beside: Vec<f64>,
     /// For every joint: see [`twist`].
     pub(super) twists: Vec<f64>,
+    /// For every transmission: the sum of its factors times coordinates in the start pose.
+    pub(super) phases: PerTransmission<f64>,
     pub(super) jacobian: Blocks,
     /// Signs of the determinants of the Jacobian's blocks on the followed branch.
     pub(super) branch: Vec<f64>,
@@ -58,7 +62,7 @@ impl<'a> System<'a> {
             q.extend([centre.x, centre.y, pose.angle]);
         }
         let zeros = || vec![0.0; n];
-        System {
+        let mut system = System {
             case,
             stage: case.wanted.deepest(),
             time: 0.0,
@@ -66,6 +70,8 @@ impl<'a> System<'a> {
             rate: zeros(),
             second: zeros(),
             lambda: zeros(),
+            beside: zeros(),
+            phases: PerTransmission::default(),
             twists: case.mechanism.joints().iter().map(|joint| twist(case, joint)).collect(),
             jacobian: Blocks::of(case),
             branch: Vec::new(),
@@ -80,7 +86,9 @@ impl<'a> System<'a> {
             settled: SETTLED,
             tally: WorkTally::default(),
             inputs: case.drives.iter().map(|drive| by_law(drive, 0.0)).collect(),
-        }
+        };
+        system.phases = case.mechanism.transmissions().iter().map(|own| system.coupled(own)).collect();
+        system
     }
 
     /// Sets the time, and sets the driving links to the values of their laws at that time.
@@ -107,7 +115,7 @@ impl<'a> System<'a> {
 
     /// The drives with their rows, which come after those of the joints.
     pub(super) fn drives(&self) -> impl Iterator<Item = (usize, &'a Drive)> + use<'a> {
-        let first = self.case.mechanism.equations();
+        let first = self.case.mechanism.row_of_drive(0);
         self.case.drives.iter().enumerate().map(move |(index, drive)| (first + index, drive))
     }
 
@@ -143,11 +151,16 @@ impl<'a> System<'a> {
 
     /// Velocity of a joint's position on a link.
     pub(super) fn velocity(&self, side: JointSide) -> Vec2 {
-        if side.link == GROUND {
+        self.velocity_at(side.link, self.arm(side.link, side.local))
+    }
+
+    /// Velocity of the point of a link at the vector `arm` from its mass centre.
+    pub(super) fn velocity_at(&self, link: LinkId, arm: Vec2) -> Vec2 {
+        if link == GROUND {
             return Vec2::zeros();
         }
-        let i = 3 * (side.link.index() - 1);
-        Vec2::new(self.rate[i], self.rate[i + 1]) + turned(self.arm(side.link, side.local)) * self.rate[i + 2]
+        let i = 3 * (link.index() - 1);
+        Vec2::new(self.rate[i], self.rate[i + 1]) + turned(arm) * self.rate[i + 2]
     }
 }
 

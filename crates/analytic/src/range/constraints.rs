@@ -1,6 +1,6 @@
 //! Constraint equations of a mechanism without its drive. There is one equation fewer than coordinates, so that the
 //! solutions are curves.
-//! The coordinate of a driven joint between moving links, and every driven slide, is an additional coordinate.
+//! The coordinate of a driven joint between moving links, and every driven or geared slide, is an additional coordinate.
 //!
 //! The coordinates of every moving link are x and y of the middle of its joints, and its angle.
 //! x and y are divided by the size of the mechanism, so that they are comparable with angles.
@@ -8,18 +8,21 @@
 
 use linkage::input::Input;
 use linkage::math::{ColumnVector, Matrix, Vec2, cross, rotated, unit};
-use linkage::mechanism::{GROUND, Group, Joint, JointId, JointSide, LinkId, LinkPose, Mechanism, Pose};
+use linkage::mechanism::{Coordinate, GROUND, Group, Joint, JointId, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
-/// A driven coordinate that is geared to that of the first drive.
-#[derive(Clone, Copy, Debug)]
+/// A linear equation of coordinates: a drive that is geared to the first drive, or a transmission.
+#[derive(Clone, Debug)]
 pub(super) struct Gearing {
-    /// Indices of the two coordinates.
-    pub(super) crank: usize,
-    pub(super) own: usize,
-    /// Change of the coordinate per change of the first drive's coordinate, and the coordinate where that of the first
-    /// drive is zero.
-    pub(super) ratio: f64,
-    pub(super) offset: f64,
+    /// Indices of the coordinates and their factors.
+    pub(super) terms: Vec<(usize, f64)>,
+    /// Sum of the factors times coordinates.
+    pub(super) sum: f64,
+}
+
+impl Gearing {
+    fn at(&self, q: &ColumnVector) -> f64 {
+        self.terms.iter().map(|&(index, factor)| factor * q[index]).sum()
+    }
 }
 
 /// A joint whose coordinate is an additional coordinate of the equations. It is not the joint of a crank.
@@ -35,6 +38,7 @@ pub(super) struct Constraints<'a> {
     origin: Vec2,
     /// Length by which all lengths are divided (m).
     size: f64,
+    /// The transmissions, then the drives.
     gearings: Vec<Gearing>,
     given: Vec<Given>,
     /// For every link: middle of its joints, in the link's frame (m).
@@ -50,24 +54,37 @@ pub(super) struct Equations {
 
 impl<'a> Constraints<'a> {
     /// The equations of `mechanism`, with coordinates relative to the position `origin` (m).
-    pub(super) fn of(mechanism: &'a Mechanism, origin: Vec2, given: Vec<Given>) -> Self {
+    pub(super) fn of(mechanism: &'a Mechanism, origin: Vec2, mut given: Vec<Given>) -> Self {
         let middle = |link: LinkId| {
             let locals: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
             locals.iter().sum::<Vec2>() / locals.len().max(1) as f64
         };
-        Constraints {
-            mechanism,
-            origin,
-            size: mechanism.size(),
-            gearings: Vec::new(),
-            given,
-            middles: mechanism.links().ids().map(middle).collect(),
+        let (size, of_links) = (mechanism.size(), 3 * (mechanism.links().len() - 1));
+        let mut gearings = Vec::new();
+        for transmission in mechanism.transmissions() {
+            let terms = transmission.terms.iter().map(|&(of, factor)| match of {
+                Coordinate::Angle(link) => (Self::angle(link), factor / size),
+                Coordinate::Slide(joint) => {
+                    let known = given.iter().position(|given| given.0 == joint);
+                    let number = known.unwrap_or_else(|| {
+                        given.push(Given(joint));
+                        given.len() - 1
+                    });
+                    (of_links + number, factor)
+                }
+            });
+            gearings.push(Gearing { terms: terms.collect(), sum: 0.0 });
         }
+        let middles = mechanism.links().ids().map(middle).collect();
+        Constraints { mechanism, origin, size, gearings, given, middles }
     }
 
-    /// The same with these gearings between coordinates.
-    pub(super) fn geared(self, gearings: Vec<Gearing>) -> Self {
-        Constraints { gearings, ..self }
+    /// The same with these gearings of drives; the transmissions have their phases in the pose `start`.
+    pub(super) fn geared(mut self, gearings: Vec<Gearing>, start: &Pose) -> Self {
+        let q = self.coordinates_of(start);
+        self.gearings.iter_mut().for_each(|gearing| gearing.sum = gearing.at(&q));
+        self.gearings.extend(gearings);
+        self
     }
 
     /// Number of coordinates of the links: three per moving link.
@@ -106,8 +123,7 @@ impl<'a> Constraints<'a> {
         for (number, given) in self.given.iter().enumerate() {
             let joint = &self.mechanism.joints()[given.0];
             let input = if joint.slides() { Input::Slide } else { Input::Turn };
-            q[self.of_given(number)] =
-                joint.coordinate(joint.second.link, input, pose) / (self.size / input.reach(self.size));
+            q[self.of_given(number)] = joint.coordinate(joint.second.link, input, pose) / input.span(self.size);
         }
         q
     }
@@ -143,10 +159,9 @@ impl<'a> Constraints<'a> {
             }
         }
         for (index, gearing) in self.gearings.iter().enumerate() {
-            let (row, own, crank) = (self.mechanism.equations() + index, gearing.own, gearing.crank);
-            equations.residual[row] = q[own] - gearing.ratio * q[crank] - gearing.offset;
-            equations.jacobian[(row, own)] += 1.0;
-            equations.jacobian[(row, crank)] -= gearing.ratio;
+            let row = self.mechanism.equations() + index;
+            equations.residual[row] = gearing.at(q) - gearing.sum;
+            gearing.terms.iter().for_each(|&(column, factor)| equations.jacobian[(row, column)] += factor);
         }
         for number in 0..self.given.len() {
             self.coordinate(number, q, &mut equations);
@@ -237,15 +252,25 @@ impl<'a> Constraints<'a> {
         (Vec2::new(q[at], q[at + 1]) + arm, arm)
     }
 
-    /// The part of a Jacobian for the joints and links of a group. The part is square. Its columns are all x and y
-    /// first, then all angles.
+    /// The part of a Jacobian for the joints, transmissions and links of a group. The part is square. Its columns are all x
+    /// and y first, then all angles, then the slides of racks.
     pub(super) fn block(&self, jacobian: &Matrix, group: &Group) -> Matrix {
-        let joints = group.inner.iter().chain(&group.outer);
-        let given = (0..self.given.len()).filter(|&number| group.given.contains(&self.given[number].0));
-        let rows = joints.flat_map(|&joint| self.mechanism.rows(joint));
-        let rows: Vec<usize> = rows.chain(given.map(|number| self.row_of_given(number))).collect();
+        let joints = || group.inner.iter().chain(&group.outer);
+        let is_known = |number: usize| group.given.contains(&self.given[number].0);
+        let trains = || group.trains.iter().map(|id| id.index());
+        let slides = |number: usize| {
+            let is_term =
+                |gearing: usize| self.gearings[gearing].terms.iter().any(|(own, _)| *own == self.of_given(number));
+            !is_known(number) && joints().any(|joint| *joint == self.given[number].0) && trains().any(is_term)
+        };
+        let racks: Vec<usize> = (0..self.given.len()).filter(|&number| slides(number)).collect();
+        let given = (0..self.given.len()).filter(|&number| is_known(number)).chain(racks.iter().copied());
+        let rows = joints().flat_map(|&joint| self.mechanism.rows(joint));
+        let rows = rows.chain(given.map(|number| self.row_of_given(number)));
+        let rows: Vec<usize> = rows.chain(trains().map(|gearing| self.mechanism.equations() + gearing)).collect();
         let places = group.links.iter().flat_map(|&link| [Self::angle(link) - 2, Self::angle(link) - 1]);
-        let columns: Vec<usize> = places.chain(group.links.iter().map(|&link| Self::angle(link))).collect();
+        let columns = places.chain(group.links.iter().map(|&link| Self::angle(link)));
+        let columns: Vec<usize> = columns.chain(racks.iter().map(|&number| self.of_given(number))).collect();
         Matrix::from_fn(rows.len(), columns.len(), |r, c| jacobian[(rows[r], columns[c])])
     }
 }

@@ -14,7 +14,7 @@ use linkage::input::Input;
 /// [`ErrorKind::Unsupported`] if one of several speeds changes.
 pub(super) fn gearings(case: &Case, constraints: &Constraints) -> Result<(usize, Vec<Gearing>)> {
     let size = case.mechanism.size();
-    let unit = |drive: &Drive| size / drive.input.reach(size);
+    let unit = |drive: &Drive| drive.input.span(size);
     let mut given = 0;
     let indices: Vec<usize> = case
         .drives
@@ -36,7 +36,7 @@ pub(super) fn gearings(case: &Case, constraints: &Constraints) -> Result<(usize,
     let gearing = |((drive, ratio), &own): ((&Drive, f64), &usize)| {
         let ratio = ratio * unit(crank) / unit(drive);
         let [start, of_crank] = [drive, crank].map(|drive| drive.coordinate(drive.start) / unit(drive));
-        Gearing { crank: indices[0], own, ratio, offset: start - ratio * of_crank }
+        Gearing { terms: vec![(own, 1.0), (indices[0], -ratio)], sum: start - ratio * of_crank }
     };
     Ok((indices[0], further.map(gearing).collect()))
 }

@@ -51,6 +51,8 @@ const MOST_POINTS: usize = 200_000;
 const SQUARE: f64 = 1e-3;
 /// If the crank has turned this number of turns, the search for a return to the first pose ends.
 const MOST_TURNS: i32 = 12;
+/// The same with transmissions: wheels with few common divisors return late.
+const MOST_GEARED_TURNS: i32 = 100;
 
 /// A pose on the curve.
 #[derive(Clone, Debug)]
@@ -124,13 +126,13 @@ impl<'a> Tracker<'a> {
         let constraints =
             Constraints::of(&case.mechanism, case.start.0[other.link].point(other.local), given.collect());
         let (crank, gearings) = gearings(case, &constraints)?;
-        let constraints = constraints.geared(gearings);
+        let constraints = constraints.geared(gearings, &case.start);
         let q = constraints.coordinates_of(&case.start);
         let mut tracker = Tracker {
             case,
             constraints,
             crank,
-            unit: case.mechanism.size() / drive.input.reach(case.mechanism.size()),
+            unit: drive.input.span(case.mechanism.size()),
             signs: vec![1.0; case.structure.groups.len()],
             weakest: RefCell::new(any_direction(q.len())),
             over: OnceCell::new(),
@@ -322,8 +324,11 @@ impl<'a> Tracker<'a> {
                     return Ok(Track { points, end: End::Closed(turns) });
                 }
                 turns += 1;
-                if turns > MOST_TURNS {
-                    break;
+                let is_geared = !self.case.mechanism.transmissions().is_empty();
+                let most = if is_geared { MOST_GEARED_TURNS } else { MOST_TURNS };
+                if turns > most {
+                    let message = sentences::the_mechanism_does_not_return(&most);
+                    return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::ASK_FOR_INSTANTS_OF_A_GRID));
                 }
             }
             let is_near = next.sigma < MEET;

@@ -23,5 +23,5 @@ pub fn of_known_forces(case: &Case, state: &State) -> f64 {
 /// Ideal joints do no work, so the calculation does not need reactions. The crank must turn.
 #[must_use]
 pub fn balancing_moment(case: &Case, state: &State) -> f64 {
-    -of_known_forces(case, state) / case.drive_rate(case.crank(), &state.motions)
+    -of_known_forces(case, state) / case.state_in(&state.motions, &state.angles).rate
 }

@@ -8,6 +8,8 @@
 //!   The coordinate of a slide is that of the prismatic joint's channel.
 //! - A joint that closes a loop is a `connect` of two sites.
 //!   Its third row, along z, is zero in a planar mechanism: the row costs a little time and has no effect.
+//! - A transmission is a fixed tendon of constant length: the sum of coordinates times factors.
+//!   Its force acts as moments, so reactions of axles lack the radial part of tooth forces and the tension of strands.
 //! - A drive is a rotor ([`MjcfModel::rotor`]) on the driven hinge.
 //!   Its inertia is so large that the speed is practically constant: the speed changes by 1e-9 of its value per radian.
 //!   The speed is constant with any integrator and at any step.

@@ -2,6 +2,7 @@
 
 mod chain;
 mod four_bar;
+mod gears;
 mod long;
 mod random;
 mod settings;
@@ -16,6 +17,7 @@ pub static FAMILIES: &[StressFamily] = &[
     four_bar::TRANSMISSION,
     four_bar::SPEED,
     four_bar::SIZE,
+    gears::GEAR_RATIO,
     settings::STEP,
     settings::SWEEPS,
     long::STEPS,

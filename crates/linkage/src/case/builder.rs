@@ -8,8 +8,8 @@ use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, unit};
 use crate::mechanism::{
-    AssemblyMode, GROUND, Joint, JointKind, JointSide, Link, LinkId, Mechanism, Point, StartGroup, Structure,
-    first_pose,
+    AssemblyMode, GROUND, Joint, JointId, JointKind, JointSide, Link, LinkId, Mechanism, Point, StartGroup, Structure,
+    TransmissionDesign, TransmissionKind, first_pose,
 };
 
 /// A joint given by names of links and points.
@@ -20,6 +20,15 @@ struct Wish {
     sides: [[String; 2]; 2],
     /// Angles of the axis in the frames of both links (rad); prismatic joints only.
     axes: Option<[f64; 2]>,
+}
+
+/// A transmission given by names: of itself, of its members and carrier, and of the joint that gives its start.
+#[derive(Clone, Debug)]
+struct Coupling {
+    name: String,
+    kind: TransmissionKind,
+    links: [String; 3],
+    start: (String, f64),
 }
 
 /// Builds a [`Case`] from names and numbers (SI units).
@@ -51,6 +60,7 @@ pub struct CaseBuilder {
     links: Vec<Link>,
     masses: Vec<(String, f64, Vec2, f64)>,
     joints: Vec<Wish>,
+    transmissions: Vec<Coupling>,
     cranks: Vec<(String, f64, DriveMotion)>,
     motor: Option<Motor>,
     start: f64,
@@ -76,6 +86,7 @@ impl CaseBuilder {
             links: Vec::new(),
             masses: Vec::new(),
             joints: Vec::new(),
+            transmissions: Vec::new(),
             cranks: Vec::new(),
             motor: None,
             start: 0.0,
@@ -103,6 +114,14 @@ impl CaseBuilder {
         self
     }
 
+    /// Adds a point (m, in the link's frame) to a link that was added before.
+    #[must_use]
+    pub fn point(mut self, link: &str, name: &str, at: [f64; 2]) -> Self {
+        let own = self.links.iter_mut().filter(|own| own.name == link);
+        own.for_each(|own| own.points.push(Point { name: name.into(), local: at.into() }));
+        self
+    }
+
     /// Sets a link's mass (kg), mass centre in the link's frame (m) and moment of inertia about the mass centre (kg
     /// m^2).
     #[must_use]
@@ -127,6 +146,23 @@ impl CaseBuilder {
     fn joint(mut self, name: &str, sides: [(&str, &str); 2], axes: Option<[f64; 2]>) -> Self {
         let sides = sides.map(|(link, point)| [link.to_string(), point.to_string()]);
         self.joints.push(Wish { name: name.into(), sides, axes });
+        self
+    }
+
+    /// Adds a transmission between two links on the axles or guides of `carrier`.
+    /// At t = 0 the joint `start.0` has the coordinate `start.1`: the angle of its second link minus that of its first
+    /// link (rad), or the slide (m).
+    #[must_use]
+    pub fn transmission(
+        mut self,
+        name: &str,
+        kind: TransmissionKind,
+        [first, second]: [&str; 2],
+        carrier: &str,
+        start: (&str, f64),
+    ) -> Self {
+        let links = [first, second, carrier].map(ToString::to_string);
+        self.transmissions.push(Coupling { name: name.into(), kind, links, start: (start.0.into(), start.1) });
         self
     }
 
@@ -243,7 +279,9 @@ impl CaseBuilder {
             (link.mass, link.mass_centre, link.inertia) = (mass, centre, inertia);
         }
         let joints = self.joints.iter().map(|wish| self.made(wish)).collect::<Result<Vec<Joint>>>()?;
-        let mechanism = Mechanism::new(std::mem::take(&mut self.links), joints)?;
+        let couplings = std::mem::take(&mut self.transmissions);
+        let designs = couplings.iter().map(|own| self.coupled(own, &joints)).collect::<Result<Vec<_>>>()?;
+        let mechanism = Mechanism::new(std::mem::take(&mut self.links), joints)?.with_transmissions(designs)?;
         let drives = self.drives(&mechanism)?;
         let structure = Structure::of(&mechanism, &drives.joints())?;
         let starts = self.starts(&mechanism, &structure)?;
@@ -278,6 +316,21 @@ impl CaseBuilder {
             first: side(&wish.sides[0])?,
             second: side(&wish.sides[1])?,
             drawn: None,
+        })
+    }
+
+    fn coupled(&self, own: &Coupling, joints: &[Joint]) -> Result<TransmissionDesign> {
+        let key = format!("transmissions.{}", own.name);
+        let [first, second, carrier] = &own.links;
+        let known = joints.iter().map(|joint| joint.name.as_str());
+        let joint = known.clone().position(|name| name == own.start.0).map(JointId);
+        Ok(TransmissionDesign {
+            name: own.name.clone(),
+            kind: own.kind,
+            links: [self.link_of(first, &key)?, self.link_of(second, &key)?],
+            carrier: self.link_of(carrier, &key)?,
+            joint: joint.ok_or_else(|| unknown("joint", &own.start.0, &key, known))?,
+            start: own.start.1,
         })
     }
 
@@ -320,6 +373,7 @@ impl CaseBuilder {
     /// Required mode of each group, in the order of the structure. A group that has only one configuration needs no
     /// mode.
     fn starts(&self, mechanism: &Mechanism, structure: &Structure) -> Result<Vec<StartGroup>> {
+        let structure = structure.at_start();
         let mut starts = vec![StartGroup::default(); structure.groups.len()];
         for (start, group) in starts.iter_mut().zip(&structure.groups) {
             if group.kind.has_one_configuration() {

@@ -235,16 +235,12 @@ fn start(parts: &CaseParts) -> Result<()> {
             drive.coordinate(drive.start),
             mechanism.joints()[drive.joint].coordinate(drive.link, drive.input, &parts.start),
         ];
-        let off = match drive.input {
-            Input::Angle | Input::Turn => (unit(found) - unit(stated)).norm(),
-            Input::Slide => (found - stated).abs() / reach,
+        let (apart, scale) = match drive.input {
+            Input::Angle | Input::Turn => ((unit(found) - unit(stated)).norm(), 1.0),
+            Input::Slide => ((found - stated).abs(), reach),
         };
-        if !(off <= LARGEST_OPENING) {
+        if !(apart / scale <= LARGEST_OPENING) {
             let name = &links[drive.link].name;
-            let apart = match drive.input {
-                Input::Angle | Input::Turn => off,
-                Input::Slide => off * reach,
-            };
             let message =
                 sentences::link_is_away_from_its_start(&name, &format_args!("{apart:.3e}"), &drive.input.unit());
             return Err(Error::new(ErrorKind::Geometry, message).key("start").help(CLOSED));
@@ -272,12 +268,10 @@ fn modes(parts: &CaseParts) -> Result<()> {
 }
 
 fn has_mode(kind: GroupKind, mode: AssemblyMode) -> bool {
-    use AssemblyMode::{Ahead, Behind, Followed, Left, Only, Right};
-    match kind {
-        GroupKind::Rrr => matches!(mode, Left | Right),
-        GroupKind::Rrp | GroupKind::Rpr => matches!(mode, Ahead | Behind),
-        GroupKind::Rpp | GroupKind::Prp | GroupKind::Driven => mode == Only,
-        GroupKind::Higher => mode == Followed,
+    match kind.modes() {
+        Some(modes) => modes.contains(&mode),
+        None if kind.has_one_configuration() => mode == AssemblyMode::Only,
+        None => mode == AssemblyMode::Followed,
     }
 }
 

@@ -5,47 +5,61 @@ use crate::drive::{Drive, DriveMotion, Drives, MotionLaw};
 use crate::error::Result;
 use crate::input::Input;
 use crate::mechanism::assembly::transmission_sine;
-use crate::mechanism::{AssemblyMode, DrivenJoint, Group, GroupKind, JointId, Structure};
+use crate::mechanism::{AssemblyMode, DrivenJoint, Group, Joint, JointId, Mechanism, Structure};
 
 impl Case {
     /// Structure of the mechanism if the first drive moves `joint` instead of its joint. Further drives stay.
     ///
     /// # Errors
-    /// Those of [`Structure::of`].
+    /// Those of [`Structure::of_driven`].
     pub fn structure_at(&self, joint: JointId) -> Result<Structure> {
         let further = self.drives.further().iter().map(|own| DrivenJoint { joint: own.joint, input: own.input });
         let (input, _) = Drive::of_joint(&self.mechanism.joints()[joint], &[], false);
         let driven: Vec<DrivenJoint> = std::iter::once(DrivenJoint { joint, input }).chain(further).collect();
-        Structure::of(&self.mechanism, &driven)
+        Structure::of_driven(&self.mechanism, &driven)
     }
 
     /// This case with the first drive at `joint`, from the same start pose.
+    /// If this joint gives the start of a transmission, the joint of its first member with the carrier does so instead.
     /// `law` gives the law of motion for the kind of input. The grid has these times (s).
     ///
     /// # Errors
     /// Those of [`Structure::of`] and [`Case::new`].
     pub fn driven_at(&self, joint: JointId, law: impl FnOnce(Input) -> MotionLaw, times: Vec<f64>) -> Result<Case> {
-        let structure = self.structure_at(joint)?;
+        let driven: Vec<DrivenJoint> = self.structure_at(joint)?.drivers.iter().map(DrivenJoint::from).collect();
+        let mechanism = self.with_start_beside(joint)?;
+        let structure = Structure::of(&mechanism, &driven)?;
         let (input, link) = Drive::of_joint(&self.mechanism.joints()[joint], &[], false);
         let start = self.mechanism.joints()[joint].coordinate(link, input, &self.start);
         let motion = DriveMotion::Prescribed { law: law(input), motor: None };
         let drive = Drive { input, joint, link, zero: 0.0, start, motion, through: false };
         let mode = |group: &Group| {
             let is_positive = transmission_sine(&self.mechanism, group, &self.start).is_some_and(|sine| sine > 0.0);
-            match (group.kind, is_positive) {
-                (GroupKind::Rrr, true) => AssemblyMode::Left,
-                (GroupKind::Rrr, false) => AssemblyMode::Right,
-                (GroupKind::Rrp | GroupKind::Rpr, true) => AssemblyMode::Ahead,
-                (GroupKind::Rrp | GroupKind::Rpr, false) => AssemblyMode::Behind,
-                (GroupKind::Rpp | GroupKind::Prp | GroupKind::Driven, _) => AssemblyMode::Only,
-                (GroupKind::Higher, _) => AssemblyMode::Followed,
+            match group.kind.modes() {
+                Some(modes) => modes[usize::from(!is_positive)],
+                None if group.kind.has_one_configuration() => AssemblyMode::Only,
+                None => AssemblyMode::Followed,
             }
         };
         self.with(|parts| {
             parts.grid = Grid::of_times(&drive, times);
             parts.drives = Drives::new(drive, self.drives.further().to_vec());
+            parts.mechanism = mechanism;
             parts.modes = structure.groups.iter().map(mode).collect();
             parts.structure = structure;
         })
+    }
+
+    /// The mechanism with another start joint for transmissions whose start joint is `joint`.
+    fn with_start_beside(&self, joint: JointId) -> Result<Mechanism> {
+        let (mut designs, joints) = (self.mechanism.transmission_designs(), self.mechanism.joints());
+        for design in designs.iter_mut().filter(|design| design.joint == joint) {
+            let beside = |own: &Joint| own.on(design.links[0]).is_some() && own.on(design.carrier).is_some();
+            let Some(found) = joints.find(beside) else { continue };
+            let input = if joints[found].slides() { Input::Slide } else { Input::Turn };
+            design.start = joints[found].coordinate(joints[found].second.link, input, &self.start);
+            design.joint = found;
+        }
+        self.mechanism.clone().with_transmissions(designs)
     }
 }

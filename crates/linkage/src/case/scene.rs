@@ -6,7 +6,7 @@ use crate::drive::{Drive, Drives, Load};
 use crate::error::Result;
 use crate::mechanism::{
     AssemblyMode, DrivingLink, GROUND, Group, GroupId, Joint, JointId, JointSide, Link, LinkId, Mechanism, Ordinal,
-    PerLink, Pose, Structure,
+    PerLink, Pose, Structure, Transmission,
 };
 use crate::trajectory::{Channel, Stage};
 
@@ -101,6 +101,10 @@ impl<'a> Needs<'a> {
                 self.moves[link] = true;
                 self.carries[link] |= channel.kind.stage >= Stage::Reactions;
             }
+            Seat::Transmission(transmission) => {
+                let links = self.case.mechanism.transmissions()[transmission].links();
+                links.into_iter().for_each(|link| self.carries[link] = true);
+            }
             Seat::Frame => self.carries.fill(true),
             Seat::Drive(drive) => self.carries[self.case.drives[drive].link] = true,
         }
@@ -132,6 +136,10 @@ impl<'a> Needs<'a> {
             let joint = &case.mechanism.joints()[joint];
             [joint.first.link, joint.second.link]
         };
+        let outer = |group: &Group| {
+            let trains = group.trains.iter().flat_map(|&id| case.mechanism.transmissions()[id].links());
+            group.outer.iter().flat_map(|&joint| ends(joint)).chain(trains).collect::<Vec<LinkId>>()
+        };
         // Forces on a link come from every link that depends on it, directly or through further links.
         let carries = &mut self.carries;
         for (_, &DrivingLink { link, joint, .. }) in structure.leading() {
@@ -139,8 +147,7 @@ impl<'a> Needs<'a> {
         }
         for group in &structure.groups {
             let own = |link: &LinkId| group.links.contains(link);
-            let outer = group.outer.iter().flat_map(|&joint| ends(joint));
-            let hangs = outer.filter(|link| *link != GROUND && !own(link)).any(|link| carries[link]);
+            let hangs = outer(group).into_iter().filter(|link| *link != GROUND && !own(link)).any(|link| carries[link]);
             if hangs || group.links.iter().any(|&link| carries[link]) {
                 group.links.iter().for_each(|&link| carries[link] = true);
             }
@@ -161,7 +168,9 @@ impl<'a> Needs<'a> {
         for group in structure.groups.iter().rev() {
             if group.links.iter().any(|&link| self.moves[link]) {
                 group.links.iter().for_each(|&link| self.moves[link] = true);
-                group.outer.iter().flat_map(|&joint| ends(joint)).for_each(|link| self.moves[link] = true);
+                outer(group).into_iter().for_each(|link| self.moves[link] = true);
+                let phases = group.trains.iter().map(|&id| case.mechanism.transmissions()[id].design.joint);
+                phases.flat_map(ends).for_each(|link| self.moves[link] = true);
             }
         }
         for (_, &DrivingLink { link, joint, .. }) in structure.leading().rev() {
@@ -206,7 +215,11 @@ impl<'a> Needs<'a> {
             Joint { first: on(joint.first), second: on(joint.second), ..joint.clone() }
         };
         let joints = whole.joints().iter().filter(|joint| self.has_joint(joint)).map(own_joint).collect();
-        let mechanism = Mechanism::new(self.links(), joints)?;
+        let stays = |own: &&Transmission| own.links().into_iter().all(|link| self.moves[link]);
+        let own_transmission =
+            |own: &Transmission| own.design.renumbered(|link| link_number[link], |joint| joint_number[joint]);
+        let transmissions = whole.transmissions().iter().filter(stays).map(own_transmission).collect();
+        let mechanism = Mechanism::new(self.links(), joints)?.with_transmissions(transmissions)?;
         let own_drive =
             |drive: &Drive| Drive { link: link_number[drive.link], joint: joint_number[drive.joint], ..drive.clone() };
         let further = case.drives.further().iter().filter(|drive| self.moves[drive.link]).map(own_drive).collect();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Case;
 use crate::input::Input;
-use crate::mechanism::{JointId, JointSide, LinkId};
+use crate::mechanism::{JointId, JointSide, LinkId, TransmissionId};
 use crate::trajectory::{Channel, ChannelSubject, Stage};
 
 /// Location of a channel's subject in the mechanism.
@@ -20,6 +20,8 @@ pub enum Seat {
     Joint(JointId),
     /// The drive with this number.
     Drive(usize),
+    /// The transmission with this number.
+    Transmission(TransmissionId),
     /// On the whole frame.
     Frame,
 }
@@ -58,7 +60,10 @@ impl Case {
             (subject, name, Seat::Drive(index))
         });
         let joints = joints.entries().map(|(id, joint)| (ChannelSubject::Joint, joint.name.as_str(), Seat::Joint(id)));
-        links.chain(points).chain(joints).chain(sliders).chain(frame).chain(moved)
+        let transmissions = self.mechanism.transmissions().entries();
+        let transmissions =
+            transmissions.map(|(id, own)| (ChannelSubject::Transmission, own.name(), Seat::Transmission(id)));
+        links.chain(points).chain(joints).chain(sliders).chain(transmissions).chain(frame).chain(moved)
     }
 
     /// Joints whose reactions are requested, directly or as part of the force on the frame.
@@ -70,7 +75,7 @@ impl Case {
             Some(only) => only.iter().any(|own| match seats.of(own) {
                 Some(Seat::Joint(at)) => at == *joint && own.kind.stage >= Stage::Reactions,
                 Some(Seat::Frame) => true,
-                Some(Seat::Link(_) | Seat::Point(_) | Seat::Drive(_)) | None => false,
+                Some(Seat::Link(_) | Seat::Point(_) | Seat::Drive(_) | Seat::Transmission(_)) | None => false,
             }),
         };
         joints.ids().filter(is_wanted).collect()
@@ -102,7 +107,7 @@ mod tests {
                     let points = &case.mechanism.links()[side.link].points;
                     points.iter().find(|point| point.local == side.local).map_or("", |point| &point.name)
                 }
-                Seat::Drive(_) | Seat::Frame => "",
+                Seat::Drive(_) | Seat::Transmission(_) | Seat::Frame => "",
             };
             assert_eq!(channel.of, name, "{channel}");
         }

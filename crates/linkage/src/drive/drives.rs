@@ -1,7 +1,7 @@
 //! All driving links of a mechanism in one list.
 
 use crate::math::KeepNan;
-use crate::mechanism::DrivenJoint;
+use crate::mechanism::{DrivenJoint, JointId};
 use std::ops::Deref;
 
 use super::Drive;
@@ -50,6 +50,12 @@ impl Drives {
         self.0.iter().enumerate().filter(|(_, drive)| drive.has_moment())
     }
 
+    /// Driven joints without the kinds of their inputs, in the order of the drives.
+    #[must_use]
+    pub fn joint_ids(&self) -> Vec<JointId> {
+        self.0.iter().map(|drive| drive.joint).collect()
+    }
+
     /// Driven joints, in the order of the drives.
     #[must_use]
     pub fn joints(&self) -> Vec<DrivenJoint> {
@@ -80,7 +86,7 @@ impl Drives {
     /// The speed of a slide (m/s) is divided by the size.
     #[must_use]
     pub fn top_speed(&self, size: f64) -> f64 {
-        let speed = |drive: &Drive| drive.top_speed().abs() * drive.input.reach(size) / size;
+        let speed = |drive: &Drive| drive.top_speed().abs() / drive.input.span(size);
         self.0.iter().fold(0.0, |most: f64, drive| most.larger(speed(drive)))
     }
 }

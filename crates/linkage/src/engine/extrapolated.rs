@@ -108,6 +108,9 @@ impl Weights {
             into.forces[joint] = mix_pair(&self.force, &|state| state.forces[joint]);
             into.moments[joint] = mix(&self.force, &|state| state.moments[joint]);
         }
+        for transmission in into.transmitted.ids() {
+            into.transmitted[transmission] = mix(&self.force, &|state| state.transmitted[transmission]);
+        }
         for drive in 0..into.torques.len() {
             into.torques[drive] = mix(&self.force, &|state| state.torques[drive]);
         }

@@ -34,6 +34,8 @@ struct Layout {
     joints: usize,
     /// The joints that transmit a moment, if forces are stored.
     sliding: Vec<JointId>,
+    /// Numbers of transmissions and drives whose forces are stored.
+    transmissions: usize,
     drives: usize,
 }
 
@@ -53,6 +55,7 @@ impl Layout {
             accelerations: deepest >= Stage::Accelerations,
             joints: if with_forces { joints.len() } else { 0 },
             sliding: if with_forces { joints.ids().filter(slides).collect() } else { Vec::new() },
+            transmissions: if with_forces { case.mechanism.transmissions().len() } else { 0 },
             drives: if with_forces { case.drives.len() } else { 0 },
         }
     }
@@ -60,7 +63,7 @@ impl Layout {
     /// Number of values per state.
     fn width(&self) -> usize {
         let rates = usize::from(self.velocities) + usize::from(self.accelerations);
-        self.links * (5 + 3 * rates) + 2 * self.joints + self.sliding.len() + self.drives
+        self.links * (5 + 3 * rates) + 2 * self.joints + self.sliding.len() + self.transmissions + self.drives
     }
 }
 
@@ -88,7 +91,7 @@ impl Rows {
 
     /// Stores the state of a row.
     pub fn put(&mut self, row: usize, state: &State) {
-        let Layout { velocities, accelerations, joints, sliding, drives, .. } = &self.layout;
+        let Layout { velocities, accelerations, joints, sliding, transmissions, drives, links: _ } = &self.layout;
         let width = self.layout.width();
         let mut left = self.values[row * width..][..width].iter_mut();
         let mut put = |value: f64| *left.next().expect("as many numbers as the layout has") = value;
@@ -114,6 +117,7 @@ impl Rows {
             }
         }
         sliding.iter().for_each(|&joint| put(state.moments[joint]));
+        state.transmitted.iter().take(*transmissions).for_each(|&force| put(force));
         state.torques[..*drives].iter().for_each(|&torque| put(torque));
         self.reached[row] = true;
         self.passing.extend(state.passing.map(|condition| (row, condition)));
@@ -125,7 +129,7 @@ impl Rows {
         if !self.reached[row] {
             return false;
         }
-        let Layout { velocities, accelerations, joints, sliding, drives, .. } = &self.layout;
+        let Layout { velocities, accelerations, joints, sliding, transmissions, drives, links: _ } = &self.layout;
         let width = self.layout.width();
         let mut left = self.values[row * width..][..width].iter().copied();
         let mut get = || left.next().expect("as many numbers as the layout has");
@@ -151,6 +155,7 @@ impl Rows {
             }
         }
         sliding.iter().for_each(|&joint| state.moments[joint] = get());
+        state.transmitted.iter_mut().take(*transmissions).for_each(|force| *force = get());
         state.torques[..*drives].iter_mut().for_each(|torque| *torque = get());
         state.passing = self.passing.get(&row).copied();
         true

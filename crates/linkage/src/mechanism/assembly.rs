@@ -27,7 +27,8 @@ use crate::error::{Error, Result};
 
 /// The start pose, and the assembly mode of each group.
 /// The driven joints have the coordinates `drive_angles` (rad or m, in the order of [`Structure::drivers`]).
-/// Each group has the configuration required in `wanted` (in the order of [`Structure::groups`]).
+/// Each group has the configuration required in `wanted`, in the order of the groups of [`Structure::at_start`].
+/// The assembly modes are those of the groups of `structure`.
 ///
 /// # Errors
 /// The errors of [`first_choices`].
@@ -38,10 +39,11 @@ pub fn first_pose(
     wanted: &[StartGroup],
 ) -> Result<(Pose, Vec<AssemblyMode>)> {
     let (pose, choices) = first_choices(mechanism, structure, drive_angles, wanted)?;
-    Ok((pose, choices.into_iter().map(|choice| choice.mode).collect()))
+    let modes: Vec<AssemblyMode> = choices.into_iter().map(|choice| choice.mode).collect();
+    Ok((pose, structure.modes(&modes)))
 }
 
-/// Does the same as [`first_pose`], but returns details of the choice for each group.
+/// Does the same as [`first_pose`], but returns details of the choice for each group of [`Structure::at_start`].
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a group's links do not reach each other.
@@ -57,11 +59,13 @@ pub fn first_choices(
     drive_angles: &[f64],
     wanted: &[StartGroup],
 ) -> Result<(Pose, Vec<ConfigurationChoice>)> {
-    let mut pose = structure.driving_pose(mechanism, drive_angles);
+    let given = structure.given_at_start(mechanism, drive_angles);
+    let structure = structure.at_start();
+    let mut pose = structure.driving_pose(mechanism, &given);
     let mut choices = Vec::with_capacity(structure.groups.len());
     for (group, wanted) in structure.groups.iter().zip(wanted) {
         if group.kind == GroupKind::Driven {
-            structure.place_driven(mechanism, group, drive_angles, &mut pose);
+            structure.place_driven(mechanism, group, &given, &mut pose);
         }
         let of_group = |error: Error| error.key(group.key(mechanism)).of_group(group.names(mechanism));
         choices.push(choice::place(mechanism, group, wanted, &mut pose).map_err(of_group)?);

@@ -1,11 +1,11 @@
-//! Numbers of links, joints and groups.
-//! Links, joints and groups have separate number types, so that a joint's number cannot be used for a link.
+//! Numbers of links, joints, groups and transmissions.
+//! These items have separate number types, so that a joint's number cannot be used for a link.
 
 use std::fmt;
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut, Index, IndexMut, RangeFrom};
 
-/// Number of a link, joint or group.
+/// Number of a link, joint, group or transmission.
 pub trait Ordinal: Copy {
     /// The number with this index, counted from 0.
     fn at(index: usize) -> Self;
@@ -95,6 +95,8 @@ ids! {
     JointId,
     /// Number of an Assur group in [`Structure::groups`](super::Structure::groups).
     GroupId,
+    /// Number of a transmission in [`Mechanism::transmissions`](super::Mechanism::transmissions).
+    TransmissionId,
 }
 
 /// One value for each link, joint or group, in the order of their numbers.
@@ -125,6 +127,9 @@ pub type PerJoint<T> = Per<JointId, T>;
 
 /// One value for each Assur group.
 pub type PerGroup<T> = Per<GroupId, T>;
+
+/// One value for each transmission.
+pub type PerTransmission<T> = Per<TransmissionId, T>;
 
 impl<I: Ordinal, T> Per<I, T> {
     /// The numbers, ascending.

@@ -1,9 +1,10 @@
 //! Structural analysis: mobility, and the decomposition into driving links and Assur groups.
 //!
-//! Every link has three degrees of freedom. Every revolute or prismatic pair removes two, every given coordinate one.
-//! Each equation concerns two links, and one of the two links becomes its owner. A link owns three equations (a
+//! Every link has three degrees of freedom. Every revolute or prismatic pair removes two, every given coordinate and
+//! every transmission one.
+//! Each equation concerns two or three links, and one of these links becomes its owner. A link owns three equations (a
 //! matching).
-//! For every equation that a link owns, the link depends on the other of the equation's two links.
+//! For every equation that a link owns, the link depends on the other links of the equation.
 //! These dependences form a graph. Its strongly connected components are the driving links and the Assur groups.
 //! The components are listed in the order in which they can be solved.
 //! The components do not depend on the choice of matching (Dulmage and Mendelsohn 1958).
@@ -25,19 +26,24 @@ pub use group::{Group, GroupKind};
 use super::{GROUND, LinkPose, Mechanism, Pose};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::Input;
-use crate::mechanism::{GroupId, JointId, LinkId, PerGroup, PerLink};
+use crate::mechanism::{AssemblyMode, GroupId, JointId, LinkId, PerGroup, PerLink, TransmissionId};
 use contour::highest_contour;
 use owners::{Owners, check_sparse};
 
 /// Result of the structural analysis of a mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Structure {
-    /// Mobility by Chebyshev-Gruebler, W = 3 n - 2 p (n moving links, p lower pairs).
+    /// Mobility by Chebyshev-Gruebler, W = 3 n - 2 p - t (n moving links, p lower pairs, t transmissions).
     pub mobility: i64,
     /// Driving links, in the order in which the drives were given.
     pub drivers: Vec<DrivingLink>,
     /// Assur groups in the order in which they can be solved.
     pub groups: PerGroup<Group>,
+    /// With transmissions: the structure in which each transmission is replaced by its start joint with a given
+    /// coordinate. See [`Structure::at_start`].
+    start: Option<Box<Structure>>,
+    /// In the structure at the start: the transmissions whose start joints are given after the drives, in their order.
+    phases: Vec<TransmissionId>,
 }
 
 impl Structure {
@@ -49,10 +55,82 @@ impl Structure {
     /// [`ErrorKind::Input`] also if one part is over-constrained while a second part is free to move.
     pub fn of<T: Copy + Into<DrivenJoint>>(mechanism: &Mechanism, drives: &[T]) -> Result<Self> {
         let drives: Vec<DrivenJoint> = drives.iter().map(|&drive| drive.into()).collect();
-        Structure::of_driven(mechanism, &drives)
+        let structure = Structure::of_driven(mechanism, &drives)?;
+        structure.with_start(mechanism, &drives)
     }
 
-    fn of_driven(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Result<Self> {
+    /// The structure in which the start pose is assembled.
+    /// Instead of the transmissions it has given coordinates: those of the joints that fix their phases, after the drives.
+    /// Without transmissions it is the structure itself.
+    #[must_use]
+    pub fn at_start(&self) -> &Structure {
+        self.start.as_deref().unwrap_or(self)
+    }
+
+    /// Given coordinates of [`Structure::at_start`]: those of the drives, then the starts of the transmissions.
+    #[must_use]
+    pub fn given_at_start(&self, mechanism: &Mechanism, drives: &[f64]) -> Vec<f64> {
+        let at_start = self.at_start();
+        let starts = at_start.phases.iter().map(|&own| mechanism.transmissions()[own].design.start);
+        drives.iter().copied().chain(starts).take(at_start.drivers.len()).collect()
+    }
+
+    /// The structure with these groups alone.
+    #[must_use]
+    pub fn of_groups(&self, groups: impl Iterator<Item = GroupId>) -> Structure {
+        Structure { groups: groups.map(|group| self.groups[group].clone()).collect(), ..self.clone() }
+    }
+
+    /// Assembly modes of the groups, from those of the groups of [`Structure::at_start`].
+    #[must_use]
+    pub fn modes(&self, at_start: &[AssemblyMode]) -> Vec<AssemblyMode> {
+        carried(self.at_start(), at_start, self)
+    }
+
+    /// Assembly modes of the groups of [`Structure::at_start`], from those of the groups.
+    #[must_use]
+    pub fn modes_at_start(&self, modes: &[AssemblyMode]) -> Vec<AssemblyMode> {
+        carried(self, modes, self.at_start())
+    }
+
+    fn with_start(mut self, mechanism: &Mechanism, drives: &[DrivenJoint]) -> Result<Self> {
+        if mechanism.transmissions().is_empty() {
+            return Ok(self);
+        }
+        let is_driven = |joint: JointId| drives.iter().any(|drive| drive.joint == joint);
+        if let Some(own) = mechanism.transmissions().iter().find(|own| is_driven(own.design.joint)) {
+            let message = sentences::the_start_joint_is_driven(&own.name(), &mechanism.joints()[own.design.joint].name);
+            return Err(Error::new(ErrorKind::Input, message)
+                .key(format!("transmissions.{}", own.name()))
+                .help(sentences::GIVE_A_JOINT_OF_THE_TRANSMISSION));
+        }
+        let phases = phases(mechanism, drives);
+        let phase = |&transmission: &TransmissionId| DrivenJoint {
+            joint: mechanism.transmissions()[transmission].design.joint,
+            input: Input::Turn,
+        };
+        let given: Vec<DrivenJoint> = drives.iter().copied().chain(phases.iter().map(phase)).collect();
+        let free = mechanism.clone().with_transmissions(Vec::new()).expect("a mechanism without transmissions");
+        let start = Structure::of_driven(&free, &given).map_err(|error| {
+            let message = sentences::the_start_of_the_transmissions(&error.to_string());
+            Error::new(ErrorKind::Input, message).key("transmissions").help(sentences::GIVE_A_JOINT_OF_THE_TRANSMISSION)
+        })?;
+        let has_modes = |group: &&Group| !group.kind.has_one_configuration() && group.kind != GroupKind::Higher;
+        if let Some(changed) = self.groups.iter().filter(has_modes).find(|group| !start.groups.contains(group)) {
+            let message = sentences::the_start_joint_of_a_transmission_changes(&changed.names(mechanism));
+            return Err(Error::new(ErrorKind::Input, message)
+                .key("transmissions")
+                .help(sentences::GIVE_A_JOINT_OF_THE_TRANSMISSION));
+        }
+        self.start = Some(Box::new(Structure { phases, ..start }));
+        Ok(self)
+    }
+
+    /// The structure of the motion alone, without that of the start pose ([`Structure::at_start`]).
+    ///
+    /// # Errors
+    /// Those of [`Structure::of`] that do not concern the start of transmissions.
+    pub fn of_driven(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Result<Self> {
         check_connected(mechanism)?;
         check_angles(mechanism, drives)?;
         let mobility = mobility(mechanism);
@@ -83,14 +161,17 @@ impl Structure {
             let solved = part.clone();
             if in_group {
                 let given = given.iter().map(|drive| drive.joint).collect();
-                groups.push(group(mechanism, part, given, &known));
+                let is_owned =
+                    |&id: &TransmissionId| owners.owner_of_transmission(id).is_some_and(|link| part.contains(&link));
+                let trains = mechanism.transmissions().ids().filter(is_owned).collect();
+                groups.push(group(mechanism, part, given, trains, &known));
             }
             for link in solved {
                 known[link] = true;
             }
         }
         drivers.sort_by_key(|driver| drives.iter().position(|drive| drive.joint == driver.joint));
-        let structure = Structure { mobility, drivers, groups: groups.into() };
+        let structure = Structure { mobility, drivers, groups: groups.into(), start: None, phases: Vec::new() };
         structure.check_order(mechanism)?;
         Ok(structure)
     }
@@ -172,7 +253,8 @@ impl Structure {
         let mut upstream: PerLink<Vec<GroupId>> = vec![Vec::new(); mechanism.links().len()].into();
         for (index, group) in self.groups.entries() {
             let ends = group.outer.iter().map(|&joint| &mechanism.joints()[joint]);
-            let neighbours = ends.flat_map(|joint| [joint.first.link, joint.second.link]);
+            let trains = group.trains.iter().flat_map(|&id| mechanism.transmissions()[id].links());
+            let neighbours = ends.flat_map(|joint| [joint.first.link, joint.second.link]).chain(trains);
             let mut all: Vec<GroupId> = neighbours.flat_map(|link| upstream[link].iter().copied()).collect();
             all.push(index);
             all.sort_unstable();
@@ -188,14 +270,23 @@ impl Structure {
     #[must_use]
     pub fn formula(&self, mechanism: &Mechanism) -> String {
         const ROMAN: [&str; 9] = ["", "I", "II", "III", "IV", "V", "VI", "VII", "VIII"];
-        let driving = |link: LinkId, joint: JointId| {
+        let driving = |link: LinkId, joint: JointId, moved: &str| {
             let base = mechanism.joints()[joint].other(link).link;
-            format!("I({}, {})", mechanism.links()[base].name, mechanism.links()[link].name)
+            format!("I({}, {moved})", mechanism.links()[base].name)
         };
-        let mut parts: Vec<String> = self.leading().map(|(_, driver)| driving(driver.link, driver.joint)).collect();
+        let leading = self.leading();
+        let mut parts: Vec<String> = leading
+            .map(|(_, driver)| driving(driver.link, driver.joint, &mechanism.links()[driver.link].name))
+            .collect();
         for group in &self.groups {
             if group.kind == GroupKind::Driven {
-                parts.push(driving(group.links[0], group.given[0]));
+                let on = |&&link: &&LinkId| mechanism.joints()[group.outer[0]].on(link).is_some();
+                let link = group.links.iter().find(on).expect("the outer joint is on the group");
+                parts.push(driving(*link, group.outer[0], &group.bodies(mechanism)));
+                continue;
+            }
+            if !group.trains.is_empty() {
+                parts.push(format!("train({})", group.bodies(mechanism)));
                 continue;
             }
             let class = ROMAN.get(group.class).map_or_else(|| group.class.to_string(), ToString::to_string);
@@ -212,9 +303,38 @@ fn carries(mechanism: &Mechanism, drivers: &[DrivingLink], joint: JointId, link:
     base == GROUND || drivers.iter().any(|driver| driver.link == base && !driver.in_group)
 }
 
-/// W = 3 n - 2 p: every lower pair removes two degrees of freedom.
+/// Modes of the groups of `to`. The groups that `from` has too keep their `modes`.
+fn carried(from: &Structure, modes: &[AssemblyMode], to: &Structure) -> Vec<AssemblyMode> {
+    let mode = |group: &Group| match from.groups.find(|own| own == group) {
+        Some(own) => modes[own],
+        None if group.kind.has_one_configuration() => AssemblyMode::Only,
+        None => AssemblyMode::Followed,
+    };
+    to.groups.iter().map(mode).collect()
+}
+
+/// The transmissions, ordered so that their start joints lead from the ground and the driven joints outwards.
+fn phases(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Vec<TransmissionId> {
+    let ends = |joint: JointId| {
+        let joint = &mechanism.joints()[joint];
+        [joint.first.link, joint.second.link]
+    };
+    let joint = |transmission: TransmissionId| mechanism.transmissions()[transmission].design.joint;
+    let mut reached: Vec<LinkId> = drives.iter().flat_map(|drive| ends(drive.joint)).chain([GROUND]).collect();
+    let mut left: Vec<TransmissionId> = mechanism.transmissions().ids().collect();
+    let mut ordered = Vec::with_capacity(left.len());
+    while !left.is_empty() {
+        let hangs = |&own: &TransmissionId| ends(joint(own)).iter().any(|link| reached.contains(link));
+        let next = left.remove(left.iter().position(hangs).unwrap_or(0));
+        reached.extend(ends(joint(next)));
+        ordered.push(next);
+    }
+    ordered
+}
+
+/// W = 3 n - 2 p - t: every lower pair removes two degrees of freedom, every transmission one.
 fn mobility(mechanism: &Mechanism) -> i64 {
-    3 * (mechanism.links().len() as i64 - 1) - mechanism.equations() as i64
+    3 * (mechanism.links().len() as i64 - 1) - (mechanism.equations() + mechanism.transmissions().len()) as i64
 }
 
 fn check_connected(mechanism: &Mechanism) -> Result<()> {
@@ -260,19 +380,28 @@ fn check_angles(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Result<()> {
 }
 
 fn wrong_mobility(mechanism: &Mechanism, mobility: i64, drives: usize) -> Error {
-    let (n, p) = (mechanism.links().len() - 1, mechanism.joints().len());
+    let (n, p, t) = (mechanism.links().len() - 1, mechanism.joints().len(), mechanism.transmissions().len());
+    let message = match t {
+        0 => sentences::the_mobility_is_but_the_number(&n, &p, &mobility, &drives),
+        _ => sentences::the_mobility_with_transmissions_is(&n, &p, &t, &mobility, &drives),
+    };
     let help = if mobility > drives as i64 {
         sentences::ADD_THE_MISSING_JOINTS_OR_DRIVES
     } else {
         sentences::THE_MECHANISM_IS_OVER_CONSTRAINED
     };
-    Error::new(ErrorKind::Input, sentences::the_mobility_is_but_the_number(&n, &p, &mobility, &drives))
-        .key("joints")
-        .help(help)
+    Error::new(ErrorKind::Input, message).key("joints").help(help)
 }
 
-/// The group of `links` with the `given` joints. All links marked in `known` are already solved.
-fn group(mechanism: &Mechanism, links: Vec<LinkId>, given: Vec<JointId>, known: &[bool]) -> Group {
+/// The group of `links` with the `given` joints and the transmissions `trains`. All links marked in `known` are already
+/// solved.
+fn group(
+    mechanism: &Mechanism,
+    links: Vec<LinkId>,
+    given: Vec<JointId>,
+    trains: Vec<TransmissionId>,
+    known: &[bool],
+) -> Group {
     let inside = |link: LinkId| links.contains(&link);
     let (mut inner, mut outer) = (Vec::new(), Vec::new());
     let mut own: Vec<JointId> = links.iter().flat_map(|&link| mechanism.joints_on(link)).copied().collect();
@@ -287,7 +416,7 @@ fn group(mechanism: &Mechanism, links: Vec<LinkId>, given: Vec<JointId>, known: 
             outer.push(index);
         }
     }
-    let mut group = Group { links, inner, outer, given, class: 1, kind: GroupKind::Driven };
+    let mut group = Group { links, inner, outer, given, trains, class: 1, kind: GroupKind::Driven };
     // A dyad's outer joints are in the order of its bodies.
     let leads = group.leads(mechanism);
     let lead_of = |joint: &JointId| {
@@ -305,7 +434,7 @@ fn kind(mechanism: &Mechanism, group: &Group) -> GroupKind {
     let leads = group.leads(mechanism);
     match group.links.iter().zip(&leads).filter(|(link, lead)| link == lead).count() {
         1 => return GroupKind::Driven,
-        2 => {}
+        2 if group.trains.is_empty() => {}
         _ => return GroupKind::Higher,
     }
     let slides = |joints: &[JointId]| {

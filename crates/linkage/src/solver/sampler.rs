@@ -7,10 +7,10 @@ use super::state::State;
 use crate::case::{Case, Seat};
 use crate::error::Result;
 use crate::math::{Motion, Vec2};
-use crate::mechanism::{JointId, JointSide, LinkId};
+use crate::mechanism::{JointId, JointSide, LinkId, TransmissionId};
 use crate::trajectory::channel::rows;
 use crate::trajectory::{
-    Channel, ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Stage, Trajectory,
+    Channel, ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, OfTransmission, Stage, Trajectory,
 };
 
 /// Number of rows that are collected before they are written to their columns.
@@ -25,6 +25,7 @@ pub struct Sampler {
     points: Vec<(JointSide, Mask)>,
     joints: Vec<(JointId, Mask)>,
     sliders: Vec<(JointId, Mask)>,
+    transmissions: Vec<(TransmissionId, Mask)>,
     frame: Mask,
     /// The drives that exert a moment. If the crank's drive is one of them, it comes first.
     drives: Vec<(usize, ChannelSubject, Mask)>,
@@ -79,6 +80,7 @@ impl Sampler {
             points: Vec::new(),
             joints: Vec::new(),
             sliders: Vec::new(),
+            transmissions: Vec::new(),
             frame: Mask::default(),
             drives: Vec::new(),
             block: vec![f64::NAN; BLOCK * channels.len()],
@@ -96,6 +98,7 @@ impl Sampler {
                 Seat::Point(side) => sampler.points.push((side, mask)),
                 Seat::Joint(joint) if subject == ChannelSubject::Slider => sampler.sliders.push((joint, mask)),
                 Seat::Joint(joint) => sampler.joints.push((joint, mask)),
+                Seat::Transmission(id) => sampler.transmissions.push((id, mask)),
                 Seat::Frame => sampler.frame = mask,
                 Seat::Drive(drive) => sampler.drives.push((drive, subject, mask)),
             }
@@ -144,6 +147,11 @@ impl Sampler {
                 OfSlider::Moment => state.moments[index],
             });
         }
+        for &(index, mask) in &self.transmissions {
+            out.put(&rows::TRANSMISSION, mask, |of| match of {
+                OfTransmission::Force => state.transmitted[index],
+            });
+        }
         if !self.frame.is_empty() {
             // The shaking force is computed only once, and only if a requested row uses it.
             let shaking = LazyCell::new(|| state.shaking(case));
@@ -165,6 +173,7 @@ impl Sampler {
                 | ChannelSubject::Point
                 | ChannelSubject::Joint
                 | ChannelSubject::Slider
+                | ChannelSubject::Transmission
                 | ChannelSubject::Frame
                 | ChannelSubject::Drive => out.put(&rows::DRIVE, mask, read),
             }

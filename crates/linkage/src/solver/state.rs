@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::math::{KeepNan, Motion, Vec2, cross, unit};
-use crate::mechanism::{GROUND, Joint, PerJoint, PerLink};
+use crate::mechanism::{GROUND, Joint, PerJoint, PerLink, PerTransmission};
 
 /// State of the whole mechanism at one instant, in the form that all solvers use.
 #[derive(Clone, Debug)]
@@ -16,6 +16,9 @@ pub struct State {
     /// Moment of the first link on the second in every joint (N m), about the joint's point on the second link.
     /// The moment is 0 in revolute joints.
     pub moments: PerJoint<f64>,
+    /// Force of every transmission on its second member along its first line of action (N). A negative force acts along the
+    /// second line.
+    pub transmitted: PerTransmission<f64>,
     /// Balancing moment (N m) or driving force (N) of every drive, in the order of
     /// [`CaseParts::drives`](crate::case::CaseParts::drives).
     /// At a joint between moving links, moment and force act from the first link on the second.
@@ -35,6 +38,7 @@ impl State {
             angles: vec![0.0; case.mechanism.links().len()].into(),
             forces: vec![Vec2::zeros(); case.mechanism.joints().len()].into(),
             moments: vec![0.0; case.mechanism.joints().len()].into(),
+            transmitted: vec![0.0; case.mechanism.transmissions().len()].into(),
             torques: vec![0.0; case.drives.len()],
             passing: None,
         }
@@ -49,7 +53,7 @@ impl State {
 
     /// Shaking force (N) and shaking moment about the origin (N m).
     /// Force and moment are the sums of the actions on the frame.
-    /// These actions come from joints with the ground, drives, and springs and dampers fastened to the ground.
+    /// These actions come from joints with the ground, drives, transmissions to the ground, and springs and dampers fastened to the ground.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
         let (mut force, mut moment) = (Vec2::zeros(), 0.0);
@@ -68,6 +72,14 @@ impl State {
             let place = self.motions[joint.second.link].point(joint.second.local);
             force += self.forces[index] * sign;
             moment += (cross(place, self.forces[index]) + self.moments[index]) * sign;
+        }
+        for (transmission, transmitted) in case.mechanism.transmissions().iter().zip(&*self.transmitted) {
+            transmission.each_action(*transmitted, &self.motions, |link, own, place| {
+                if link == GROUND {
+                    force += own;
+                    moment += cross(place, own);
+                }
+            });
         }
         case.each_load(&self.motions, &self.angles, |action| {
             if action.link == GROUND {
@@ -99,7 +111,7 @@ impl State {
     pub fn largest_moment(&self, case: &Case, arm: f64) -> f64 {
         // A force acts at the arm, a moment acts as it is.
         let efforts = case.drives.iter().zip(&self.torques);
-        let torques = efforts.map(|(drive, effort)| effort.abs() * (arm / drive.input.reach(arm)));
+        let torques = efforts.map(|(drive, effort)| effort.abs() * drive.input.span(arm));
         self.forces.iter().map(|force| force.norm() * arm).chain(torques).fold(0.0, f64::larger)
     }
 

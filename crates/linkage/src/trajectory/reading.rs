@@ -11,6 +11,8 @@ pub enum ChannelSubject {
     Joint,
     /// A prismatic joint. The rows of this subject are additional: a prismatic joint also has the rows of every joint.
     Slider,
+    /// A transmission.
+    Transmission,
     /// The frame. All joints with the ground and the drive act on it.
     Frame,
     /// The drive.
@@ -33,6 +35,7 @@ impl ChannelSubject {
             | ChannelSubject::Point
             | ChannelSubject::Joint
             | ChannelSubject::Slider
+            | ChannelSubject::Transmission
             | ChannelSubject::Motor
             | ChannelSubject::FurtherThrust => false,
         }
@@ -49,6 +52,7 @@ impl ChannelSubject {
             | ChannelSubject::Point
             | ChannelSubject::Joint
             | ChannelSubject::Slider
+            | ChannelSubject::Transmission
             | ChannelSubject::Frame => false,
         }
     }
@@ -60,6 +64,7 @@ impl ChannelSubject {
             ChannelSubject::Link => "link",
             ChannelSubject::Point => "point",
             ChannelSubject::Joint | ChannelSubject::Slider => "joint",
+            ChannelSubject::Transmission => "transmission",
             ChannelSubject::Frame => "frame",
             ChannelSubject::Drive | ChannelSubject::Motor | ChannelSubject::Thrust | ChannelSubject::FurtherThrust => {
                 "drive"
@@ -81,6 +86,8 @@ pub enum Reading {
     Joint(OfJoint),
     /// An additional quantity of a prismatic joint.
     Slider(OfSlider),
+    /// A quantity of a transmission.
+    Transmission(OfTransmission),
     /// A quantity of the frame.
     Frame(OfFrame),
     /// A quantity of the drive.
@@ -102,6 +109,7 @@ impl Reading {
             Reading::Point(_) => ChannelSubject::Point,
             Reading::Joint(_) => ChannelSubject::Joint,
             Reading::Slider(_) => ChannelSubject::Slider,
+            Reading::Transmission(_) => ChannelSubject::Transmission,
             Reading::Frame(_) => ChannelSubject::Frame,
             Reading::Drive(_) => ChannelSubject::Drive,
             Reading::Motor(_) => ChannelSubject::Motor,
@@ -140,6 +148,7 @@ impl Reading {
             Reading::Link(OfLink::Alpha)
             | Reading::Slider(OfSlider::Acceleration | OfSlider::Moment)
             | Reading::Joint(_)
+            | Reading::Transmission(_)
             | Reading::Frame(_)
             | Reading::Drive(_)
             | Reading::Motor(_)
@@ -199,6 +208,13 @@ pub enum OfSlider {
     Acceleration,
     /// Moment of the first link on the second.
     Moment,
+}
+
+/// Quantity of a transmission.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum OfTransmission {
+    /// Force on the second member along the first line of action; a negative force acts along the second line.
+    Force,
 }
 
 /// Quantity of the frame.

@@ -198,6 +198,10 @@ pub enum CasePart {
     StartAngle(String),
     /// Speed of a free driving link at t = 0, by joint.
     InitialSpeed(String),
+    /// Ratio of a transmission.
+    Ratio(String),
+    /// Pressure angle of a transmission.
+    PressureAngle(String),
     /// Moment of the motor on the crank.
     MotorMoment,
     /// Moments of inertia of rotor and reducer.

@@ -15,7 +15,8 @@ pub fn reassembled(parts: &mut CaseParts) -> Option<()> {
 
 /// The conditions that keep every group in its configuration.
 fn wanted(parts: &CaseParts) -> Vec<StartGroup> {
-    let groups = parts.structure.groups.iter().zip(&parts.modes);
+    let modes = parts.structure.modes_at_start(&parts.modes);
+    let groups = parts.structure.at_start().groups.iter().zip(&modes);
     let of = |(group, mode): (&linkage::mechanism::Group, &AssemblyMode)| match mode {
         AssemblyMode::Left | AssemblyMode::Right | AssemblyMode::Ahead | AssemblyMode::Behind => {
             StartGroup { mode: Some(*mode), ..StartGroup::default() }
@@ -44,7 +45,7 @@ fn assembled(parts: &mut CaseParts, wanted: &[StartGroup]) -> Option<()> {
 /// Cases in which one group has another of its known configurations, for all groups and configurations.
 pub fn others(case: &Case) -> Vec<(Change, Case)> {
     let mut found = Vec::new();
-    for (index, group) in case.structure.groups.entries() {
+    for (index, group) in case.structure.at_start().groups.entries() {
         // Not all configurations are known for groups of more than four links.
         let all = configurations(&case.mechanism, group, &case.start).unwrap_or_default();
         for (number, one) in all.iter().enumerate() {

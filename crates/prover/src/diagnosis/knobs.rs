@@ -9,7 +9,7 @@ use super::configurations::reassembled;
 use linkage::case::{Case, CaseParts, Grid};
 use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism};
+use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism, Transmission, TransmissionDesign, TransmissionId};
 
 /// Sets a new value in the parts of a case; `None` if no case has this value.
 type Turn = Box<dyn Fn(&mut CaseParts, f64) -> Option<()>>;
@@ -136,6 +136,9 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     for (index, drive) in case.drives.iter().enumerate() {
         knobs.extend(of_drive(case, index, drive));
     }
+    for (index, transmission) in case.mechanism.transmissions().entries() {
+        knobs.extend(of_transmission(index, transmission));
+    }
     for (index, link) in moving().filter(|(_, link)| link.mass > 0.0) {
         knobs.extend([FrameAxis::X, FrameAxis::Y].map(|axis| mass_centre(index, link, axis)));
     }
@@ -144,6 +147,29 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     }
     knobs.extend(lengths(case));
     knobs
+}
+
+/// Ratio and pressure angle of a transmission.
+fn of_transmission(index: TransmissionId, transmission: &Transmission) -> Vec<Knob> {
+    let (name, ratio) = (transmission.name(), transmission.ratio());
+    let own = transmission.design.clone();
+    let turn = move |parts: &mut CaseParts, value: f64| recoupled(parts, index, own.times_ratio(value / ratio));
+    let inverse = [((ratio * ratio).recip(), sentences::THE_INVERSE_RATIO)];
+    let mut knobs = vec![Knob::amount(CasePart::Ratio(name.into()), ratio, "", turn).moving().times(inverse)];
+    knobs.extend(transmission.design.pressure_angle().map(|angle| {
+        let own = transmission.design.clone();
+        let turn = move |parts: &mut CaseParts, value: f64| recoupled(parts, index, own.with_pressure_angle(value));
+        Knob::amount(CasePart::PressureAngle(name.into()), angle, "rad", turn)
+    }));
+    knobs
+}
+
+/// Replaces a transmission. Start pose and structure stay the same.
+pub fn recoupled(parts: &mut CaseParts, index: TransmissionId, other: Option<TransmissionDesign>) -> Option<()> {
+    let mut designs = parts.mechanism.transmission_designs();
+    *designs.get_mut(index.index())? = other?;
+    parts.mechanism = parts.mechanism.clone().with_transmissions(designs).ok()?;
+    Some(())
 }
 
 /// The case with changed parts; `None` if they do not form a case.
@@ -163,7 +189,8 @@ pub fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joi
             link.mass = 1e-12;
         }
     }
-    parts.mechanism = Mechanism::new(links, joints).ok()?;
+    let transmissions = parts.mechanism.transmission_designs();
+    parts.mechanism = Mechanism::new(links, joints).and_then(|own| own.with_transmissions(transmissions)).ok()?;
     Some(())
 }
 

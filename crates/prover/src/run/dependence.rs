@@ -78,7 +78,7 @@ fn links_of(mechanism: &Mechanism, seat: Option<Seat>) -> Vec<LinkId> {
             vec![joint.first.link, joint.second.link]
         }
         // Channels of these kinds do not describe a motion.
-        Some(Seat::Frame | Seat::Drive(_)) | None => Vec::new(),
+        Some(Seat::Frame | Seat::Drive(_) | Seat::Transmission(_)) | None => Vec::new(),
     }
 }
 

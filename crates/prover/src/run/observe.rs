@@ -157,8 +157,11 @@ pub(super) fn observe(
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
                 false => (-power::of_known_forces(case, state), power_of_drives(case, state)),
             };
-            fastest =
-                case.drives.iter().map(|drive| case.drive_rate(drive, &state.motions).abs()).fold(fastest, f64::larger);
+            fastest = case
+                .drives
+                .iter()
+                .map(|drive| case.drive_state(drive, &state.motions, &state.angles).rate.abs())
+                .fold(fastest, f64::larger);
             moment = moment.larger(state.largest_moment(case, arm));
             if watch == Watch::Side {
                 unbalance.add(case, state, crank);
@@ -217,12 +220,16 @@ pub(super) fn pose_of(state: &State) -> Pose {
 
 /// Power of all drives on their links (W).
 fn power_of_drives(case: &Case, state: &State) -> f64 {
-    case.drives.iter().zip(&state.torques).map(|(drive, effort)| effort * case.drive_rate(drive, &state.motions)).sum()
+    case.drives
+        .iter()
+        .zip(&state.torques)
+        .map(|(drive, effort)| effort * case.drive_state(drive, &state.motions, &state.angles).rate)
+        .sum()
 }
 
 /// Balancing moments of all drives (N m), reduced to the crank by their powers.
 fn reduced_torque(case: &Case, state: &State) -> f64 {
-    let rate = |drive: &Drive| case.drive_rate(drive, &state.motions);
+    let rate = |drive: &Drive| case.drive_state(drive, &state.motions, &state.angles).rate;
     let further = case.drives.further().iter().zip(&state.torques[1..]);
     let further = further.map(|(drive, effort)| effort * (rate(drive) / rate(case.crank())));
     state.torques[0] + further.sum::<f64>()

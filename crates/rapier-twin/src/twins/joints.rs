@@ -34,6 +34,11 @@ pub(super) fn free() -> GenericJointBuilder {
     locking(JointAxesMask::empty())
 }
 
+/// A joint that locks the direction of its x axis only.
+pub(super) fn along_a_line() -> GenericJoint {
+    locking(JointAxesMask::LIN_X).build()
+}
+
 /// The joint by which a link floats in a multibody: its coordinates are the position of its mass centre and its angle.
 pub(super) fn floating(link: &Link) -> GenericJoint {
     free().local_anchor2(vector(link.mass_centre)).build()

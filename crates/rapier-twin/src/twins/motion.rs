@@ -7,7 +7,7 @@ use crate::world::{LinkAngle, LinkFrame, World};
 use linkage::drive::Wrench;
 use linkage::math::Vec2;
 use linkage::math::angle::arc_tangent;
-use linkage::mechanism::{JointId, LinkId, LinkPose};
+use linkage::mechanism::{JointId, LinkId, LinkPose, TransmissionId};
 
 impl Twin {
     fn multibody(&self, index: usize) -> &Multibody {
@@ -92,6 +92,7 @@ impl World for Twin {
         if self.read {
             self.keep_frames(1.0);
         }
+        self.aim();
         self.world.step();
         self.read_frames();
         let substeps = self.world.integration_parameters.num_solver_iterations;
@@ -101,6 +102,10 @@ impl World for Twin {
     }
 
     fn bare_step(&mut self) {
+        if !self.meshes.is_empty() {
+            self.read_frames();
+            self.aim();
+        }
         self.world.step();
     }
 
@@ -173,6 +178,10 @@ impl World for Twin {
 
     fn reaction(&self, joint: JointId) -> Option<(Vec2, f64)> {
         self.read_reaction(joint)
+    }
+
+    fn transmitted(&self, transmission: TransmissionId) -> f64 {
+        self.read_transmitted(transmission)
     }
 
     fn torque(&self, drive: usize) -> f64 {

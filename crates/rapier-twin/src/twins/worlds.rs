@@ -2,6 +2,7 @@
 //! This module is compiled against `rapier2d-f64` and against `rapier2d`.
 
 mod joints;
+mod meshes;
 mod motion;
 mod reading;
 
@@ -20,7 +21,7 @@ use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, Joint, JointId, LinkId, LinkPose};
+use linkage::mechanism::{GROUND, Joint, JointId, LinkId, LinkPose, Transmission};
 
 /// If a tree has at least this many branches, a free motion has a separate multibody for every link on the ground.
 /// The cost of a row of the sweeps grows with the coordinates of the multibodies of the row's two links.
@@ -47,6 +48,15 @@ struct Cut {
     steered: Option<(LinkId, Vec2)>,
     /// Position of the joint at the start of the last substep.
     start: joints::Frame,
+}
+
+/// A transmission in the world.
+#[derive(Clone, Debug)]
+struct Mesh {
+    transmission: Transmission,
+    handle: ImpulseJointHandle,
+    /// The sum of the factors times coordinates at the start.
+    phase: f64,
 }
 
 /// The motor of a drive.
@@ -89,6 +99,8 @@ pub(crate) struct Twin {
     /// Position of every floating link in the multibodies. Each floating link has three coordinates.
     floating: Vec<Place>,
     cuts: Vec<Cut>,
+    /// The transmissions, in the case's order.
+    meshes: Vec<Mesh>,
     /// The motors, one for each drive, in the case's order.
     motors: Vec<Motor>,
     /// Mass centre of every link, and the inverses of the link's mass and moment of inertia in this world.
@@ -191,6 +203,7 @@ impl Twin {
             places: Vec::new(),
             floating: Vec::new(),
             cuts,
+            meshes: Vec::new(),
             motors,
             centres: mechanism.links().iter().map(|link| link.mass_centre).collect(),
             inverse: masses.iter().map(|of| of.map(|of| if of > 0.0 { of.recip() } else { 0.0 })).collect(),
@@ -201,6 +214,7 @@ impl Twin {
         };
         twin.prepare(&home);
         twin.put(&case.start.0);
+        twin.mesh(case);
         Ok(twin)
     }
 

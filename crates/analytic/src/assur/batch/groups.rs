@@ -69,7 +69,7 @@ pub(super) struct Groups {
 impl Groups {
     /// Returns the constants of a case. The plan must already have placed the start pose of the case.
     /// Returns `None` if a group is neither an RRR dyad nor a higher group on pins.
-    /// Also returns `None` if a driving link is attached to another driving link, or if a load is not a moment of
+    /// Also returns `None` if there are transmissions, if a driving link is attached to another driving link, or if a load is not a moment of
     /// resistance.
     /// The caller solves such cases pose by pose.
     pub(super) fn of(case: &Case, plan: &SolutionPlan, layout: Layout) -> Option<Self> {
@@ -79,7 +79,8 @@ impl Groups {
             driver.input == Input::Angle && case.mechanism.joints()[driver.joint].other(driver.link).link == GROUND
         };
         let steady = case.drives.len() == 1 || case.drives.iter().all(|drive| drive.constant_speed().is_some());
-        if !(steady && case.loads.iter().all(simple) && case.structure.drivers.iter().all(hinged)) {
+        let is_plain = steady && case.mechanism.transmissions().is_empty();
+        if !(is_plain && case.loads.iter().all(simple) && case.structure.drivers.iter().all(hinged)) {
             return None;
         }
         let mut settled = vec![false; case.mechanism.joints().len()];

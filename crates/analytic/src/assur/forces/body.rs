@@ -4,7 +4,7 @@ use linkage::case::Case;
 use linkage::drive::{Drive, Load, Wrench};
 use linkage::input::Input;
 use linkage::math::{Motion, Vec2, cross};
-use linkage::mechanism::{JointId, JointSide, LinkId};
+use linkage::mechanism::{Group, JointId, JointSide, LinkId, Mechanism, PerJoint, PerTransmission, TransmissionId};
 
 /// Reactions that the first link of every joint exerts on the second. They are filled in from the last group to the
 /// first.
@@ -14,10 +14,39 @@ pub(super) struct Reactions<'a> {
     pub(super) forces: &'a mut [Vec2],
     /// Moments about the joint's position on the second link (N m); in revolute joints only driving moments.
     pub(super) moments: &'a mut [f64],
+    /// Forces of the transmissions (N).
+    pub(super) transmitted: &'a mut [f64],
     /// Moment (N m) or force (N) of every drive.
     pub(super) efforts: &'a mut [f64],
     /// Loads on every link; empty if the case has no loads.
     pub(super) loads: &'a [Wrench],
+}
+
+/// The joints and transmissions whose forces are known before a group is solved: those of later groups.
+#[derive(Debug)]
+pub(super) struct Settled {
+    joints: PerJoint<bool>,
+    transmissions: PerTransmission<bool>,
+}
+
+impl Settled {
+    /// Nothing is known.
+    pub(super) fn nothing(mechanism: &Mechanism) -> Self {
+        Settled {
+            joints: vec![false; mechanism.joints().len()].into(),
+            transmissions: vec![false; mechanism.transmissions().len()].into(),
+        }
+    }
+
+    pub(super) fn add(&mut self, joint: JointId) {
+        self.joints[joint] = true;
+    }
+
+    /// Adds the joints and transmissions of a group.
+    pub(super) fn add_group(&mut self, group: &Group) {
+        group.inner.iter().chain(&group.outer).for_each(|&joint| self.add(joint));
+        group.trains.iter().for_each(|&transmission| self.transmissions[transmission] = true);
+    }
 }
 
 /// Action of a joint on one of its links: `sign` times its reaction, at the reaction's reference point.
@@ -95,12 +124,16 @@ pub(super) struct Body {
     /// Whether loads may act on the link.
     is_loaded: bool,
     hanging: Vec<Action>,
+    /// Transmissions with this link as a member.
+    coupled: Vec<TransmissionId>,
 }
 
 impl Body {
-    pub(super) fn of(case: &Case, link: LinkId, settled: &[bool]) -> Self {
+    pub(super) fn of(case: &Case, link: LinkId, settled: &Settled) -> Self {
         let is_loaded = |load: &Load| load.resistance().is_none_or(|(loaded, _)| loaded == link);
-        let on_link = case.mechanism.joints_on(link).iter().filter(|&&index| settled[index]);
+        let on_link = case.mechanism.joints_on(link).iter().filter(|&&index| settled.joints[index]);
+        let coupled = case.mechanism.transmissions().entries();
+        let coupled = coupled.filter(|(id, own)| settled.transmissions[*id] && own.design.links.contains(&link));
         let hanging = on_link.map(|&index| Action::of(case, index, link)).collect();
         let body = &case.mechanism.links()[link];
         Body {
@@ -110,6 +143,7 @@ impl Body {
             centre: body.mass_centre,
             is_loaded: case.loads.iter().any(is_loaded),
             hanging,
+            coupled: coupled.map(|(id, _)| id).collect(),
         }
     }
 
@@ -134,6 +168,14 @@ impl Body {
                 about += reactions.moments[action.joint] * action.sign;
             }
             moment += about;
+        }
+        for &id in &self.coupled {
+            case.mechanism.transmissions()[id].each_action(reactions.transmitted[id], motions, |link, own, place| {
+                if link == self.link {
+                    force += own;
+                    moment += cross(place - pole, own);
+                }
+            });
         }
         (force, moment)
     }

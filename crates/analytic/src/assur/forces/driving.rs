@@ -1,6 +1,6 @@
 //! Equilibrium of a link on a driven joint: the joint's reaction and the driving moment or force.
 
-use super::body::{Action, Body, Reactions};
+use super::body::{Action, Body, Reactions, Settled};
 use linkage::case::Case;
 use linkage::input::Input;
 use linkage::math::{Motion, Vec2, cross};
@@ -26,7 +26,7 @@ pub(super) struct DrivenPivot {
 
 impl Driving {
     /// The link `link` on the driven joint of the drive with the number `index`.
-    pub(super) fn of(case: &Case, link: LinkId, joint: JointId, index: usize, settled: &[bool]) -> Self {
+    pub(super) fn of(case: &Case, link: LinkId, joint: JointId, index: usize, settled: &Settled) -> Self {
         Driving { body: Body::of(case, link, settled), joint: DrivenPivot::of(case, link, joint, index) }
     }
 
@@ -64,17 +64,11 @@ impl DrivenPivot {
             return;
         }
         let moment = moment + cross(pole - self.pivot.place(motions), force);
-        match self.input {
-            Input::Angle => {
-                self.pivot.put(-force, reactions);
-                reactions.efforts[self.index] = -moment;
-            }
-            Input::Turn => {
-                self.pivot.put(-force, reactions);
-                self.pivot.put_moment(-moment, reactions);
-                reactions.efforts[self.index] = -moment * self.pivot.sign();
-            }
-            Input::Slide => unreachable!("a slide is balanced above"),
+        self.pivot.put(-force, reactions);
+        reactions.efforts[self.index] = -moment;
+        if self.input == Input::Turn {
+            self.pivot.put_moment(-moment, reactions);
+            reactions.efforts[self.index] *= self.pivot.sign();
         }
     }
 }

@@ -4,7 +4,7 @@
 //! closing joints (J^T lambda = -Q).
 //! The forces in the remaining joints follow, from the outermost link inwards.
 
-use super::body::{Action, Body, Reactions};
+use super::body::{Action, Body, Reactions, Settled};
 use crate::assur::groups::{Chain, SolutionPlan, Step};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2, cross};
@@ -38,7 +38,7 @@ struct Inwards {
 }
 
 impl Higher {
-    pub(super) fn of(case: &Case, step: GroupId, chain: &Chain, settled: &[bool]) -> Self {
+    pub(super) fn of(case: &Case, step: GroupId, chain: &Chain, settled: &Settled) -> Self {
         let nodes = chain.nodes();
         let inwards = nodes.iter().enumerate().rev().filter_map(|(child, node)| {
             let is_guided = node.is_guided();
@@ -75,17 +75,11 @@ impl Higher {
         for (index, (carried, body)) in self.carried.iter_mut().zip(&self.bodies).enumerate() {
             *carried = body.resultant(case, motions, reactions, chain.pole(index));
         }
-        for link in &self.inwards {
-            let (force, moment) = self.carried[link.child];
-            let (total, about) = &mut self.carried[link.parent];
-            *total += force;
-            let arm = chain.pole(link.child) - chain.pole(link.parent);
-            *about += if SLIDING && link.is_guided { cross(arm, force) + moment } else { cross(arm, force) };
+        if !chain.trains().is_empty() {
+            self.transmit::<SLIDING>(case, chain, motions, reactions);
         }
-        for ((multiplier, node), (force, moment)) in self.multipliers.iter_mut().zip(nodes).zip(&self.carried) {
-            let axis = if SLIDING { node.axis(motions) } else { None };
-            *multiplier = axis.map_or(*moment, |axis| axis.dot(force) * chain.size());
-        }
+        gather::<SLIDING>(&self.inwards, &mut self.carried, chain);
+        generalise::<SLIDING>(&mut self.multipliers, &self.carried, chain, motions);
         chain.multipliers(&mut self.multipliers);
         for cut in &mut self.cut {
             *cut = (Vec2::zeros(), 0.0);
@@ -131,5 +125,56 @@ impl Higher {
                 action.put(-force, reactions);
             }
         }
+    }
+    /// Finds the forces of the transmissions and adds them to the forces on the nodes' links.
+    /// The multiplier of a transmission is its force, although its row has only angles and slides.
+    /// With the forces at their feet as known forces, the other multipliers are those of the joints.
+    fn transmit<const SLIDING: bool>(
+        &mut self,
+        case: &Case,
+        chain: &Chain,
+        motions: &[Motion],
+        reactions: &mut Reactions,
+    ) {
+        self.cut.copy_from_slice(&self.carried);
+        gather::<SLIDING>(&self.inwards, &mut self.cut, chain);
+        generalise::<SLIDING>(&mut self.multipliers, &self.cut, chain, motions);
+        chain.multipliers(&mut self.multipliers);
+        let first = 2 * chain.closings().len() + chain.given().len();
+        for (train, multiplier) in chain.trains().iter().zip(&self.multipliers[first..]) {
+            let force = multiplier / train.scale;
+            reactions.transmitted[train.id] = force;
+            case.mechanism.transmissions()[train.id].each_action(force, motions, |link, own, place| {
+                if let Some(node) = chain.nodes().iter().position(|node| node.link == link) {
+                    let (total, moment) = &mut self.carried[node];
+                    *total += own;
+                    *moment += cross(place - chain.pole(node), own);
+                }
+            });
+        }
+    }
+}
+
+/// Adds the forces on every node's link to those on its parent, from the outermost node inwards.
+fn gather<const SLIDING: bool>(inwards: &[Inwards], carried: &mut [(Vec2, f64)], chain: &Chain) {
+    for link in inwards {
+        let (force, moment) = carried[link.child];
+        let (total, about) = &mut carried[link.parent];
+        *total += force;
+        let arm = chain.pole(link.child) - chain.pole(link.parent);
+        *about += if SLIDING && link.is_guided { cross(arm, force) + moment } else { cross(arm, force) };
+    }
+}
+
+/// Writes the generalised forces on the unknowns.
+fn generalise<const SLIDING: bool>(
+    generalised: &mut [f64],
+    carried: &[(Vec2, f64)],
+    chain: &Chain,
+    motions: &[Motion],
+) {
+    for ((own, node), (force, moment)) in generalised.iter_mut().zip(chain.nodes()).zip(carried) {
+        let axis = if SLIDING { node.axis(motions) } else { None };
+        *own = axis.map_or(*moment, |axis| axis.dot(force) * chain.size());
     }
 }

@@ -6,7 +6,7 @@
 //! These equations are derived here from the equilibrium of moments about the inner joint.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
-use super::body::{Action, Body, Reactions};
+use super::body::{Action, Body, Reactions, Settled};
 use crate::assur::groups::Rrr;
 use linkage::case::Case;
 use linkage::math::{Motion, cross};
@@ -23,7 +23,7 @@ pub(super) struct Pinned {
 }
 
 impl Pinned {
-    pub(super) fn of(case: &Case, step: GroupId, group: &Group, settled: &[bool]) -> Self {
+    pub(super) fn of(case: &Case, step: GroupId, group: &Group, settled: &Settled) -> Self {
         Pinned {
             step,
             bodies: [0, 1].map(|k| Body::of(case, group.links[k], settled)),

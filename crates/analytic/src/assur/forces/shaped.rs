@@ -4,7 +4,7 @@
 //! The links of a body then follow one by one, from the link farthest from the root: each is in equilibrium with its
 //! given joint. All moments are about the inner joint, at which the force of the other body acts.
 
-use super::body::{Action, Body, Reactions};
+use super::body::{Action, Body, Reactions, Settled};
 use super::driving::DrivenPivot;
 use crate::assur::groups::Shaped;
 use linkage::case::Case;
@@ -34,7 +34,7 @@ pub(super) struct Formed {
 }
 
 impl Formed {
-    pub(super) fn of(case: &Case, step: GroupId, group: &Group, dyad: &Shaped, settled: &[bool]) -> Self {
+    pub(super) fn of(case: &Case, step: GroupId, group: &Group, dyad: &Shaped, settled: &Settled) -> Self {
         let is_free = |joint: &&JointId| !group.given.contains(joint);
         let inner = *group.inner.iter().find(is_free).expect("a dyad has an inner joint");
         let joint = &case.mechanism.joints()[inner];

@@ -12,7 +12,7 @@
 //! These equations are derived here from the equilibrium of the links and of the whole dyad.
 //! Background: I. I. Artobolevsky, Theory of Mechanisms and Machines, 4th ed., Nauka 1988.
 
-use super::body::{Action, Body, Reactions};
+use super::body::{Action, Body, Reactions, Settled};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, GroupKind, JointId, LinkId};
@@ -32,7 +32,7 @@ pub(super) struct Sliding {
 }
 
 impl Sliding {
-    pub(super) fn of(case: &Case, group: &Group, settled: &[bool]) -> Self {
+    pub(super) fn of(case: &Case, group: &Group, settled: &Settled) -> Self {
         let joints = case.mechanism.joints();
         let inner = &joints[group.inner[0]];
         let mut order = [0, 1];

@@ -5,6 +5,7 @@
 //! The tree also contains all joints with a given coordinate. Every remaining revolute joint closes a contour.
 //! A link with a revolute joint to its parent has its angle as an unknown; a link with a prismatic joint has a slide.
 //! Each contour gives two equations, and each given coordinate one: theta - theta(parent) = q, or slide = q.
+//! Each transmission gives one equation too (`train.rs`).
 //! There are as many unknowns as equations.
 //! The gap of a closing joint is the sum of the link and slide vectors along both paths to this joint.
 //! Its derivative by an angle is the sum of the vectors that turn with that angle, rotated by 90 degrees. Its
@@ -15,6 +16,7 @@
 mod contour;
 mod predict;
 mod rates;
+mod train;
 
 #[cfg(feature = "batch")]
 pub(in crate::assur) use contour::Arrow;
@@ -22,6 +24,7 @@ pub use contour::{ClosingJoint, Node};
 pub(in crate::assur) use contour::{Contours, Hangs};
 
 use self::predict::{Memory, copy};
+pub(in crate::assur) use self::train::Train;
 use linkage::input::Input;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, cross, rotated, turned, unit};
@@ -120,6 +123,8 @@ pub struct Chain {
     is_sliding: bool,
     /// The joints with a given coordinate, one row of the Jacobian each, after those of the contours.
     given: Vec<Given>,
+    /// The transmissions, one row each, after the given coordinates.
+    trains: Vec<Train>,
     /// For every drive, the factor from a change of its input to the step (1 or 1/m).
     scales: Vec<f64>,
     /// Largest magnitude of the determinant so far.
@@ -165,6 +170,7 @@ impl Chain {
         let contours = Contours::of(mechanism, group);
         let size = mechanism.size();
         let given = Given::all(mechanism, &contours.nodes, drivers, size);
+        let trains = group.trains.iter().map(|&id| Train::of(mechanism, id, &contours.nodes, size)).collect();
         let n = contours.nodes.len();
         let none = Vec2::zeros();
         let at = At { arm: none, place: none, velocity: none, acceleration: none };
@@ -193,8 +199,9 @@ impl Chain {
             kept_slides: vec![0.0; n],
             speeds: vec![0.0; n],
             size,
-            scales: drivers.iter().map(|driver| driver.input.reach(size) / size).collect(),
+            scales: drivers.iter().map(|driver| 1.0 / driver.input.span(size)).collect(),
             given,
+            trains,
             largest: 0.0,
             memory: Memory::of(n, drives),
             tally: Box::default(),
@@ -261,6 +268,7 @@ impl Chain {
     fn positions_as<const SLIDING: bool>(&mut self, angles: &[f64], motions: &mut [Motion]) -> bool {
         if self.slides[0].is_nan() {
             self.read_slides(motions);
+            self.trains.iter_mut().for_each(|train| train.start(&self.slides, motions));
         }
         if let ([step], [angle], [at], [scale]) = (&mut self.step[..], angles, &self.at[..], &self.scales[..]) {
             *step = (angle - at) * scale;
@@ -294,6 +302,7 @@ impl Chain {
             self.follow::<SLIDING>(allowed, angles, motions) && self.memory.is_within(MAX_TURN) && !self.is_singular();
         if followed {
             self.memory.remember(&self.step);
+            self.trains.iter_mut().for_each(Train::keep);
             copy(angles, &mut self.at);
             self.largest = self.largest.larger(self.determinant.abs());
             self.learn();
@@ -324,6 +333,7 @@ impl Chain {
             return false;
         }
         self.at.copy_from_slice(angles);
+        self.trains.iter_mut().for_each(Train::keep);
         self.memory.start_anew();
         self.slopes.fill(0.0);
         self.square = self.determinant.powi(2);
@@ -421,6 +431,10 @@ impl Chain {
                 let direction = motions[node.link].direction;
                 cross(target, direction).atan2(target.dot(&direction))
             };
+        }
+        let first = first + self.given.len();
+        for (row, train) in self.trains.iter_mut().enumerate() {
+            self.unknown[first + row] = train.assemble(first + row, &self.slides, motions, &mut self.jacobian);
         }
     }
 
@@ -550,10 +564,17 @@ impl Chain {
         &self.given
     }
 
-    /// Computes the multipliers of the closing joints and of the given coordinates in place: J^T lambda = -Q.
+    /// The transmissions.
+    #[inline]
+    pub(in crate::assur) fn trains(&self) -> &[Train] {
+        &self.trains
+    }
+
+    /// Computes the multipliers of the closing joints, given coordinates and transmissions in place: J^T lambda = -Q.
     /// The first multipliers are the forces on the second links of the closing joints (N), x and y alternating.
-    /// The others are the driving moments on the nodes with given joints (N m; for a slide, the force along the axis
+    /// Next are the driving moments on the nodes with given joints (N m; for a slide, the force along the axis
     /// times [`Chain::size`]).
+    /// The last ones are the forces of the transmissions times their scales (N m).
     /// The input is the generalised forces on the unknowns (N m; for a slide, the force along the axis times
     /// [`Chain::size`]).
     /// The pose must be the last one solved.

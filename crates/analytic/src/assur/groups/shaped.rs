@@ -48,20 +48,21 @@ impl Shape {
         let (root, outer) = on(outer);
         let (mut placed, mut hung) = (vec![root], Vec::new());
         while placed.len() < members.len() {
-            let next = all.iter().enumerate().filter(|(_, driver)| group.given.contains(&driver.joint));
-            let found = next.filter_map(|(index, driver)| {
+            let mut given = all.iter().enumerate().filter(|(_, driver)| group.given.contains(&driver.joint));
+            let found = given.find_map(|(index, driver)| {
                 let joint = &mechanism.joints()[driver.joint];
                 let [first, second] = [joint.first.link, joint.second.link];
                 let far = if placed.contains(&first) { second } else { first };
                 let reaches = placed.contains(&first) != placed.contains(&second);
                 reaches.then_some((index, DrivingLink { link: far, ..*driver }))
             });
-            let (index, driver) = found.into_iter().next().expect("a body hangs together");
+            let (index, driver) = found.expect("a body hangs together");
             placed.push(driver.link);
             hung.push(Driver::of(mechanism, index, &driver));
         }
         let mut shape = Shape { root, hung, outer, inner: on(inner), span: [Vec2::zeros(); 3], linear: None };
         if shape.hung.iter().all(Driver::slides) {
+            let mut drives: Vec<usize> = shape.hung.iter().map(|own| own.index).collect();
             let mut frame = vec![Motion::REST; mechanism.links().len()];
             let mut at = |unit: Option<usize>| {
                 let coordinates: Vec<f64> = (0..all.len()).map(|k| if unit == Some(k) { 1.0 } else { 0.0 }).collect();
@@ -69,7 +70,7 @@ impl Shape {
                 shape.span[0]
             };
             let zero = at(None);
-            let drives: Vec<usize> = shape_drives(group, mechanism, &members, all);
+            drives.sort_unstable();
             let derivatives = drives.into_iter().map(|drive| (drive, at(Some(drive)) - zero)).collect();
             shape.linear = Some((zero, derivatives));
         }
@@ -117,17 +118,6 @@ impl Shape {
     fn turn(&self) -> f64 {
         cross(self.span[0], self.span[1]) / self.span[0].norm_squared()
     }
-}
-
-/// Numbers of the drives between the links of a body.
-fn shape_drives(group: &Group, mechanism: &Mechanism, members: &[LinkId], all: &[DrivingLink]) -> Vec<usize> {
-    let inside = |driver: &DrivingLink| {
-        let joint = &mechanism.joints()[driver.joint];
-        group.given.contains(&driver.joint)
-            && members.contains(&joint.first.link)
-            && members.contains(&joint.second.link)
-    };
-    all.iter().enumerate().filter(|(_, driver)| inside(driver)).map(|(index, _)| index).collect()
 }
 
 /// RRR dyad of bodies with given joints, prepared for solving.

@@ -43,7 +43,7 @@ impl Window {
     ) -> Result<()> {
         let (q, rate, second) = (system.q.clone(), system.rate.clone(), system.second.clone());
         let x = angle - self.at;
-        let drive = system.case.mechanism.equations();
+        let drive = system.case.mechanism.row_of_drive(0);
         let mut all: Vec<Vec<f64>> = Vec::with_capacity(self.spots.len());
         for spot in &self.spots {
             system.q.copy_from_slice(&spot.q);

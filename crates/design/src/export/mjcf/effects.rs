@@ -7,6 +7,7 @@ use quick_xml::escape::escape;
 
 use super::forces::{Actuator, Forces, Target};
 use super::model::MjcfModel;
+use super::names;
 use super::xml::{Xml, flat, number, numbers};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, JointSide, LinkId};
@@ -40,7 +41,8 @@ pub(super) fn tendons<'a>(xml: &mut Xml, model: &MjcfModel, forces: &'a Forces) 
         Target::Hinge(_) | Target::Place { .. } => None,
     };
     let sums: Vec<_> = forces.actuators.iter().filter_map(sum).collect();
-    if long.is_empty() && sums.is_empty() && forces.tendons.is_empty() {
+    let transmissions = model.case.mechanism.transmissions();
+    if long.is_empty() && sums.is_empty() && forces.tendons.is_empty() && transmissions.is_empty() {
         return;
     }
     let hinge = |xml: &mut Xml, branch: usize, factor: f64| {
@@ -59,6 +61,14 @@ pub(super) fn tendons<'a>(xml: &mut Xml, model: &MjcfModel, forces: &'a Forces) 
             xml.comment(sentences::ITS_LENGTH_IS_THE_ANGLE_THAT_THE_LOAD);
             xml.nest(format_args!(r#"fixed name="{name}""#), |xml| {
                 sum.iter().for_each(|&(branch, factor)| hinge(xml, branch, factor));
+            });
+        }
+        for transmission in transmissions {
+            let name = names::of_transmission(transmission);
+            let name = escape(&name);
+            xml.comment(sentences::ITS_LENGTH_IS_CONSTANT);
+            xml.nest(format_args!(r#"fixed name="{name}""#), |xml| {
+                model.coupled(transmission).iter().for_each(|&(branch, factor)| hinge(xml, branch, factor));
             });
         }
         for tendon in &forces.tendons {

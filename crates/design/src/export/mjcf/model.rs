@@ -7,7 +7,9 @@ use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, rotated, unit};
-use linkage::mechanism::{GROUND, JointId, JointKind, LinkId, PerLink, SpanningTree, TreeBranch};
+use linkage::mechanism::{
+    Coordinate, GROUND, JointId, JointKind, LinkId, PerLink, SpanningTree, Transmission, TreeBranch,
+};
 use linkage::solver::State;
 
 /// Inertia of a drive's rotor, divided by an estimate of the mechanism's moment of inertia about one of its points.
@@ -66,7 +68,7 @@ impl<'a> MjcfModel<'a> {
         for load in &case.loads {
             limits::check(load)?;
         }
-        let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
+        let driven = case.drives.joint_ids();
         let mut tree = SpanningTree::of(&case.mechanism);
         if driven.iter().any(|joint| tree.cut.contains(joint)) {
             tree = SpanningTree::with(&case.mechanism, &driven);
@@ -161,6 +163,27 @@ impl<'a> MjcfModel<'a> {
         }
         hinges.reverse();
         hinges
+    }
+
+    /// The coordinates of branches that a transmission couples, and their factors: the sum is constant.
+    pub(super) fn coupled(&self, transmission: &Transmission) -> Vec<(usize, f64)> {
+        let mut sum: Vec<(usize, f64)> = Vec::new();
+        let mut add = |branch: usize, factor: f64| match sum.iter_mut().find(|(own, _)| *own == branch) {
+            Some((_, own)) => *own += factor,
+            None => sum.push((branch, factor)),
+        };
+        for &(of, factor) in &transmission.terms {
+            match of {
+                Coordinate::Angle(link) => self.hinges(link).into_iter().for_each(|hinge| add(hinge, factor)),
+                Coordinate::Slide(joint) => {
+                    let branch = self.tree.branches.iter().position(|branch| branch.joint == joint);
+                    add(branch.expect("prismatic joints are in the tree"), factor);
+                }
+            }
+        }
+        let most = sum.iter().fold(0.0, |most: f64, (_, factor)| most.larger(factor.abs()));
+        sum.retain(|(_, factor)| factor.abs() > 1e-12 * most);
+        sum
     }
 
     /// One friction for each link with a resistance. A link that cannot turn gets no friction.

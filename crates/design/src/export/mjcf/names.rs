@@ -4,7 +4,7 @@ use crate::sentences;
 use std::collections::BTreeSet;
 
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::{Joint, LinkId, Mechanism};
+use linkage::mechanism::{Joint, LinkId, Mechanism, Transmission};
 
 /// Name that MuJoCo gives to the ground.
 const WORLD: &str = "world";
@@ -12,6 +12,11 @@ const WORLD: &str = "world";
 /// Site at the joint's point on `link`.
 pub(super) fn side(joint: &Joint, link: LinkId) -> String {
     format!("{}.{}", joint.name, if joint.first.link == link { "first" } else { "second" })
+}
+
+/// Name of the tendon and of the equality of a transmission.
+pub(super) fn of_transmission(transmission: &Transmission) -> String {
+    format!("transmission.{}", transmission.name())
 }
 
 /// Checks that all names are unique in MuJoCo.

@@ -8,7 +8,7 @@ use quick_xml::escape::escape;
 use super::effects;
 use super::forces::Forces;
 use super::model::{Freedom, MjcfModel};
-use super::names::side;
+use super::names::{of_transmission, side};
 use super::shapes;
 use super::xml::{Xml, about_z, flat, number, numbers};
 use linkage::math::{KeepNan, corners};
@@ -147,10 +147,16 @@ fn sites(xml: &mut Xml, model: &MjcfModel, forces: &Forces, link: LinkId) {
 }
 
 fn loops(xml: &mut Xml, model: &MjcfModel) {
-    if model.tree.cut.is_empty() {
+    let transmissions = model.case.mechanism.transmissions();
+    if model.tree.cut.is_empty() && transmissions.is_empty() {
         return;
     }
     xml.nest("equality", |xml| {
+        for transmission in transmissions {
+            let name = of_transmission(transmission);
+            let name = escape(&name);
+            xml.leaf(format_args!(r#"tendon name="{name}" tendon1="{name}""#));
+        }
         for &joint in &model.tree.cut {
             let joint = &model.case.mechanism.joints()[joint];
             let [first, second] = [joint.first.link, joint.second.link].map(|link| side(joint, link));

@@ -1,11 +1,11 @@
 //! Faults in lengths, guides and configurations.
 
 use super::kind::kinds;
-use super::touch::{coupler, crank, ends, move_places, moving_guide, output, placed, slider};
+use super::touch::{coupler, crank, ends, move_places, moving_guide, output, parts, placed, slider};
 use linkage::case::Case;
 use linkage::math::{Vec2, rotated, turned, unit};
-use linkage::mechanism::{GROUND, JointId, JointKind, LinkId};
-use prover::diagnosis::others;
+use linkage::mechanism::{GROUND, JointId, JointKind, LinkId, TransmissionDesign, TransmissionId};
+use prover::diagnosis::{others, recoupled};
 
 kinds! { Geometry, Case:
     "coupler-longer" (1e-2): "the first link that is not driven is too long by a fraction of its length",
@@ -35,10 +35,33 @@ kinds! { Geometry, Case:
         |case, size| guided(case, slider(case)?, |axis| axis, size * case.mechanism.size());
     "moving-guide-aside" (1e-2): "a moving guide is shifted sideways by a fraction of the mechanism's size",
         |case, size| guided(case, moving_guide(case)?, |axis| axis, size * case.mechanism.size());
+    "ratio" (1e-2): "the ratio of the first transmission is too large by a relative amount",
+        |case, size| coupled(case, |own| own.times_ratio(1.0 + size));
+    "ratio-inverted": "the ratio of the first transmission is inverted", |case, _| {
+        let ratio = case.mechanism.transmissions().first()?.ratio();
+        ((ratio.abs() - 1.0).abs() > 1e-9).then_some(())?;
+        coupled(case, |own| own.times_ratio(ratio.powi(-2)))
+    };
+    "ratio-sign": "the first transmission turns its second wheel in the wrong sense",
+        |case, _| coupled(case, |own| own.times_ratio(-1.0));
+    "pressure-angle" (1e-2): "the pressure angle of the first gears is too large by a relative amount",
+        |case, size| coupled(case, |own| own.with_pressure_angle(own.pressure_angle()? * (1.0 + size)));
+    "pressure-angle-side": "the teeth of the first gears pull instead of pushing",
+        |case, _| coupled(case, |own| own.with_pressure_angle(-own.pressure_angle()?));
+    "pressure-angle-missing": "the tooth force of the first gears has no radial part",
+        |case, _| coupled(case, |own| own.with_pressure_angle(0.0 * own.pressure_angle()?));
     "branch": "the first group with several configurations is in the wrong one",
         |case, _| others(case).into_iter().next().map(|(_, other)| other);
     "last-branch": "the last group with several configurations is in the wrong one",
         |case, _| others(case).into_iter().next_back().map(|(_, other)| other);
+}
+
+/// Changes the first transmission.
+fn coupled(case: &Case, change: impl Fn(&TransmissionDesign) -> Option<TransmissionDesign>) -> Option<Case> {
+    parts(case, |parts| {
+        let other = change(&parts.mechanism.transmissions().first()?.design);
+        recoupled(parts, TransmissionId(0), other)
+    })
 }
 
 /// Multiplies the distances of a link's points and joints from its first joint by a factor.

@@ -21,7 +21,7 @@ pub struct Blame {
 #[must_use]
 pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> Option<GroupId> {
     match error.part() {
-        Some(ErrorSubject::Group(names)) => structure.groups.find(|group| group.names(mechanism) == *names),
+        Some(ErrorSubject::Group(names)) => structure.at_start().groups.find(|group| group.names(mechanism) == *names),
         Some(ErrorSubject::Link(_) | ErrorSubject::Joint(_)) | None => None,
     }
 }
@@ -38,11 +38,9 @@ pub fn blame(
     wanted: &[StartGroup],
     error: &Error,
 ) -> Option<Blame> {
+    let structure = structure.at_start();
     let failed = group_of(mechanism, structure, error).filter(|_| error.kind() == ErrorKind::Geometry)?;
-    let before = |count: usize| Structure {
-        groups: structure.groups.iter().take(count).cloned().collect(),
-        ..structure.clone()
-    };
+    let before = |count: usize| structure.of_groups(structure.groups.ids().take(count));
     let part = before(failed.index() + 1);
     let mut own = wanted.to_vec();
     own[failed].near.clear();
@@ -78,7 +76,7 @@ fn clearly_nearer(
     found: Option<f64>,
 ) -> bool {
     let last = part.groups.len() - 1;
-    let before = Structure { groups: part.groups.iter().take(last).cloned().collect(), ..part.clone() };
+    let before = part.of_groups(part.groups.ids().take(last));
     let group = part.groups.last().expect("the last is the one that failed");
     let least = first_choices(mechanism, &before, drive_angles, wanted)
         .and_then(|(pose, _)| configurations(mechanism, group, &pose))
@@ -93,7 +91,7 @@ fn clearly_nearer(
 /// The old message stays. The new message adds the configuration with which the later group can be placed.
 #[must_use]
 pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error: &Error) -> Error {
-    let names = |group: &Group| group.names(mechanism);
+    let (structure, names) = (structure.at_start(), |group: &Group| group.names(mechanism));
     let own = names(&structure.groups[blame.group]);
     let later = match error.part() {
         Some(ErrorSubject::Group(names) | ErrorSubject::Link(names) | ErrorSubject::Joint(names)) => names.clone(),

@@ -71,12 +71,7 @@ fn out_of_range(rank: usize, count: usize) -> Error {
 
 fn nothing_asked(group: &Group) -> Error {
     let near = "`near = { point = \"...\", x_mm = ..., y_mm = ... }`";
-    let modes = match group.kind {
-        GroupKind::Rrr => Some([AssemblyMode::Left, AssemblyMode::Right]),
-        GroupKind::Rrp | GroupKind::Rpr => Some([AssemblyMode::Ahead, AssemblyMode::Behind]),
-        GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher | GroupKind::Driven => None,
-    };
-    match modes {
+    match group.kind.modes() {
         Some([one, other]) => Error::new(ErrorKind::Input, sentences::NEITHER_AN_ASSEMBLY_MODE_NOR)
             .help(sentences::add_mode_or_mode_or(&one.name(), &other.name(), &near)),
         None => {

@@ -3,8 +3,9 @@
 use super::fused::Fused;
 use super::mode::{AssemblyMode, Configuration};
 use super::{dyads, four_link};
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
+use crate::sentences;
 
 /// All real configurations of a group. `pose` contains the poses of the links of earlier groups.
 /// If the group has given joints, the links of every body have the right pose relative to each other in `pose`, as in
@@ -18,6 +19,10 @@ use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     if group.kind == GroupKind::Driven {
         return Ok(vec![Configuration { mode: AssemblyMode::Only, links: vec![pose.0[group.links[0]]] }]);
+    }
+    if !group.trains.is_empty() {
+        let message = sentences::the_configurations_of_the_train(&group.names(mechanism));
+        return Err(Error::new(ErrorKind::Unsupported, message));
     }
     if !group.is_rigid() {
         let fused = Fused::of(mechanism, group, pose);

@@ -92,6 +92,7 @@ pub fn group(mechanism: &Mechanism, links: &[LinkId], kind: GroupKind) -> Group 
         inner: all.filter(|&joint| inside(joint) == 2).collect(),
         outer,
         given: Vec::new(),
+        trains: Vec::new(),
         class: 2,
         kind,
     }

@@ -19,6 +19,12 @@ impl From<JointId> for DrivenJoint {
     }
 }
 
+impl From<&DrivingLink> for DrivenJoint {
+    fn from(driver: &DrivingLink) -> Self {
+        DrivenJoint { joint: driver.joint, input: driver.input }
+    }
+}
+
 /// A link that a drive moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrivingLink {

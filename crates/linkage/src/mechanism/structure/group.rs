@@ -1,7 +1,7 @@
 //! An Assur group and its kind.
 
 use crate::error::KeyPath;
-use crate::mechanism::{JointId, LinkId, Mechanism};
+use crate::mechanism::{AssemblyMode, JointId, LinkId, Mechanism, TransmissionId};
 use crate::sentences;
 
 /// Kind of Assur group.
@@ -18,13 +18,24 @@ pub enum GroupKind {
     Rpp,
     /// Dyad with two outer prismatic pairs and an inner revolute pair.
     Prp,
-    /// Any group with more than two rigid bodies.
+    /// Any group with more than two rigid bodies, and any group of several links with a transmission.
     Higher,
-    /// A link whose pose follows from a given joint on a link of an earlier group. It is a driving link (class I).
+    /// A link whose pose follows from a given joint on a link of an earlier group, or from a transmission between earlier
+    /// links. It is a driving link (class I).
     Driven,
 }
 
 impl GroupKind {
+    /// The assembly modes of a dyad with two configurations, that with the positive sine first; `None` for other kinds.
+    #[must_use]
+    pub const fn modes(self) -> Option<&'static [AssemblyMode; 2]> {
+        match self {
+            GroupKind::Rrr => Some(&[AssemblyMode::Left, AssemblyMode::Right]),
+            GroupKind::Rrp | GroupKind::Rpr => Some(&[AssemblyMode::Ahead, AssemblyMode::Behind]),
+            GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher | GroupKind::Driven => None,
+        }
+    }
+
     /// Whether a group of this kind has only one configuration, whatever its dimensions.
     #[must_use]
     pub fn has_one_configuration(self) -> bool {
@@ -61,6 +72,9 @@ pub struct Group {
     /// Two links on a given joint are one rigid body at every instant, a body of changing shape.
     /// Class and kind of the group are those of its bodies.
     pub given: Vec<JointId>,
+    /// The transmissions that the group contains: each couples a coordinate of the group to others of the group or of
+    /// earlier links.
+    pub trains: Vec<TransmissionId>,
     /// Class: 1 for a driven link, 2 for dyads, otherwise the number of sides of the group's closed contour with the most sides
     /// (Artobolevsky).
     pub class: usize,
@@ -75,10 +89,10 @@ impl Group {
         self.outer.len()
     }
 
-    /// Whether no joint of the group has a given coordinate, so that every body is one link.
+    /// Whether the group has neither given joints nor transmissions, so that every body is one link.
     #[must_use]
     pub fn is_rigid(&self) -> bool {
-        self.given.is_empty()
+        self.given.is_empty() && self.trains.is_empty()
     }
 
     /// For every link of the group, the first link of its body: the lead of the body.

@@ -1,12 +1,12 @@
-//! Ownership of equations. Each equation concerns two links and is owned by one of the two. A link owns three
-//! equations.
+//! Ownership of equations. An equation of a joint or drive concerns two links, that of a transmission three.
+//! One of these links owns the equation. A link owns three equations.
 
 use crate::sentences;
 use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::mechanism::{DrivenJoint, GROUND, JointId, LinkId, Mechanism};
+use crate::mechanism::{DrivenJoint, GROUND, JointId, LinkId, Mechanism, TransmissionId};
 
 /// Checks Laman's condition for plane bodies: the joints among k links, the ground included, have at most 3 k - 3
 /// equations.
@@ -17,11 +17,13 @@ use crate::mechanism::{DrivenJoint, GROUND, JointId, LinkId, Mechanism};
 /// Source: Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008.
 pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Result<()> {
     let mut owners = Owners::unassigned(mechanism, drives, OWNED);
+    // A transmission concerns three links, so the condition does not apply to it.
+    owners.equations.retain(|equation| !matches!(equation.of, Source::Transmission(_)));
     owners.assign_all(mechanism)?;
     let count = owners.equations.len();
     for (index, joint) in mechanism.joints().entries() {
         let ends = [joint.first.link, joint.second.link];
-        owners.add((0..3).map(|_| Equation { joint: index, of_drive: false, ends }));
+        owners.add((0..3).map(|_| Equation { of: Source::Joint(index), ends: joined(ends) }));
         owners.assign_from(count, mechanism)?;
         // The search may have given equations to new owners. These equations keep the new owners when the copies are
         // removed.
@@ -31,12 +33,24 @@ pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[DrivenJoint]) -> Res
     Ok(())
 }
 
-/// One scalar equation of a joint or of a drive. The equation concerns two links, and one of them will own it.
+/// What an equation describes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Source {
+    Joint(JointId),
+    Drive(JointId),
+    Transmission(TransmissionId),
+}
+
+/// One scalar equation and the links that it concerns. One of these links will own it.
 #[derive(Clone, Copy)]
 struct Equation {
-    joint: JointId,
-    of_drive: bool,
-    ends: [LinkId; 2],
+    of: Source,
+    ends: [LinkId; 3],
+}
+
+/// The links of an equation of a joint. The second link stands twice.
+fn joined([first, second]: [LinkId; 2]) -> [LinkId; 3] {
+    [first, second, second]
 }
 
 /// Number of equations that one link can own: its degrees of freedom.
@@ -65,10 +79,13 @@ impl Owners {
         let mut owners = Owners { equations: Vec::new(), owner: Vec::new(), owned, of_ground };
         for (index, joint) in mechanism.joints().entries() {
             let ends = [joint.first.link, joint.second.link];
-            owners.add((0..joint.kind.equations()).map(|_| Equation { joint: index, of_drive: false, ends }));
+            let ends = joined(ends);
+            owners.add((0..joint.kind.equations()).map(|_| Equation { of: Source::Joint(index), ends }));
             let driven = drives.iter().filter(|drive| drive.joint == index);
-            owners.add(driven.map(|_| Equation { joint: index, of_drive: true, ends }));
+            owners.add(driven.map(|_| Equation { of: Source::Drive(index), ends }));
         }
+        let coupled = mechanism.transmissions().entries();
+        owners.add(coupled.map(|(id, own)| Equation { of: Source::Transmission(id), ends: own.links() }));
         owners
     }
 
@@ -126,7 +143,15 @@ impl Owners {
     }
 
     pub(super) fn owner_of_drive(&self, joint: JointId) -> Option<LinkId> {
-        let index = self.equations.iter().position(|equation| equation.of_drive && equation.joint == joint)?;
+        self.owner_of(Source::Drive(joint))
+    }
+
+    pub(super) fn owner_of_transmission(&self, transmission: TransmissionId) -> Option<LinkId> {
+        self.owner_of(Source::Transmission(transmission))
+    }
+
+    fn owner_of(&self, of: Source) -> Option<LinkId> {
+        let index = self.equations.iter().position(|equation| equation.of == of)?;
         self.owner[index]
     }
 
@@ -140,8 +165,9 @@ impl Owners {
         }
         for (equation, owner) in self.equations.iter().zip(&self.owner) {
             let owner = owner.expect("every equation has an owner");
-            let other = if equation.ends[0] == owner { equation.ends[1] } else { equation.ends[0] };
-            graph.update_edge(NodeIndex::new(owner.index()), NodeIndex::new(other.index()), ());
+            for other in equation.ends.into_iter().filter(|&other| other != owner) {
+                graph.update_edge(NodeIndex::new(owner.index()), NodeIndex::new(other.index()), ());
+            }
         }
         let mut parts: Vec<Vec<LinkId>> = tarjan_scc(&graph)
             .into_iter()

@@ -13,14 +13,18 @@ impl Chain {
         }
     }
 
-    /// Writes the right-hand sides of the given coordinates: `of` is their rates or accelerations, `led` those of the
-    /// parents' angles that are known.
-    fn put_given(&mut self, of: &[f64], led: impl Fn(&Motion) -> f64, motions: &[Motion]) {
+    /// Writes the right-hand sides of the given coordinates and transmissions: `of` is the rates or accelerations of the
+    /// drives, `led` those of known angles. The `order` is 1 for rates and 2 for accelerations.
+    fn put_given(&mut self, order: usize, of: &[f64], led: impl Fn(&Motion) -> f64, motions: &[Motion]) {
         let first = 2 * self.contours.closings.len();
         for (row, given) in self.given.iter().enumerate() {
             let parent = &motions[self.contours.nodes[given.node].parent.link];
             let known = if given.is_slide || given.parent_spin.is_some() { 0.0 } else { led(parent) };
             self.unknown[first + row] = given.factor * of[given.drive] + known;
+        }
+        let first = first + self.given.len();
+        for (row, train) in self.trains.iter().enumerate() {
+            self.unknown[first + row] = train.known(order, &led, motions);
         }
     }
 
@@ -47,7 +51,7 @@ impl Chain {
             }
             (rates[0], rates[1]) = (rate.x, rate.y);
         }
-        self.put_given(of_drives, |parent| parent.omega, motions);
+        self.put_given(1, of_drives, |parent| parent.omega, motions);
         let Contours { nodes, arrows, .. } = &self.contours;
         let World { arrows: vectors, roots: ends, joints, .. } = &mut self.world;
         self.jacobian.solve(&mut self.unknown);
@@ -118,7 +122,7 @@ impl Chain {
             }
             (rates[0], rates[1]) = (second.x, second.y);
         }
-        self.put_given(of_drives, |parent| parent.alpha, motions);
+        self.put_given(2, of_drives, |parent| parent.alpha, motions);
         self.jacobian.solve(&mut self.unknown);
         let Contours { nodes, arrows, .. } = &self.contours;
         let World { arrows: vectors, centripetal, roots: ends, joints } = &mut self.world;

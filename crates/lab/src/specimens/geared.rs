@@ -1,0 +1,82 @@
+//! Random mechanisms with a wheel that gears or a belt couple to one of their joints.
+
+use linkage::case::{Case, CaseParts};
+use linkage::input::Input;
+use linkage::math::{Vec2, unit};
+use linkage::mechanism::{
+    AssemblyMode, GroupKind, Joint, JointId, JointKind, JointSide, Link, LinkId, Mechanism, Point, Structure,
+    TransmissionDesign, TransmissionKind,
+};
+
+use super::sketch::RandomSource;
+
+/// Name of the wheel and of its axle.
+const WHEEL: &str = "wheel";
+
+/// The mechanism of `case` with a wheel on one of its links, coupled to a link that turns about a joint of this link.
+/// The wheel has a mass off its axle. `None` if the structure does not allow it.
+pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
+    let (joints, size) = (case.mechanism.joints(), case.mechanism.size());
+    let pins: Vec<JointId> = joints.entries().filter(|(_, joint)| joint.is_pin()).map(|(id, _)| id).collect();
+    let pin = pins[random.index(pins.len())];
+    let [first, carrier] = match [joints[pin].first.link, joints[pin].second.link] {
+        ends if random.yes() => ends,
+        [one, other] => [other, one],
+    };
+    let (distance, start) = (size * random.number(0.2, 0.6), random.angle());
+    let local = joints[pin].on(carrier)? + unit(random.angle()) * distance;
+    let kind = kind(random, distance);
+    let wheel = LinkId(case.mechanism.links().len());
+    let mut links = case.mechanism.links().to_vec();
+    links[carrier].points.push(Point { name: WHEEL.into(), local });
+    let rim = Point { name: "rim".into(), local: Vec2::new(0.3 * distance, 0.0) };
+    let axle = Point { name: WHEEL.into(), local: Vec2::zeros() };
+    let mass = random.number(0.3, 2.0);
+    links.push(Link {
+        name: WHEEL.into(),
+        points: vec![axle, rim],
+        mass,
+        mass_centre: Vec2::new(0.1 * distance, 0.02 * distance),
+        inertia: 0.05 * mass * distance * distance,
+    });
+    let mut all = joints.to_vec();
+    let [one, other] = [JointSide { link: carrier, local }, JointSide { link: wheel, local: Vec2::zeros() }];
+    all.push(Joint { name: WHEEL.into(), kind: JointKind::Revolute, first: one, second: other, drawn: None });
+    let joint = JointId(joints.len());
+    let design = TransmissionDesign { name: "pair".into(), kind, links: [first, wheel], carrier, joint, start };
+    let mechanism = Mechanism::new(links, all).ok()?.with_transmissions(vec![design]).ok()?;
+    let mut pose = case.start.clone();
+    let placed = mechanism.joints()[joint].driven(wheel, &pose.0[carrier], Input::Turn, start);
+    pose.0 = pose.0.iter().copied().chain([placed]).collect();
+    let parts = CaseParts { mechanism, start: pose, ..case.clone().into_parts() };
+    restructured(case, parts)
+}
+
+/// The case of changed parts, with their structure. Groups that the case has too keep their modes.
+fn restructured(case: &Case, mut parts: CaseParts) -> Option<Case> {
+    parts.structure = Structure::of(&parts.mechanism, &parts.drives.joints()).ok()?;
+    let mode = |own: &linkage::mechanism::Group| match own.kind {
+        GroupKind::Driven => AssemblyMode::Only,
+        GroupKind::Higher => AssemblyMode::Followed,
+        GroupKind::Rrr | GroupKind::Rrp | GroupKind::Rpr | GroupKind::Rpp | GroupKind::Prp => {
+            let same = case.structure.groups.find(|group| group.links == own.links);
+            same.map_or(AssemblyMode::Only, |same| case.modes[same])
+        }
+    };
+    parts.modes = parts.structure.groups.iter().map(mode).collect();
+    Case::new(parts).ok()
+}
+
+fn kind(random: &mut RandomSource, distance: f64) -> TransmissionKind {
+    if random.index(3) == 0 {
+        let radii = [0, 1].map(|_| distance * random.number(0.1, 0.45));
+        return TransmissionKind::Belt { radii, crossed: random.yes(), slack: random.number(0.0, 20.0) };
+    }
+    let first = 10.0 + random.index(30) as f64;
+    // The two numbers of teeth differ, as an internal pair requires.
+    let second = first * random.number(1.2, 3.0);
+    let teeth = if random.yes() { [first, second] } else { [second, first] };
+    let signed = |own: f64, other: f64| if own > other { -own } else { own };
+    let teeth = if random.yes() { teeth } else { [signed(teeth[0], teeth[1]), signed(teeth[1], teeth[0])] };
+    TransmissionKind::Gears { teeth, pressure_angle: random.number(0.0, 0.5) }
+}

@@ -1,0 +1,60 @@
+//! The lines of action that carry the forces of transmissions.
+//!
+//! Engine and Newton-Euler equations exert the force of a transmission in its first line of action, whatever its sign.
+//! A negative force belongs in the second line, and slack strands have a tension.
+//! These forces balance each other as far as the motion is concerned, so only the reactions of the axles change.
+
+use super::newton_euler::NewtonEuler;
+use linkage::case::Case;
+use linkage::drive::Wrench;
+use linkage::error::Result;
+use linkage::math::{Vec2, cross};
+use linkage::mechanism::LinkId;
+use linkage::solver::State;
+
+/// The change of the reactions, prepared for many poses.
+#[derive(Debug)]
+pub(super) struct Lines {
+    /// The equations without masses.
+    equations: NewtonEuler,
+    moved: Vec<Wrench>,
+    beside: State,
+}
+
+impl Lines {
+    /// The transmissions of a case; `None` if there are none.
+    pub(super) fn of(case: &Case) -> Option<Self> {
+        let links = case.mechanism.links().len();
+        (!case.mechanism.transmissions().is_empty()).then(|| Lines {
+            equations: NewtonEuler::of(case, vec![[0.0; 2]; links], 1.0),
+            moved: vec![Wrench::ZERO; links],
+            beside: State::at_rest(case),
+        })
+    }
+
+    /// Moves the forces of the transmissions of a state to the lines that carry them.
+    ///
+    /// # Errors
+    /// Those of [`NewtonEuler::solve`].
+    pub(super) fn change(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
+        let (mechanism, moved) = (&case.mechanism, &mut self.moved);
+        moved.fill(Wrench::ZERO);
+        let mut put = |link: LinkId, force: Vec2, place: Vec2| {
+            let centre = state.motions[link].point(mechanism.links()[link].mass_centre);
+            moved[link].force += force;
+            moved[link].moment += cross(place - centre, force);
+        };
+        for (transmission, &force) in mechanism.transmissions().iter().zip(&*state.transmitted) {
+            transmission.each_action(force, &state.motions, &mut put);
+            let (carrier, line) = (&state.motions[transmission.design.carrier], &transmission.lines[0]);
+            for ((link, foot), sign) in transmission.design.links.into_iter().zip(line.feet).zip([1.0, -1.0]) {
+                put(link, carrier.arm(line.direction) * (sign * force), carrier.point(foot));
+            }
+        }
+        self.beside.motions.clone_from(&state.motions);
+        self.equations.solve_under(&self.moved, case, &mut self.beside, t)?;
+        state.forces.iter_mut().zip(&self.beside.forces).for_each(|(own, beside)| *own += beside);
+        state.moments.iter_mut().zip(&self.beside.moments).for_each(|(own, beside)| *own += beside);
+        Ok(())
+    }
+}

@@ -1,0 +1,188 @@
+//! `[[transmissions]]`: gear pairs, racks and belts.
+
+use super::joints::link;
+use super::keys::key::{Section, ValueKind, needed, optional};
+use super::links::sound_name;
+use super::reader::{Faults, Sign, TomlTable};
+use super::unit::of_input;
+use super::words::{Words, names, suggestion};
+use crate::sentences;
+use linkage::error::{ErrorKind, Result};
+use linkage::input::Input;
+use linkage::mechanism::{JointId, LinkId, Mechanism, TransmissionDesign, TransmissionKind};
+use std::f64::consts::FRAC_PI_2;
+
+/// Reads the keys of a type of transmission.
+type ReadTransmission = fn(&mut TomlTable) -> Result<TransmissionKind>;
+
+/// Types of transmissions, each with its reader.
+const TYPES: Words<ReadTransmission> = &[("gears", gears), ("rack", rack), ("belt", belt)];
+
+/// Words for the contact of gears: the sign of the larger number of teeth.
+const CONTACTS: Words<f64> = &[("external", 1.0), ("internal", -1.0)];
+
+/// Words for the strands of a belt, and whether they cross.
+const STRANDS: Words<bool> = &[("open", false), ("crossed", true)];
+
+/// The usual pressure angle of involute gears (rad): ISO 53.
+const PRESSURE_ANGLE: f64 = 20.0 * std::f64::consts::PI / 180.0;
+
+/// Descriptions of the keys that this module reads.
+pub const SECTIONS: &[Section] = &[Section::at("transmissions").with(&[
+    needed("name", ValueKind::Text).means("unique name"),
+    needed("type", ValueKind::Choice(|| names(TYPES))).means("kind of transmission"),
+    needed("links", ValueKind::Texts)
+        .means("the two wheels, or pinion and rack; `\"ground\"` may be a wheel, such as a fixed ring gear"),
+    optional("carrier", ValueKind::Text, "`\"ground\"`").means(
+        "the link that carries both axles, or the axle and the guide. A wheel is joined to the carrier, or to a \
+         third link at a joint of the carrier with that link",
+    ),
+    optional("teeth", ValueKind::Numbers, "required for gears").means(
+        "gears: numbers of teeth; only their ratio matters. The pitch radii follow from the distance of the axles",
+    ),
+    optional("contact", ValueKind::Choice(|| names(CONTACTS)), "`\"external\"`")
+        .means("gears: external, or internal if the wheel with more teeth is a ring gear"),
+    optional("pressure_angle", ValueKind::ANGLES.of(Sign::NotNegative), "20 deg")
+        .means("gears, rack: angle between the line of action and the tangent of the pitch circles"),
+    optional("radii", ValueKind::LIST_OF_LENGTHS, "required for a belt").means("belt: pitch radii of the two wheels"),
+    optional("strands", ValueKind::Choice(|| names(STRANDS)), "`\"open\"`")
+        .means("belt: open, or crossed, so that the wheels turn in opposite senses"),
+    optional("slack", ValueKind::FORCES.of(Sign::NotNegative), "0: a chain").means("belt: tension of the slack strand"),
+    optional("start_joint", ValueKind::Text, "the joint of the second link with the carrier")
+        .means("the joint that `start` refers to: one for each transmission, not driven"),
+    needed("start", ValueKind::INPUTS)
+        .means("coordinate of that joint at t = 0: angle of its second link minus that of its first link, or slide"),
+])];
+
+/// The mechanism with the transmissions of the file.
+pub fn read(tables: Vec<TomlTable>, mechanism: Mechanism, faults: &mut Faults) -> Mechanism {
+    let mut designs: Vec<TransmissionDesign> = Vec::new();
+    let count = tables.len();
+    for mut table in tables {
+        designs.extend(faults.read(&mut table, |table| transmission(table, &mechanism, &designs)));
+    }
+    faults.whole &= designs.len() == count;
+    if !faults.whole || designs.is_empty() {
+        return mechanism;
+    }
+    match faults.kept(mechanism.clone().with_transmissions(designs)) {
+        Some(geared) => geared,
+        None => {
+            faults.whole = false;
+            mechanism
+        }
+    }
+}
+
+fn transmission(
+    table: &mut TomlTable,
+    mechanism: &Mechanism,
+    before: &[TransmissionDesign],
+) -> Result<TransmissionDesign> {
+    let name = sound_name(table, "a transmission")?;
+    let kind = table.choice("type", sentences::IS_NO_TYPE_OF_TRANSMISSION, TYPES)?(table)?;
+    let pair = table.strings("links")?;
+    let carrier = table.optional_string("carrier")?.unwrap_or_else(|| "ground".into());
+    let stated = table.optional_string("start_joint")?;
+    let Some((family, start)) = table.optional_si_of("start")? else {
+        let spellings = ["start_rad", "start_deg", "start_m", "start_mm"];
+        return Err(table.lacks(&spellings, sentences::GIVE_AN_ANGLE_OR_A_SLIDE));
+    };
+    table.finish()?;
+    let links = mechanism.links();
+    let [first, second] = &pair[..] else {
+        let message = sentences::found_links_but_a_transmission_has_two(&pair.len());
+        return table.refuse("links", message, sentences::NAME_TWO_WHEELS);
+    };
+    let members = [link(table, first, links)?, link(table, second, links)?];
+    let Some(carrier) = mechanism.link_named(&carrier) else {
+        let known = suggestion(&carrier, links.iter().map(|link| link.name.as_str()), "\"");
+        return table.refuse("carrier", sentences::there_is_no_link(&carrier), known);
+    };
+    let joint = start_joint(table, mechanism, stated, [members[1], carrier])?;
+    let own = &mechanism.joints()[joint];
+    if let Some(other) = before.iter().find(|other| other.joint == joint) {
+        let message = sentences::the_start_joint_is_taken(&own.name, &other.name);
+        return table.refuse("start_joint", message, sentences::NAME_ANOTHER_START_JOINT);
+    }
+    if !std::ptr::eq(family, of_input(if own.slides() { Input::Slide } else { Input::Turn })) {
+        let message = sentences::the_start_has_units_of(&family.noun, &own.name, &own.kind.name());
+        return Err(table.wrong(ErrorKind::Input, "start", message).help(sentences::GIVE_AN_ANGLE_OR_A_SLIDE));
+    }
+    Ok(TransmissionDesign { name, kind, links: members, carrier, joint, start })
+}
+
+/// The joint whose coordinate at t = 0 is given.
+fn start_joint(
+    table: &TomlTable,
+    mechanism: &Mechanism,
+    stated: Option<String>,
+    [second, carrier]: [LinkId; 2],
+) -> Result<JointId> {
+    let joints = mechanism.joints();
+    let Some(name) = stated else {
+        let own = joints.find(|joint| joint.on(second).is_some() && joint.on(carrier).is_some());
+        return own.map_or_else(
+            || {
+                let [second, carrier] = [second, carrier].map(|link| mechanism.links()[link].name.as_str());
+                let message = sentences::no_joint_connects_with_the_carrier(&second, &carrier);
+                table.refuse("start_joint", message, sentences::NAME_THE_START_JOINT)
+            },
+            Ok,
+        );
+    };
+    mechanism.joint_named(&name).map_or_else(
+        || {
+            let known = suggestion(&name, joints.iter().map(|joint| joint.name.as_str()), "\"");
+            table.refuse("start_joint", sentences::there_is_no_joint(&name), known)
+        },
+        Ok,
+    )
+}
+
+fn gears(table: &mut TomlTable) -> Result<TransmissionKind> {
+    let numbers = table.numbers("teeth")?;
+    let sign = table.optional_choice("contact", sentences::IS_NO_CONTACT_OF_GEARS, CONTACTS)?.unwrap_or(1.0);
+    let pressure_angle = pressure_angle(table)?;
+    let [first, second] = two(table, "teeth", &numbers)?;
+    let teeth = match sign < 0.0 {
+        true if first == second => {
+            let message = sentences::EQUAL_GEARS_CANNOT_BE_INTERNAL;
+            return table.refuse("teeth", message, sentences::GIVE_THE_RING_MORE_TEETH);
+        }
+        true if first > second => [sign * first, second],
+        true => [first, sign * second],
+        false => [first, second],
+    };
+    Ok(TransmissionKind::Gears { teeth, pressure_angle })
+}
+
+fn rack(table: &mut TomlTable) -> Result<TransmissionKind> {
+    Ok(TransmissionKind::Rack { pressure_angle: pressure_angle(table)? })
+}
+
+fn belt(table: &mut TomlTable) -> Result<TransmissionKind> {
+    let Some((_, radii)) = table.optional_si_list("radii")? else {
+        return Err(table.lacks(&["radii_m", "radii_mm"], sentences::GIVE_THE_PITCH_RADII));
+    };
+    let crossed = table.optional_choice("strands", sentences::IS_NO_COURSE_OF_STRANDS, STRANDS)?.unwrap_or(false);
+    let slack = table.optional_si("slack")?.unwrap_or(0.0);
+    Ok(TransmissionKind::Belt { radii: two(table, "radii", &radii)?, crossed, slack })
+}
+
+fn pressure_angle(table: &mut TomlTable) -> Result<f64> {
+    let angle = table.optional_si("pressure_angle")?.unwrap_or(PRESSURE_ANGLE);
+    if angle >= FRAC_PI_2 {
+        let message = sentences::the_pressure_angle_is(&angle.to_degrees());
+        return table.refuse("pressure_angle", message, sentences::GIVE_A_PRESSURE_ANGLE_BELOW_90);
+    }
+    Ok(angle)
+}
+
+/// Two positive numbers.
+fn two(table: &TomlTable, key: &str, numbers: &[f64]) -> Result<[f64; 2]> {
+    match *numbers {
+        [first, second] if first > 0.0 && second > 0.0 => Ok([first, second]),
+        _ => Err(table.wrong(ErrorKind::Input, key, sentences::found_numbers_for_two_wheels(&key))),
+    }
+}
