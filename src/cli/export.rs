@@ -8,7 +8,7 @@ use super::{number, output};
 use crate::report::case_json;
 use analytic::AssurSolver;
 use analytic::range::explained;
-use design::export::{first_state, mjcf};
+use design::export::{cam, first_state, mjcf};
 use linkage::error::Result;
 use prover::engines::usual_step;
 
@@ -33,6 +33,8 @@ pub(super) struct Args {
 results! { Exports {
     Mjcf = "a model for MuJoCo",
     Json = "the case in SI units, with its state at t = 0",
+    Csv = "the profiles of cams",
+    Dxf = "the profiles of cams in mm",
 } }
 
 pub(super) fn export(args: &Args) -> Result<()> {
@@ -41,6 +43,8 @@ pub(super) fn export(args: &Args) -> Result<()> {
         (&scenario.case, args.dt.or(scenario.engine.step.get()).unwrap_or_else(|| usual_step(&scenario.case)));
     let text = |form| match form {
         Exports::Json => first_state(case, &AssurSolver).map(|start| case_json::text(&scenario.name, case, &start)),
+        Exports::Csv => cam::table(case),
+        Exports::Dxf => cam::drawing(case),
         Exports::Mjcf => mjcf::mjcf(case, &AssurSolver, &scenario.name, dt),
     };
     let all: Vec<(Exports, &Path)> = args.outputs.each().collect();

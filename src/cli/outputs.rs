@@ -15,6 +15,7 @@ use linkage::error::{Error, Result};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     Csv,
+    Dxf,
     Html,
     Json,
     Junit,
@@ -33,6 +34,7 @@ impl Form {
     fn endings(self) -> &'static [&'static str] {
         match self {
             Form::Csv => &["csv"],
+            Form::Dxf => &["dxf"],
             Form::Html => &["html", "htm"],
             Form::Json => &["json"],
             Form::Junit => &["xml"],
@@ -55,7 +57,7 @@ impl Form {
             Form::Mjcf => &["mjcf"],
             Form::Page => &["page"],
             Form::Results => &["out"],
-            Form::Scenario => &[],
+            Form::Dxf | Form::Scenario => &[],
             Form::Svg => &["svg"],
         }
     }
@@ -77,7 +79,9 @@ impl Form {
             Form::Results => output::directory(text),
             Form::Page => output::page(text),
             Form::Scenario => output::writable(text.into()),
-            Form::Csv | Form::Json | Form::Junit | Form::Markdown | Form::Mjcf | Form::Svg => output::target(text),
+            Form::Csv | Form::Dxf | Form::Json | Form::Junit | Form::Markdown | Form::Mjcf | Form::Svg => {
+                output::target(text)
+            }
         }
     }
 }

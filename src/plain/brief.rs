@@ -73,7 +73,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
     let most = if grade(&proof.verdict) == Grade::Agree { 1 } else { WORST };
     reasons::reasons(proof, tell, width, most, &mut text);
     reasons::diagnosed(proof, width, &mut text);
-    reasons::left_out(proof, width, &mut text);
+    reasons::notes(proof, width, &mut text);
     reasons::expected(proof, tell, &mut text);
     text
 }

@@ -244,6 +244,7 @@ fn part(part: &CasePart) -> String {
         CasePart::Speed(joint) => sentences::speed_of_the_drive_at(&joint),
         CasePart::StartAngle(joint) => sentences::angle_of_the_drive_at_at(&joint),
         CasePart::InitialSpeed(joint) => sentences::speed_at_at(&joint),
+        CasePart::Lift(name) => sentences::lift_of_cam(&name),
         CasePart::Ratio(name) => sentences::ratio_of_transmission(&name),
         CasePart::PressureAngle(name) => sentences::pressure_angle_of_transmission(&name),
         CasePart::MotorMoment => sentences::MOMENT_OF_THE_MOTOR.into(),

@@ -9,6 +9,7 @@ use super::{Tell, diagnosis};
 use crate::sentences;
 use linkage::error::Advice;
 use prover::bounds::{Check, Verdict};
+use prover::numbers::input_in;
 use prover::run::Proof;
 
 /// Reasons why something disagrees or is open, with the remedies.
@@ -47,8 +48,8 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
     say!(text, sentences::checks_disagree_as_expected_see(&count, &(told.join(",\n  "))));
 }
 
-/// Number of instants that are not judged, with the quantities concerned.
-pub fn left_out(proof: &Proof, width: Option<usize>, text: &mut String) {
+/// Number of instants that are not judged, with the quantities concerned, and followers that leave their cams.
+pub fn notes(proof: &Proof, width: Option<usize>, text: &mut String) {
     for engine in &proof.engines {
         let left = || engine.channels.iter().filter(|channel| channel.left_out > 0);
         let Some(most) = left().map(|channel| channel.left_out).max() else { continue };
@@ -59,6 +60,15 @@ pub fn left_out(proof: &Proof, width: Option<usize>, text: &mut String) {
             &(quantities.join(", ").replace('_', " ")),
             &engine.info.name,
         );
+        say!(text, "\n{}", wrapped(&told, width, 2));
+    }
+    let (reference, mechanism) = (&proof.reference_trajectory, &proof.scene.case.mechanism);
+    for cam in mechanism.transmissions().iter().filter(|own| own.cam.is_some()) {
+        let Some(forces) = reference.named(&format!("transmission.{}.force_N", cam.name())) else { continue };
+        let is_off = |row: &usize| forces[*row] < 0.0;
+        let Some(first) = (0..forces.len()).find(is_off) else { continue };
+        let (count, all, at) = ((0..forces.len()).filter(is_off).count(), forces.len(), reference.told(first));
+        let told = sentences::the_follower_leaves_the_cam(&cam.name(), &count, &all, &input_in(at, 1));
         say!(text, "\n{}", wrapped(&told, width, 2));
     }
 }

@@ -8,11 +8,14 @@ use super::pretty::{list, pretty};
 use super::{modes, range};
 use analytic::modes::Modes;
 use analytic::range::Range;
+use linkage::case::CaseParts;
 use linkage::mechanism::assembly::{ConfigurationChoice, transmission_sine};
-use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Mechanism, Transmission, TransmissionKind};
+use linkage::mechanism::{CamFigures, GROUND, Joint, JointId, LinkId, Mechanism, Transmission};
 use prover::numbers::{fixed_in, input_in, significant};
 use scenario::{Scenario, Undecided};
 
+/// Number of digits that are shown of the figures of a cam, which are extremes over 720 angles.
+const SAMPLED: usize = 5;
 /// Number of digits that are shown of a mass or a moment of inertia.
 /// This number shows all digits of a scenario, but hides the rounding error of a unit conversion.
 const SHOWN: usize = 12;
@@ -54,7 +57,7 @@ pub(crate) fn text(scenario: &Scenario) -> String {
         say!(text, "\ntransmissions");
     }
     for own in mechanism.transmissions() {
-        say!(text, "{}", transmission(mechanism, own));
+        say!(text, "{}", transmission(case, own));
     }
     let (input, start) = (case.crank().input, case.crank().start);
     say!(text, sentences::groups_at_the_start(&input.word(), &input_in(input.at(start), 3)));
@@ -69,19 +72,36 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     text
 }
 
-/// A transmission in one line: its kind, links, ratio and pitch radii.
-fn transmission(mechanism: &Mechanism, own: &Transmission) -> String {
-    let [first, second, carrier] = own.links().map(|link| mechanism.links()[link].name.as_str());
-    let [pitch, other] = own.members.map(|member| format!("{} mm", significant(member.radius * 1e3, SHOWN)));
-    let (ratio, radii) = match own.design.kind {
-        TransmissionKind::Rack { .. } => {
-            (format!("{} mm/rad", significant(own.ratio() * 1e3, SHOWN)), sentences::pitch_radius(&pitch))
-        }
-        TransmissionKind::Gears { .. } | TransmissionKind::Belt { .. } => {
-            (significant(own.ratio(), SHOWN), sentences::pitch_radii(&pitch, &other))
-        }
+/// A transmission in one line: its kind, links, ratio and pitch radii, or the figures of a cam.
+fn transmission(case: &CaseParts, own: &Transmission) -> String {
+    let [first, second, carrier] = own.links().map(|link| case.mechanism.links()[link].name.as_str());
+    let (name, kind) = (own.name(), own.design.kind.name());
+    let mm = |length: f64| format!("{} mm", significant(length * 1e3, SHOWN));
+    let [pitch, other] = own.members.map(|member| mm(member.radius));
+    let slides = own.slide().is_some();
+    let Some(ratio) = own.ratio() else {
+        let Some(found) = figures(case, own) else { return String::new() };
+        let mm = |length: f64| format!("{} mm", significant(length * 1e3, SAMPLED));
+        let in_deg = |angle: f64| significant(angle.to_degrees(), SAMPLED);
+        let lift = if slides { mm(found.lift) } else { format!("{} deg", in_deg(found.lift)) };
+        let curvature = match found.curvature {
+            ..0.0 => sentences::the_profile_is_undercut(&mm(-found.curvature)),
+            radius => sentences::least_radius_of_curvature(&mm(radius)),
+        };
+        let angle = in_deg(found.pressure_angle);
+        return sentences::a_cam(&name, &kind, &first, &second, &carrier, &lift, &mm(found.base), &angle, &curvature);
     };
-    sentences::a_transmission(&own.name(), &own.design.kind.name(), &first, &second, &carrier, &ratio, &radii)
+    let (ratio, radii) = match slides {
+        true => (format!("{} mm/rad", significant(ratio * 1e3, SHOWN)), sentences::pitch_radius(&pitch)),
+        false => (significant(ratio, SHOWN), sentences::pitch_radii(&pitch, &other)),
+    };
+    sentences::a_transmission(&name, &kind, &first, &second, &carrier, &ratio, &radii)
+}
+
+/// Figures of a cam that stands in the start pose.
+fn figures(case: &CaseParts, own: &Transmission) -> Option<CamFigures> {
+    let cam = own.cam.as_ref()?;
+    Some(cam.figures(own.coordinates_in(case.mechanism.joints(), &case.start.motions())))
 }
 
 /// Distance of the configuration from the approximate positions in the file, and the distance of the next-nearest
@@ -155,13 +175,21 @@ fn structure(scenario: &Scenario) -> Value {
     });
     let transmissions = list(mechanism.transmissions(), |own| {
         let [first, second, carrier] = own.links().map(link);
-        let radii = own.members.map(|member| member.radius);
-        let slides = matches!(own.design.kind, TransmissionKind::Rack { .. });
-        json!({
+        let mut told = json!({
             "name": own.name(), "type": own.design.kind.name(), "links": [first, second], "carrier": carrier,
-            if slides { "ratio_m_per_rad" } else { "ratio" }: own.ratio(), "pitch_radii_m": radii,
             "start_joint": joint(own.design.joint),
-        })
+        });
+        let slides = own.slide().is_some();
+        if let Some(found) = figures(case, own) {
+            told[if slides { "lift_m" } else { "lift_rad" }] = found.lift.into();
+            told["base_radius_m"] = found.base.into();
+            told["pressure_angle_rad"] = found.pressure_angle.into();
+            told["least_convex_radius_m"] = found.curvature.into();
+        } else {
+            told[if slides { "ratio_m_per_rad" } else { "ratio" }] = own.ratio().into();
+            told["pitch_radii_m"] = own.members.map(|member| member.radius).to_vec().into();
+        }
+        told
     });
     json!({
         "schema": 1, "scenario": scenario.name, "title": scenario.title, "mobility": structure.mobility,

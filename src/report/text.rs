@@ -49,7 +49,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     for engine in &proof.engines {
         own_section(engine, proof.engines.len() > 1, width, &mut text);
     }
-    reasons::left_out(proof, width, &mut text);
+    reasons::notes(proof, width, &mut text);
     say!(text, "\nChecks:\n{}", checks(proof, width));
     reasons::expected(proof, tell, &mut text);
     reasons::reasons(proof, tell, width, REASONS, &mut text);

@@ -40,6 +40,7 @@ linkage::sentences! {
     MOMENT_OF_THE_MOTOR = "moment of the motor";
     speed_at_at(joint) = "speed at {joint} at t = 0";
     angle_of_the_drive_at_at(joint) = "angle of the drive at {joint} at t = 0";
+    lift_of_cam(name) = "lift of cam {name}";
     ratio_of_transmission(name) = "ratio of transmission {name}";
     pressure_angle_of_transmission(name) = "pressure angle of transmission {name}";
     speed_of_the_drive_at(joint) = "speed of the drive at {joint}";
@@ -130,7 +131,8 @@ linkage::sentences! {
     forces_as_itself_exerts_them_2(info) = "the forces that {info} itself exerts";
     AS_THE_ENGINE_EXERTS_IT = " as the engine exerts it";
     // plain/reasons.rs
-    up_to_of_instants_are_not_judged(most, proof, quantities, info) = "Up to {most} of {proof} instants are not judged in {quantities} ({info}): a drive or a loaded link reverses there, an acceleration jumps, or the motion begins.";
+    the_follower_leaves_the_cam(name, count, all, at) = "The follower leaves cam \"{name}\": the force between them is negative at {count} of {all} instants, first at {at}. A stronger spring or a groove must hold it.";
+    up_to_of_instants_are_not_judged(most, proof, quantities, info) = "Up to {most} of {proof} instants are not judged in {quantities} ({info}): a drive or a loaded link reverses there, an acceleration or its rate jumps, or the motion begins.";
     checks_disagree_as_expected_see(count, told) = "\n{count} checks disagree as expected, see\n  {told}";
     and_more_3(open, tell) = "\n... and {open} more ({tell})";
     // report/accept.rs
@@ -293,6 +295,9 @@ linkage::sentences! {
     mobility_and_given(links, joints, transmissions, mobility, given) = "mobility   W = 3*{links} - 2*{joints}{transmissions} = {mobility}, given coordinates {given}";
     a_transmission(name, kind, first, second, carrier, ratio, radii) = "  {name:14} {kind}, {first} - {second} on {carrier}, ratio {ratio}, {radii}";
     pitch_radii(first, second) = "pitch radii {first} and {second}";
+    a_cam(name, kind, first, second, carrier, lift, base, angle, curvature) = "  {name:14} {kind}, {first} - {second} on {carrier}, lift {lift}, base circle {base}, pressure angle up to {angle} deg, {curvature}";
+    least_radius_of_curvature(radius) = "least convex radius {radius}";
+    the_profile_is_undercut(radius) = "UNDERCUT by {radius}: enlarge the base circle or reduce the roller";
     pitch_radius(first) = "pitch radius {first}";
     structure_links(structure) = "structure  {structure}\n\nlinks";
     // report/json.rs

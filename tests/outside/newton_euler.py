@@ -8,7 +8,7 @@ time in seconds with its unit (0.35s). With --all there are numbers of points, s
 It reads the scenario file by itself (tomllib), with units of its own. It closes all joints by Newton's method, follows
 the motion from the start in small steps, differentiates the closed poses by differences in 40 digits, and solves the
 equations of Newton and Euler of all links at once. A drive prescribes the coordinate of its joint, one more equation, and
-its force or moment is one more unknown; transmissions.py has the equations of gears, racks and belts. The binary (`linkproof solve`) only gives a first guess of the pose at the
+its force or moment is one more unknown; transmissions.py has the equations of gears, racks, belts and cams. The binary (`linkproof solve`) only gives a first guess of the pose at the
 start; assembly modes are checked against docs/scenario.md. At a crank angle a free motion has its nominal speed; at a
 time it is integrated by free_motion.py, in double precision, with a step that is halved until nothing printed moves.
 """
@@ -66,7 +66,7 @@ class Mechanism:
         gravity = file.get("gravity", {})
         self.gravity = (quantity(gravity, "x", mpf(0)), quantity(gravity, "y", mpf(0)))
         self.loads = file.get("loads", [])
-        self.transmissions = [transmissions.Transmission(self, own, quantity) for own in file.get("transmissions", [])]
+        self.transmissions = [transmissions.of(self, own, quantity) for own in file.get("transmissions", [])]
         self.turns = {}
         self.twists = {}
         self.start = self.start_of(0)

@@ -1,4 +1,4 @@
-"""Gear pairs, racks and belts for newton_euler.py, from the rolling of pitch circles and the strands of a belt.
+"""Gear pairs, racks, belts and cams for newton_euler.py, from rolling pitch circles, strands, and lifts of followers.
 
 A wheel turns against its carrier. What rolls off on one pitch circle rolls off on the other: that is one equation more
 for the pose. Its force is one unknown more: a tangential force at the pitch point with the radial force of the flank
@@ -132,3 +132,82 @@ class Transmission:
             away = (-ux, -uy) if self.inside else (ux, uy)
         c, s = mp.cos(angle), self.sense * mp.sin(angle)
         return self.both((c * tx + s * away[0], c * ty + s * away[1]), at)
+
+
+class Cam(Transmission):
+    """A cam: the follower's coordinate against the carrier is a lift over the cam's angle, and a constant."""
+
+    def begin(self, q):
+        self.flat = self.table.get("follower") == "flat"
+        self.slides = self.joint["type"] == "prismatic"
+        pin = next(joint for joint in self.m.joints if set(joint["links"]) == {self.first, self.carrier})
+        self.a = dict(self.m.sides(pin))[self.carrier]
+        self.begun = self.rolled(q)
+
+    def lift(self, turn):
+        turn = turn - 2 * mp.pi * mp.floor(turn / (2 * mp.pi))
+        begun, low = mpf(0), mpf(0)
+        for piece in self.table["motion"]:
+            end = self.quantity(piece, "to")
+            high = self.quantity(piece, "lift", low)
+            if turn <= end:
+                return low + (high - low) * curve(piece.get("law", "cycloidal"), (turn - begun) / (end - begun))
+            begun, low = end, high
+        raise ValueError("the law does not reach a turn")
+
+    def coordinate(self, q):
+        first, second = self.joint["links"]
+        if not self.slides:
+            return self.m.angle(q, second) - self.m.angle(q, first)
+        a, b = (self.m.at(q, *side) for side in self.m.sides(self.joint))
+        along = self.m.angle(q, first) + self.quantity(self.joint, "axis")
+        return (b[0] - a[0]) * mp.cos(along) + (b[1] - a[1]) * mp.sin(along)
+
+    def rolled(self, q):
+        return self.coordinate(q) - self.lift(self.relative(q, self.first))
+
+    def way(self, q):
+        """Motion of the follower's point against the carrier for a unit of its coordinate."""
+        at = self.m.at(q, self.second, self.m.points[self.second][self.table["point"]])
+        sense = 1 if self.joint["links"][1] == self.second else -1
+        if self.slides:
+            along = self.m.angle(q, self.joint["links"][0]) + self.quantity(self.joint, "axis")
+            return at, (sense * mp.cos(along), sense * mp.sin(along))
+        pivot = self.m.at(q, *next(side for side in self.m.sides(self.joint) if side[0] == self.second))
+        return at, (-sense * (at[1] - pivot[1]), sense * (at[0] - pivot[0]))
+
+    def efforts(self, q):
+        (x, y), (wx, wy) = self.way(q)
+        ax, ay = self.m.at(q, self.carrier, self.a)
+        turn, h = self.relative(q, self.first), mpf(10) ** -12
+        rate = (self.lift(turn + h) - self.lift(turn - h)) / (2 * h)
+        if self.flat:
+            nx, ny = unit(wx, wy)
+            if nx * (x - ax) + ny * (y - ay) < 0:
+                nx, ny = -nx, -ny
+            # The face touches where the cam's own point has the speed of the face along its normal.
+            side = -rate * (nx * wx + ny * wy)
+            reach = nx * (x - ax) + ny * (y - ay)
+            at = ax + reach * nx - side * ny, ay + reach * ny + side * nx
+            return self.both((nx, ny), at)
+        # The path of the point in the cam: its tangent, and the normal away from the axle.
+        tx, ty = unit(rate * wx + (y - ay), rate * wy - (x - ax))
+        nx, ny = (ty, -tx) if ty * (x - ax) - tx * (y - ay) > 0 else (-ty, tx)
+        return self.both((nx, ny), (x, y))
+
+
+def curve(law, x):
+    if law == "cycloidal":
+        return x - mp.sin(2 * mp.pi * x) / (2 * mp.pi)
+    if law == "3-4-5":
+        return 10 * x**3 - 15 * x**4 + 6 * x**5
+    if law == "4-5-6-7":
+        return 35 * x**4 - 84 * x**5 + 70 * x**6 - 20 * x**7
+    assert law == "modified-sine", law
+    if x < mpf(1) / 8 or x > mpf(7) / 8:
+        return (mp.pi * x - mp.sin(4 * mp.pi * x) / 4 + (4 if x > 0.5 else 0)) / (4 + mp.pi)
+    return (2 + mp.pi * x - 9 * mp.sin((4 * mp.pi * x + mp.pi) / 3) / 4) / (4 + mp.pi)
+
+
+def of(m, table, quantity):
+    return (Cam if table["type"] == "cam" else Transmission)(m, table, quantity)

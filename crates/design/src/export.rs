@@ -1,5 +1,6 @@
 //! Export of a mechanism as a model file for simulation and display in another program.
 
+pub mod cam;
 pub mod mjcf;
 
 use linkage::case::{Case, Grid, Wanted};

@@ -67,6 +67,9 @@ linkage::sentences! {
     TAKE_A_CRANK_ANGLE_A_LITTLE = "choose a slightly different crank angle";
     the_singular_point_lies_in_line(names) = "the singular point {names} lies in line with the outer joints: a dead point";
     the_leads_are_parallel_their(names) = "the leads {names} are parallel: their singular point lies at infinity";
+    // export/cam.rs
+    THE_MECHANISM_HAS_NO_CAM = "the mechanism has no cam, so there is no profile to write";
+    ADD_A_CAM = "add a `[[transmissions]]` with `type = \"cam\"`";
     // export/mjcf/effects.rs
     ITS_LENGTH_IS_THE_ANGLE_THAT_THE_LOAD = "The tendon's length is the angle that the load depends on.";
     ITS_LENGTH_IS_CONSTANT = "A transmission: the tendon's length is constant.";
@@ -82,6 +85,7 @@ linkage::sentences! {
     LEAVE_IT_OUT_OF_THE_SCENARIO = "leave it out of the scenario, and add it to the model by hand";
     cannot_be_written_to_a_model(what) = "{what} cannot be written to a model for MuJoCo";
     // export/mjcf/model.rs
+    mjcf_knows_no_cam(name) = "MJCF cannot express cam \"{name}\"";
     GIVE_A_STEP_SUCH_AS = "give a step such as 1e-3";
     the_time_step_is_but_must(step) = "the time step is {step} s, but must be positive";
     // export/mjcf/names.rs

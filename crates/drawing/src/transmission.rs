@@ -1,21 +1,24 @@
-//! Transmissions: pitch circles of gears, pitch lines of racks, wheels and strands of belts.
+//! Transmissions: pitch circles of gears, pitch lines of racks, wheels and strands of belts, profiles of cams and the
+//! rollers or faces of their followers.
 
 use super::mark::{Mark, MarkRole};
 use super::travel::Travels;
-use linkage::math::{KeepNan, Vec2, unit};
-use linkage::mechanism::{LinkId, Mechanism, Transmission, TransmissionKind};
+use linkage::math::{KeepNan, Vec2, turned, unit};
+use linkage::mechanism::{CamContact, LinkId, Mechanism, Transmission, TransmissionId, TransmissionKind};
 
 /// Inner end of the stroke that shows how far a wheel has turned, as a fraction of its radius.
 const STROKE: f64 = 0.8;
 /// Length of a rack beyond the contact at both ends of its travel, as a fraction of the pinion's radius.
 const BEYOND: f64 = 0.6;
+/// Number of drawn points of a cam's profile.
+const CORNERS: usize = 360;
 
 /// All marks of transmissions: the link that each mark belongs to, and the mark.
 pub fn marks(mechanism: &Mechanism, travels: &Travels) -> Vec<(LinkId, Mark)> {
-    mechanism.transmissions().iter().flat_map(|own| of(mechanism, travels, own)).collect()
+    mechanism.transmissions().entries().flat_map(|(index, own)| of(mechanism, travels, index, own)).collect()
 }
 
-fn of(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Vec<(LinkId, Mark)> {
+fn of(mechanism: &Mechanism, travels: &Travels, index: TransmissionId, own: &Transmission) -> Vec<(LinkId, Mark)> {
     let mut marks = Vec::new();
     for member in own.members.iter().filter(|member| member.radius > 0.0) {
         let (at, radius) = (member.local, member.radius);
@@ -23,12 +26,21 @@ fn of(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Vec<(Link
         marks.push((member.link, Mark::circle(MarkRole::Wheel, at, radius)));
         marks.push((member.link, Mark::line(MarkRole::Wheel, stroke)));
     }
-    match own.design.kind {
+    match &own.design.kind {
         TransmissionKind::Gears { .. } => {}
         TransmissionKind::Rack { .. } => marks.extend(rack(mechanism, travels, own)),
         TransmissionKind::Belt { .. } => {
-            let strands = own.lines.iter().map(|line| Mark::line(MarkRole::Strand, line.feet));
-            marks.extend(strands.map(|strand| (own.design.carrier, strand)));
+            let strands = own.contact([0.0; 2]).lines.map(|line| Mark::line(MarkRole::Strand, line.feet));
+            marks.extend(strands.into_iter().map(|strand| (own.design.carrier, strand)));
+        }
+        TransmissionKind::Cam { contact, .. } => {
+            let profile = travels
+                .members(index)
+                .zip(own.cam.as_ref())
+                .map_or_else(Vec::new, |(at, cam)| cam.profile(at, CORNERS));
+            let reach = profile.iter().map(|at| (at - own.members[0].local).norm()).fold(0.0, KeepNan::larger);
+            marks.push((own.members[0].link, Mark::area(MarkRole::Wheel, profile)));
+            marks.extend(follower(mechanism, own, *contact, reach));
         }
     }
     marks
@@ -37,7 +49,7 @@ fn of(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Vec<(Link
 /// The pitch line of a rack over the travel of the contact.
 fn rack(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Option<(LinkId, Mark)> {
     let [pinion, rack] = &own.members;
-    let index = own.terms.iter().find_map(|(of, _)| of.joint())?;
+    let index = own.slide()?;
     let (joint, carrier) = (&mechanism.joints()[index], own.design.carrier);
     let (axis, guide) = (joint.axis_on(carrier)?, joint.on(carrier)?);
     let foot = axis.dot(&(rack.place - guide));
@@ -49,4 +61,17 @@ fn rack(mechanism: &Mechanism, travels: &Travels, own: &Transmission) -> Option<
     let ends = [contact[0].smaller(contact[1]) - beyond, contact[0].larger(contact[1]) + beyond];
     let along: Vec2 = joint.axis_on(rack.link)?;
     Some((rack.link, Mark::line(MarkRole::Wheel, ends.map(|end| rack.local + along * end))))
+}
+
+/// What touches the cam: the roller, or the flat face as wide as the cam's largest radius `reach` on both sides.
+fn follower(mechanism: &Mechanism, own: &Transmission, contact: CamContact, reach: f64) -> Option<(LinkId, Mark)> {
+    let link = own.members[1].link;
+    let mark = match contact {
+        CamContact::Roller { centre, radius } => Mark::circle(MarkRole::Wheel, centre, radius),
+        CamContact::Flat(at) => {
+            let face = turned(mechanism.joints()[own.slide()?].axis_on(link)?) * reach;
+            Mark::line(MarkRole::Wheel, [at - face, at + face])
+        }
+    };
+    Some((link, mark))
 }

@@ -1,24 +1,29 @@
 //! Travel of blocks on their guides, which sets the drawn length of the guides.
+//! A pose of the members of every transmission, which sets the profiles of cams.
 
-use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{JointId, LinkId, Mechanism};
+use linkage::math::{KeepNan, Motion, Vec2};
+use linkage::mechanism::{JointId, LinkId, Mechanism, TransmissionId};
 
 /// Range of the distance between the block's point and the guide's point along the guide's axis (m), for every joint.
 /// The range is `None` for joints that do not slide, and before the first pose is included.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Travels(Vec<Option<[f64; 2]>>);
+pub struct Travels {
+    joints: Vec<Option<[f64; 2]>>,
+    /// For every transmission, the coordinates of its members in one pose (rad, or rad and m).
+    members: Vec<Option<[f64; 2]>>,
+}
 
 impl Travels {
     /// Nothing is known yet.
     #[must_use]
     pub fn none(mechanism: &Mechanism) -> Travels {
-        Travels(vec![None; mechanism.joints().len()])
+        Travels { joints: vec![None; mechanism.joints().len()], members: vec![None; mechanism.transmissions().len()] }
     }
 
     /// Includes one pose: `point` gives the world position (m) of a point that is given in the frame of a link.
     /// `None` or NaN means that the link has no pose.
     pub fn take_in(&mut self, mechanism: &Mechanism, point: impl Fn(LinkId, Vec2) -> Option<Vec2>) {
-        for (joint, travel) in mechanism.joints().iter().zip(&mut self.0) {
+        for (joint, travel) in mechanism.joints().iter().zip(&mut self.joints) {
             let way = || {
                 let [guide, block] = mechanism.guide_and_block(joint)?;
                 let at = point(guide.link, guide.local)?;
@@ -30,11 +35,23 @@ impl Travels {
                 *travel = Some([low.smaller(way), high.larger(way)]);
             }
         }
+        if self.members.iter().any(Option::is_none) {
+            let motion = |link| {
+                let origin = point(link, Vec2::zeros())?;
+                Some(Motion { origin, direction: point(link, Vec2::x())? - origin, ..Motion::REST })
+            };
+            let Some(motions) = mechanism.links().ids().map(motion).collect::<Option<Vec<_>>>() else { return };
+            for (transmission, members) in mechanism.transmissions().iter().zip(&mut self.members) {
+                let found = transmission.coordinates_in(mechanism.joints(), &motions);
+                *members = members.or_else(|| Some(found).filter(|found| found.iter().all(|q| q.is_finite())));
+            }
+        }
     }
 
     /// Includes other travels of the same mechanism.
     pub fn widen(&mut self, others: &Travels) {
-        for (own, other) in self.0.iter_mut().zip(&others.0) {
+        self.members.iter_mut().zip(&others.members).for_each(|(own, other)| *own = own.or(*other));
+        for (own, other) in self.joints.iter_mut().zip(&others.joints) {
             *own = match (*own, *other) {
                 (Some(a), Some(b)) => Some([a[0].smaller(b[0]), a[1].larger(b[1])]),
                 (own, other) => own.or(other),
@@ -45,13 +62,19 @@ impl Travels {
     /// Travel of the joint with this number (m).
     #[must_use]
     pub fn of(&self, joint: JointId) -> Option<[f64; 2]> {
-        self.0[joint]
+        self.joints[joint]
+    }
+
+    /// Coordinates of the members of a transmission in one pose (rad, or rad and m).
+    #[must_use]
+    pub fn members(&self, transmission: TransmissionId) -> Option<[f64; 2]> {
+        self.members[transmission]
     }
 
     /// These travels, with the travel of one joint replaced (m).
     #[must_use]
     pub fn with(mut self, joint: JointId, travel: [f64; 2]) -> Travels {
-        self.0[joint] = Some(travel);
+        self.joints[joint] = Some(travel);
         self
     }
 }

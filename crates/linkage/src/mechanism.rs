@@ -1,6 +1,8 @@
 //! The mechanism: links, joints, structure, and start pose. This module does not depend on time, files or solvers.
 
 pub mod assembly;
+pub mod cam;
+pub mod contact;
 mod ids;
 mod name;
 mod outline;
@@ -13,6 +15,8 @@ pub mod transmission;
 
 use crate::sentences;
 pub use assembly::{AssemblyMode, StartGroup, first_pose};
+pub use cam::{Cam, CamContact, CamCurve, CamFigures, CamLaw, CamSegment};
+pub use contact::{Contact, LineOfAction};
 pub use ids::{GroupId, JointId, LinkId, Ordinal, Per, PerGroup, PerJoint, PerLink, PerTransmission, TransmissionId};
 pub use name::{LONGEST_NAME, is_sound_name, is_unseen};
 pub use outline::ring;
@@ -21,7 +25,7 @@ pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
 pub use spanning_tree::{SpanningTree, TreeBranch};
 pub use structure::{DrivenJoint, DrivingLink, Group, GroupKind, Structure};
-pub use transmission::{Coordinate, LineOfAction, Transmission, TransmissionDesign, TransmissionKind};
+pub use transmission::{Coordinate, Transmission, TransmissionDesign, TransmissionKind};
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;

@@ -180,6 +180,8 @@ crate::sentences! {
     // mechanism/transmission.rs
     MOVE_THE_AXLES_APART = "check the positions of the axles, the numbers of teeth and the radii";
     THE_MEMBERS_CANNOT_TOUCH = "the members cannot touch: the axles coincide, or the wheels overlap";
+    THE_FLAT_FOLLOWER_DOES_NOT_SLIDE = "no prismatic joint connects the flat follower with the carrier";
+    JOIN_THE_FOLLOWER = "join follower and carrier by a prismatic joint, or take a roller";
     JOIN_THE_RACK = "join rack and carrier by a prismatic joint";
     THE_RACK_DOES_NOT_SLIDE = "no prismatic joint connects the rack, the second link, with the carrier";
     JOIN_THE_MEMBER_TO_THE_CARRIER = "join the wheel to the carrier by a revolute joint, or to a third link at a joint of the carrier with that link";

@@ -162,7 +162,7 @@ linkage::sentences! {
     cause_not_found(cut) = "cause not found: {cut}";
     cause_perhaps_another(cause, cut) = "cause: {cause}; another cause is possible: {cut}";
     // run/judge.rs
-    A_DRIVE_OR_A_LOADED_LINK = "no instant is judged: a drive or a loaded link reverses, an acceleration jumps, or the motion begins";
+    A_DRIVE_OR_A_LOADED_LINK = "no instant is judged: a drive or a loaded link reverses, an acceleration or its rate jumps, or the motion begins";
     THE_MOTION_CHANGES_WITHIN_A_FRACTION = "the motion changes within a fraction of a step, so runs at such steps cannot show their error";
     // run/memory.rs
     instants_of_channels_need_about(instants, channels, gigabytes) = "{instants} instants of {channels} channels need about {gigabytes} of memory";

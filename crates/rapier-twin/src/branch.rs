@@ -167,7 +167,8 @@ impl Watched {
             first += 1;
         }
         for transmission in group.trains.iter().map(|&id| &case.mechanism.transmissions()[id]) {
-            let (carrier, line) = (&motions[transmission.design.carrier], &transmission.lines[0]);
+            let contact = transmission.contact_in(case.mechanism.joints(), motions);
+            let (carrier, line) = (&motions[transmission.design.carrier], &contact.lines[0]);
             let direction = carrier.arm(line.direction);
             for ((link, foot), sign) in transmission.design.links.into_iter().zip(line.feet).zip([-1.0, 1.0]) {
                 let Some(column) = group.links.iter().position(|&own| own == link) else { continue };

@@ -45,8 +45,9 @@ impl Lines {
             moved[link].moment += cross(place - centre, force);
         };
         for (transmission, &force) in mechanism.transmissions().iter().zip(&*state.transmitted) {
-            transmission.each_action(force, &state.motions, &mut put);
-            let (carrier, line) = (&state.motions[transmission.design.carrier], &transmission.lines[0]);
+            transmission.each_action(mechanism.joints(), force, &state.motions, &mut put);
+            let contact = transmission.contact_in(mechanism.joints(), &state.motions);
+            let (carrier, line) = (&state.motions[transmission.design.carrier], &contact.lines[0]);
             for ((link, foot), sign) in transmission.design.links.into_iter().zip(line.feet).zip([1.0, -1.0]) {
                 put(link, carrier.arm(line.direction) * (sign * force), carrier.point(foot));
             }

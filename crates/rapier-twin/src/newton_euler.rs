@@ -256,7 +256,8 @@ impl NewtonEuler {
         }
         let meshes = case.mechanism.transmissions().iter().zip(&self.members);
         for ((transmission, members), term) in meshes.zip(self.of_cut[self.cut.len()..].iter().map(|own| own.start)) {
-            let (carrier, line) = (&state.motions[transmission.design.carrier], &transmission.lines[0]);
+            let contact = transmission.contact_in(case.mechanism.joints(), &state.motions);
+            let (carrier, line) = (&state.motions[transmission.design.carrier], &contact.lines[0]);
             let direction = carrier.arm(line.direction);
             for (k, sign) in [-1.0, 1.0].into_iter().enumerate() {
                 let (Some(number), link) = (members[k], transmission.design.links[k]) else { continue };

@@ -437,7 +437,23 @@ linkage::sentences! {
     THERE_IS_NONE_THAT_COULD = "no name is possible here";
     did_you_mean_4(quote, near) = "did you mean {quote}{near}{quote}?";
     it_is_none_of_more_than_names(most) = "it is not among the more than {most} names that are allowed here";
+    // transmissions/cam.rs
+    IS_NO_FOLLOWER = "is not a follower of a cam";
+    the_follower_has_no_point(link, point) = "follower \"{link}\" has no point \"{point}\"";
+    GIVE_THE_ROLLER = "give the radius of the roller, or take `follower = \"knife\"`";
+    ONLY_A_ROLLER_HAS_A_RADIUS = "only a roller has a radius";
+    TAKE_A_ROLLER = "remove it, or write `follower = \"roller\"`";
+    GIVE_THE_MOTION_OF_THE_FOLLOWER = "write `motion = [{ to_deg = 120, lift_mm = 20 }, { to_deg = 180 }, { to_deg = 300, lift_mm = 0 }, { to_deg = 360 }]`";
+    IS_NO_CURVE_OF_A_CAM = "is not a curve of a cam";
+    the_cam_angles_do_not_ascend(to, last) = "the piece ends at {to} deg, but the one before ends at {last} deg and a turn at 360 deg";
+    ASCEND_TO_360 = "let the angles ascend, the last piece end at 360 deg with lift 0";
+    LIFTS_IN_TWO_UNITS = "the lifts are lengths as well as angles";
+    THE_FOLLOWER_DOES_NOT_MOVE = "the follower has no lift";
+    GIVE_A_LIFT = "give a lift: `{ to_deg = 120, lift_mm = 20 }`";
+    the_law_of_the_cam_ends_at(angle) = "the last piece ends at {angle} deg, or with a lift";
     // transmissions.rs
+    GIVE_LIFTS_LIKE_THE_JOINT = "give `lift_mm` for a sliding follower and `lift_deg` for a swinging one";
+    the_lift_has_units_of(family, joint, kind) = "the lift is {family}, but joint \"{joint}\" of the follower is {kind}";
     IS_NO_TYPE_OF_TRANSMISSION = "is not a type of transmission";
     found_links_but_a_transmission_has_two(links) = "found {links} links, but a transmission has two members";
     NAME_TWO_WHEELS = "write `links = [\"pinion\", \"wheel\"]`";

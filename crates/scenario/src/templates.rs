@@ -39,6 +39,7 @@ pub static TEMPLATES: &[Template] = templates![
     "toggle-press",
     "geared-five-bar",
     "planetary",
+    "cam-follower",
 ];
 
 /// The template with a name, in which `_` may replace `-`.

@@ -1,22 +1,25 @@
-//! `[[transmissions]]`: gear pairs, racks and belts.
+//! `[[transmissions]]`: gear pairs, racks, belts and cams.
+
+mod cam;
 
 use super::joints::link;
 use super::keys::key::{Section, ValueKind, needed, optional};
 use super::links::sound_name;
 use super::reader::{Faults, Sign, TomlTable};
-use super::unit::of_input;
+use super::unit::{UnitFamily, of_input};
 use super::words::{Words, names, suggestion};
 use crate::sentences;
 use linkage::error::{ErrorKind, Result};
 use linkage::input::Input;
-use linkage::mechanism::{JointId, LinkId, Mechanism, TransmissionDesign, TransmissionKind};
+use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism, TransmissionDesign, TransmissionKind};
 use std::f64::consts::FRAC_PI_2;
 
-/// Reads the keys of a type of transmission.
-type ReadTransmission = fn(&mut TomlTable) -> Result<TransmissionKind>;
+/// Reads the keys of a type of transmission with this second member. Also returns the units of
+/// lifts.
+type ReadTransmission = fn(&mut TomlTable, &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)>;
 
 /// Types of transmissions, each with its reader.
-const TYPES: Words<ReadTransmission> = &[("gears", gears), ("rack", rack), ("belt", belt)];
+const TYPES: Words<ReadTransmission> = &[("gears", gears), ("rack", rack), ("belt", belt), ("cam", cam::read)];
 
 /// Words for the contact of gears: the sign of the larger number of teeth.
 const CONTACTS: Words<f64> = &[("external", 1.0), ("internal", -1.0)];
@@ -28,11 +31,12 @@ const STRANDS: Words<bool> = &[("open", false), ("crossed", true)];
 const PRESSURE_ANGLE: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
 /// Descriptions of the keys that this module reads.
-pub const SECTIONS: &[Section] = &[Section::at("transmissions").with(&[
+pub const SECTIONS: &[Section] = &[
+    Section::at("transmissions").with(&[
     needed("name", ValueKind::Text).means("unique name"),
     needed("type", ValueKind::Choice(|| names(TYPES))).means("kind of transmission"),
     needed("links", ValueKind::Texts)
-        .means("the two wheels, or pinion and rack; `\"ground\"` may be a wheel, such as a fixed ring gear"),
+        .means("the two wheels, pinion and rack, or cam and follower; `\"ground\"` may be a wheel, such as a fixed ring gear"),
     optional("carrier", ValueKind::Text, "`\"ground\"`").means(
         "the link that carries both axles, or the axle and the guide. A wheel is joined to the carrier, or to a \
          third link at a joint of the carrier with that link",
@@ -48,11 +52,19 @@ pub const SECTIONS: &[Section] = &[Section::at("transmissions").with(&[
     optional("strands", ValueKind::Choice(|| names(STRANDS)), "`\"open\"`")
         .means("belt: open, or crossed, so that the wheels turn in opposite senses"),
     optional("slack", ValueKind::FORCES.of(Sign::NotNegative), "0: a chain").means("belt: tension of the slack strand"),
+    optional("follower", ValueKind::Choice(|| names(cam::FOLLOWERS)), "required for a cam")
+        .means("cam: the part of the follower that touches the cam; a flat face stands across the guide of the follower"),
+    optional("point", ValueKind::Text, "required for a cam")
+        .means("cam: point of the follower: the roller's centre, the knife's edge, or a point of the flat face"),
+    optional("roller", ValueKind::LENGTHS.of(Sign::NotNegative), "required for a roller").means("cam: radius of the roller"),
+    optional("motion", ValueKind::Tables, "required for a cam")
+        .means("cam: lift over the angle of the cam against the carrier, piece by piece; it begins with lift 0 at angle 0"),
     optional("start_joint", ValueKind::Text, "the joint of the second link with the carrier")
         .means("the joint that `start` refers to: one for each transmission, not driven"),
     needed("start", ValueKind::INPUTS)
         .means("coordinate of that joint at t = 0: angle of its second link minus that of its first link, or slide"),
-])];
+    ]), cam::SECTION,
+];
 
 /// The mechanism with the transmissions of the file.
 pub fn read(tables: Vec<TomlTable>, mechanism: Mechanism, faults: &mut Faults) -> Mechanism {
@@ -80,8 +92,14 @@ fn transmission(
     before: &[TransmissionDesign],
 ) -> Result<TransmissionDesign> {
     let name = sound_name(table, "a transmission")?;
-    let kind = table.choice("type", sentences::IS_NO_TYPE_OF_TRANSMISSION, TYPES)?(table)?;
-    let pair = table.strings("links")?;
+    let kind = table.choice("type", sentences::IS_NO_TYPE_OF_TRANSMISSION, TYPES)?;
+    let (links, pair) = (mechanism.links(), table.strings("links")?);
+    let [first, second] = &pair[..] else {
+        let message = sentences::found_links_but_a_transmission_has_two(&pair.len());
+        return table.refuse("links", message, sentences::NAME_TWO_WHEELS);
+    };
+    let members = [link(table, first, links)?, link(table, second, links)?];
+    let (kind, lift) = kind(table, &links[members[1]])?;
     let carrier = table.optional_string("carrier")?.unwrap_or_else(|| "ground".into());
     let stated = table.optional_string("start_joint")?;
     let Some((family, start)) = table.optional_si_of("start")? else {
@@ -89,12 +107,6 @@ fn transmission(
         return Err(table.lacks(&spellings, sentences::GIVE_AN_ANGLE_OR_A_SLIDE));
     };
     table.finish()?;
-    let links = mechanism.links();
-    let [first, second] = &pair[..] else {
-        let message = sentences::found_links_but_a_transmission_has_two(&pair.len());
-        return table.refuse("links", message, sentences::NAME_TWO_WHEELS);
-    };
-    let members = [link(table, first, links)?, link(table, second, links)?];
     let Some(carrier) = mechanism.link_named(&carrier) else {
         let known = suggestion(&carrier, links.iter().map(|link| link.name.as_str()), "\"");
         return table.refuse("carrier", sentences::there_is_no_link(&carrier), known);
@@ -108,6 +120,13 @@ fn transmission(
     if !std::ptr::eq(family, of_input(if own.slides() { Input::Slide } else { Input::Turn })) {
         let message = sentences::the_start_has_units_of(&family.noun, &own.name, &own.kind.name());
         return Err(table.wrong(ErrorKind::Input, "start", message).help(sentences::GIVE_AN_ANGLE_OR_A_SLIDE));
+    }
+    let connects = |own: &Joint| own.on(members[1]).is_some() && own.on(carrier).is_some();
+    if let (Some(family), Some(own)) = (lift, mechanism.joints().iter().find(|own| connects(own)))
+        && !std::ptr::eq(family, of_input(if own.slides() { Input::Slide } else { Input::Turn }))
+    {
+        let message = sentences::the_lift_has_units_of(&family.noun, &own.name, &own.kind.name());
+        return Err(table.wrong(ErrorKind::Input, "motion", message).help(sentences::GIVE_LIFTS_LIKE_THE_JOINT));
     }
     Ok(TransmissionDesign { name, kind, links: members, carrier, joint, start })
 }
@@ -140,7 +159,7 @@ fn start_joint(
     )
 }
 
-fn gears(table: &mut TomlTable) -> Result<TransmissionKind> {
+fn gears(table: &mut TomlTable, _: &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)> {
     let numbers = table.numbers("teeth")?;
     let sign = table.optional_choice("contact", sentences::IS_NO_CONTACT_OF_GEARS, CONTACTS)?.unwrap_or(1.0);
     let pressure_angle = pressure_angle(table)?;
@@ -154,20 +173,20 @@ fn gears(table: &mut TomlTable) -> Result<TransmissionKind> {
         true => [first, sign * second],
         false => [first, second],
     };
-    Ok(TransmissionKind::Gears { teeth, pressure_angle })
+    Ok((TransmissionKind::Gears { teeth, pressure_angle }, None))
 }
 
-fn rack(table: &mut TomlTable) -> Result<TransmissionKind> {
-    Ok(TransmissionKind::Rack { pressure_angle: pressure_angle(table)? })
+fn rack(table: &mut TomlTable, _: &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)> {
+    Ok((TransmissionKind::Rack { pressure_angle: pressure_angle(table)? }, None))
 }
 
-fn belt(table: &mut TomlTable) -> Result<TransmissionKind> {
+fn belt(table: &mut TomlTable, _: &Link) -> Result<(TransmissionKind, Option<&'static UnitFamily>)> {
     let Some((_, radii)) = table.optional_si_list("radii")? else {
         return Err(table.lacks(&["radii_m", "radii_mm"], sentences::GIVE_THE_PITCH_RADII));
     };
     let crossed = table.optional_choice("strands", sentences::IS_NO_COURSE_OF_STRANDS, STRANDS)?.unwrap_or(false);
     let slack = table.optional_si("slack")?.unwrap_or(0.0);
-    Ok(TransmissionKind::Belt { radii: two(table, "radii", &radii)?, crossed, slack })
+    Ok((TransmissionKind::Belt { radii: two(table, "radii", &radii)?, crossed, slack }, None))
 }
 
 fn pressure_angle(table: &mut TomlTable) -> Result<f64> {

@@ -48,7 +48,7 @@ pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     if all.len() > MOST {
         say!(told, sentences::of_more_the_channels_and_the_table(&(all.len() - MOST)));
     }
-    reasons::left_out(proof, None, &mut told);
+    reasons::notes(proof, None, &mut told);
     reasons::expected(proof, tell, &mut told);
     paragraphs(&told)
 }

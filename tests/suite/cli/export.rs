@@ -67,7 +67,10 @@ fn the_case_as_json_has_what_a_solver_needs() {
 #[test]
 fn wrong_requests_are_refused() {
     let place = Place::new();
-    place.refused("export scenarios/crank_rocker.toml -o model.txt", &["--output", "FILE.xml, FILE.json; found .txt"]);
+    place.refused(
+        "export scenarios/crank_rocker.toml -o model.txt",
+        &["--output", "FILE.xml, FILE.json, FILE.csv, FILE.dxf; found .txt"],
+    );
     place.refused("export --mjcf scenarios/crank_rocker.toml", &["scenario file"]);
     place.refused("export scenarios/crank_rocker.toml --mjcf - --dt -1e-3", &["--dt", "greater than 0"]);
     let nowhere = "export scenarios/crank_rocker.toml --mjcf no/such/place.xml";

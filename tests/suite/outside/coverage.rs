@@ -11,12 +11,13 @@ use toml_edit::{Item, TableLike, Value};
 use super::{SOURCE, files, loaded};
 
 /// Sections that describe a mechanism, its motion and its loads.
-const SECTIONS: [&str; 12] = [
+const SECTIONS: [&str; 13] = [
     "links.*",
     "links.*.points.*",
     "links.*.mass_centre",
     "joints",
     "transmissions",
+    "transmissions.motion",
     "drive",
     "drive.points",
     "motor",

@@ -5,7 +5,7 @@ use linkage::case::{Case, Wanted};
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Drive, Load};
 use linkage::input::Input;
-use linkage::math::{KeepNan, Vec2, cross};
+use linkage::math::{KeepNan, Motion, Vec2, cross, unit};
 use linkage::mechanism::{GROUND, JointKind, JointSide, LinkId};
 use linkage::trajectory::{Channel, Trajectory};
 use linkproof::Scenario;
@@ -15,6 +15,9 @@ use super::{files, loaded};
 /// Upper limit of the imbalance, relative to the largest force, moment or power in the balance.
 /// The limit allows for rounding error, and for the error of a side at a change point.
 const BOUND: f64 = 1e-8;
+
+/// Powers below this fraction of the largest power of the motion count as this fraction.
+const DWELL: f64 = 1e-6;
 
 /// One row of a trajectory.
 struct Row<'a> {
@@ -160,11 +163,11 @@ impl Row<'_> {
         (own, cross(self.point(joint.second)[0], own))
     }
 
-    /// Five imbalances, each divided by its largest term.
+    /// Four imbalances, each divided by its largest term.
     /// Two imbalances compare the sampled shaking force and moment with the reactions, and two compare them with the
     /// momentum.
-    /// The fifth imbalance is the total power of drives, loads, weights and inertia.
-    fn imbalances(&self) -> [f64; 5] {
+    /// Also the total power of drives, loads, weights and inertia, and the largest of these powers (W).
+    fn imbalances(&self) -> ([f64; 4], [f64; 2]) {
         let (case, loads, efforts) = (self.case, self.loads(), self.efforts());
         let sampled = (self.pair("frame", ["fx_N", "fy_N"]), self.read("frame.moment_N_m"));
         // Sum of forces and moments about the origin, and the largest term of each.
@@ -195,8 +198,15 @@ impl Row<'_> {
         for transmission in case.mechanism.transmissions() {
             let transmitted = self.read(&format!("transmission.{}.force_N", transmission.name()));
             let carrier = transmission.design.carrier;
+            let motion = |link: LinkId| Motion {
+                origin: self.point(JointSide { link, local: Vec2::zeros() })[0],
+                direction: unit(self.link(link).turn[0]),
+                ..Motion::REST
+            };
+            let motions: Vec<Motion> = case.mechanism.links().ids().map(motion).collect();
+            let contact = transmission.contact_in(case.mechanism.joints(), &motions);
             let (sin, cos) = self.link(carrier).turn[0].sin_cos();
-            for (line, force) in transmission.lines.iter().zip(transmission.forces(transmitted)) {
+            for (line, force) in contact.lines.iter().zip(transmission.forces(transmitted)) {
                 let own = Vec2::new(
                     cos * line.direction.x - sin * line.direction.y,
                     sin * line.direction.x + cos * line.direction.y,
@@ -240,21 +250,24 @@ impl Row<'_> {
         efforts.iter().for_each(|(_, effort, rate)| work(effort * rate));
         let of = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
         let [by_force, by_moment] = [of(force.norm(), largest), of(moment.abs(), turning)];
-        [by_reactions[0], by_reactions[1], by_force, by_moment, of(power.abs(), strongest)]
+        ([by_reactions[0], by_reactions[1], by_force, by_moment], [power.abs(), strongest])
     }
 }
 
 /// Largest imbalances over all rows.
 /// The starting instant of a free motion from rest is left out: the motion has no direction yet, but loads act.
 fn worst(case: &Case, all: &Trajectory) -> [f64; 5] {
+    let rows = (0..all.times().len()).map(|row| Row { case, all, row });
+    let moves = |at: &Row<'_>| !case.is_free() || case.drives.iter().any(|drive| at.rate(drive) != 0.0);
+    let found: Vec<_> = rows.filter(moves).map(|at| at.imbalances()).collect();
+    let strongest = found.iter().map(|(_, [_, strongest])| *strongest).fold(0.0, f64::larger);
     let mut worst = [0.0f64; 5];
-    for row in 0..all.times().len() {
-        let at = Row { case, all, row };
-        let is_at_rest = case.is_free() && case.drives.iter().all(|drive| at.rate(drive) == 0.0);
-        if !is_at_rest {
-            for (worst, own) in worst.iter_mut().zip(at.imbalances()) {
-                *worst = worst.larger(own);
-            }
+    for ([force, moment, by_force, by_moment], [power, own]) in found {
+        // In the dwell of a cam all powers are rounding errors of the powers at other instants.
+        let scale = own.larger(DWELL * strongest);
+        let power = if power == 0.0 { 0.0 } else { power / scale };
+        for (worst, own) in worst.iter_mut().zip([force, moment, by_force, by_moment, power]) {
+            *worst = worst.larger(own);
         }
     }
     worst

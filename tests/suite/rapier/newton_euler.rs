@@ -74,7 +74,8 @@ fn dense(case: &Case, state: &State) -> (Vec<Vec<f64>>, Vec<f64>) {
     for (index, transmission) in case.mechanism.transmissions().entries() {
         let (column, carrier) =
             (case.mechanism.row_of_transmission(index), &state.motions[transmission.design.carrier]);
-        let line = &transmission.lines[0];
+        let contact = transmission.contact_in(case.mechanism.joints(), &state.motions);
+        let line = &contact.lines[0];
         let direction = carrier.arm(line.direction);
         for ((link, foot), sign) in transmission.design.links.into_iter().zip(line.feet).zip([-1.0, 1.0]) {
             let Some(row) = (3 * link.index()).checked_sub(3) else { continue };

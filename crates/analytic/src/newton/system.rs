@@ -30,7 +30,7 @@ pub(super) struct System<'a> {
     pub(super) beside: Vec<f64>,
     /// For every joint: see [`twist`].
     pub(super) twists: Vec<f64>,
-    /// For every transmission: the sum of its factors times coordinates in the start pose.
+    /// For every transmission: q2 - f(q1) in the start pose.
     pub(super) phases: PerTransmission<f64>,
     pub(super) jacobian: Blocks,
     /// Signs of the determinants of the Jacobian's blocks on the followed branch.

@@ -1,11 +1,12 @@
 //! The equations of a transmission: the feet on both members have the same speed along the first line of action.
 //!
-//! C' = w . (v2 - v1) with the line's direction w and the feet, all fixed in the carrier.
-//! The residual is the sum of the factors times coordinates, minus its value in the start pose, plus the gaps of axles
-//! and guide along the line. The gaps are zero at the pose; with them, the row C' is the derivative of the residual.
-//! With the angular velocities omega_i of the members and omega_0 of the carrier, and its velocities v0 of the feet,
+//! C' = w . (v2 - v1) with the line's direction w at the feet.
+//! The residual is c2 (q2 - f(q1)), minus its value in the start pose, plus the gaps of axles and guide along the line.
+//! The gaps are zero at the pose; with them, the row C' is the derivative of the residual.
+//! The feet move in the carrier with q1' p and the line turns in it with k q1' (only those of cams).
+//! With the angular velocities omega_i of the members and omega_0 of the carrier, and the velocity v of a foot itself,
 //!
-//!     C'' = w . (a2 - a1) + w . (omega2 z x (v0(2) - v2) - omega1 z x (v0(1) - v1)) + omega0 (z x w) . (v2 - v1).
+//!     C'' = w . (a2 - a1) + w . (omega2 z x (v - v2) - omega1 z x (v - v1)) + (omega0 + k q1') (z x w) . (v2 - v1).
 //!
 //! The multiplier of the row is the force in the first line of action.
 //! If it is negative, the second line carries the force, and the reactions change accordingly.
@@ -13,19 +14,28 @@
 use super::system::System;
 use linkage::math::{Vec2, cross, turned};
 use linkage::mechanism::transmission::Member;
-use linkage::mechanism::{Coordinate, GROUND, JointSide, LinkId, Transmission, TransmissionId};
+use linkage::mechanism::{Contact, Coordinate, GROUND, JointSide, LinkId, Transmission, TransmissionId};
 
 impl System<'_> {
-    /// The sum of the factors of a transmission times its coordinates.
-    pub(super) fn coupled(&self, transmission: &Transmission) -> f64 {
-        let of = |(of, factor): &(Coordinate, f64)| {
-            let value = match *of {
+    /// The coordinates of the members of a transmission.
+    pub(super) fn members(&self, transmission: &Transmission) -> [f64; 2] {
+        let of = |(of, sign): &(Coordinate, f64)| {
+            sign * match *of {
                 Coordinate::Angle(link) => self.angle(link),
                 Coordinate::Slide(joint) => self.slide(&self.case.mechanism.joints()[joint]),
-            };
-            factor * value
+            }
         };
-        transmission.terms.iter().map(of).sum()
+        transmission.coordinates.each_ref().map(|terms| terms.iter().map(of).sum())
+    }
+
+    /// The difference q2 - f(q1) of a transmission.
+    pub(super) fn coupled(&self, transmission: &Transmission) -> f64 {
+        let [q1, q2] = self.members(transmission);
+        q2 - transmission.law(q1)[0]
+    }
+
+    fn contact(&self, transmission: &Transmission) -> Contact {
+        transmission.contact(self.members(transmission))
     }
 
     /// Vector from the mass centre of `link` to a point of the carrier.
@@ -36,7 +46,8 @@ impl System<'_> {
     /// Residual and row of a transmission.
     pub(super) fn assemble_transmission(&mut self, index: TransmissionId, transmission: &Transmission) {
         let (row, carrier) = (self.case.mechanism.row_of_transmission(index), transmission.design.carrier);
-        let line = &transmission.lines[0];
+        let contact = self.contact(transmission);
+        let line = &contact.lines[0];
         let direction = self.along(carrier, line.direction);
         for ((link, foot), sign) in transmission.design.links.into_iter().zip(line.feet).zip([-1.0, 1.0]) {
             if link != GROUND {
@@ -46,26 +57,27 @@ impl System<'_> {
                 self.jacobian.add(row, column + 2, sign * cross(arm, direction));
             }
         }
-        self.residual[row] = self.coupled(transmission) - self.phases[index] + self.gap(transmission, direction);
+        let off = self.coupled(transmission) - self.phases[index];
+        self.residual[row] = contact.factor * off + self.gap(transmission, line.feet[1], direction);
     }
 
     /// Gap of the second axle or guide minus that of the first axle, along the world direction of the line (m).
-    fn gap(&self, transmission: &Transmission, direction: Vec2) -> f64 {
-        let (carrier, line) = (transmission.design.carrier, &transmission.lines[0]);
+    fn gap(&self, transmission: &Transmission, foot: Vec2, direction: Vec2) -> f64 {
+        let carrier = transmission.design.carrier;
         let at = |link: LinkId, local: Vec2| self.centre(link) + self.arm(link, local);
         let axle = |member: &Member| at(member.link, member.local) - at(carrier, member.place);
         let [first, second] = &transmission.members;
-        let of_second = match transmission.terms.iter().find_map(|(of, _)| of.joint()) {
+        let of_second = match transmission.slide() {
             None => direction.dot(&axle(second)),
             Some(joint) => {
                 let joint = &self.case.mechanism.joints()[joint];
                 let place = at(second.link, second.local);
                 let guide = place - at(carrier, joint.on(carrier).expect("the guide is on the carrier"));
-                let normal = turned(self.along(carrier, joint.axis_on(carrier).expect("the rack slides")));
+                let normal = turned(self.along(carrier, joint.axis_on(carrier).expect("it slides")));
                 let start = &self.case.start.0;
                 let turn = self.angle(second.link) - self.angle(carrier);
                 let turn = turn - (start[second.link].angle - start[carrier].angle);
-                direction.dot(&normal) * normal.dot(&guide) + turn * cross(at(carrier, line.feet[1]) - place, direction)
+                direction.dot(&normal) * normal.dot(&guide) + turn * cross(at(carrier, foot) - place, direction)
             }
         };
         of_second - direction.dot(&axle(first))
@@ -73,15 +85,20 @@ impl System<'_> {
 
     /// Right-hand side of a transmission's row for the accelerations.
     pub(super) fn transmission_gamma(&self, transmission: &Transmission) -> f64 {
-        let (carrier, line) = (transmission.design.carrier, &transmission.lines[0]);
+        let (carrier, contact) = (transmission.design.carrier, self.contact(transmission));
+        let line = &contact.lines[0];
         let direction = self.along(carrier, line.direction);
+        let spin = self.omega(transmission.design.links[0]) - self.omega(carrier);
+        let drift = self.along(carrier, contact.drift) * spin;
+        let turn = self.omega(carrier) + contact.turn * spin;
         let mut gamma = 0.0;
         for ((link, foot), sign) in transmission.design.links.into_iter().zip(line.feet).zip([-1.0, 1.0]) {
             let arm = self.foot(carrier, foot, link);
-            let (omega, of_carrier) = (self.omega(link), self.velocity(JointSide { link: carrier, local: foot }));
+            let omega = self.omega(link);
+            let own = self.velocity(JointSide { link: carrier, local: foot }) + drift;
             let velocity = self.velocity_at(link, arm);
-            let carried = turned(of_carrier - velocity) * omega - arm * (omega * omega);
-            gamma -= sign * (direction.dot(&carried) + self.omega(carrier) * turned(direction).dot(&velocity));
+            let carried = turned(own - velocity) * omega - arm * (omega * omega);
+            gamma -= sign * (direction.dot(&carried) + turn * turned(direction).dot(&velocity));
         }
         gamma
     }
@@ -95,7 +112,8 @@ impl System<'_> {
             let carrier = transmission.design.carrier;
             let force = self.lambda[case.mechanism.row_of_transmission(index)];
             let [first, second] = transmission.forces(force);
-            for (line, change) in transmission.lines.iter().zip([first - force, second]) {
+            let contact = self.contact(transmission);
+            for (line, change) in contact.lines.iter().zip([first - force, second]) {
                 let along = self.along(carrier, line.direction) * change;
                 for ((link, foot), sign) in transmission.design.links.into_iter().zip(line.feet).zip([-1.0, 1.0]) {
                     if link != GROUND {

@@ -8,20 +8,29 @@
 
 use linkage::input::Input;
 use linkage::math::{ColumnVector, Matrix, Vec2, cross, rotated, unit};
-use linkage::mechanism::{Coordinate, GROUND, Group, Joint, JointId, JointSide, LinkId, LinkPose, Mechanism, Pose};
+use linkage::mechanism::{
+    Coordinate, GROUND, Group, Joint, JointId, JointSide, LinkId, LinkPose, Mechanism, Pose, TransmissionId,
+};
 
-/// A linear equation of coordinates: a drive that is geared to the first drive, or a transmission.
+/// An equation of coordinates: a drive that is geared to the first drive, or a transmission.
 #[derive(Clone, Debug)]
 pub(super) struct Gearing {
     /// Indices of the coordinates and their factors.
     pub(super) terms: Vec<(usize, f64)>,
-    /// Sum of the factors times coordinates.
+    /// Sum of the factors times coordinates, minus the law of the transmission.
     pub(super) sum: f64,
+    /// For a transmission: its number, the terms of its first member, and the unit of the second member's coordinate.
+    pub(super) law: Option<(TransmissionId, Vec<(usize, f64)>, f64)>,
 }
 
 impl Gearing {
-    fn at(&self, q: &ColumnVector) -> f64 {
-        self.terms.iter().map(|&(index, factor)| factor * q[index]).sum()
+    /// The sum, and the first member's terms times the derivative of the law.
+    fn at(&self, mechanism: &Mechanism, q: &ColumnVector) -> (f64, Vec<(usize, f64)>) {
+        let sum = |terms: &[(usize, f64)]| terms.iter().map(|&(index, factor)| factor * q[index]).sum::<f64>();
+        let Some((transmission, first, unit)) = &self.law else { return (sum(&self.terms), Vec::new()) };
+        let [value, rate, _] = mechanism.transmissions()[*transmission].law(sum(first));
+        let terms = first.iter().map(|&(index, factor)| (index, -factor * rate / unit));
+        (sum(&self.terms) - value / unit, terms.collect())
     }
 }
 
@@ -61,19 +70,22 @@ impl<'a> Constraints<'a> {
         };
         let (size, of_links) = (mechanism.size(), 3 * (mechanism.links().len() - 1));
         let mut gearings = Vec::new();
-        for transmission in mechanism.transmissions() {
-            let terms = transmission.terms.iter().map(|&(of, factor)| match of {
-                Coordinate::Angle(link) => (Self::angle(link), factor / size),
+        for (index, transmission) in mechanism.transmissions().entries() {
+            let mut indexed = |&(of, sign): &(Coordinate, f64)| match of {
+                Coordinate::Angle(link) => (Self::angle(link), sign),
                 Coordinate::Slide(joint) => {
                     let known = given.iter().position(|given| given.0 == joint);
                     let number = known.unwrap_or_else(|| {
                         given.push(Given(joint));
                         given.len() - 1
                     });
-                    (of_links + number, factor)
+                    (of_links + number, sign)
                 }
-            });
-            gearings.push(Gearing { terms: terms.collect(), sum: 0.0 });
+            };
+            let [first, second] =
+                transmission.coordinates.each_ref().map(|terms| terms.iter().map(&mut indexed).collect());
+            let unit = if transmission.slide().is_some() { size } else { 1.0 };
+            gearings.push(Gearing { terms: second, sum: 0.0, law: Some((index, first, unit)) });
         }
         let middles = mechanism.links().ids().map(middle).collect();
         Constraints { mechanism, origin, size, gearings, given, middles }
@@ -82,7 +94,7 @@ impl<'a> Constraints<'a> {
     /// The same with these gearings of drives; the transmissions have their phases in the pose `start`.
     pub(super) fn geared(mut self, gearings: Vec<Gearing>, start: &Pose) -> Self {
         let q = self.coordinates_of(start);
-        self.gearings.iter_mut().for_each(|gearing| gearing.sum = gearing.at(&q));
+        self.gearings.iter_mut().for_each(|gearing| gearing.sum = gearing.at(self.mechanism, &q).0);
         self.gearings.extend(gearings);
         self
     }
@@ -160,8 +172,10 @@ impl<'a> Constraints<'a> {
         }
         for (index, gearing) in self.gearings.iter().enumerate() {
             let row = self.mechanism.equations() + index;
-            equations.residual[row] = gearing.at(q) - gearing.sum;
-            gearing.terms.iter().for_each(|&(column, factor)| equations.jacobian[(row, column)] += factor);
+            let (sum, first) = gearing.at(self.mechanism, q);
+            equations.residual[row] = sum - gearing.sum;
+            let terms = gearing.terms.iter().chain(&first);
+            terms.for_each(|&(column, factor)| equations.jacobian[(row, column)] += factor);
         }
         for number in 0..self.given.len() {
             self.coordinate(number, q, &mut equations);

@@ -36,7 +36,7 @@ pub(super) fn gearings(case: &Case, constraints: &Constraints) -> Result<(usize,
     let gearing = |((drive, ratio), &own): ((&Drive, f64), &usize)| {
         let ratio = ratio * unit(crank) / unit(drive);
         let [start, of_crank] = [drive, crank].map(|drive| drive.coordinate(drive.start) / unit(drive));
-        Gearing { terms: vec![(own, 1.0), (indices[0], -ratio)], sum: start - ratio * of_crank }
+        Gearing { terms: vec![(own, 1.0), (indices[0], -ratio)], sum: start - ratio * of_crank, law: None }
     };
     Ok((indices[0], further.map(gearing).collect()))
 }

@@ -1,17 +1,22 @@
-//! Random mechanisms with a wheel that gears or a belt couple to one of their joints.
+//! Random mechanisms with a wheel or follower that gears, a belt or a cam couple to one of their joints.
+
+use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
 use linkage::case::{Case, CaseParts};
 use linkage::input::Input;
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{
-    AssemblyMode, GroupKind, Joint, JointId, JointKind, JointSide, Link, LinkId, Mechanism, Point, Structure,
-    TransmissionDesign, TransmissionKind,
+    AssemblyMode, CamContact, CamCurve, CamLaw, CamSegment, GroupKind, Joint, JointId, JointKind, JointSide, Link,
+    LinkId, Mechanism, Point, Structure, TransmissionDesign, TransmissionKind,
 };
 
 use super::sketch::RandomSource;
 
 /// Name of the wheel and of its axle.
 const WHEEL: &str = "wheel";
+
+const CURVES: [CamCurve; 4] =
+    [CamCurve::Cycloidal, CamCurve::Polynomial345, CamCurve::Polynomial4567, CamCurve::ModifiedSine];
 
 /// The mechanism of `case` with a wheel on one of its links, coupled to a link that turns about a joint of this link.
 /// The wheel has a mass off its axle. `None` if the structure does not allow it.
@@ -24,12 +29,15 @@ pub fn geared(random: &mut RandomSource, case: &Case) -> Option<Case> {
         [one, other] => [other, one],
     };
     let (distance, start) = (size * random.number(0.2, 0.6), random.angle());
-    let local = joints[pin].on(carrier)? + unit(random.angle()) * distance;
+    let away = random.angle();
+    let local = joints[pin].on(carrier)? + unit(away) * distance;
     let kind = kind(random, distance);
+    // The arm of a follower, half the distance of the axles, is perpendicular to the way from the cam's axle to the roller.
+    let start = if let TransmissionKind::Cam { .. } = kind { away + PI + FRAC_PI_3 } else { start };
     let wheel = LinkId(case.mechanism.links().len());
     let mut links = case.mechanism.links().to_vec();
     links[carrier].points.push(Point { name: WHEEL.into(), local });
-    let rim = Point { name: "rim".into(), local: Vec2::new(0.3 * distance, 0.0) };
+    let rim = Point { name: "rim".into(), local: Vec2::new(0.5 * distance, 0.0) };
     let axle = Point { name: WHEEL.into(), local: Vec2::zeros() };
     let mass = random.number(0.3, 2.0);
     links.push(Link {
@@ -71,6 +79,17 @@ fn kind(random: &mut RandomSource, distance: f64) -> TransmissionKind {
     if random.index(3) == 0 {
         let radii = [0, 1].map(|_| distance * random.number(0.1, 0.45));
         return TransmissionKind::Belt { radii, crossed: random.yes(), slack: random.number(0.0, 20.0) };
+    }
+    if random.index(3) == 0 {
+        let curve = |random: &mut RandomSource| CURVES[random.index(CURVES.len())];
+        let lift = random.number(-0.3, 0.3);
+        let segments = vec![
+            CamSegment { to: random.number(1.5, 2.5), lift, curve: curve(random) },
+            CamSegment { to: random.number(2.6, 3.5), lift, curve: CamCurve::Cycloidal },
+            CamSegment { to: TAU, lift: 0.0, curve: curve(random) },
+        ];
+        let contact = CamContact::Roller { centre: Vec2::new(0.5 * distance, 0.0), radius: 0.05 * distance };
+        return TransmissionKind::Cam { law: CamLaw::of(segments).expect("the angles ascend to a turn"), contact };
     }
     let first = 10.0 + random.index(30) as f64;
     // The two numbers of teeth differ, as an internal pair requires.

@@ -326,7 +326,7 @@ impl CaseBuilder {
         let joint = known.clone().position(|name| name == own.start.0).map(JointId);
         Ok(TransmissionDesign {
             name: own.name.clone(),
-            kind: own.kind,
+            kind: own.kind.clone(),
             links: [self.link_of(first, &key)?, self.link_of(second, &key)?],
             carrier: self.link_of(carrier, &key)?,
             joint: joint.ok_or_else(|| unknown("joint", &own.start.0, &key, known))?,

@@ -2,7 +2,7 @@
 
 use super::{Joint, JointSide, Mechanism};
 use crate::input::Input;
-use crate::math::{KeepNan, Vec2, cross, rotated, unit};
+use crate::math::{KeepNan, Motion, Vec2, cross, rotated, unit};
 use crate::mechanism::{LinkId, PerLink};
 
 /// Pose of one link's frame in the world.
@@ -83,6 +83,13 @@ impl Joint {
 pub struct Pose(pub PerLink<LinkPose>);
 
 impl Pose {
+    /// The frames of all links, at rest.
+    #[must_use]
+    pub fn motions(&self) -> Vec<Motion> {
+        let motion = |pose: &LinkPose| Motion { origin: pose.origin, direction: unit(pose.angle), ..Motion::REST };
+        self.0.iter().map(motion).collect()
+    }
+
     /// Largest opening of any joint (m): see [`Joint::opening`]. An opening angle is multiplied by the mechanism's
     /// size.
     #[must_use]

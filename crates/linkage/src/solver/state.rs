@@ -74,7 +74,7 @@ impl State {
             moment += (cross(place, self.forces[index]) + self.moments[index]) * sign;
         }
         for (transmission, transmitted) in case.mechanism.transmissions().iter().zip(&*self.transmitted) {
-            transmission.each_action(*transmitted, &self.motions, |link, own, place| {
+            transmission.each_action(case.mechanism.joints(), *transmitted, &self.motions, |link, own, place| {
                 if link == GROUND {
                     force += own;
                     moment += cross(place, own);

@@ -200,6 +200,8 @@ pub enum CasePart {
     InitialSpeed(String),
     /// Ratio of a transmission.
     Ratio(String),
+    /// Lift of a cam.
+    Lift(String),
     /// Pressure angle of a transmission.
     PressureAngle(String),
     /// Moment of the motor on the crank.

@@ -9,7 +9,9 @@ use super::configurations::reassembled;
 use linkage::case::{Case, CaseParts, Grid};
 use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism, Transmission, TransmissionDesign, TransmissionId};
+use linkage::mechanism::{
+    Joint, JointId, Link, LinkId, Mechanism, Transmission, TransmissionDesign, TransmissionId, TransmissionKind,
+};
 
 /// Sets a new value in the parts of a case; `None` if no case has this value.
 type Turn = Box<dyn Fn(&mut CaseParts, f64) -> Option<()>>;
@@ -149,13 +151,23 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     knobs
 }
 
-/// Ratio and pressure angle of a transmission.
+/// Ratio and pressure angle of a transmission, or the lift of a cam.
 fn of_transmission(index: TransmissionId, transmission: &Transmission) -> Vec<Knob> {
-    let (name, ratio) = (transmission.name(), transmission.ratio());
+    let name = transmission.name();
     let own = transmission.design.clone();
-    let turn = move |parts: &mut CaseParts, value: f64| recoupled(parts, index, own.times_ratio(value / ratio));
-    let inverse = [((ratio * ratio).recip(), sentences::THE_INVERSE_RATIO)];
-    let mut knobs = vec![Knob::amount(CasePart::Ratio(name.into()), ratio, "", turn).moving().times(inverse)];
+    let turn =
+        |size: f64| move |parts: &mut CaseParts, value: f64| recoupled(parts, index, own.times_ratio(value / size));
+    let mut knobs = vec![match (&transmission.design.kind, transmission.ratio()) {
+        (TransmissionKind::Cam { law, .. }, _) => {
+            let unit = if transmission.slide().is_some() { "m" } else { "rad" };
+            Knob::amount(CasePart::Lift(name.into()), law.range(), unit, turn(law.range())).moving()
+        }
+        (_, ratio) => {
+            let ratio = ratio.expect("only cams have no ratio");
+            let inverse = [((ratio * ratio).recip(), sentences::THE_INVERSE_RATIO)];
+            Knob::amount(CasePart::Ratio(name.into()), ratio, "", turn(ratio)).moving().times(inverse)
+        }
+    }];
     knobs.extend(transmission.design.pressure_angle().map(|angle| {
         let own = transmission.design.clone();
         let turn = move |parts: &mut CaseParts, value: f64| recoupled(parts, index, own.with_pressure_angle(value));

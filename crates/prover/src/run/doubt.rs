@@ -3,6 +3,8 @@
 //!
 //! A load may jump when its link reverses. If a load vanishes at the reversal, it does not jump, so no instant is left
 //! out.
+//! At the end of a piece of a cam's law, the third derivative of the motion jumps. The error of a second difference there
+//! depends on the place of the jump within the step.
 //! At a change point an engine follows one of many solutions.
 //! The engine's rates at the instant of the change point do not show which solution it follows. Only later instants
 //! show the solution.
@@ -26,6 +28,11 @@ const IMPULSES: f64 = 5.0;
 /// Within this fraction of a step, a load jumps at different instants in the different runs.
 /// The velocities of these runs differ by about a twelfth of the square of the step.
 const APART: f64 = 0.25;
+
+/// As `STEPS`, for accelerations and forces at the end of a piece of a cam's law.
+const KNOT: f64 = 2.0;
+/// An instant lies on the end of a piece within this fraction of a step.
+const ON_KNOT: f64 = 1e-6;
 
 /// A drive counts as standing still below this fraction of its top speed. The limit exceeds the rounding error of a
 /// law's formula.
@@ -51,7 +58,7 @@ impl Doubt {
     /// reference.
     /// `settings` are those of the judged run.
     pub(super) fn of(case: &Case, reference: &Observed, runs: &Runs, settings: Settings) -> Self {
-        let Observed { senses, singular, .. } = reference;
+        let Observed { senses, singular, to_knot, .. } = reference;
         let Settings { resolution, route, extrapolated, .. } = settings;
         let times = &case.grid.times;
         let reach = STEPS * 2.0 * resolution;
@@ -62,6 +69,10 @@ impl Doubt {
                 // At the instant of the reversal itself, no step is fine enough.
                 let by_step = turns && !drive_turns(case, t, 0.0);
                 *own = Doubtful { rates: true, accelerations: true, forces: true, by_step };
+            }
+            if let Some(away) = to_knot.get(row).filter(|away| **away <= KNOT * 2.0 * resolution) {
+                (own.accelerations, own.forces) = (true, true);
+                own.by_step |= *away > ON_KNOT * resolution;
             }
             let against = |run: &Senses| {
                 let mut all = senses.of(row).iter().zip(run.of(row)).zip(senses.jumps(row));

@@ -2,8 +2,7 @@
 //!
 //! Rapier has no gear joint. A joint between the two members locks the direction of the first line of action at its foot.
 //! Direction and foot turn with the carrier, so they are set before every step.
-//! The gap of the row is the residual of the transmission: the sum of the factors times coordinates, minus that at the
-//! start.
+//! The gap of the row is the residual of the transmission, c2 (q2 - f(q1)), minus that at the start.
 
 use super::{Mesh, Twin, joints, wide};
 use crate::world::World;
@@ -23,7 +22,8 @@ impl Twin {
         }
     }
 
-    fn coupled(&self, transmission: &Transmission) -> f64 {
+    /// The coordinates of the members of a transmission.
+    fn members(&self, transmission: &Transmission) -> [f64; 2] {
         let slide = |joint: &Joint| {
             let [first, second] = [joint.first, joint.second];
             let axis = rotated(self.frames[first.link].direction, joint.axis_on(first.link).expect("the rack slides"));
@@ -33,18 +33,26 @@ impl Twin {
             Coordinate::Angle(link) => self.angle(link),
             Coordinate::Slide(joint) => slide(&self.joints[joint.index()]),
         };
-        transmission.terms.iter().map(|&(of, factor)| factor * value(of)).sum()
+        let sum = |terms: &Vec<(Coordinate, f64)>| terms.iter().map(|&(of, sign)| sign * value(of)).sum();
+        transmission.coordinates.each_ref().map(sum)
+    }
+
+    /// The difference q2 - f(q1) of a transmission.
+    fn coupled(&self, transmission: &Transmission) -> f64 {
+        let [q1, q2] = self.members(transmission);
+        q2 - transmission.law(q1)[0]
     }
 
     /// Lays the rows of the transmissions along their lines of action in the present pose.
     pub(super) fn aim(&mut self) {
         for index in 0..self.meshes.len() {
             let Mesh { transmission, phase, handle } = &self.meshes[index];
-            let line = &transmission.lines[0];
+            let contact = transmission.contact(self.members(transmission));
+            let line = &contact.lines[0];
             let carrier = &self.frames[transmission.design.carrier];
             let direction = rotated(carrier.direction, line.direction);
             let foot = carrier.point(line.feet[0]);
-            let gap = direction * (self.coupled(transmission) - phase);
+            let gap = direction * (contact.factor * (self.coupled(transmission) - phase));
             let local = |link: LinkId, vector: Vec2| {
                 let direction = self.frames[link].direction;
                 rotated(Vec2::new(direction.x, -direction.y), vector)

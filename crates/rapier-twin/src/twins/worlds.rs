@@ -55,7 +55,7 @@ struct Cut {
 struct Mesh {
     transmission: Transmission,
     handle: ImpulseJointHandle,
-    /// The sum of the factors times coordinates at the start.
+    /// The difference q2 - f(q1) at the start.
     phase: f64,
 }
 

@@ -170,7 +170,8 @@ impl Body {
             moment += about;
         }
         for &id in &self.coupled {
-            case.mechanism.transmissions()[id].each_action(reactions.transmitted[id], motions, |link, own, place| {
+            let (transmission, transmitted) = (&case.mechanism.transmissions()[id], reactions.transmitted[id]);
+            transmission.each_action(case.mechanism.joints(), transmitted, motions, |link, own, place| {
                 if link == self.link {
                     force += own;
                     moment += cross(place - pole, own);

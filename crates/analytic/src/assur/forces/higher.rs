@@ -142,9 +142,10 @@ impl Higher {
         chain.multipliers(&mut self.multipliers);
         let first = 2 * chain.closings().len() + chain.given().len();
         for (train, multiplier) in chain.trains().iter().zip(&self.multipliers[first..]) {
-            let force = multiplier / train.scale;
+            let force = train.force(*multiplier);
             reactions.transmitted[train.id] = force;
-            case.mechanism.transmissions()[train.id].each_action(force, motions, |link, own, place| {
+            let transmission = &case.mechanism.transmissions()[train.id];
+            transmission.each_action(case.mechanism.joints(), force, motions, |link, own, place| {
                 if let Some(node) = chain.nodes().iter().position(|node| node.link == link) {
                     let (total, moment) = &mut self.carried[node];
                     *total += own;

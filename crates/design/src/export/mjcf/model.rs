@@ -68,6 +68,9 @@ impl<'a> MjcfModel<'a> {
         for load in &case.loads {
             limits::check(load)?;
         }
+        if let Some(cam) = case.mechanism.transmissions().iter().find(|own| own.cam.is_some()) {
+            return Err(Error::new(ErrorKind::Unsupported, sentences::mjcf_knows_no_cam(&cam.name())));
+        }
         let driven = case.drives.joint_ids();
         let mut tree = SpanningTree::of(&case.mechanism);
         if driven.iter().any(|joint| tree.cut.contains(joint)) {
@@ -172,7 +175,10 @@ impl<'a> MjcfModel<'a> {
             Some((_, own)) => *own += factor,
             None => sum.push((branch, factor)),
         };
-        for &(of, factor) in &transmission.terms {
+        let [first, second] = &transmission.coordinates;
+        let ratio = transmission.ratio().expect("cams are refused");
+        let terms = second.iter().copied().chain(first.iter().map(|&(of, sign)| (of, -ratio * sign)));
+        for (of, factor) in terms {
             match of {
                 Coordinate::Angle(link) => self.hinges(link).into_iter().for_each(|hinge| add(hinge, factor)),
                 Coordinate::Slide(joint) => {

@@ -35,10 +35,10 @@ kinds! { Geometry, Case:
         |case, size| guided(case, slider(case)?, |axis| axis, size * case.mechanism.size());
     "moving-guide-aside" (1e-2): "a moving guide is shifted sideways by a fraction of the mechanism's size",
         |case, size| guided(case, moving_guide(case)?, |axis| axis, size * case.mechanism.size());
-    "ratio" (1e-2): "the ratio of the first transmission is too large by a relative amount",
+    "ratio" (1e-2): "the ratio of the first transmission, or the lift of a cam, is too large by a relative amount",
         |case, size| coupled(case, |own| own.times_ratio(1.0 + size));
     "ratio-inverted": "the ratio of the first transmission is inverted", |case, _| {
-        let ratio = case.mechanism.transmissions().first()?.ratio();
+        let ratio = case.mechanism.transmissions().first()?.ratio()?;
         ((ratio.abs() - 1.0).abs() > 1e-9).then_some(())?;
         coupled(case, |own| own.times_ratio(ratio.powi(-2)))
     };

@@ -1,12 +1,13 @@
-//! The equation of a transmission in a group: the sum of factor times coordinate keeps the value of the start pose.
-//! The coordinates are angles of links and slides, inside or outside the group. Angles count whole turns.
+//! The equation of a transmission in a group: q2 - f(q1) keeps the value of the start pose.
+//! The coordinates q1 and q2 are sums of angles of links and slides, inside or outside the group. Angles count whole
+//! turns.
 
 use std::f64::consts::TAU;
 
 use super::Node;
 use linkage::math::Motion;
 use linkage::math::dense::Lu;
-use linkage::mechanism::{Coordinate, Joint, LinkId, Mechanism, TransmissionId};
+use linkage::mechanism::{Coordinate, Joint, LinkId, Mechanism, Transmission, TransmissionId};
 
 /// A coordinate of a transmission.
 #[derive(Clone, Debug)]
@@ -21,7 +22,7 @@ enum Of {
 #[derive(Clone, Debug)]
 struct Term {
     of: Of,
-    factor: f64,
+    sign: f64,
     /// The unknown on which the coordinate depends, with the derivative of the term by it; `None` for a known coordinate.
     column: Option<(usize, f64)>,
     /// The coordinate at the last pose and at the present one.
@@ -29,95 +30,131 @@ struct Term {
     now: f64,
 }
 
+impl Term {
+    fn of(mechanism: &Mechanism, &(of, sign): &(Coordinate, f64), nodes: &[Node], size: f64) -> Self {
+        let (of, column) = match of {
+            Coordinate::Angle(link) => {
+                let spin = nodes.iter().find(|node| node.link == link).and_then(|node| node.spin);
+                (Of::Angle(link), spin.map(|spin| (spin, sign)))
+            }
+            Coordinate::Slide(joint) => {
+                let found = &mechanism.joints()[joint];
+                match nodes.iter().position(|node| node.joint == joint) {
+                    Some(node) => {
+                        let way = if found.second.link == nodes[node].link { 1.0 } else { -1.0 };
+                        (Of::Node(node, way), Some((node, sign * way * size)))
+                    }
+                    None => (Of::Slide(Box::new(found.clone())), None),
+                }
+            }
+        };
+        Term { of, sign, column, last: 0.0, now: 0.0 }
+    }
+
+    /// The coordinate at the present pose, with the angle nearest to that of the last pose.
+    fn read(&mut self, slides: &[f64], motions: &[Motion]) -> f64 {
+        self.now = match &self.of {
+            Of::Angle(link) => {
+                let direction = motions[*link].direction;
+                let angle = direction.y.atan2(direction.x);
+                angle + TAU * ((self.last - angle) / TAU).round()
+            }
+            Of::Node(node, way) => way * slides[*node],
+            Of::Slide(joint) => joint.slide(motions).expect("the joint slides")[0],
+        };
+        self.sign * self.now
+    }
+
+    /// Rate of a coordinate outside the group: `of_link` is that of an angle. The `order` of its derivative is 1 or 2.
+    fn known(&self, order: usize, of_link: impl Fn(&Motion) -> f64, motions: &[Motion]) -> f64 {
+        match &self.of {
+            _ if self.column.is_some() => 0.0,
+            Of::Angle(link) => self.sign * of_link(&motions[*link]),
+            Of::Slide(joint) => self.sign * joint.slide(motions).expect("the joint slides")[order],
+            Of::Node(..) => 0.0,
+        }
+    }
+}
+
 /// A transmission of a group.
 #[derive(Clone, Debug)]
 pub(in crate::assur) struct Train {
     pub(in crate::assur) id: TransmissionId,
-    /// Largest factor of the transmission (m): the multiplier of the row divided by it is the force.
-    pub(in crate::assur) scale: f64,
-    terms: Vec<Term>,
-    /// The value of the sum; NaN before the first pose.
+    transmission: Transmission,
+    /// The terms of q1 and q2.
+    terms: [Vec<Term>; 2],
+    /// Unit of q2 in the row: 1, or the unit of slides (m).
+    unit: f64,
+    /// The value of q2 - f(q1); NaN before the first pose.
     value: f64,
+    /// First two derivatives of f at the present pose.
+    rates: [f64; 2],
 }
 
 impl Train {
     /// The equation of a transmission in the group of these nodes; `size` is the unit of slides (m).
     pub(super) fn of(mechanism: &Mechanism, id: TransmissionId, nodes: &[Node], size: f64) -> Self {
-        let terms = &mechanism.transmissions()[id].terms;
-        let extent = |(of, factor): &(Coordinate, f64)| match of {
-            Coordinate::Angle(_) => factor.abs(),
-            Coordinate::Slide(_) => factor.abs() * size,
-        };
-        let scale = terms.iter().map(extent).fold(0.0, linkage::math::KeepNan::larger);
-        let term = |&(of, factor): &(Coordinate, f64)| {
-            let factor = factor / scale;
-            let (of, column) = match of {
-                Coordinate::Angle(link) => {
-                    let spin = nodes.iter().find(|node| node.link == link).and_then(|node| node.spin);
-                    (Of::Angle(link), spin.map(|spin| (spin, factor)))
-                }
-                Coordinate::Slide(joint) => {
-                    let found = &mechanism.joints()[joint];
-                    match nodes.iter().position(|node| node.joint == joint) {
-                        Some(node) => {
-                            let sign = if found.second.link == nodes[node].link { 1.0 } else { -1.0 };
-                            (Of::Node(node, sign), Some((node, factor * sign * size)))
-                        }
-                        None => (Of::Slide(Box::new(found.clone())), None),
-                    }
-                }
-            };
-            Term { of, factor, column, last: 0.0, now: 0.0 }
-        };
-        Train { id, scale, terms: terms.iter().map(term).collect(), value: f64::NAN }
+        let transmission = mechanism.transmissions()[id].clone();
+        let term = |own| Term::of(mechanism, own, nodes, size);
+        let terms = transmission.coordinates.each_ref().map(|own| own.iter().map(term).collect());
+        let unit = if transmission.slide().is_some() { size } else { 1.0 };
+        Train { id, terms, unit, transmission, value: f64::NAN, rates: [0.0; 2] }
     }
 
-    /// Takes the value of the sum from the start pose, at the first call.
+    /// Force in the first line of action (N) for the row's multiplier (N m) at the last pose.
+    pub(in crate::assur) fn force(&self, multiplier: f64) -> f64 {
+        let at = self.terms.each_ref().map(|terms| terms.iter().map(|term| term.sign * term.now).sum());
+        multiplier / (self.transmission.contact(at).factor * self.unit)
+    }
+
+    /// Takes the value of the equation from the start pose, at the first call.
     pub(super) fn start(&mut self, slides: &[f64], motions: &[Motion]) {
         if self.value.is_nan() {
-            self.value = self.sum(slides, motions);
+            self.value = self.read(slides, motions);
             self.keep();
         }
     }
 
-    /// The sum at the present pose, with the angles nearest to those of the last pose.
-    fn sum(&mut self, slides: &[f64], motions: &[Motion]) -> f64 {
-        for term in &mut self.terms {
-            term.now = match &term.of {
-                Of::Angle(link) => {
-                    let direction = motions[*link].direction;
-                    let angle = direction.y.atan2(direction.x);
-                    angle + TAU * ((term.last - angle) / TAU).round()
-                }
-                Of::Node(node, sign) => sign * slides[*node],
-                Of::Slide(joint) => joint.slide(motions).expect("the joint slides")[0],
-            };
-        }
-        self.terms.iter().map(|term| term.factor * term.now).sum()
+    /// q2 - f(q1) at the present pose.
+    fn read(&mut self, slides: &[f64], motions: &[Motion]) -> f64 {
+        let [q1, q2] =
+            self.terms.each_mut().map(|terms| terms.iter_mut().map(|term| term.read(slides, motions)).sum::<f64>());
+        let [value, first, second] = self.transmission.law(q1);
+        self.rates = [first, second];
+        q2 - value
     }
 
     /// Makes the present pose the last one.
     pub(super) fn keep(&mut self) {
-        self.terms.iter_mut().for_each(|term| term.last = term.now);
+        self.terms.iter_mut().flatten().for_each(|term| term.last = term.now);
     }
 
     /// Writes the row of the equation to the Jacobian and returns its residual.
     pub(super) fn assemble(&mut self, row: usize, slides: &[f64], motions: &[Motion], jacobian: &mut Lu) -> f64 {
-        for (column, derivative) in self.terms.iter().filter_map(|term| term.column) {
-            jacobian.add(row, column, derivative);
+        let residual = (self.read(slides, motions) - self.value) / self.unit;
+        for (terms, factor) in self.terms.iter().zip([-self.rates[0], 1.0]) {
+            for (column, derivative) in terms.iter().filter_map(|term| term.column) {
+                jacobian.add(row, column, factor * derivative / self.unit);
+            }
         }
-        self.sum(slides, motions) - self.value
+        residual
     }
 
-    /// Right-hand side of the equation for the rates of the unknowns: `of_link` is the rate of a known angle, `of_slide`
-    /// that of a known slide among slide, speed and acceleration.
+    /// Right-hand side of the equation for the rates of the unknowns (`order` 1) or their derivatives (`order` 2):
+    /// `of_link` is the rate of a known angle. For order 2, the velocities must be known.
     pub(super) fn known(&self, order: usize, of_link: impl Fn(&Motion) -> f64, motions: &[Motion]) -> f64 {
-        let known = self.terms.iter().filter(|term| term.column.is_none());
-        let rate = |term: &Term| match &term.of {
-            Of::Angle(link) => term.factor * of_link(&motions[*link]),
-            Of::Node(..) => 0.0,
-            Of::Slide(joint) => term.factor * joint.slide(motions).expect("the joint slides")[order],
+        let [first, second] = self
+            .terms
+            .each_ref()
+            .map(|terms| terms.iter().map(|term| term.known(order, &of_link, motions)).sum::<f64>());
+        let spin = |term: &Term| match term.of {
+            Of::Angle(link) => term.sign * motions[link].omega,
+            Of::Node(..) | Of::Slide(_) => unreachable!("the first member turns"),
         };
-        -known.map(rate).sum::<f64>()
+        let bend = match order {
+            2 if self.rates[1] != 0.0 => self.rates[1] * self.terms[0].iter().map(spin).sum::<f64>().powi(2),
+            _ => 0.0,
+        };
+        (self.rates[0] * first + bend - second) / self.unit
     }
 }

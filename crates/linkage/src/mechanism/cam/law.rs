@@ -1,0 +1,172 @@
+//! Laws of cams: the motion of a follower over the angle of its cam, piece by piece.
+//!
+//! The curves are normalised: they rise from 0 to 1 over 0 to 1, at rest at both ends.
+//! Equations: Norton, Cam Design and Manufacturing Handbook, 2nd ed., Industrial Press 2009, chapters 2 and 3.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::math::KeepNan;
+
+/// Curve of a rise or return.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CamCurve {
+    /// Cycloidal: sine acceleration.
+    Cycloidal,
+    /// Polynomial 3-4-5.
+    Polynomial345,
+    /// Polynomial 4-5-6-7.
+    Polynomial4567,
+    /// Modified sine.
+    ModifiedSine,
+}
+
+impl CamCurve {
+    /// Value and first two derivatives at `x`, from 0 to 1.
+    #[must_use]
+    pub fn at(self, x: f64) -> [f64; 3] {
+        match self {
+            CamCurve::Cycloidal => {
+                let (sine, cosine) = (TAU * x).sin_cos();
+                [x - sine / TAU, 1.0 - cosine, TAU * sine]
+            }
+            CamCurve::Polynomial345 => [
+                x * x * x * (10.0 - x * (15.0 - 6.0 * x)),
+                x * x * (30.0 - x * (60.0 - 30.0 * x)),
+                x * (60.0 - x * (180.0 - 120.0 * x)),
+            ],
+            CamCurve::Polynomial4567 => {
+                let cube = x * x * x;
+                [
+                    cube * x * (35.0 - x * (84.0 - x * (70.0 - 20.0 * x))),
+                    cube * (140.0 - x * (420.0 - x * (420.0 - 140.0 * x))),
+                    x * x * (420.0 - x * (1680.0 - x * (2100.0 - 840.0 * x))),
+                ]
+            }
+            CamCurve::ModifiedSine => {
+                // Quarter sines of the acceleration at both ends, and half a slower one between.
+                let (share, turns) = ((4.0 + PI).recip(), (x * 8.0).clamp(0.0, 8.0));
+                let (sine, cosine) = (4.0 * PI * x).sin_cos();
+                let (slow, slow_cosine) = ((4.0 * PI * x + PI) / 3.0).sin_cos();
+                match turns {
+                    ..1.0 => {
+                        [share * (PI * x - 0.25 * sine), share * PI * (1.0 - cosine), share * 4.0 * PI * PI * sine]
+                    }
+                    7.0.. => [
+                        share * (4.0 + PI * x - 0.25 * sine),
+                        share * PI * (1.0 - cosine),
+                        share * 4.0 * PI * PI * sine,
+                    ],
+                    _ => [
+                        share * (2.0 + PI * x - 2.25 * slow),
+                        share * PI * (1.0 - 3.0 * slow_cosine),
+                        share * 4.0 * PI * PI * slow,
+                    ],
+                }
+            }
+        }
+    }
+}
+
+/// A piece of a law, from the end of the piece before it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CamSegment {
+    /// Angle of the cam at the end (rad).
+    pub to: f64,
+    /// Lift at the end (m, or rad for a swinging follower).
+    pub lift: f64,
+    /// Curve of the rise or return; of no effect in a dwell, where the lift stays.
+    pub curve: CamCurve,
+}
+
+/// The lift of a follower over one turn of its cam. The law repeats in every turn; it begins and ends with lift 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CamLaw(Vec<CamSegment>);
+
+impl CamLaw {
+    /// The law of these pieces; `None` unless their ends ascend to a full turn and the last lift is 0.
+    #[must_use]
+    pub fn of(segments: Vec<CamSegment>) -> Option<Self> {
+        let ends = std::iter::once(0.0).chain(segments.iter().map(|own| own.to));
+        let ascends = ends.zip(&segments).all(|(from, own)| own.to > from && own.lift.is_finite());
+        let last = segments.last()?;
+        (ascends && (last.to - TAU).abs() < 1e-9 && last.lift == 0.0).then_some(CamLaw(segments))
+    }
+
+    /// Lift at an angle of the cam (rad), and its first two derivatives by the angle.
+    #[must_use]
+    pub fn at(&self, angle: f64) -> [f64; 3] {
+        let angle = angle.rem_euclid(TAU);
+        let index = self.0.partition_point(|own| own.to < angle).min(self.0.len() - 1);
+        let (from, begun) = match index.checked_sub(1) {
+            Some(before) => (self.0[before].to, self.0[before].lift),
+            None => (0.0, 0.0),
+        };
+        let CamSegment { to, lift, curve } = self.0[index];
+        let (width, rise) = (to - from, lift - begun);
+        let [value, first, second] = curve.at((angle - from) / width);
+        [begun + rise * value, rise * first / width, rise * second / (width * width)]
+    }
+}
+
+impl CamLaw {
+    /// The law with all lifts multiplied by `factor`.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        CamLaw(self.0.iter().map(|own| CamSegment { lift: own.lift * factor, ..*own }).collect())
+    }
+
+    /// Distance of an angle of the cam from the nearest end of a piece (rad). There the third derivative jumps.
+    #[must_use]
+    pub fn to_knot(&self, angle: f64) -> f64 {
+        let away = |end: f64| ((angle - end + PI).rem_euclid(TAU) - PI).abs();
+        self.0.iter().map(|own| away(own.to)).fold(PI, f64::smaller)
+    }
+
+    /// Largest minus least lift (m or rad).
+    #[must_use]
+    pub fn range(&self) -> f64 {
+        let lifts = || self.0.iter().map(|own| own.lift);
+        lifts().fold(f64::NEG_INFINITY, f64::larger) - lifts().fold(f64::INFINITY, f64::smaller)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    const CURVES: [CamCurve; 4] =
+        [CamCurve::Cycloidal, CamCurve::Polynomial345, CamCurve::Polynomial4567, CamCurve::ModifiedSine];
+
+    #[test]
+    fn curves_rise_from_rest_to_rest_and_match_their_derivatives() {
+        for curve in CURVES {
+            for (x, value) in [(0.0, 0.0), (1.0, 1.0)] {
+                let [own, first, second] = curve.at(x);
+                assert_relative_eq!(own, value, epsilon = 1e-14);
+                assert_relative_eq!(first, 0.0, epsilon = 1e-13);
+                assert_relative_eq!(second, 0.0, epsilon = 1e-12);
+            }
+            for x in [0.05, 0.124, 0.126, 0.3, 0.5, 0.8, 0.9] {
+                let h = 1e-6;
+                let [[before, rate, _], [after, later, _]] = [curve.at(x - h), curve.at(x + h)];
+                let [_, first, second] = curve.at(x);
+                assert_relative_eq!((after - before) / (2.0 * h), first, epsilon = 1e-8);
+                assert_relative_eq!((later - rate) / (2.0 * h), second, epsilon = 1e-6);
+            }
+        }
+        // Published peaks: velocity and acceleration factors, Norton, table 3-3 and figure 3-19.
+        let peak = |curve: CamCurve, k: usize| {
+            (0..=4000).map(|i| curve.at(f64::from(i) / 4000.0)[k]).fold(0.0, KeepNan::larger)
+        };
+        for (curve, velocity, acceleration) in [
+            (CamCurve::Cycloidal, 2.0, 6.283),
+            (CamCurve::Polynomial345, 1.875, 5.774),
+            (CamCurve::Polynomial4567, 2.188, 7.513),
+            (CamCurve::ModifiedSine, 1.760, 5.528),
+        ] {
+            assert_relative_eq!(peak(curve, 1), velocity, epsilon = 1e-3);
+            assert_relative_eq!(peak(curve, 2), acceleration, epsilon = 1e-3);
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! Contact of the members of a transmission, in the frame of their carrier.
+
+use crate::math::Vec2;
+
+/// A line along which a transmission exerts its force, in the frame of the carrier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineOfAction {
+    /// Unit vector of a positive force on the second member.
+    pub direction: Vec2,
+    /// Points of the line at which the force acts on the first and on the second member.
+    pub feet: [Vec2; 2],
+}
+
+/// The contact of a transmission in one pose, in the frame of the carrier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The lines of action. The first one carries positive forces.
+    pub lines: [LineOfAction; 2],
+    /// Speed of the second member's foot along the first line for a unit rate of its coordinate (m, or 1 for a slide).
+    pub factor: f64,
+    /// Rotation of the lines for a unit rate of the first member's coordinate.
+    pub turn: f64,
+    /// Displacement of the feet for a unit rate of the first member's coordinate (m).
+    pub drift: Vec2,
+}
