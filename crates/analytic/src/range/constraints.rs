@@ -19,15 +19,25 @@ pub(super) struct Gearing {
     pub(super) terms: Vec<(usize, f64)>,
     /// Sum of the factors times coordinates, minus the law of the transmission.
     pub(super) sum: f64,
-    /// For a transmission: its number, the terms of its first member, and the unit of the second member's coordinate.
-    pub(super) law: Option<(TransmissionId, Vec<(usize, f64)>, f64)>,
+    /// The law of a transmission.
+    pub(super) law: Option<FirstMember>,
+}
+
+/// The first member of a transmission, whose coordinate is the argument of the law.
+#[derive(Clone, Debug)]
+pub(super) struct FirstMember {
+    transmission: TransmissionId,
+    /// Indices of the coordinates and their factors.
+    first: Vec<(usize, f64)>,
+    /// Unit of the second member's coordinate (1 or m).
+    unit: f64,
 }
 
 impl Gearing {
     /// The sum, and the first member's terms times the derivative of the law.
     fn at(&self, mechanism: &Mechanism, q: &ColumnVector) -> (f64, Vec<(usize, f64)>) {
         let sum = |terms: &[(usize, f64)]| terms.iter().map(|&(index, factor)| factor * q[index]).sum::<f64>();
-        let Some((transmission, first, unit)) = &self.law else { return (sum(&self.terms), Vec::new()) };
+        let Some(FirstMember { transmission, first, unit }) = &self.law else { return (sum(&self.terms), Vec::new()) };
         let [value, rate, _] = mechanism.transmissions()[*transmission].law(sum(first));
         let terms = first.iter().map(|&(index, factor)| (index, -factor * rate / unit));
         (sum(&self.terms) - value / unit, terms.collect())
@@ -85,7 +95,11 @@ impl<'a> Constraints<'a> {
             let [first, second] =
                 transmission.coordinates.each_ref().map(|terms| terms.iter().map(&mut indexed).collect());
             let unit = if transmission.slide().is_some() { size } else { 1.0 };
-            gearings.push(Gearing { terms: second, sum: 0.0, law: Some((index, first, unit)) });
+            gearings.push(Gearing {
+                terms: second,
+                sum: 0.0,
+                law: Some(FirstMember { transmission: index, first, unit }),
+            });
         }
         let middles = mechanism.links().ids().map(middle).collect();
         Constraints { mechanism, origin, size, gearings, given, middles }

@@ -160,7 +160,7 @@ mod tests {
             (0..=4000).map(|i| curve.at(f64::from(i) / 4000.0)[k]).fold(0.0, KeepNan::larger)
         };
         for (curve, velocity, acceleration) in [
-            (CamCurve::Cycloidal, 2.0, 6.283),
+            (CamCurve::Cycloidal, 2.0, TAU),
             (CamCurve::Polynomial345, 1.875, 5.774),
             (CamCurve::Polynomial4567, 2.188, 7.513),
             (CamCurve::ModifiedSine, 1.760, 5.528),
