@@ -30,7 +30,7 @@ fn profiles(case: &Case) -> Result<Vec<(&str, Vec<Vec2>)>> {
 /// The profiles of all cams as CSV: the cam, its angle at the contact (deg), the point in the frame of the cam (m).
 ///
 /// # Errors
-/// Those of [`profiles`].
+/// [`ErrorKind::Input`] if the mechanism has no cam.
 pub fn table(case: &Case) -> Result<String> {
     let mut text = String::from("cam,angle_deg,x_m,y_m\n");
     for (name, points) in profiles(case)? {
@@ -46,7 +46,7 @@ pub fn table(case: &Case) -> Result<String> {
 /// Format: AutoCAD release 12, which all programs read. The `dxf` crate writes the date, so that the bytes would differ.
 ///
 /// # Errors
-/// Those of [`profiles`].
+/// [`ErrorKind::Input`] if the mechanism has no cam.
 pub fn drawing(case: &Case) -> Result<String> {
     let mut text = String::new();
     let mut put = |code: u8, value: &str| writeln!(text, "{code}\n{value}").expect("a text takes all");

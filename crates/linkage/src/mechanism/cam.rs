@@ -191,9 +191,10 @@ mod tests {
     use approx::assert_relative_eq;
     use std::f64::consts::PI;
 
-    /// A cam about the origin with a follower on the y axis, aside by `e`, whose point is at the height q2.
-    fn cam(contact: CamContact, e: f64, curve: CamCurve) -> Cam {
-        let law = vec![CamSegment { to: PI, lift: 0.02, curve }, CamSegment { to: TAU, lift: 0.0, curve }];
+    /// A cam about the origin with a rise up to the angle `to`.
+    /// The follower slides along y at a distance `e` from the axle; its point is at the height q2.
+    fn cam(contact: CamContact, e: f64, curve: CamCurve, to: f64) -> Cam {
+        let law = vec![CamSegment { to, lift: 0.02, curve }, CamSegment { to: TAU, lift: 0.0, curve }];
         let follower = Follower::Slides { at: Vec2::new(e, 0.0), along: Vec2::new(0.0, 1.0) };
         Cam { law: CamLaw::of(law).unwrap(), contact, follower, axle: [Vec2::zeros(); 2] }
     }
@@ -203,7 +204,7 @@ mod tests {
     /// Pressure angle of an offset follower: tan = (f' - e) / height, Norton, chapter 7.
     #[test]
     fn the_force_passes_through_the_instant_centre() {
-        let own = cam(ROLLER, 0.008, CamCurve::Polynomial345);
+        let own = cam(ROLLER, 0.008, CamCurve::Polynomial345, PI);
         for angle in [0.4, 1.0, 2.2, 4.0, 5.5] {
             let [lift, rate, _] = own.lift(angle);
             let direction = own.contact([angle, 0.05 + lift]).lines[0].direction;
@@ -217,7 +218,7 @@ mod tests {
     #[test]
     fn the_profile_touches_the_follower_in_all_positions() {
         for (contact, e) in [(ROLLER, 0.008), (CamContact::Flat(Vec2::zeros()), 0.0)] {
-            let own = cam(contact, e, CamCurve::ModifiedSine);
+            let own = cam(contact, e, CamCurve::ModifiedSine, PI);
             let points = own.profile([0.0, 0.05], 7200);
             for angle in [0.3, 1.0, 2.8, 3.6, 5.0] {
                 let height = 0.05 + own.lift(angle)[0];
@@ -233,7 +234,8 @@ mod tests {
             let bends = (0..points.len()).map(|k| {
                 let [a, b, c] = [0, 1, 2].map(|d| points[(k + d) % points.len()]);
                 let (u, v) = (b - a, c - b);
-                cross(u, v).atan2(u.dot(&v)) / (0.5 * (u.norm() + v.norm()))
+                // The cam turns counter-clockwise, so the points follow each other clockwise.
+                -cross(u, v).atan2(u.dot(&v)) / (0.5 * (u.norm() + v.norm()))
             });
             let least = bends.fold(0.0, f64::larger).recip();
             assert_relative_eq!(own.figures([0.0, 0.05]).curvature, least, max_relative = 2e-3);
@@ -242,7 +244,7 @@ mod tests {
 
     #[test]
     fn a_small_base_circle_is_undercut() {
-        let own = cam(CamContact::Flat(Vec2::zeros()), 0.0, CamCurve::Cycloidal);
+        let own = cam(CamContact::Flat(Vec2::zeros()), 0.0, CamCurve::Cycloidal, 0.5 * PI);
         assert!(own.figures([0.0, 0.05]).curvature > 0.0 && own.figures([0.0, 0.005]).curvature < 0.0);
     }
 }
