@@ -5,8 +5,9 @@
 //! The gaps are zero at the pose; with them, the row C' is the derivative of the residual.
 //! The feet move in the carrier with q1' p and the line turns in it with k q1' (only those of cams).
 //! With the angular velocities omega_i of the members and omega_0 of the carrier, and the velocity v of a foot itself,
-//!
-//!     C'' = w . (a2 - a1) + w . (omega2 z x (v - v2) - omega1 z x (v - v1)) + (omega0 + k q1') (z x w) . (v2 - v1).
+//! ```text
+//! C'' = w . (a2 - a1) + w . (omega2 z x (v - v2) - omega1 z x (v - v1)) + (omega0 + k q1') (z x w) . (v2 - v1).
+//! ```
 //!
 //! The multiplier of the row is the force in the first line of action.
 //! If it is negative, the second line carries the force, and the reactions change accordingly.

@@ -574,7 +574,7 @@ impl Chain {
     /// The first multipliers are the forces on the second links of the closing joints (N), x and y alternating.
     /// Next are the driving moments on the nodes with given joints (N m; for a slide, the force along the axis
     /// times [`Chain::size`]).
-    /// The last ones are those of the transmissions (N m), from which [`Train::force`] finds the forces.
+    /// The last ones are those of the transmissions (N m), from which `Train::force` finds the forces.
     /// The input is the generalised forces on the unknowns (N m; for a slide, the force along the axis times
     /// [`Chain::size`]).
     /// The pose must be the last one solved.
