@@ -3,10 +3,7 @@
 //! A member turns about an axle of the carrier, or slides in a guide of the carrier.
 //! Both members touch along a line of action, which is fixed in the carrier; that of a cam moves with its angle.
 //! The line has the unit vector w, and a foot on each member.
-//! Along the line both members have the same speed:
-//!
-//!     w . (v2 - v1) = 0 at the feet.
-//!
+//! Along the line both members have the same speed: w . (v2 - v1) = 0 at the feet.
 //! With the coordinates q1 and q2 of the members against the carrier this is q2' = f'(q1) q1', so that q2 - f(q1) is
 //! constant. The law f is linear, except that of a cam.
 //! The force on the second member is f w at its foot, the force on the first member -f w at its foot.
