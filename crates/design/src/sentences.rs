@@ -85,7 +85,7 @@ linkage::sentences! {
     LEAVE_IT_OUT_OF_THE_SCENARIO = "leave it out of the scenario, and add it to the model by hand";
     cannot_be_written_to_a_model(what) = "{what} cannot be written to a model for MuJoCo";
     // export/mjcf/model.rs
-    mjcf_knows_no_cam(name) = "MJCF cannot express cam \"{name}\"";
+    mjcf_knows_no_cam(name) = "cam \"{name}\" cannot be written to a model for MuJoCo";
     GIVE_A_STEP_SUCH_AS = "give a step such as 1e-3";
     the_time_step_is_but_must(step) = "the time step is {step} s, but must be positive";
     // export/mjcf/names.rs
